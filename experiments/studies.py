@@ -34,7 +34,7 @@ class Study:
     repeats: int = 5
 
     def runs(self) -> list[StudyRun]:
-        """Every run: first one per value with a full log, then the timed repeats.
+        """Every run: first one per value whose log is analysed, then the timed repeats.
 
         The repeats go through all values before the next repeat, so that a machine that slows down for a while
         slows every value's repeats alike.
@@ -43,13 +43,14 @@ class Study:
             (f"{self.parameter}={value:g}", value) for value in self.values
         ]
         return [
-            StudyRun(key, value, self._overrides(value), repeat)
+            StudyRun(key, value, self._overrides(value, repeat), repeat)
             for repeat in (None, *range(1, self.repeats + 1))
             for key, value in points
         ]
 
-    def _overrides(self, value: float | None) -> dict[str, Any]:
-        return dict(self.common) if self.parameter is None else {**self.common, self.parameter: value}
+    def _overrides(self, value: float | None, repeat: int | None) -> dict[str, Any]:
+        varied = {} if self.parameter is None else {self.parameter: value}
+        return {**self.common, **varied, **({} if repeat is None else _TIMED)}
 
 
 @dataclass(frozen=True)
@@ -76,6 +77,7 @@ class StudyRun:
 
 
 _TABLE_4_1 = "params/default.json"
+_TIMED = {"logSpheres": "last"}  # a timed run's log is read for its times only
 
 STUDIES: dict[str, Study] = {
     study.name: study

@@ -57,7 +57,8 @@ def test_study_json_lists_every_run_with_its_folder_and_outcome(fake, tmp_path):
     for row in rows:
         assert (result.folder / row["folder"] / "summary.json").exists()
         assert (row["outcome"], row["exitCode"], row["parameters"]) == ("converged", 0, "params/default.json")
-        assert row["overrides"] == {"sleep": row["value"]}
+        log = {} if row["repeat"] is None else {"logSpheres": "last"}
+        assert row["overrides"] == {"sleep": row["value"], **log}
     assert [row["repeat"] for row in rows] == [None] * 3 + [1] * 3 + [2] * 3
 
 
