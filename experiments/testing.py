@@ -71,6 +71,7 @@ def run_tests(full: bool) -> int:
         _show_end(log)
     for suite in suites(program):
         total += run_suite(suite, environment, _SUITE_SECONDS[full])
+    total += check_unity_files(ROOT)
     print(total, flush=True)
     return 0 if total.failed == 0 and total.passed > 0 else 1
 
@@ -80,7 +81,6 @@ def suites(program: str) -> list[Suite]:
     return [
         *(_dotnet_suite(program, name) for name in ("Guidewire.Core.Tests", "Guidewire.Core.Tests.NetStandard")),
         *(_pytest_suite(folder) for folder in ("experiments/tests", "analysis/tests", "unitycheck/tests")),
-        Suite("unity check", [sys.executable, "-m", "unitycheck"], "unity-check.log", read_last_line),
     ]
 
 
@@ -104,6 +104,27 @@ def run_suite(suite: Suite, environment: Mapping[str, str], seconds: float) -> C
     return count
 
 
+def check_unity_files(root: Path) -> Count:
+    """The Unity project's files under every family of rules; each family is one check."""
+    started = time.monotonic()
+    count = Count()
+    try:
+        from unitycheck import checks
+        from unitycheck.project import Project
+
+        project = Project(root)
+        for family in checks.MODULES:
+            violations = sorted(family.check(project))
+            count += Count(failed=1) if violations else Count(passed=1)
+            for violation in violations:
+                _say(str(violation))
+    except Exception as error:  # whatever it is, the check did not run to its end, and the sum has to say so
+        _say(f"unity check: it broke off ({type(error).__name__}: {error})")
+        count += Count(failed=1)
+    _say(f"unity check: {count} ({time.monotonic() - started:.0f} s)")
+    return count
+
+
 def read_trx(path: Path) -> Count:
     """Counts of a TRX file, what `dotnet test` writes."""
     counters = next((e for e in ElementTree.parse(path).iter() if e.tag.endswith("}Counters")), None)
@@ -123,15 +144,6 @@ def read_junit(path: Path) -> Count:
         )
         count += Count(tests - failures - errors - skipped, failures + errors, skipped)
     return count
-
-
-def read_last_line(path: Path) -> Count:
-    """Counts of an output that ends with the line `N passed, N failed`, with or without `, N skipped`."""
-    lines = path.read_text(encoding="utf-8").strip().splitlines() or [""]
-    found = re.fullmatch(r"(\d+) passed, (\d+) failed(?:, (\d+) skipped)?", lines[-1].strip())
-    if found is None:
-        raise ValueError(f"its last line is '{lines[-1]}'")
-    return Count(*(int(number or 0) for number in found.groups()))
 
 
 def _dotnet_suite(program: str, name: str) -> Suite:

@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from experiments import testing
-from experiments.testing import Count, Suite, read_junit, read_last_line, read_trx, run_suite
+from experiments.testing import Count, Suite, check_unity_files, read_junit, read_trx, run_suite
 
 
 @pytest.fixture(autouse=True)
@@ -15,20 +15,27 @@ def results_in_a_folder_of_their_own(tmp_path, monkeypatch):
     monkeypatch.setattr(testing, "RESULTS", tmp_path)
 
 
+def junit(tests, failures=0, skipped=0):
+    return f'<testsuites><testsuite tests="{tests}" failures="{failures}" errors="0" skipped="{skipped}"/></testsuites>'
+
+
+def running(script, *arguments):
+    return Suite("a suite", [sys.executable, "-c", script, *arguments], "report.xml", read_junit)
+
+
 def writing(text, code=0):
-    """A suite whose runner writes the text into report.txt and ends with the code."""
+    """A suite whose runner writes the text into its report and ends with the code."""
     script = f"import sys, pathlib; pathlib.Path(sys.argv[1]).write_text({text!r}); sys.exit({code})"
-    return Suite("a suite", [sys.executable, "-c", script, str(testing.RESULTS / "report.txt")], "report.txt",
-                 read_last_line)
+    return running(script, str(testing.RESULTS / "report.xml"))
 
 
 @pytest.mark.parametrize("text, code, expected", [
-    ("3 passed, 0 failed", 0, Count(3, 0)),
-    ("noise\n3 passed, 1 failed, 2 skipped\n", 1, Count(3, 1, 2)),
-    ("3 passed, 0 failed", 1, Count(3, 1)),
-    ("0 passed, 0 failed", 0, Count(0, 1)),
-    ("0 passed, 0 failed, 4 skipped", 0, Count(0, 1, 4)),
-    ("3 passed, 0 failed\nthen it crashed", 0, Count(0, 1)),
+    (junit(3), 0, Count(3, 0)),
+    (junit(6, 1, 2), 1, Count(3, 1, 2)),
+    (junit(3), 1, Count(3, 1)),
+    (junit(0), 0, Count(0, 1)),
+    (junit(4, 0, 4), 0, Count(0, 1, 4)),
+    (junit(3)[:-5], 0, Count(0, 1)),
     ("", 0, Count(0, 1)),
 ])
 def test_a_suite_counts_what_its_report_says_and_fails_without_one(text, code, expected, capsys):
@@ -36,15 +43,19 @@ def test_a_suite_counts_what_its_report_says_and_fails_without_one(text, code, e
 
 
 def test_a_report_of_an_earlier_time_does_not_count(capsys):
-    (testing.RESULTS / "report.txt").write_text("3 passed, 0 failed")
-    suite = Suite("a suite", [sys.executable, "-c", "pass"], "report.txt", read_last_line)
-    assert run_suite(suite, os.environ, 60) == Count(0, 1)
+    (testing.RESULTS / "report.xml").write_text(junit(3))
+    assert run_suite(running("pass"), os.environ, 60) == Count(0, 1)
 
 
 def test_a_suite_that_hangs_is_stopped_and_fails(capsys):
-    suite = Suite("a suite", [sys.executable, "-c", "import time; time.sleep(60)"], "report.txt", read_last_line)
-    assert run_suite(suite, os.environ, 0.5) == Count(0, 1)
+    assert run_suite(running("import time; time.sleep(60)"), os.environ, 0.5) == Count(0, 1)
     assert "stopped after" in capsys.readouterr().out
+
+
+def test_a_unity_check_that_breaks_off_is_a_failure(tmp_path, monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "unitycheck", None)
+    assert check_unity_files(tmp_path).failed == 1
+    assert "it broke off" in capsys.readouterr().out
 
 
 def test_junit_counts_agree_with_a_real_pytest(tmp_path):
