@@ -62,7 +62,7 @@ def require_packages(packages):
     names = " ".join("python3-" + name for name in packages)
     raise PreparationError(
         "Python packages {} are missing and could not be installed (log: {}): as root 'apt-get install {}', or with "
-        "a network 'python3 -m pip install -r requirements.txt', then again".format(
+        "a network 'python3 -m venv .venv && .venv/bin/pip install -r requirements.txt'; then try again".format(
             ", ".join(packages), os.path.relpath(str(LOG)), names
         )
     )
