@@ -1,4 +1,4 @@
-"""What several test files need: the repository's folder, and a fake runner with the journal of what it was asked."""
+"""What several test files need: the real runner, built once, and a fake one with the journal of what it was asked."""
 
 import json
 import sys
@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
+from experiments import runner
 
 
 class FakeRunner:
@@ -24,3 +24,9 @@ class FakeRunner:
 @pytest.fixture
 def fake(tmp_path):
     return FakeRunner(tmp_path / "journal")
+
+
+@pytest.fixture(scope="session")
+def runner_command():
+    """The real runner's command."""
+    return runner.build("Guidewire.Cli")
