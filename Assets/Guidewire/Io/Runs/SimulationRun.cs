@@ -91,7 +91,7 @@ namespace Guidewire.Io
             try
             {
                 Directory.CreateDirectory(_folder);
-                return new DataLogger(Path.Combine(_folder, PositionsFile + AtomicFile.Partial), _handler.Values);
+                return DataLogger.Open(Path.Combine(_folder, PositionsFile + AtomicFile.Partial), _handler.Values);
             }
             catch (Exception error) when (error is IOException || error is UnauthorizedAccessException
                 || error is ArgumentException || error is NotSupportedException)
