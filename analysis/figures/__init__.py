@@ -10,7 +10,6 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from analysis.figures import default_run
-from analysis.figures.style import styled
 from analysis.figures.sweeps import VIEWS, draw_sweep
 from analysis.tables import read_table
 
@@ -38,23 +37,6 @@ class FigureSpec:
     title: str
     studies: tuple[str, ...]
     draw: Callable[[Mapping[str, Path]], Drawn]
-
-
-@styled
-def write_figure(spec: FigureSpec, studies: Mapping[str, Path], folder: Path) -> Path:
-    """Draws a figure into ``folder`` as figure-ID.png and its caption beside it as figure-ID.txt.
-
-    Returns
-    -------
-    Path
-        The picture.
-    """
-    figure, caption = spec.draw(studies)
-    folder.mkdir(parents=True, exist_ok=True)
-    picture = folder / f"figure-{spec.id}.png"
-    figure.savefig(picture)
-    picture.with_suffix(".txt").write_text(caption + "\n", encoding="utf-8")
-    return picture
 
 
 def _draw_default(draw: Callable[[default_run.RunTable], Drawn], options: dict, studies: Mapping[str, Path]) -> Drawn:

@@ -35,9 +35,17 @@ def styled(function: Callable[P, R]) -> Callable[P, R]:
     return inner
 
 
+class _StyledFigure(Figure):
+    """A figure that is saved under the style it was drawn in: ticks made only then ask for it again."""
+
+    @styled
+    def savefig(self, *args, **kwargs) -> None:
+        super().savefig(*args, **kwargs)
+
+
 def new_figure(width: float, height: float) -> Figure:
     """A figure with room for panels of the given size in inches; a caption makes it taller."""
-    figure = Figure(figsize=(width, height), layout="constrained")
+    figure = _StyledFigure(figsize=(width, height), layout="constrained")
     FigureCanvasAgg(figure)
     return figure
 

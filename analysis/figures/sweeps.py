@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from analysis.figures.captions import sweep_caption
 from analysis.figures.style import add_caption, letter, new_figure, styled
+from analysis.slowest_mode import SlowestMode
 from analysis.tables import Spread, StudyRow, StudyTable
 
 _MARKED = "--"  # line style of a marked value
@@ -80,6 +81,13 @@ def draw_sweep(view: SweepView, table: StudyTable) -> tuple[Figure, str]:
     panels["e"].plot(values, table.column("total_error"), "o-")
     panels["e"].set_yscale("log")
     panels["e"].set_ylabel(r"total error $\Delta_x$ (units)")
+
+    modes = [SlowestMode.of(row.run) for row in table.rows]
+    for axes, times in (
+        (panels["a"], [mode.relaxation_time for mode in modes]),
+        (panels["c"], [mode.steady_state_time for mode in modes]),
+    ):
+        axes.plot(values, times, "-", color="0.6", linewidth=3.0, zorder=1, label="slowest mode in closed form")
 
     for name in "abcde":
         _dress(panels[name], view, on_log=name in "ac")
