@@ -36,7 +36,7 @@ namespace Guidewire.Io
         /// <exception cref="IOException">The file cannot be written, or another run writes to it.</exception>
         public static DataLogger Open(string path, RunParameters parameters)
         {
-            return new DataLogger(new FileStream(path, FileMode.Create, FileAccess.Write, FileShare.Read, 1), parameters);
+            return new DataLogger(new FileStream(path, FileMode.Create, FileAccess.Write, FileShare.None, 1), parameters);
         }
 
         /// <summary>Writes one state.</summary>
