@@ -51,6 +51,15 @@ def test_equal_step_number_is_another_moment_than_equal_time() -> None:
     np.testing.assert_allclose(distances(run, reference, match="time").values, 0.0, atol=1e-14)
 
 
+def test_thinned_logs_are_compared_where_both_have_a_step() -> None:
+    def thinned(whole: Trajectory, every: int) -> Trajectory:
+        return Trajectory(whole.steps[::every], whole.time[::every], whole.arc_length, whole.positions[::every])
+
+    found = distances(thinned(wire(4, 0.5, 12), 3), thinned(wire(6, 0.5, 12, shift=(1.0, 0.0, 0.0)), 2), match="step")
+    np.testing.assert_array_equal(found.steps, [0, 6, 12])
+    np.testing.assert_allclose(found.values, 1.0, rtol=1e-14)
+
+
 def test_only_moments_that_both_runs_have_are_compared() -> None:
     found = distances(wire(4, 0.5, 10), wire(4, 0.5, 6))
     np.testing.assert_array_equal(found.steps, np.arange(7))
