@@ -66,7 +66,7 @@ FIGURES: dict[str, FigureSpec] = {
         ),
         _default_spec("4.3", "fit of the relaxation time", default_run.draw_relaxation),
         _default_spec("4.4", "displacement error of each sphere", default_run.draw_final_error, spheres="all"),
-        _study_spec("4.5", "convergence against the constraint solver steps", "solver-steps"),
+        _study_spec("4.5", "convergence against the constraint solver steps", "constraint-solver-steps"),
         _study_spec("4.6", "convergence against the number of rod elements", "rod-elements"),
         _study_spec("4.7", "convergence against the displacement", "displacement"),
         _study_spec("4.8", "convergence against the time step size", "time-step"),

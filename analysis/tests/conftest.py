@@ -29,7 +29,7 @@ def small(**changed: float) -> Chain:
 def studies(tmp_path_factory: pytest.TempPathFactory, default_study: Path) -> dict[str, Path]:
     """Every study that a figure asks for, in small."""
     made = {
-        "solver-steps": ("constraintSolverSteps", [small(constraint_solver_steps=m) for m in (80, 120, 160, 200)]),
+        "constraint-solver-steps": ("constraintSolverSteps", [small(constraint_solver_steps=m) for m in (80, 120, 160, 200)]),
         "rod-elements": ("numberRodElements", [small(elements=n) for n in (3, 5, 8, 10)]),
         "displacement": ("displacement", [small(displacement=size) for size in (1.0, 10.0, 100.0)]),
         "time-step": ("timeStep", [small(time_step=dt) for dt in (1e-4, 1e-3, 1e-2, 1e-1)]),

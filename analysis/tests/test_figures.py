@@ -22,7 +22,7 @@ from analysis.tables import StudyTable, read_table
 from analysis.tests.chain import EPSILON, Chain
 from experiments.studies import STUDIES
 
-SWEEPS = {"4.5": "solver-steps", "4.6": "rod-elements", "4.7": "displacement", "4.8": "time-step", "4.9": "total-mass"}
+SWEEPS = {"4.5": "constraint-solver-steps", "4.6": "rod-elements", "4.7": "displacement", "4.8": "time-step", "4.9": "total-mass"}
 
 
 @pytest.fixture(scope="module")

@@ -39,7 +39,7 @@ def test_direction_need_not_be_of_length_one(tmp_path: Path, chain: Chain) -> No
 
 
 def test_table_rows_are_measured_from_their_own_runs(studies: dict[str, Path]) -> None:
-    table = read_table(studies["solver-steps"], "constraintSolverSteps")
+    table = read_table(studies["constraint-solver-steps"], "constraintSolverSteps")
     np.testing.assert_array_equal(table.column("value"), [80, 120, 160, 200])
     for row in table.rows:
         chain = small(constraint_solver_steps=int(row.value))
