@@ -52,10 +52,11 @@ namespace Guidewire.Core
         /// <summary>Moves <paramref name="shape"/> to a rest shape near it.</summary>
         /// <param name="tolerance">On the last Newton step, radians or displacement over L.</param>
         /// <param name="mostIterations">After which the search gives up.</param>
-        public EquilibriumResult Solve(RodShape shape, double tolerance, int mostIterations)
+        /// <param name="judge">Whether the result states residual and smallest eigenvalue, which cost some solutions.</param>
+        public EquilibriumResult Solve(RodShape shape, double tolerance, int mostIterations, bool judge = true)
         {
             EquilibriumResult result = default;
-            result.Reason = "no iteration was allowed";
+            result.Reason = string.Empty;
             double shift = 0.25 * _bendForce;
             while (result.Iterations < mostIterations)
             {
@@ -92,11 +93,17 @@ namespace Guidewire.Core
                 shape.CopyFrom(_trial);
                 if (done)
                 {
+                    if (!judge)
+                    {
+                        result.Converged = true;
+                        result.Reason = string.Empty;
+                        return result;
+                    }
                     return Finish(shape, result);
                 }
-                result.Reason = "not converged after " + mostIterations.ToString(
-                    System.Globalization.CultureInfo.InvariantCulture) + " Newton iterations";
             }
+            result.Reason = "not converged after " + mostIterations.ToString(
+                System.Globalization.CultureInfo.InvariantCulture) + " Newton iterations";
             return result;
         }
 

@@ -77,6 +77,14 @@ namespace Guidewire.Core
             return result;
         }
 
+        /// <summary>The terms of a motion: all that stores energy or does work, and the inertia.</summary>
+        public EnergyTerm[] DynamicTerms(EnergyTerm inertia)
+        {
+            return Moment.Moment == Vector3d.Zero
+                ? new[] { Stretch, Bending, Loads, inertia }
+                : new[] { Stretch, Bending, Loads, Moment, inertia };
+        }
+
         /// <summary>True where shape, rest shape and loads lie in one plane, across the couple.</summary>
         private bool FindPlane(RodShape shape, out Vector3d normal)
         {
