@@ -6,14 +6,22 @@ import argparse
 import os
 import subprocess
 import sys
+import tempfile
+import traceback
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from experiments import runner
 from experiments.prepare import DRAWING, ROOT, TESTING, PreparationError
-from experiments.runner import INTERRUPTED, Answer
+from experiments.runner import INTERNAL_ERROR, INTERRUPTED, Answer
 from experiments.studies import STUDIES
 from experiments.sweep import SweepResult, run_study
 
+if TYPE_CHECKING:
+    from experiments.gallery import Gallery  # itself imported only where its packages are there
+
+FAILED = 5  # as of a run: something that was asked for is not there
+_RUNNER_WORDS = ("parameters", "out", "repeat", "lines", "logFile")  # the runner's own arguments, like -KEY
 _DESCRIPTION = "Simulates guidewires as Cosserat rods, without Unity: runs, sweeps, figures, tests."
 
 
@@ -65,12 +73,27 @@ def parse(argv: list[str]) -> argparse.Namespace:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Run a parsed command and return the exit code. Raises PreparationError for what a user has to mend."""
+    """Run a parsed command and return the exit code.
+
+    Raises PreparationError for what a user has to mend. Any other error is the program's own: its trace goes into a
+    file, and one line says where.
+    """
     try:
         return arguments.action(arguments)
     except KeyboardInterrupt:
         print("guidewire: interrupted; what has ended is kept, the same command goes on from here", file=sys.stderr)
         return INTERRUPTED
+    except PreparationError:
+        raise
+    except OSError as error:
+        if error.filename is None:
+            raise
+        raise PreparationError(f"{error.filename}: {error.strerror}") from error
+    except Exception as error:
+        trace = Path(tempfile.mkdtemp(prefix="guidewire-")) / "error.txt"
+        trace.write_text(traceback.format_exc(), encoding="utf-8")
+        print(f"guidewire: internal error ({type(error).__name__}: {error}): please report {trace}", file=sys.stderr)
+        return INTERNAL_ERROR
 
 
 class _Parser(argparse.ArgumentParser):
@@ -84,6 +107,8 @@ def _assignment(text: str) -> tuple[str, str]:
     key, equals, value = text.partition("=")
     if not key or not equals:
         raise argparse.ArgumentTypeError(f"'{text}' is not KEY=VALUE")
+    if key in _RUNNER_WORDS:
+        raise argparse.ArgumentTypeError(f"'{key}' is no parameter")
     return key, value
 
 
@@ -95,19 +120,17 @@ def _positive(text: str) -> int:
 
 def _demo(arguments: argparse.Namespace) -> int:
     from analysis import figures
+    from experiments import gallery
 
     command = _build_runner()
     result = _run_study("default", command, arguments.out, jobs=1)
     if result.failures:
-        return runner.DIED
-    from experiments import gallery
-
+        return FAILED
     ids = [name for name, spec in figures.FIGURES.items() if set(spec.studies) == {"default"}]
-    index = gallery.draw(ids, {"default": result.folder}, arguments.out)
+    drawn = gallery.draw(ids, {"default": result.folder}, arguments.out)
     for line in gallery.describe_default_run(result.folder):
         print(line)
-    print(f"pictures and captions: {os.path.relpath(index)}")
-    return 0
+    return _tell(drawn)
 
 
 def _test(arguments: argparse.Namespace) -> int:
@@ -127,11 +150,12 @@ def _run(arguments: argparse.Namespace) -> int:
 def _sweep(arguments: argparse.Namespace) -> int:
     result = _run_study(arguments.study, _build_runner(), arguments.out, arguments.jobs)
     print(f"runs: {os.path.relpath(result.folder)}")
-    return runner.DIED if result.failures else 0
+    return FAILED if result.failures else 0
 
 
 def _figures(arguments: argparse.Namespace) -> int:
     from analysis import figures
+    from experiments import gallery
 
     unknown = [name for name in arguments.ids if name not in figures.FIGURES]
     if unknown:
@@ -140,12 +164,16 @@ def _figures(arguments: argparse.Namespace) -> int:
     needed = [name for name in STUDIES if any(name in figures.FIGURES[figure].studies for figure in ids)]
     command = _build_runner()
     results = {name: _run_study(name, command, arguments.out, arguments.jobs) for name in needed}
-    from experiments import gallery
-
     folders = {name: result.folder for name, result in results.items()}
-    index = gallery.draw(ids, folders, arguments.out / "figures")
-    print(f"pictures and captions: {os.path.relpath(index)}")
-    return runner.DIED if any(result.failures for result in results.values()) else 0
+    code = _tell(gallery.draw(ids, folders, arguments.out / "figures"))
+    return FAILED if any(result.failures for result in results.values()) else code
+
+
+def _tell(drawn: Gallery) -> int:
+    for problem in drawn.problems:
+        print(f"guidewire: {problem}", file=sys.stderr)
+    print(f"pictures and captions: {os.path.relpath(drawn.index)}")
+    return FAILED if drawn.problems else 0
 
 
 def _bench(_: argparse.Namespace) -> int:

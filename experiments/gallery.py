@@ -3,20 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib.pyplot as pyplot
 
 from analysis.figures import FIGURES
-from analysis.logs import read_log
+from analysis.logs import LogError, read_log
+from analysis.relaxation import RelaxationError
 from analysis.runs import read_run
 from analysis.tables import measure_relaxation
 
 INDEX = "index.md"
 
 
-def draw(ids: Sequence[str], folders: Mapping[str, Path], out: Path) -> Path:
-    """Draw figures from studies that were run.
+@dataclass(frozen=True)
+class Gallery:
+    """What was drawn: the index of the folder, and one line for each figure that could not be drawn."""
+
+    index: Path
+    problems: tuple[str, ...]
+
+
+def draw(ids: Sequence[str], folders: Mapping[str, Path], out: Path) -> Gallery:
+    """Draw figures from studies that were run, as many as can be drawn.
 
     Parameters
     ----------
@@ -26,18 +36,23 @@ def draw(ids: Sequence[str], folders: Mapping[str, Path], out: Path) -> Path:
 
     Returns
     -------
-    Path : the index. It lists every figure of the folder, also those drawn earlier.
+    Gallery : its index lists every figure of the folder, also those drawn earlier.
     """
     pyplot.switch_backend("Agg")  # pictures go to files; no screen is needed
     out.mkdir(parents=True, exist_ok=True)
+    problems = []
     for name in ids:
-        figure, caption = FIGURES[name].draw({study: folders[study] for study in FIGURES[name].studies})
+        try:
+            figure, caption = FIGURES[name].draw({study: folders[study] for study in FIGURES[name].studies})
+        except (LogError, RelaxationError) as error:
+            problems.append(f"figure {name} cannot be drawn: {error}")
+            continue
         figure.savefig(out / f"figure-{name}.png")
         pyplot.close(figure)
         (out / f"figure-{name}.txt").write_text(caption + "\n", encoding="utf-8")
     index = out / INDEX
     index.write_text(_index(out), encoding="utf-8")
-    return index
+    return Gallery(index, tuple(problems))
 
 
 def describe_default_run(study: Path) -> list[str]:

@@ -23,7 +23,7 @@ from experiments.prepare import ROOT, PreparationError
 
 HEADLESS = ROOT / "experiments" / "headless"
 SDK_MAJOR = 10
-DIED = 70
+INTERNAL_ERROR = 70
 INTERRUPTED = 130
 _SECONDS_TO_END = 20.0
 
@@ -161,13 +161,13 @@ class Runner:
     def _died(self, request: Request, why: str) -> Answer:
         process = self._process
         if process is None:
-            return Answer(request.name, DIED, None, f"the runner did not start: {why}", False)
+            return Answer(request.name, INTERNAL_ERROR, None, f"the runner did not start: {why}", False)
         if why:
             process.kill()
         code = process.wait()
         ended = f"killed by signal {-code}" if code < 0 else f"exit code {code}"
         self.close()
-        return Answer(request.name, DIED, None, f"the runner died during this run ({why or ended})", False)
+        return Answer(request.name, INTERNAL_ERROR, None, f"the runner died during this run ({why or ended})", False)
 
 
 def run_all(

@@ -84,7 +84,7 @@ STUDIES: dict[str, Study] = {
     for study in (
         Study("default", "the default run", _TABLE_4_1),
         Study(
-            "solver-steps", "constraint solver steps m", _TABLE_4_1, "constraintSolverSteps",
+            "constraint-solver-steps", "constraint solver steps m", _TABLE_4_1, "constraintSolverSteps",
             tuple(range(100, 1001, 100)),
         ),
         Study("rod-elements", "rod elements n", _TABLE_4_1, "numberRodElements", tuple(range(5, 61, 5))),

@@ -64,7 +64,7 @@ def test_the_request_carries_parameters_overrides_repeat_and_reuse(fake, tmp_pat
 def test_a_runner_that_dies_takes_one_run_with_it_and_no_other(fake, tmp_path, wish, word):
     answers = answers_of(fake.command, requests(tmp_path, {}, wish, {}, wish, {}))
     for name in ("run-1", "run-3"):
-        assert (answers[name].exit_code, answers[name].outcome) == (runner.DIED, None)
+        assert (answers[name].exit_code, answers[name].outcome) == (runner.INTERNAL_ERROR, None)
         assert word in answers[name].message
     assert [answers[f"run-{i}"].outcome for i in (0, 2, 4)] == ["converged"] * 3
 
@@ -76,13 +76,13 @@ def test_an_ordinary_failure_keeps_its_code_and_its_line(fake, tmp_path):
 
 def test_a_runner_that_cannot_be_started_fails_every_run(tmp_path):
     answers = answers_of([str(tmp_path / "nothing")], requests(tmp_path, {}, {}))
-    assert [answer.exit_code for answer in answers.values()] == [runner.DIED] * 2
+    assert [answer.exit_code for answer in answers.values()] == [runner.INTERNAL_ERROR] * 2
     assert "did not start" in answers["run-0"].message
 
 
 def test_a_runner_that_ends_at_once_fails_every_run(tmp_path):
     answers = answers_of([sys.executable, "-c", "raise SystemExit(3)"], requests(tmp_path, {}, {}))
-    assert [answer.exit_code for answer in answers.values()] == [runner.DIED] * 2
+    assert [answer.exit_code for answer in answers.values()] == [runner.INTERNAL_ERROR] * 2
     assert "exit code 3" in answers["run-0"].message
 
 
