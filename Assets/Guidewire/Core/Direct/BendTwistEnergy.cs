@@ -4,7 +4,7 @@ namespace Guidewire.Core
 {
     /// <summary>Bending and twist: one joint between successive elements, one at each clamped end against the clamp's frame
     /// (thesis, bend-twist constraint, as an energy; the law between angle and couple is the type argument).</summary>
-    internal sealed class BendTwistEnergy<TLaw> : EnergyTerm
+    internal sealed class BendTwistEnergy<TLaw> : BendTwistTerm
         where TLaw : struct, IJointLaw
     {
         private readonly Joint[] _joint;  // 0: proximal clamp; k: between elements k-1 and k; n: distal clamp
@@ -86,6 +86,31 @@ namespace Guidewire.Core
                 _law.AddBlocks(_joint[n], shape.Q[n - 1].Conjugate * shape.DistalFrame, ref gradient[n - 1],
                     ref _clampVector, ref blocks[n - 1], ref _clampBlock);
             }
+        }
+
+        /// <inheritdoc/>
+        public override Vector3d ProximalCouple(RodShape shape)
+        {
+            RodVector onFrame = default;
+            RodVector onElement = default;
+            if (_hasProximal)
+            {
+                _law.AddGradient(_joint[0], shape.ProximalFrame.Conjugate * shape.Q[0], ref onFrame, ref onElement);
+            }
+            return Quaterniond.Rotate(shape.ProximalFrame, new Vector3d(onFrame.T1, onFrame.T2, onFrame.T3));
+        }
+
+        /// <inheritdoc/>
+        public override Vector3d DistalCouple(RodShape shape)
+        {
+            RodVector onFrame = default;
+            RodVector onElement = default;
+            int n = shape.ElementCount;
+            if (_hasDistal)
+            {
+                _law.AddGradient(_joint[n], shape.Q[n - 1].Conjugate * shape.DistalFrame, ref onElement, ref onFrame);
+            }
+            return Quaterniond.Rotate(shape.DistalFrame, new Vector3d(onFrame.T1, onFrame.T2, onFrame.T3));
         }
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -29,7 +29,7 @@ namespace Guidewire.Core
         public StretchEnergy Stretch { get; }
 
         /// <summary>The bending energy.</summary>
-        public EnergyTerm Bending { get; }
+        public BendTwistTerm Bending { get; }
 
         /// <summary>Forces on the nodes.</summary>
         public DeadLoads Loads { get; }
@@ -37,8 +37,11 @@ namespace Guidewire.Core
         /// <summary>The couple on the last element, along its own axes.</summary>
         public TipMoment Moment { get; }
 
+        /// <summary>How the last rest shape was found, in one line.</summary>
+        public string Method { get; private set; } = "";
+
         /// <summary>The bending energy of a rod for the law that its supports name.</summary>
-        public static EnergyTerm CreateBending(MaterialRod rod, RodSupports supports)
+        public static BendTwistTerm CreateBending(MaterialRod rod, RodSupports supports)
         {
             Joint[] joints = rod.Joints(supports);
             if (supports.Bend == BendLaw.Darboux)
@@ -55,14 +58,17 @@ namespace Guidewire.Core
         {
             if (Moment.Moment == Vector3d.Zero)
             {
+                Method = "minimum of the energy";
                 return new EquilibriumSolver(_rod, _supports, _terms).Solve(shape, tolerance, mostIterations);
             }
             if (FindPlane(shape, out Vector3d normal))
             {
+                Method = "minimum of the energy in the plane of the loads, kept to that plane";
                 PlaneGuide guide = new PlaneGuide(_rod, normal, shape.X[0]);
                 EnergyTerm[] inPlane = { Stretch, Bending, Loads, Moment, guide };
                 return new EquilibriumSolver(_rod, _supports, inPlane).Solve(shape, tolerance, mostIterations);
             }
+            Method = "tipMoment has no potential in space: equilibrium by continuation, line search on the residual";
             EquilibriumResult first = new EquilibriumSolver(_rod, _supports, _terms).Solve(
                 shape, tolerance, mostIterations);
             if (!first.Converged)
@@ -81,8 +87,8 @@ namespace Guidewire.Core
         public EnergyTerm[] DynamicTerms(EnergyTerm inertia)
         {
             return Moment.Moment == Vector3d.Zero
-                ? new[] { Stretch, Bending, Loads, inertia }
-                : new[] { Stretch, Bending, Loads, Moment, inertia };
+                ? new EnergyTerm[] { Stretch, Bending, Loads, inertia }
+                : new EnergyTerm[] { Stretch, Bending, Loads, Moment, inertia };
         }
 
         /// <summary>True where shape, rest shape and loads lie in one plane, across the couple.</summary>

@@ -69,8 +69,15 @@ namespace Guidewire.Core
             _oldVelocities = new Vector3d[scheme == null ? n + 1 : 0];
             _oldOrientations = new Quaterniond[scheme == null ? n : 0];
             _oldSpins = new Vector3d[scheme == null ? n : 0];
-            _proximalTurn = schedule.ProximalTurnAt(0.0);
-            _distalTurn = schedule.DistalTurnAt(0.0);
+        }
+
+        /// <summary>Takes over the velocities of the start.</summary>
+        /// <param name="isTurned">Whether the clamps' frames have already made their turn of time 0.</param>
+        public void Begin(Vector3d[] velocities, Vector3d[] spins, bool isTurned)
+        {
+            Array.Copy(velocities, Velocities, Velocities.Length);
+            Array.Copy(spins, Spins, Spins.Length);
+            _distalTurn = isTurned ? _schedule.DistalTurnAt(0.0) : 0.0;
         }
 
         /// <summary>Positions and orientations.</summary>
@@ -108,6 +115,14 @@ namespace Guidewire.Core
         /// <summary>Elastic plus kinetic energy less the work of the loads, J.</summary>
         public double Energy => _inertia.KineticEnergy(Velocities, Spins) + _statics.Stretch.Value(Shape)
             + _statics.Bending.Value(Shape) + _statics.Loads.Value(Shape);
+
+        /// <summary>Force of the supports on a node as the rod is now, N.</summary>
+        public Vector3d ReactionAt(int node)
+        {
+            _schedule.SetLoads(_rod, _supports.Mass, _statics.Loads, Time);
+            RodVector g = Time > 0.0 ? _solver.Reactions(Shape)[node] : _solver.StaticReactions(Shape, _inertia)[node];
+            return new Vector3d(g.X1, g.X2, g.X3);
+        }
 
         /// <summary>One step.</summary>
         /// <param name="dt">s.</param>

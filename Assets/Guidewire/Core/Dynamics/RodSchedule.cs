@@ -17,6 +17,9 @@ namespace Guidewire.Core
         /// <summary>Force on a sliding distal end along the axis of its frame, N; a pull is positive.</summary>
         public double AxialForce { get; set; }
 
+        /// <summary>Force on node 0 where it is free, N.</summary>
+        public Vector3d ProximalForce { get; set; }
+
         /// <summary>Place of node 0 at <see cref="ProximalTime"/>, m.</summary>
         public Vector3d ProximalPosition { get; set; }
 
@@ -53,6 +56,7 @@ namespace Guidewire.Core
         {
             Vector3d axial = AxialForce * DistalFrame.Director3;
             loads.Set(rod, rule, Gravity, time <= TipForceReleaseTime ? TipForce + axial : axial);
+            loads.Force[0] += ProximalForce;
         }
 
         /// <summary>Node 0 at this time, m.</summary>

@@ -89,6 +89,20 @@ namespace Guidewire.Core
             return _gradient;
         }
 
+        /// <summary>The same before the first step, without inertia.</summary>
+        public RodVector[] StaticReactions(RodShape shape, EnergyTerm inertia)
+        {
+            Array.Clear(_gradient, 0, _gradient.Length);
+            foreach (EnergyTerm term in _terms)
+            {
+                if (term != inertia)
+                {
+                    term.AddGradient(shape, _gradient, 0, shape.ElementCount + 1);
+                }
+            }
+            return _gradient;
+        }
+
         private bool Iterate(RodShape shape, double tolerance)
         {
             for (int f = 0; f < MostFactorisations; f++)
