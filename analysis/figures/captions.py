@@ -245,7 +245,8 @@ def _end_of_run(table: StudyTable) -> str:
     waited = (table.column("steps") - table.column("steady_state_step")) * table.column("time_step")
     relaxations = waited / table.column("relaxation.time")
     known = np.isfinite(relaxations) & (errors > 0.0)
-    if np.count_nonzero(known) < 4 or relative_spread(relaxations[known]) < _STEADY:
+    varied = all(relative_spread(values[known]) > _STEADY for values in (relaxations, errors))
+    if np.count_nonzero(known) < 4 or not varied:
         return sentence + "."
     if np.corrcoef(relaxations[known], np.log(errors[known]))[0, 1] < -0.8:
         return (

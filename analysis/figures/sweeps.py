@@ -126,7 +126,7 @@ def _dress(axes: Axes, view: SweepView, on_log: bool) -> None:
     low, high = axes.dataLim.intervaly
     if axes.get_yscale() == "linear":
         axes.set_ylim(0.0, 1.1 * high if high > 0.0 else 1.0)
-    elif 1.0 < high / low < _FEW_DECADES:
+    elif low < high < _FEW_DECADES * low:
         axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
         axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
         axes.yaxis.set_minor_formatter(NullFormatter())
