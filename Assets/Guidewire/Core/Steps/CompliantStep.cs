@@ -14,6 +14,7 @@ namespace Guidewire.Core
     internal sealed class CompliantStep : ITimeStep, IReportingStep
     {
         private const double ConvergedShare = 0.01;
+        private const double Rounding = 1e-12;  // radians, or of L: corrections this small say nothing of convergence
 
         private readonly MaterialScene _scene;
         private readonly MaterialDrive _drive;
@@ -112,7 +113,7 @@ namespace Guidewire.Core
             Vector3d predictedTip = _shape.X[last];
             double error = Sweep(h);
             PredictionError = Vector3d.Distance(predictedTip, _shape.X[last]) / _scene.Metres;
-            double motion = 1e-300;
+            double motion = Rounding;
             double rate = 1.0 / h;
             for (int i = 0; i <= last; i++)
             {
@@ -145,6 +146,10 @@ namespace Guidewire.Core
             if (_sweeps < 3)
             {
                 return double.PositiveInfinity;
+            }
+            if (size < Rounding)
+            {
+                return size;
             }
             double ratio = size / before;
             return ratio < 1.0 ? size * ratio / (1.0 - ratio) : double.PositiveInfinity;
