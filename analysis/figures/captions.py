@@ -40,15 +40,17 @@ def _solver_steps(table: StudyTable) -> list[str]:
     if relative_spread(sweeps) < _STEADY:
         sentences.append("The thesis did not expect it to fall; it falls because τ does.")
     work = m * table.column("steady_state_step")
+    wall = table.column("computation_time.median")
+    seconds = f"takes {span(wall, 2)} s and " if np.any(np.isfinite(wall)) else ""
     sentences.append(
-        f"(d) What it costs to get there, counted in sweeps and so free of the machine, goes {_ends(m, work, 'm', ' sweeps')}."
+        f"(d) Getting there {seconds}goes, counted in sweeps and so free of the machine, {_ends(m, work, 'm', '')}."
     )
     waited = table.column("steady_state_time") / tau
     if relative_spread(work) > _STEADY and _rises(m, waited):
         sentences.append(
-            f"The thesis calls it constant. It rises because more sweeps leave a larger prediction error at the same "
-            f"distance from rest, so that the same threshold takes {number(waited[np.argmin(m)])} to "
-            f"{number(waited[np.argmax(m)])} relaxation times."
+            f"The thesis calls the computation time relatively constant. It rises because more sweeps leave a larger "
+            f"prediction error at the same distance from rest, so that the same threshold takes "
+            f"{_ends(m, waited, 'm', ' τ')}."
         )
     return sentences
 
@@ -69,7 +71,7 @@ def _rod_elements(table: StudyTable) -> list[str]:
     fine = n >= 30
     if np.count_nonzero(fine) > 2:
         sentences.append(
-            f"From n = 30 on τ grows as n^{number(_exponent(n[fine], tau[fine]), 2)}: a sweep hands a displacement on "
+            f"From n = 30 on τ grows with the power {number(_exponent(n[fine], tau[fine]), 2)} of n: a sweep hands a displacement on "
             f"as diffusion does, in steps of one element."
         )
     if best > 0 and _rises(n, gains):
@@ -116,8 +118,8 @@ def _time_step(table: StudyTable) -> list[str]:
     same_motion = np.all(steps == steps[0]) and (np.all(np.isnan(errors)) or relative_spread(errors) < 1e-6)
     if relative_spread(in_steps) < _SAME and same_motion:
         sentences.append(
-            "It is perfectly linear, as in the thesis. Its reason, more sweeps in the same in-game time, is a part of "
-            "the whole one: without forces the method, step by step, does not contain Δt at all. All these runs are one "
+            "It is perfectly linear, as in the thesis. The thesis's reason, more sweeps in the same in-game "
+            "time, is a part of the whole one: without forces the method, step by step, does not contain Δt at all. All these runs are one "
             f"and the same sequence of positions (same Δx at the end, steady from step {steps[0]:g} on) with another "
             "time written beside each step."
         )
@@ -149,9 +151,10 @@ def _total_mass(table: StudyTable) -> list[str]:
     wall = table.column("computation_time.median")
     if np.any(np.isfinite(wall / steady)):
         sentences.append(
-            f"(d) The computation time grows with it: {span(wall / steady)} s of real time for each in-game second. The "
-            f"thesis has it grow more than the in-game time, which no constant step time allows."
+            f"(d) The computation time is {span(wall / steady)} s of real time for each in-game second."
         )
+        if relative_spread(wall / steady) < _STEADY:
+            sentences.append("The thesis has it grow more than the in-game time, which no constant step time allows.")
     return sentences
 
 
@@ -213,17 +216,13 @@ def _constant(table: StudyTable, subject: str, name: str = "step_time", unit: st
 
 
 def _follows(table: StudyTable, x: np.ndarray, name: str) -> str:
-    """Whether the in-game time to the steady state follows tau, and what the computation time makes of it."""
+    """How the in-game time to the steady state goes with tau, and what the computation time makes of it."""
     tau, steady = table.column("relaxation.time"), table.column("steady_state_time")
     wall = table.column("computation_time.median")
-    sentence = f"(c) The in-game time to the steady state is {span(steady / tau, 2)} times τ"
-    if np.count_nonzero(np.isfinite(wall)) < 2:
-        return sentence + "."
-    slow, fast = int(np.nanargmax(wall)), int(np.nanargmin(wall))
-    return (
-        f"{sentence}, and (d) the computation time the product of both: {number(wall[fast], 2)} s at {name} = "
-        f"{x[fast]:g}, {number(wall[slow], 2)} s at {name} = {x[slow]:g}."
-    )
+    sentence = f"(c) The in-game time to the steady state is {span(steady / tau, 2)} times τ."
+    if not np.any(np.isfinite(wall)):
+        return sentence
+    return f"{sentence} (d) The computation time, its steps times the step time, goes {_ends(x, wall, name, ' s')}."
 
 
 def _closed_form(table: StudyTable) -> str:
@@ -246,7 +245,8 @@ def _end_of_run(table: StudyTable) -> str:
     waited = (table.column("steps") - table.column("steady_state_step")) * table.column("time_step")
     relaxations = waited / table.column("relaxation.time")
     known = np.isfinite(relaxations) & (errors > 0.0)
-    if np.count_nonzero(known) < 4 or relative_spread(relaxations[known]) < _STEADY:
+    varied = all(relative_spread(values[known]) > _STEADY for values in (relaxations, errors))
+    if np.count_nonzero(known) < 4 or not varied:
         return sentence + "."
     if np.corrcoef(relaxations[known], np.log(errors[known]))[0, 1] < -0.8:
         return (
@@ -264,7 +264,7 @@ def _repeats(table: StudyTable) -> str:
     counted = f"{counts[0]}" if len(counts) == 1 else f"{counts[0]} to {counts[-1]}"
     widest = max((spread.highest - spread.lowest) / spread.median for spread in spreads)
     return (
-        f"Wall times: median and range of {counted} runs with no other beside them; the range of the step time is at most "
+        f"Wall times: median and range of {counted} runs with no other run beside them; the range of the step time is at most "
         f"{percent(widest)} of the median."
     )
 

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from analysis.errors import displacement_errors, mean_error, total_error
 from analysis.figures.style import add_caption, letter, new_figure, styled
-from analysis.figures.wording import number, percent, span
+from analysis.figures.wording import number, percent
 from analysis.logs import LogError, PositionLog, read_log
 from analysis.relaxation import Relaxation, relaxation_error
 from analysis.runs import Run, read_study
@@ -24,7 +24,7 @@ THESIS_MEAN_ERROR = 0.0049  # units, printed there
 
 @dataclass(frozen=True)
 class RunTable:
-    """A run with its log, and the log of a timed repeat of it where there is one."""
+    """A run with its log, and the log of the timed repeat of median length, where there are timed ones."""
 
     run: Run
     log: PositionLog
@@ -50,8 +50,8 @@ def read_default_run(folder: Path, spheres: str = "last", most_entries: int | No
     steps = 0 if run.summary is None else int(run.measured("steps"))
     every = 1 if most_entries is None else max(1, steps // most_entries)
     log = read_log(run.folder, spheres=spheres, every=every)
-    repeats = study.timed(run.key)
-    return RunTable(run, log, read_log(repeats[0].folder) if repeats else None)
+    repeats = sorted(study.timed(run.key), key=lambda repeat: repeat.measured("computationTime"))
+    return RunTable(run, log, read_log(repeats[len(repeats) // 2].folder) if repeats else None)
 
 
 @styled
@@ -101,7 +101,7 @@ def _time_evolution_caption(
     run, log = table.run, table.log
     pace = np.polyfit(clock.time, clock.elapsed, 1)
     bend = np.max(np.abs(clock.elapsed - np.polyval(pace, clock.time))) / clock.elapsed[-1]
-    measured = "a timed run with no other beside it" if table.timed else "a run that may have had others beside it"
+    measured = "the median of the timed runs" if table.timed else "a run that may have had others beside it"
     dips = _longest_dip(log.prediction_error, run.number("deltaThreshold"), step)
     parts = [
         f"Figure 4.1. Default run. (a) One second of in-game time takes {number(pace[0])} s of real time; the relation "
@@ -145,23 +145,26 @@ def draw_heat_map(table: RunTable) -> tuple[Figure, str]:
     mesh.set_rasterized(True)
     axes.set(xlabel="in-game time $t$ (s)", ylabel="sphere index $i$")
     figure.colorbar(mesh, ax=axes, label="displacement from the old rest (units)")
-    _, late = _front(log, moved, 0.5 * size)
+    first, last = (_arrival(log.time, column, 0.5 * size) for column in (moved[:, 1], moved[:, -1]))
     caption = (
         f"Figure 4.2. Displacement of all {log.spheres.size} spheres over time in the default run; white is the new "
-        f"rest, {number(size)} units from the old one. The spheres swing together, the more the farther from the held "
-        f"first sphere: between {span(moved[:, 1], 3)} units for sphere 1 and {span(moved[:, -1], 3)} for the last. The "
-        f"motion does not arrive everywhere at once: half the displacement reaches the last sphere at "
-        f"t = {number(late)} s."
+        f"rest, {size:g} units from the old one. The spheres swing together, the more the farther from the held first "
+        f"sphere: sphere 1 is displaced by up to {number(_farthest(moved[:, 1]))} units, the last one by up to "
+        f"{number(_farthest(moved[:, -1]))}. The motion takes its time along the wire: half the displacement is at "
+        f"sphere 1 by t = {number(first, 2)} s, at the last one by t = {number(last, 2)} s."
     )
     add_caption(figure, caption)
     return figure, caption
 
 
-def _front(log: PositionLog, moved: np.ndarray, level: float) -> tuple[float, float]:
-    """Moments at which sphere 1 and the last sphere first reach a displacement, in s; not a number if never."""
-    reached = np.abs(moved) >= abs(level)
-    moments = [log.time[np.argmax(column)] if column.any() else np.nan for column in (reached[:, 1], reached[:, -1])]
-    return float(moments[0]), float(moments[1])
+def _arrival(time: np.ndarray, moved: np.ndarray, level: float) -> float:
+    """When a sphere is first displaced by ``level``, in s; not a number if never."""
+    there = moved * np.sign(level) >= abs(level)
+    return float(time[np.argmax(there)]) if there.any() else np.nan
+
+
+def _farthest(moved: np.ndarray) -> float:
+    return float(np.max(np.abs(moved)))
 
 
 @styled
@@ -179,7 +182,7 @@ def draw_relaxation(table: RunTable) -> tuple[Figure, str]:
         axes.plot(
             log.time, fit.envelope(log.time), "--", color="0.3", label=rf"$\zeta_0 e^{{-t/\tau}}$, $\tau$ = {fit.time:.3f} s"
         )
-        axes.set(xlabel="in-game time $t$ (s)", ylabel="displacement error of the last sphere (units)")
+        axes.set(xlabel="in-game time $t$ (s)", ylabel="displacement error (units)")
     linear.legend(loc="upper right")
     logarithmic.set_yscale("log")
     logarithmic.set_ylim(0.2 * fit.peak_heights.min(), 2.0 * max(fit.amplitude, fit.peak_heights.max()))

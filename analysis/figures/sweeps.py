@@ -8,13 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from analysis.figures.captions import sweep_caption
 from analysis.figures.style import add_caption, letter, new_figure, styled
 from analysis.slowest_mode import SlowestMode
 from analysis.tables import Spread, StudyRow, StudyTable
 
-_MARKED = "--"  # line style of a marked value
+_FEW_DECADES = 30.0  # ratio up to which powers of ten alone are too few ticks
 
 
 @dataclass(frozen=True)
@@ -122,11 +123,16 @@ def _dress(axes: Axes, view: SweepView, on_log: bool) -> None:
         axes.set_xscale("log")
     if view.logarithmic and on_log:
         axes.set_yscale("log")
-    elif axes.get_yscale() == "linear":
-        axes.set_ylim(bottom=0.0)
+    low, high = axes.dataLim.intervaly
+    if axes.get_yscale() == "linear":
+        axes.set_ylim(0.0, 1.1 * high if high > 0.0 else 1.0)
+    elif low < high < _FEW_DECADES * low:
+        axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+        axes.yaxis.set_minor_formatter(NullFormatter())
     if view.marked is not None:
         axes.axvline(
-            view.marked, linestyle=_MARKED, color="0.3", linewidth=1.0, label=f"$n$ = {view.marked:g}, sphere on sphere"
+            view.marked, linestyle="--", color="0.3", linewidth=1.0, label=f"$n$ = {view.marked:g}, sphere on sphere"
         )
 
 

@@ -36,6 +36,8 @@ def percent(fraction: float, digits: int = 2) -> str:
 
 
 def relative_spread(values: Sequence[float] | np.ndarray) -> float:
-    """(largest - smallest)/median of the finite values."""
+    """(largest - smallest)/median of the finite values; not a number where there is none."""
     finite = np.asarray(values)[np.isfinite(values)]
+    if finite.size == 0:
+        return math.nan
     return float((finite.max() - finite.min()) / np.median(finite))

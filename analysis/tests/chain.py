@@ -19,9 +19,9 @@ HOLD = 100  # steps
 
 @dataclass(frozen=True)
 class Chain:
-    """Parameters of a run, Table 4.1 by default, and its motion.
+    """Parameters of a run, Table 4.1 by default, and its motion up to the steady state or ``most_steps``.
 
-    z has shape (steps + 1, n + 1), prediction_error (steps + 1,), both in units.
+    z has shape (steps + 1, n + 1), prediction_error (steps + 1,), both in units; the steady state is -1 where none.
     """
 
     constraint_solver_steps: int = 500
@@ -32,16 +32,21 @@ class Chain:
     length: float = 300.0
     offset: float = -120.0
     stretch_gain: float = 0.1
-    steps: int = 300
+    most_steps: int = 4000
     z: np.ndarray = field(init=False, repr=False)
     prediction_error: np.ndarray = field(init=False, repr=False)
+    steady_state_step: int = field(init=False)
 
     def __post_init__(self) -> None:
-        z, error = self._simulate()
-        object.__setattr__(self, "z", z)
-        object.__setattr__(self, "prediction_error", error)
+        for name, value in zip(("z", "prediction_error", "steady_state_step"), self._simulate()):
+            object.__setattr__(self, name, value)
 
-    def _simulate(self) -> tuple[np.ndarray, np.ndarray]:
+    @property
+    def steps(self) -> int:
+        """Steps made."""
+        return len(self.z) - 1
+
+    def _simulate(self) -> tuple[np.ndarray, np.ndarray, int]:
         n, l = self.elements, self.length / self.elements
         weights = [0.0] + [(n + 1) / self.total_mass] * n
         pairs = list(zip(weights, weights[1:]))
@@ -50,7 +55,8 @@ class Chain:
         x = [self.offset + i * l for i in range(n + 1)]
         x[0] += self.displacement
         old, track, errors = x, [x], [0.0]
-        for _ in range(self.steps):
+        been_above, below = False, 0
+        while len(track) <= self.most_steps and below < HOLD:
             p = [2.0 * now - then for now, then in zip(x, old)]
             p[0] = x[0]
             predicted = p[n]
@@ -62,7 +68,9 @@ class Chain:
             old, x = x, p
             track.append(x)
             errors.append(abs(predicted - x[n]))
-        return np.array(track), np.array(errors)
+            been_above = been_above or errors[-1] >= EPSILON
+            below = below + 1 if been_above and errors[-1] < EPSILON else 0
+        return np.array(track), np.array(errors), len(track) - HOLD if below == HOLD else -1
 
     @property
     def time(self) -> np.ndarray:
@@ -112,22 +120,12 @@ class Chain:
         lines = (f'"{k}": {json.dumps(self.entry(k, milliseconds_per_step))}' for k in range(self.steps + 1))
         return "{\n" + ",\n".join(lines) + "\n}\n"
 
-    def steady_state_step(self) -> int:
-        """First of HOLD successive steps below EPSILON after one above, counted step by step; -1 where none."""
-        been_above, below = False, 0
-        for step, error in enumerate(self.prediction_error):
-            been_above = been_above or error >= EPSILON
-            below = below + 1 if been_above and error < EPSILON else 0
-            if below == HOLD:
-                return step - HOLD + 1
-        return -1
-
     def write(self, folder: Path, milliseconds_per_step: float = 2.0) -> Path:
         """Writes a run folder."""
         folder.mkdir(parents=True)
         (folder / "positions.json").write_text(self.log(milliseconds_per_step))
         (folder / "parameters.json").write_text(json.dumps(self.parameters))
-        steady = self.steady_state_step()
+        steady = self.steady_state_step
         summary = {
             "outcome": "finished" if steady < 0 else "converged",
             "steps": self.steps,
