@@ -165,7 +165,8 @@ def judge(answer, out):
 
 def strains_of(positions, parameters):
     """|element length/l - 1| of every element; positions have shape (..., n + 1, 3)."""
-    lengths = np.linalg.norm(np.diff(positions, axis=-2), axis=-1)
+    with np.errstate(over="ignore"):  # of a wire that was lost
+        lengths = np.linalg.norm(np.diff(positions, axis=-2), axis=-1)
     return np.abs(lengths * parameters["numberRodElements"] / parameters["guidewireLength"] - 1.0)
 
 
