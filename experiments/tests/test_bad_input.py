@@ -157,8 +157,8 @@ def test_an_output_folder_that_is_a_file_is_one_line(runner_command, tmp_path, e
 def test_an_output_folder_that_nobody_may_write_to_is_one_line(runner_command, tmp_path, earlier):
     if os.geteuid() == 0:
         # Root may write everywhere but where the kernel itself has the say.
-        for out in ("/proc/guidewire", "/sys/guidewire"):
-            assert_one_line(run(runner_command, "-parameters", tmp_path / "good.json", "-out", out), out, "out")
+        out = "/proc/guidewire"
+        assert_one_line(run(runner_command, "-parameters", tmp_path / "good.json", "-out", out), out, "out")
         return
     earlier.chmod(0o555)
     before = contents(earlier)
