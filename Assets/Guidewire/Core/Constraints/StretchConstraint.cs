@@ -1,0 +1,82 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>Keeps each element at its length and along its third director (Kugelstadt and Schoemer 2016, eqs. 37
+    /// and 38): C = G = (x_{j+1} - x_j)/l - d3.</summary>
+    /// <remarks>With D = w_j + w_{j+1} + 4 w_q l^2 one projection moves x_j by w_j l G/D, x_{j+1} by -w_{j+1} l G/D and
+    /// q_j by 2 w_q l^2/D (0, G) q_j e3*, each times the gain. The gain in [0, 1] is dimensionless and counts per
+    /// iteration. A sweep is successive over-relaxation: transversal motion breaks down at a gain of 2, purely
+    /// longitudinal motion at 2 (1 + 2 w_q l^2/w), because there the orientations' share of D moves nothing.</remarks>
+    internal sealed class StretchConstraint
+    {
+        private readonly double _length;           // l, units
+        private readonly double[] _lower;          // gain w_j l / D per element
+        private readonly double[] _upper;          // gain w_{j+1} l / D
+        private readonly double[] _orientation;    // gain 2 w_q l^2 / D
+
+        /// <summary>Takes masses, weights and the length from the state, as they are now.</summary>
+        /// <param name="state">The wire.</param>
+        /// <param name="gain">k_A, dimensionless.</param>
+        public StretchConstraint(RodState state, double gain)
+        {
+            int n = state.ElementCount;
+            double l = state.ElementLength;
+            _length = l;
+            _lower = new double[n];
+            _upper = new double[n];
+            _orientation = new double[n];
+            for (int j = 0; j < n; j++)
+            {
+                double weight = state.OrientationWeights[j];
+                double sum = state.InverseMasses[j] + state.InverseMasses[j + 1] + 4.0 * weight * l * l;
+                _lower[j] = gain * state.InverseMasses[j] * l / sum;
+                _upper[j] = gain * state.InverseMasses[j + 1] * l / sum;
+                _orientation[j] = gain * 2.0 * weight * l * l / sum;
+            }
+        }
+
+        /// <summary>Projects all elements once, in the given order.</summary>
+        /// <param name="x">n + 1 positions in units, corrected in place.</param>
+        /// <param name="q">n orientations, corrected in place and of unit length again.</param>
+        /// <param name="order">The elements in the order of the sweep.</param>
+        public void Sweep(Vector3d[] x, Quaterniond[] q, int[] order)
+        {
+            double inverseLength = 1.0 / _length;
+            foreach (int j in order)
+            {
+                ref Vector3d a = ref x[j];
+                ref Vector3d b = ref x[j + 1];
+                ref Quaterniond r = ref q[j];
+                double gx = (b.X - a.X) * inverseLength - 2.0 * (r.X * r.Z + r.W * r.Y);
+                double gy = (b.Y - a.Y) * inverseLength - 2.0 * (r.Y * r.Z - r.W * r.X);
+                double gz = (b.Z - a.Z) * inverseLength - (1.0 - 2.0 * (r.X * r.X + r.Y * r.Y));
+
+                double lower = _lower[j];
+                double upper = _upper[j];
+                a = new Vector3d(a.X + lower * gx, a.Y + lower * gy, a.Z + lower * gz);
+                b = new Vector3d(b.X - upper * gx, b.Y - upper * gy, b.Z - upper * gz);
+
+                // q e3* = (-y, x, -w, z); the product (0, G) q e3* is written out, because half its terms vanish.
+                double turn = _orientation[j];
+                double ex = -r.Y;
+                double ey = r.X;
+                double ez = -r.W;
+                double ew = r.Z;
+                double qx = r.X + turn * (gx * ew + gy * ez - gz * ey);
+                double qy = r.Y + turn * (gy * ew + gz * ex - gx * ez);
+                double qz = r.Z + turn * (gz * ew + gx * ey - gy * ex);
+                double qw = r.W - turn * (gx * ex + gy * ey + gz * ez);
+                double scale = 1.0 / Math.Sqrt(qx * qx + qy * qy + qz * qz + qw * qw);
+                r = new Quaterniond(scale * qx, scale * qy, scale * qz, scale * qw);
+            }
+        }
+
+        /// <summary>G of element j, dimensionless: what tests and views look at, never the sweep.</summary>
+        public static Vector3d Residual(RodState state, int j)
+        {
+            Vector3d d = (state.Positions[j + 1] - state.Positions[j]) / state.ElementLength;
+            return d - state.Orientations[j].Director3;
+        }
+    }
+}

@@ -1,0 +1,12 @@
+namespace Guidewire.Core
+{
+    /// <summary>Where the spheres would go without constraints: from x, v and forces to p. A sphere of inverse mass 0
+    /// stays where it is (thesis 3.1.4); its drive moves it afterwards.</summary>
+    internal interface IPositionPrediction
+    {
+        /// <summary>Writes <see cref="RodState.PredictedPositions"/>.</summary>
+        /// <param name="state">Its positions, velocities and forces are read.</param>
+        /// <param name="timeStep">dt in s.</param>
+        void Predict(RodState state, double timeStep);
+    }
+}

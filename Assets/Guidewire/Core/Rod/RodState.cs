@@ -1,0 +1,144 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>A wire of n rod elements and n + 1 spheres at one moment: what a step reads and writes.</summary>
+    /// <remarks>Element j joins spheres j and j + 1. Its orientation q takes the body's z axis to the third director
+    /// d3 = q e3 q*, which lies along the element where nothing shears it. Arrays are made once; at the end of a step
+    /// previous, current and predicted ones change places, so take them from the properties anew each step.</remarks>
+    public sealed class RodState
+    {
+        /// <summary>A straight wire along z at rest: sphere i at z = offset + i l with l = L/n (thesis eq. 3.1), masses
+        /// M/(n + 1) (eq. 3.2), orientations the identity with weight 1.</summary>
+        /// <param name="elementCount">n, at least 1.</param>
+        /// <param name="length">L in units, positive.</param>
+        /// <param name="totalMass">M in mass units, positive.</param>
+        /// <param name="offset">z of sphere 0 in units.</param>
+        /// <exception cref="ArgumentOutOfRangeException">n below 1, or L or M not positive.</exception>
+        public RodState(int elementCount, double length, double totalMass, double offset)
+        {
+            if (elementCount < 1)
+            {
+                throw new ArgumentOutOfRangeException(nameof(elementCount), elementCount, "a wire has at least one element");
+            }
+            if (!(length > 0.0))
+            {
+                throw new ArgumentOutOfRangeException(nameof(length), length, "a wire has a positive length");
+            }
+            if (!(totalMass > 0.0))
+            {
+                throw new ArgumentOutOfRangeException(nameof(totalMass), totalMass, "a wire has a positive mass");
+            }
+            ElementCount = elementCount;
+            ElementLength = length / elementCount;
+            int spheres = elementCount + 1;
+            Positions = new Vector3d[spheres];
+            PreviousPositions = new Vector3d[spheres];
+            PredictedPositions = new Vector3d[spheres];
+            Velocities = new Vector3d[spheres];
+            Forces = new Vector3d[spheres];
+            InverseMasses = new double[spheres];
+            Orientations = new Quaterniond[elementCount];
+            PredictedOrientations = new Quaterniond[elementCount];
+            AngularVelocities = new Vector3d[elementCount];
+            OrientationWeights = new double[elementCount];
+            RestDarbouxVectors = new Vector3d[elementCount - 1];
+            for (int i = 0; i < spheres; i++)
+            {
+                Positions[i] = new Vector3d(0.0, 0.0, offset + i * ElementLength);
+                InverseMasses[i] = spheres / totalMass;
+            }
+            Array.Fill(Orientations, Quaterniond.Identity);
+            Array.Fill(OrientationWeights, 1.0);
+            Rest();
+        }
+
+        /// <summary>n.</summary>
+        public int ElementCount { get; }
+
+        /// <summary>n + 1.</summary>
+        public int SphereCount => ElementCount + 1;
+
+        /// <summary>l = L/n in units, the length of every element at rest.</summary>
+        public double ElementLength { get; }
+
+        /// <summary>x, n + 1 sphere positions in units.</summary>
+        public Vector3d[] Positions { get; private set; }
+
+        /// <summary>x one step ago, in units.</summary>
+        public Vector3d[] PreviousPositions { get; private set; }
+
+        /// <summary>p, in units: what the prediction writes and the constraints correct.</summary>
+        public Vector3d[] PredictedPositions { get; private set; }
+
+        /// <summary>v in unit/s, n + 1.</summary>
+        public Vector3d[] Velocities { get; }
+
+        /// <summary>f in mass unit * unit / s^2, n + 1: external forces, gravity not among them.</summary>
+        public Vector3d[] Forces { get; }
+
+        /// <summary>w, n + 1 inverse masses; 0 for a sphere that is held or moved by a drive.</summary>
+        public double[] InverseMasses { get; }
+
+        /// <summary>q, n unit quaternions.</summary>
+        public Quaterniond[] Orientations { get; private set; }
+
+        /// <summary>What the prediction writes and the constraints correct.</summary>
+        public Quaterniond[] PredictedOrientations { get; private set; }
+
+        /// <summary>omega in rad/s, n, in each element's own frame.</summary>
+        public Vector3d[] AngularVelocities { get; }
+
+        /// <summary>w_q, n inverse inertias of the orientations, dimensionless.</summary>
+        public double[] OrientationWeights { get; }
+
+        /// <summary>Omega_0 in 1/unit, n - 1: the Darboux vector of each joint at rest; 0 for a straight wire.</summary>
+        public Vector3d[] RestDarbouxVectors { get; }
+
+        /// <summary>Takes over a start; it must have as many elements as the wire.</summary>
+        /// <exception cref="ArgumentException">The start has another number of elements.</exception>
+        public void Load(RodStart start)
+        {
+            if (start.Orientations.Length != ElementCount)
+            {
+                throw new ArgumentException("the start has " + start.Orientations.Length + " elements, the wire "
+                    + ElementCount);
+            }
+            Array.Copy(start.Positions, Positions, SphereCount);
+            Array.Copy(start.Velocities, Velocities, SphereCount);
+            Array.Copy(start.AngularVelocities, AngularVelocities, ElementCount);
+            for (int j = 0; j < ElementCount; j++)
+            {
+                Orientations[j] = Quaterniond.Normalize(start.Orientations[j]);
+            }
+            Rest();
+        }
+
+        /// <summary>Moves a sphere without giving it a velocity.</summary>
+        public void Place(int sphere, in Vector3d position)
+        {
+            Positions[sphere] = position;
+            PreviousPositions[sphere] = position;
+            PredictedPositions[sphere] = position;
+        }
+
+        /// <summary>The corrected state becomes the current one, the current one the previous.</summary>
+        internal void Advance()
+        {
+            Vector3d[] oldest = PreviousPositions;
+            PreviousPositions = Positions;
+            Positions = PredictedPositions;
+            PredictedPositions = oldest;
+            Quaterniond[] old = Orientations;
+            Orientations = PredictedOrientations;
+            PredictedOrientations = old;
+        }
+
+        private void Rest()
+        {
+            Array.Copy(Positions, PreviousPositions, SphereCount);
+            Array.Copy(Positions, PredictedPositions, SphereCount);
+            Array.Copy(Orientations, PredictedOrientations, ElementCount);
+        }
+    }
+}

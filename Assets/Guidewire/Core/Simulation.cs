@@ -1,0 +1,117 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>One run: a wire, the method that steps it and the rule that ends it. It knows no file and no clock; the
+    /// same parameters give the same bits on the same runtime.</summary>
+    public sealed class Simulation
+    {
+        private readonly ITimeStep _step;
+        private readonly StopRule _stopRule;
+        private readonly double _timeStep;
+        private string? _ownReason;
+
+        private Simulation(RodState state, ITimeStep step, StopRule stopRule, double timeStep)
+        {
+            State = state;
+            _step = step;
+            _stopRule = stopRule;
+            _timeStep = timeStep;
+        }
+
+        /// <summary>The wire as it is now.</summary>
+        public RodState State { get; }
+
+        /// <summary>Steps done.</summary>
+        public int StepCount { get; private set; }
+
+        /// <summary>In-game time in s, k dt after k steps.</summary>
+        public double Time => StepCount * _timeStep;
+
+        /// <summary>Delta_p of the last step in units; 0 before the first.</summary>
+        public double PredictionError => _step.PredictionError;
+
+        /// <summary>How the run ended, or Running.</summary>
+        public Outcome Outcome { get; private set; }
+
+        /// <summary>One line that says why the run ended; empty while it runs.</summary>
+        public string Reason => _ownReason ?? _stopRule.Reason;
+
+        /// <summary>First step of the steady state, or -1.</summary>
+        public int SteadyStateStep => _stopRule.SteadyStateStep;
+
+        /// <summary>Builds the wire and chooses every part of the method, once.</summary>
+        /// <exception cref="ArgumentException">A value out of the range that the rod allows.</exception>
+        public static Simulation Create(SimulationParameters parameters)
+        {
+            if (parameters.DisplacementDirection.Length == 0.0)
+            {
+                throw new ArgumentException("the displacement has no direction");
+            }
+            var state = new RodState(parameters.NumberRodElements, parameters.GuidewireLength, parameters.TotalMass,
+                parameters.GuidewireOffset);
+            if (parameters.Start != null)
+            {
+                state.Load(parameters.Start);
+            }
+            Vector3d origin = state.Positions[0];
+            Vector3d direction = Vector3d.Normalize(parameters.DisplacementDirection);
+            IDriveMotion? drive = null;
+            switch (parameters.Drive)
+            {
+                case Drive.Hold:
+                    state.InverseMasses[0] = 0.0;
+                    state.Place(0, origin + parameters.Displacement * direction);
+                    break;
+                case Drive.Displace:
+                    state.InverseMasses[0] = 0.0;
+                    drive = new FixedAxisDrive(direction, parameters.DisplacementPerStep);
+                    break;
+                case Drive.Push:
+                    state.InverseMasses[0] = 0.0;
+                    drive = new PushDrive(parameters.DisplacementPerStep);
+                    break;
+                case Drive.Force:
+                    state.Forces[0] = parameters.ExternalForce;
+                    break;
+                default:
+                    throw new ArgumentException("unknown drive " + parameters.Drive);
+            }
+            IPositionPrediction prediction = parameters.Integrator == Integrator.Euler
+                ? (IPositionPrediction)new EulerPrediction(parameters.Damping, parameters.Gravity)
+                : new VerletPrediction(parameters.Damping, parameters.Gravity);
+            var solver = new GaussSeidelSolver(state, parameters.ConstraintSolverSteps, parameters.StretchStiffness,
+                parameters.BendStiffness, parameters.SweepOrder);
+            var step = new PositionBasedStep(parameters.TimeStep, prediction, drive, solver);
+            var stopRule = new StopRule(parameters.DeltaThreshold, parameters.SteadyStateHold,
+                parameters.MaxSimulationSteps, state);
+            return new Simulation(state, step, stopRule, parameters.TimeStep);
+        }
+
+        /// <summary>One step. Does nothing once the run has ended.</summary>
+        public void Step()
+        {
+            if (Outcome != Outcome.Running)
+            {
+                return;
+            }
+            _step.Advance(State);
+            StepCount++;
+            if (_step.Failure != null)
+            {
+                End(Outcome.Failed, _step.Failure);
+                return;
+            }
+            Outcome = _stopRule.Judge(State, StepCount, PredictionError);
+        }
+
+        /// <summary>Ends the run where it is.</summary>
+        /// <param name="outcome">Interrupted or Failed.</param>
+        /// <param name="reason">One line.</param>
+        public void End(Outcome outcome, string reason)
+        {
+            Outcome = outcome;
+            _ownReason = reason;
+        }
+    }
+}

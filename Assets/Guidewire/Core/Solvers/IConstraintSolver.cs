@@ -1,0 +1,10 @@
+namespace Guidewire.Core
+{
+    /// <summary>Corrects a predicted state until its constraints hold as well as the method achieves.</summary>
+    internal interface IConstraintSolver
+    {
+        /// <summary>Corrects <see cref="RodState.PredictedPositions"/> and
+        /// <see cref="RodState.PredictedOrientations"/> in place.</summary>
+        void Solve(RodState state);
+    }
+}

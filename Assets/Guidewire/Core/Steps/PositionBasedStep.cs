@@ -1,0 +1,43 @@
+namespace Guidewire.Core
+{
+    /// <summary>One step of position-and-orientation-based dynamics (thesis 2.1.3): prediction, the drive's motion,
+    /// constraint solver, velocity update.</summary>
+    internal sealed class PositionBasedStep : ITimeStep
+    {
+        private readonly double _timeStep;
+        private readonly IPositionPrediction _prediction;
+        private readonly IDriveMotion? _drive;
+        private readonly IConstraintSolver _solver;
+
+        /// <param name="timeStep">dt in s.</param>
+        /// <param name="prediction">How positions are predicted.</param>
+        /// <param name="drive">What moves sphere 0 each step, or null where nothing does.</param>
+        /// <param name="solver">What corrects the prediction.</param>
+        public PositionBasedStep(double timeStep, IPositionPrediction prediction, IDriveMotion? drive,
+            IConstraintSolver solver)
+        {
+            _timeStep = timeStep;
+            _prediction = prediction;
+            _drive = drive;
+            _solver = solver;
+        }
+
+        /// <inheritdoc/>
+        public double PredictionError { get; private set; }
+
+        /// <inheritdoc/>
+        public string? Failure => null;
+
+        /// <inheritdoc/>
+        public void Advance(RodState state)
+        {
+            _prediction.Predict(state, _timeStep);
+            OrientationPrediction.Predict(state, _timeStep);
+            _drive?.Move(state);
+            Vector3d predictedTip = state.PredictedPositions[state.ElementCount];
+            _solver.Solve(state);
+            PredictionError = Vector3d.Distance(predictedTip, state.PredictedPositions[state.ElementCount]);
+            VelocityUpdate.Apply(state, _timeStep);
+        }
+    }
+}

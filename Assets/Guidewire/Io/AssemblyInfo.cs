@@ -1,0 +1,4 @@
+using System.Runtime.CompilerServices;
+
+[assembly: InternalsVisibleTo("Guidewire.Core.Tests")]
+[assembly: InternalsVisibleTo("Guidewire.Benchmarks")]

@@ -1,0 +1,92 @@
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+using System.Text;
+using Newtonsoft.Json.Linq;
+
+namespace Guidewire.Io
+{
+    /// <summary>Reads the arguments of a run (thesis 3.2.4); the console program and Unity's batch mode share it.</summary>
+    public static class CommandLineHandler
+    {
+        /// <summary>What errors name as their source.</summary>
+        public const string Source = "command line";
+
+        /// <summary>Reads <c>-parameters FILE -out DIR -repeat K -KEY VALUE ...</c>.</summary>
+        /// <param name="arguments">The arguments.</param>
+        /// <param name="logFileIsOurs">Whether the seed's <c>-logFile DIR</c> stands for <c>-out</c>; in Unity it is Unity's
+        /// own.</param>
+        /// <exception cref="ParameterException">An unknown key, a value that is missing or not allowed.</exception>
+        public static CommandLine Read(IReadOnlyList<string> arguments, bool logFileIsOurs)
+        {
+            var line = new CommandLine();
+            for (int i = 0; i < arguments.Count; i += 2)
+            {
+                string argument = arguments[i];
+                string key = argument.StartsWith("--", StringComparison.Ordinal) ? argument.Substring(2)
+                    : argument.StartsWith("-", StringComparison.Ordinal) ? argument.Substring(1) : "";
+                if (key.Length == 0)
+                {
+                    throw new ParameterException(Source + ": '" + argument + "' stands where a key is expected: "
+                        + "-parameters FILE, -out DIR or -KEY VALUE");
+                }
+                ParameterEntry? entry = ParameterTable.Find(key);
+                bool isOut = key == "out" || (logFileIsOurs && key == "logFile");
+                if (entry == null && !isOut && key != "parameters" && key != "repeat")
+                {
+                    string? nearest = ParameterTable.Nearest(key);
+                    throw new ParameterException(Source + ": unknown key '" + argument + "'"
+                        + (nearest != null ? ": did you mean '-" + nearest + "'?" : ": --help lists what is allowed"));
+                }
+                if (i + 1 >= arguments.Count)
+                {
+                    throw new ParameterException(Source + ": " + argument + " needs a value: "
+                        + (entry?.Allowed ?? (key == "repeat" ? "a whole number from 0" : "a path")));
+                }
+                string value = arguments[i + 1];
+                if (entry != null)
+                {
+                    JToken token = entry.FromText(value) ?? throw new ParameterException(Source, key, value, entry.Allowed);
+                    line.Overrides.Add(new KeyValuePair<string, JToken>(key, token));
+                }
+                else if (isOut)
+                {
+                    line.Out = value;
+                }
+                else if (key == "parameters")
+                {
+                    line.ParameterFile = value;
+                }
+                else if (int.TryParse(value, NumberStyles.None, CultureInfo.InvariantCulture, out int repeat))
+                {
+                    line.Repeat = repeat;
+                }
+                else
+                {
+                    throw new ParameterException(Source, key, value, "a whole number from 0");
+                }
+            }
+            return line;
+        }
+
+        /// <summary>The help text of a program that takes these arguments.</summary>
+        /// <param name="usage">The program's own usage lines.</param>
+        public static string Help(string usage)
+        {
+            var text = new StringBuilder(usage);
+            text.Append("\nA run:\n"
+                + "  -parameters FILE   JSON file with the parameters; without it the defaults count\n"
+                + "  -out DIR           folder of the results (positions.json, parameters.json, summary.json)\n"
+                + "  -repeat K          the run is timed, this is its K-th repeat\n"
+                + "  -KEY VALUE         any parameter, instead of the file's\n\nParameters:\n");
+            foreach (ParameterEntry entry in ParameterTable.Entries)
+            {
+                text.Append("  -").Append(entry.Key).Append(": ").Append(entry.Help).Append("\n      ")
+                    .Append(entry.Allowed).Append("; default ").Append(entry.Default).Append('\n');
+            }
+            text.Append("\nExit codes: 0 converged or finished, 2 bad arguments or parameters, 4 diverged, 5 failed,\n"
+                + "70 internal error, 130 interrupted\n");
+            return text.ToString();
+        }
+    }
+}

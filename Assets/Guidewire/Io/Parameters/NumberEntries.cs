@@ -1,0 +1,170 @@
+using System;
+using System.Globalization;
+using Guidewire.Core;
+using Newtonsoft.Json.Linq;
+
+namespace Guidewire.Io
+{
+    /// <summary>A real number within bounds.</summary>
+    internal sealed class NumberEntry : ParameterEntry
+    {
+        private readonly Func<RunParameters, double> _get;
+        private readonly Action<RunParameters, double> _set;
+        private readonly NumberRange _range;
+
+        public NumberEntry(string key, string unit, NumberRange range, string help, Func<RunParameters, double> get,
+            Action<RunParameters, double> set)
+            : base(key, unit, help)
+        {
+            _range = range;
+            _get = get;
+            _set = set;
+        }
+
+        public override string Allowed => WithUnit("a number" + _range.Text);
+
+        /// <summary>The bounds, for whoever offers a slider.</summary>
+        public NumberRange Range => _range;
+
+        public override JToken Write(RunParameters source)
+        {
+            return new JValue(_get(source));
+        }
+
+        internal override bool TryRead(RunParameters target, JToken value)
+        {
+            if (!TryNumber(value, out double number) || !_range.Contains(number))
+            {
+                return false;
+            }
+            _set(target, number);
+            return true;
+        }
+
+        internal static bool TryNumber(JToken value, out double number)
+        {
+            number = double.NaN;
+            if (value.Type != JTokenType.Float && value.Type != JTokenType.Integer)
+            {
+                return false;
+            }
+            // Integers beyond 64 bits arrive as BigInteger; their text reads as a double like any other number.
+            string text = Convert.ToString(((JValue)value).Value, CultureInfo.InvariantCulture) ?? "";
+            if (value.Type == JTokenType.Float)
+            {
+                number = (double)value;
+            }
+            else if (!double.TryParse(text, NumberStyles.Float, CultureInfo.InvariantCulture, out number))
+            {
+                return false;
+            }
+            return !double.IsNaN(number) && !double.IsInfinity(number);
+        }
+    }
+
+    /// <summary>A whole number within bounds.</summary>
+    internal sealed class IntegerEntry : ParameterEntry
+    {
+        private readonly int _minimum;
+        private readonly int _maximum;
+        private readonly Func<RunParameters, int> _get;
+        private readonly Action<RunParameters, int> _set;
+
+        public IntegerEntry(string key, string unit, int minimum, int maximum, string help,
+            Func<RunParameters, int> get, Action<RunParameters, int> set)
+            : base(key, unit, help)
+        {
+            _minimum = minimum;
+            _maximum = maximum;
+            _get = get;
+            _set = set;
+        }
+
+        public override string Allowed => WithUnit(string.Format(CultureInfo.InvariantCulture,
+            "a whole number from {0} to {1}", _minimum, _maximum));
+
+        public override JToken Write(RunParameters source)
+        {
+            return new JValue(_get(source));
+        }
+
+        internal override bool TryRead(RunParameters target, JToken value)
+        {
+            // 30.0 is a whole number, however it is written.
+            if (!NumberEntry.TryNumber(value, out double number) || number != Math.Floor(number)
+                || number < _minimum || number > _maximum)
+            {
+                return false;
+            }
+            _set(target, (int)number);
+            return true;
+        }
+    }
+
+    /// <summary>Three numbers: [x, y, z], or {"x": .., "y": .., "z": ..} as the seed's files have them.</summary>
+    internal sealed class VectorEntry : ParameterEntry
+    {
+        private readonly bool _mayBeZero;
+        private readonly Func<RunParameters, Vector3d> _get;
+        private readonly Action<RunParameters, Vector3d> _set;
+
+        public VectorEntry(string key, string unit, bool mayBeZero, string help, Func<RunParameters, Vector3d> get,
+            Action<RunParameters, Vector3d> set)
+            : base(key, unit, help)
+        {
+            _mayBeZero = mayBeZero;
+            _get = get;
+            _set = set;
+        }
+
+        public override string Allowed =>
+            WithUnit("three numbers [x, y, z] or {\"x\", \"y\", \"z\"}" + (_mayBeZero ? "" : ", not all 0"));
+
+        public override JToken Write(RunParameters source)
+        {
+            Vector3d v = _get(source);
+            return new JArray(v.X, v.Y, v.Z);
+        }
+
+        internal override bool TryRead(RunParameters target, JToken value)
+        {
+            if (!TryVector(value, out Vector3d vector) || (!_mayBeZero && vector.LengthSquared == 0.0))
+            {
+                return false;
+            }
+            _set(target, vector);
+            return true;
+        }
+
+        internal static bool TryVector(JToken value, out Vector3d vector)
+        {
+            vector = default;
+            JToken? x;
+            JToken? y;
+            JToken? z;
+            if (value is JArray array && array.Count == 3)
+            {
+                x = array[0];
+                y = array[1];
+                z = array[2];
+            }
+            else if (value is JObject map && map.Count == 3)
+            {
+                x = map["x"];
+                y = map["y"];
+                z = map["z"];
+            }
+            else
+            {
+                return false;
+            }
+            if (x == null || y == null || z == null || !NumberEntry.TryNumber(x, out double a)
+                || !NumberEntry.TryNumber(y, out double b) || !NumberEntry.TryNumber(z, out double c))
+            {
+                return false;
+            }
+            vector = new Vector3d(a, b, c);
+            return true;
+        }
+    }
+}

@@ -1,0 +1,62 @@
+using System.Globalization;
+
+namespace Guidewire.Io
+{
+    /// <summary>Bounds of a number, each of them inside or outside.</summary>
+    public readonly struct NumberRange
+    {
+        private readonly bool _minimumExcluded;
+
+        private NumberRange(double minimum, bool minimumExcluded, double maximum)
+        {
+            Minimum = minimum;
+            _minimumExcluded = minimumExcluded;
+            Maximum = maximum;
+        }
+
+        /// <summary>Every finite number.</summary>
+        public static NumberRange Any => new NumberRange(double.NegativeInfinity, false, double.PositiveInfinity);
+
+        /// <summary>Above 0.</summary>
+        public static NumberRange Positive => new NumberRange(0.0, true, double.PositiveInfinity);
+
+        /// <summary>0 and above.</summary>
+        public static NumberRange NotNegative => new NumberRange(0.0, false, double.PositiveInfinity);
+
+        /// <summary>Lower bound.</summary>
+        public double Minimum { get; }
+
+        /// <summary>Upper bound.</summary>
+        public double Maximum { get; }
+
+        /// <summary>From a lower to an upper bound, both inside.</summary>
+        public static NumberRange Between(double minimum, double maximum)
+        {
+            return new NumberRange(minimum, false, maximum);
+        }
+
+        /// <summary>Above 0, up to a bound that is inside.</summary>
+        public static NumberRange PositiveUpTo(double maximum)
+        {
+            return new NumberRange(0.0, true, maximum);
+        }
+
+        /// <summary>The bounds as they follow "a number".</summary>
+        internal string Text
+        {
+            get
+            {
+                string text = double.IsNegativeInfinity(Minimum) ? ""
+                    : (_minimumExcluded ? " > " : " >= ") + Minimum.ToString("R", CultureInfo.InvariantCulture);
+                return double.IsPositiveInfinity(Maximum) ? text
+                    : text + (text.Length > 0 ? " and" : "") + " <= " + Maximum.ToString("R", CultureInfo.InvariantCulture);
+            }
+        }
+
+        /// <summary>Whether a number lies inside.</summary>
+        internal bool Contains(double value)
+        {
+            return (_minimumExcluded ? value > Minimum : value >= Minimum) && value <= Maximum;
+        }
+    }
+}

@@ -1,0 +1,197 @@
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+using System.IO;
+using System.Security.Cryptography;
+using System.Text;
+using Guidewire.Core;
+using Newtonsoft.Json;
+using Newtonsoft.Json.Linq;
+
+namespace Guidewire.Io
+{
+    /// <summary>Reads the parameters of a run from a JSON file and from overrides (thesis 3.2.2), and checks them against
+    /// the <see cref="ParameterTable"/>.</summary>
+    public sealed class ParameterHandler
+    {
+        // An older word and the newer one that says the same and more.
+        private static readonly (string Older, string Newer)[] Twins =
+        {
+            ("VerletIntegration", "integrator"),
+            ("SteadyState", "drive"),
+        };
+
+        private readonly Dictionary<string, (JToken Value, string Source)> _given =
+            new Dictionary<string, (JToken, string)>();
+
+        private readonly List<string> _warnings = new List<string>();
+
+        private ParameterHandler()
+        {
+        }
+
+        /// <summary>The effective values.</summary>
+        public RunParameters Values { get; } = new RunParameters();
+
+        /// <summary>What is allowed but most likely not meant, one line each.</summary>
+        public IReadOnlyList<string> Warnings => _warnings;
+
+        /// <summary>SHA-256 of all effective values but output paths, in hex: two runs with the same hash give the same
+        /// result but for wall times.</summary>
+        public string Hash { get; private set; } = "";
+
+        /// <summary>The parameters of a file with overrides on top.</summary>
+        /// <param name="file">A JSON file, or null for the defaults (thesis table 4.1).</param>
+        /// <param name="overrides">Keys and values that count instead of the file's.</param>
+        /// <exception cref="ParameterException">A file that cannot be read, a key that is not known, a value that is not
+        /// allowed, two keys that disagree.</exception>
+        public static ParameterHandler Load(string? file, IEnumerable<KeyValuePair<string, JToken>> overrides)
+        {
+            var handler = new ParameterHandler();
+            if (file != null)
+            {
+                foreach (JProperty property in JsonText.ReadObject(file).Properties())
+                {
+                    handler.Take(property.Name, property.Value, file);
+                }
+            }
+            foreach (KeyValuePair<string, JToken> pair in overrides)
+            {
+                foreach ((string older, string newer) in Twins)
+                {
+                    // What the command line says in one word replaces what the file says in the other.
+                    string? twin = pair.Key == older ? newer : pair.Key == newer ? older : null;
+                    if (twin != null && handler._given.TryGetValue(twin, out var other) && other.Source == file)
+                    {
+                        handler._given.Remove(twin);
+                    }
+                }
+                handler.Take(pair.Key, pair.Value, CommandLineHandler.Source);
+            }
+            handler.Apply();
+            return handler;
+        }
+
+        /// <summary>All effective values; a parameter file that repeats the run.</summary>
+        public JObject ToJson()
+        {
+            var json = new JObject();
+            foreach (ParameterEntry entry in ParameterTable.Entries)
+            {
+                json[entry.Key] = entry.Write(Values);
+            }
+            return json;
+        }
+
+        private void Take(string key, JToken value, string source)
+        {
+            if (ParameterTable.Find(key) == null)
+            {
+                string? nearest = ParameterTable.Nearest(key);
+                throw new ParameterException(source + ": unknown key '" + key + "'"
+                    + (nearest != null ? ": did you mean '" + nearest + "'?" : ": --keys lists what is allowed"));
+            }
+            _given[key] = (value, source);
+        }
+
+        private void Apply()
+        {
+            foreach ((string older, string _) in Twins)
+            {
+                ApplyKey(older);
+            }
+            foreach (ParameterEntry entry in ParameterTable.Entries)
+            {
+                if (Array.FindIndex(Twins, twin => twin.Older == entry.Key) < 0)
+                {
+                    ApplyKey(entry.Key);
+                }
+            }
+            foreach ((string older, string newer) in Twins)
+            {
+                CheckTwins(older, newer);
+            }
+            SimulationParameters simulation = Values.Simulation;
+            if (_given.ContainsKey("SteadyState") && simulation.Drive == Drive.Displace
+                && !_given.ContainsKey("displacementPerStep"))
+            {
+                simulation.DisplacementPerStep = simulation.Displacement;
+            }
+            if (Values.StartFile.Length > 0)
+            {
+                simulation.Start = StartFileReader.Read(Values.StartFile, simulation.NumberRodElements);
+            }
+            Warn();
+            Hash = ComputeHash();
+        }
+
+        private void ApplyKey(string key)
+        {
+            if (!_given.TryGetValue(key, out (JToken Value, string Source) given))
+            {
+                return;
+            }
+            ParameterEntry entry = ParameterTable.Find(key)!;
+            if (!entry.TryRead(Values, given.Value))
+            {
+                throw new ParameterException(given.Source, key, given.Value.ToString(Formatting.None), entry.Allowed);
+            }
+        }
+
+        private void CheckTwins(string older, string newer)
+        {
+            if (_given.TryGetValue(older, out var old) && _given.TryGetValue(newer, out var given)
+                && !JToken.DeepEquals(ParameterTable.Find(older)!.Write(Values), old.Value))
+            {
+                throw new ParameterException(given.Source + ": " + newer + " = " + given.Value.ToString(Formatting.None)
+                    + " and " + older + " = " + old.Value.ToString(Formatting.None) + " disagree: give one of the two");
+            }
+        }
+
+        private void Warn()
+        {
+            SimulationParameters simulation = Values.Simulation;
+            double l = simulation.GuidewireLength / simulation.NumberRodElements;
+            if (_given.TryGetValue("rodElementLength", out var length) && Math.Abs((double)length.Value - l) > 1e-9 * l)
+            {
+                AddWarning("{0}: rodElementLength = {1} is not guidewireLength / numberRodElements = {2}, which counts",
+                    length.Source, (double)length.Value, l);
+            }
+            if (simulation.StretchStiffness >= 2.0)
+            {
+                AddWarning("stretchStiffness = {0} is at or beyond 2, where transversal motion breaks down",
+                    simulation.StretchStiffness);
+            }
+            if (simulation.BendStiffness > l)
+            {
+                AddWarning("bendStiffness = {0} is beyond the element length {1}, where bending breaks down",
+                    simulation.BendStiffness, l);
+            }
+        }
+
+        private void AddWarning(string format, params object[] values)
+        {
+            _warnings.Add(string.Format(CultureInfo.InvariantCulture, format, values));
+        }
+
+        private string ComputeHash()
+        {
+            var text = new StringBuilder();
+            foreach (ParameterEntry entry in ParameterTable.Entries)
+            {
+                if (!entry.IsOutputPath && entry.Key != "startFile")
+                {
+                    text.Append(entry.Key).Append('=').Append(entry.Write(Values).ToString(Formatting.None)).Append('\n');
+                }
+            }
+            if (Values.StartFile.Length > 0)
+            {
+                // What the file holds counts, not what it is called.
+                text.Append("start=").Append(File.ReadAllText(Values.StartFile));
+            }
+            using SHA256 sha = SHA256.Create();
+            byte[] digest = sha.ComputeHash(Encoding.UTF8.GetBytes(text.ToString()));
+            return BitConverter.ToString(digest).Replace("-", "").ToLowerInvariant();
+        }
+    }
+}

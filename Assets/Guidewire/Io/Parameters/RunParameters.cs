@@ -1,0 +1,36 @@
+using Guidewire.Core;
+
+namespace Guidewire.Io
+{
+    /// <summary>Which spheres a log holds.</summary>
+    public enum LoggedSpheres
+    {
+        /// <summary>All n + 1.</summary>
+        All,
+
+        /// <summary>The last one only.</summary>
+        Last,
+    }
+
+    /// <summary>All that a parameter file says: what is simulated, and what is written of it.</summary>
+    public sealed class RunParameters
+    {
+        /// <summary>What Core is told.</summary>
+        public SimulationParameters Simulation { get; } = new SimulationParameters();
+
+        /// <summary>Folder of the results; empty where the command line must name it.</summary>
+        public string LogFilePath { get; set; } = "";
+
+        /// <summary>File with a start other than the straight wire; empty for none.</summary>
+        public string StartFile { get; set; } = "";
+
+        /// <summary>Every k-th step is logged.</summary>
+        public int LogEvery { get; set; } = 1;
+
+        /// <summary>Which spheres are logged.</summary>
+        public LoggedSpheres LogSpheres { get; set; } = LoggedSpheres.All;
+
+        /// <summary>Whether orientations are logged too.</summary>
+        public bool LogOrientations { get; set; }
+    }
+}

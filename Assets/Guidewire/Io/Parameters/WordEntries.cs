@@ -1,0 +1,132 @@
+using System;
+using Newtonsoft.Json.Linq;
+
+namespace Guidewire.Io
+{
+    /// <summary>true or false.</summary>
+    internal sealed class SwitchEntry : ParameterEntry
+    {
+        private readonly Func<RunParameters, bool> _get;
+        private readonly Action<RunParameters, bool> _set;
+
+        public SwitchEntry(string key, string help, Func<RunParameters, bool> get, Action<RunParameters, bool> set)
+            : base(key, "", help)
+        {
+            _get = get;
+            _set = set;
+        }
+
+        public override string Allowed => "true or false";
+
+        public override JToken Write(RunParameters source)
+        {
+            return new JValue(_get(source));
+        }
+
+        internal override bool TryRead(RunParameters target, JToken value)
+        {
+            if (value.Type != JTokenType.Boolean)
+            {
+                return false;
+            }
+            _set(target, (bool)value);
+            return true;
+        }
+    }
+
+    /// <summary>One of a few words, in camelCase.</summary>
+    internal sealed class ChoiceEntry<T> : ParameterEntry
+        where T : struct, Enum
+    {
+        private readonly Func<RunParameters, T> _get;
+        private readonly Action<RunParameters, T> _set;
+
+        public ChoiceEntry(string key, string help, Func<RunParameters, T> get, Action<RunParameters, T> set)
+            : base(key, "", help)
+        {
+            _get = get;
+            _set = set;
+        }
+
+        public override string Allowed
+        {
+            get
+            {
+                string[] names = Enum.GetNames(typeof(T));
+                for (int i = 0; i < names.Length; i++)
+                {
+                    names[i] = "\"" + Word(names[i]) + "\"";
+                }
+                return "one of " + string.Join(", ", names);
+            }
+        }
+
+        public override JToken Write(RunParameters source)
+        {
+            return new JValue(Word(_get(source).ToString()));
+        }
+
+        internal override bool TryRead(RunParameters target, JToken value)
+        {
+            if (value.Type != JTokenType.String)
+            {
+                return false;
+            }
+            foreach (string name in Enum.GetNames(typeof(T)))
+            {
+                if (Word(name) == (string?)value)
+                {
+                    _set(target, (T)Enum.Parse(typeof(T), name));
+                    return true;
+                }
+            }
+            return false;
+        }
+
+        internal override JToken FromText(string text)
+        {
+            return new JValue(text);
+        }
+
+        private static string Word(string name)
+        {
+            return char.ToLowerInvariant(name[0]) + name.Substring(1);
+        }
+    }
+
+    /// <summary>Any text: a path.</summary>
+    internal sealed class TextEntry : ParameterEntry
+    {
+        private readonly Func<RunParameters, string> _get;
+        private readonly Action<RunParameters, string> _set;
+
+        public TextEntry(string key, string help, Func<RunParameters, string> get, Action<RunParameters, string> set)
+            : base(key, "", help)
+        {
+            _get = get;
+            _set = set;
+        }
+
+        public override string Allowed => "a text in double quotes";
+
+        public override JToken Write(RunParameters source)
+        {
+            return new JValue(_get(source));
+        }
+
+        internal override bool TryRead(RunParameters target, JToken value)
+        {
+            if (value.Type != JTokenType.String)
+            {
+                return false;
+            }
+            _set(target, (string?)value ?? "");
+            return true;
+        }
+
+        internal override JToken FromText(string text)
+        {
+            return new JValue(text);
+        }
+    }
+}

@@ -1,0 +1,41 @@
+using System.IO;
+
+namespace Guidewire.Io
+{
+    /// <summary>Files that are whole or not there: written under a temporary name, then renamed.</summary>
+    internal static class AtomicFile
+    {
+        /// <summary>What follows the name of a file that is not whole yet.</summary>
+        public const string Partial = ".partial";
+
+        /// <summary>Writes a text file.</summary>
+        /// <exception cref="IOException">The disk is full, or the folder is gone.</exception>
+        public static void Write(string path, string text)
+        {
+            try
+            {
+                File.WriteAllText(path + Partial, text);
+            }
+            catch (IOException)
+            {
+                File.Delete(path + Partial);
+                throw;
+            }
+            Publish(path);
+        }
+
+        /// <summary>Gives what was written under the temporary name its own.</summary>
+        /// <exception cref="IOException">The file is gone.</exception>
+        public static void Publish(string path)
+        {
+            if (File.Exists(path))
+            {
+                File.Replace(path + Partial, path, null);
+            }
+            else
+            {
+                File.Move(path + Partial, path);
+            }
+        }
+    }
+}

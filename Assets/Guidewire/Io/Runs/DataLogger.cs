@@ -1,0 +1,167 @@
+using System;
+using System.IO;
+using System.Text;
+using Guidewire.Core;
+
+namespace Guidewire.Io
+{
+    /// <summary>Writes positions.json (thesis 3.2.3) as the run goes, one entry a line, in constant memory:
+    /// <c>{"0": {"totalTime": s, "elapsedMilliseconds": ms, "delta": units, "sphere": {"0": {"x","y","z","vx","vy","vz"},
+    /// ...}}, "1": ...}</c>, and where asked for <c>"orientation": {"0": {"x","y","z","w"}, ...}</c>.</summary>
+    /// <remarks>Entry "k" is the state after k steps. Until <see cref="Close"/> the file is not whole JSON, but every
+    /// line that ends is a whole entry. Numbers are round-trip exact; one that is not finite is null.</remarks>
+    internal sealed class DataLogger : IDisposable
+    {
+        private const int Buffer = 1 << 16;
+        private const double FlushAfter = 1000.0;     // ms of run time
+
+        private readonly FileStream _stream;
+        private readonly RunParameters _parameters;
+        private byte[] _bytes = new byte[Buffer];
+        private int _length;
+        private bool _empty = true;
+        private double _flushed;
+
+        /// <summary>Opens the file and keeps others from writing to it.</summary>
+        /// <param name="path">Where to write.</param>
+        /// <param name="parameters">What to write of each state.</param>
+        /// <exception cref="IOException">The file cannot be written, or another run writes to it.</exception>
+        public DataLogger(string path, RunParameters parameters)
+        {
+            _stream = new FileStream(path, FileMode.Create, FileAccess.Write, FileShare.Read, 1);
+            _parameters = parameters;
+            Append("{\n");
+        }
+
+        /// <summary>Writes one state.</summary>
+        /// <param name="simulation">The run after its last step.</param>
+        /// <param name="elapsed">Wall time since the run's start in ms.</param>
+        /// <exception cref="IOException">The disk is full or gone.</exception>
+        public void Log(Simulation simulation, double elapsed)
+        {
+            RodState state = simulation.State;
+            Append(_empty ? "\"" : ",\n\"");
+            _empty = false;
+            Append(simulation.StepCount);
+            Append("\": {\"totalTime\": ");
+            Append(simulation.Time);
+            Append(", \"elapsedMilliseconds\": ");
+            Append(elapsed);
+            Append(", \"delta\": ");
+            Append(simulation.PredictionError);
+            Append(", \"sphere\": {");
+            int first = _parameters.LogSpheres == LoggedSpheres.Last ? state.ElementCount : 0;
+            for (int i = first; i < state.SphereCount; i++)
+            {
+                Append(i == first ? "\"" : ", \"");
+                Append(i);
+                Append("\": {");
+                Append("\"x\": ", state.Positions[i].X);
+                Append(", \"y\": ", state.Positions[i].Y);
+                Append(", \"z\": ", state.Positions[i].Z);
+                Append(", \"vx\": ", state.Velocities[i].X);
+                Append(", \"vy\": ", state.Velocities[i].Y);
+                Append(", \"vz\": ", state.Velocities[i].Z);
+                Append("}");
+            }
+            Append("}");
+            if (_parameters.LogOrientations)
+            {
+                AppendOrientations(state);
+            }
+            Append("}");
+            if (elapsed - _flushed > FlushAfter)
+            {
+                _flushed = elapsed;
+                Flush();
+            }
+        }
+
+        /// <summary>Makes the file whole JSON, and everything in it safe on the disk.</summary>
+        /// <exception cref="IOException">The disk is full or gone.</exception>
+        public void Close()
+        {
+            Append("\n}\n");
+            Flush();
+            _stream.Flush(true);
+            _stream.Dispose();
+        }
+
+        /// <summary>Lets go of the file as it is.</summary>
+        public void Dispose()
+        {
+            _stream.Dispose();
+        }
+
+        private void AppendOrientations(RodState state)
+        {
+            Append(", \"orientation\": {");
+            for (int j = 0; j < state.ElementCount; j++)
+            {
+                Append(j == 0 ? "\"" : ", \"");
+                Append(j);
+                Append("\": {");
+                Append("\"x\": ", state.Orientations[j].X);
+                Append(", \"y\": ", state.Orientations[j].Y);
+                Append(", \"z\": ", state.Orientations[j].Z);
+                Append(", \"w\": ", state.Orientations[j].W);
+                Append("}");
+            }
+            Append("}");
+        }
+
+        private void Append(string name, double value)
+        {
+            Append(name);
+            Append(value);
+        }
+
+        private void Append(string ascii)
+        {
+            Reserve(ascii.Length);
+            for (int i = 0; i < ascii.Length; i++)
+            {
+                _bytes[_length + i] = (byte)ascii[i];
+            }
+            _length += ascii.Length;
+        }
+
+        private void Append(int value)
+        {
+            Reserve(16);
+            System.Buffers.Text.Utf8Formatter.TryFormat(value, _bytes.AsSpan(_length), out int written);
+            _length += written;
+        }
+
+        private void Append(double value)
+        {
+            if (double.IsNaN(value) || double.IsInfinity(value))
+            {
+                Append("null");
+                return;
+            }
+            Reserve(40);
+#if NET8_0_OR_GREATER
+            value.TryFormat(_bytes.AsSpan(_length), out int written, default, System.Globalization.CultureInfo.InvariantCulture);
+            _length += written;
+#else
+            _length += Encoding.ASCII.GetBytes(value.ToString("R", System.Globalization.CultureInfo.InvariantCulture),
+                _bytes.AsSpan(_length));
+#endif
+        }
+
+        private void Reserve(int count)
+        {
+            if (_length + count > _bytes.Length)
+            {
+                Flush();
+            }
+        }
+
+        private void Flush()
+        {
+            _stream.Write(_bytes, 0, _length);
+            _length = 0;
+        }
+    }
+}

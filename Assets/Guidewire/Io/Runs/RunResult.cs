@@ -1,0 +1,27 @@
+using Guidewire.Core;
+
+namespace Guidewire.Io
+{
+    /// <summary>What became of a run.</summary>
+    public sealed class RunResult
+    {
+        internal RunResult(Outcome outcome, string reason, bool reused)
+        {
+            Outcome = outcome;
+            Reason = reason;
+            Reused = reused;
+        }
+
+        /// <summary>The outcome's one word, as in summary.json.</summary>
+        public string Word => RunSummary.Word(Outcome);
+
+        /// <summary>How it ended.</summary>
+        public Outcome Outcome { get; }
+
+        /// <summary>Why, in one line.</summary>
+        public string Reason { get; }
+
+        /// <summary>True when an earlier result of the same parameters stood in for it.</summary>
+        public bool Reused { get; }
+    }
+}

@@ -1,0 +1,104 @@
+using System;
+using System.IO;
+using System.Runtime.InteropServices;
+using Guidewire.Core;
+using Newtonsoft.Json;
+using Newtonsoft.Json.Linq;
+
+namespace Guidewire.Io
+{
+    /// <summary>summary.json: what a run came to, and what made it.</summary>
+    public static class RunSummary
+    {
+        /// <summary>Name of the file in the run's folder.</summary>
+        public const string FileName = "summary.json";
+
+        // Changes with every change of the code that simulates, and with nothing else.
+        private static string CoreBuild => typeof(Simulation).Module.ModuleVersionId.ToString("N");
+
+        /// <summary>The summary as text.</summary>
+        /// <param name="simulation">The run at its end.</param>
+        /// <param name="handler">Its parameters.</param>
+        /// <param name="times">Its step times.</param>
+        /// <param name="wallTime">Wall time since the start of the run in s.</param>
+        /// <param name="repeat">Number of a timed repeat, or null.</param>
+        /// <param name="log">Name of the log in the run's folder.</param>
+        internal static string Text(Simulation simulation, ParameterHandler handler, StepTimes times, double wallTime,
+            int? repeat, string log)
+        {
+            var json = new JObject
+            {
+                ["outcome"] = Word(simulation.Outcome),
+                ["reason"] = simulation.Reason,
+                ["steps"] = simulation.StepCount,
+                ["inGameTime"] = simulation.Time,
+                ["computationTime"] = 1e-3 * times.Sum,
+                ["wallTime"] = wallTime,
+                ["averageStepTime"] = times.Average,
+                ["medianStepTime"] = times.Median(),
+                ["predictionError"] = Finite(simulation.PredictionError),
+                ["steadyStateStep"] = simulation.SteadyStateStep,
+                ["timed"] = repeat.HasValue,
+                ["repeat"] = repeat,
+                ["warnings"] = new JArray(handler.Warnings),
+                ["log"] = log,
+                ["versions"] = new JObject
+                {
+                    ["guidewire"] = Version,
+                    ["core"] = CoreBuild,
+                    ["runtime"] = RuntimeInformation.FrameworkDescription,
+                    ["machine"] = RuntimeInformation.OSDescription + ", " + RuntimeInformation.ProcessArchitecture + ", "
+                        + Environment.ProcessorCount + " processors",
+                },
+                ["parameterHash"] = handler.Hash,
+                ["complete"] = true,
+            };
+            return json.ToString(Formatting.Indented) + "\n";
+        }
+
+        /// <summary>The product's version.</summary>
+        public static string Version => typeof(RunSummary).Assembly.GetName().Version?.ToString(3) ?? "0";
+
+        /// <summary>The outcome that a folder already holds for the same parameters, the same repeat and the same build,
+        /// or null.</summary>
+        internal static Outcome? Reusable(string folder, ParameterHandler handler, int? repeat)
+        {
+            string path = Path.Combine(folder, FileName);
+            if (!File.Exists(path))
+            {
+                return null;
+            }
+            try
+            {
+                JObject json = JsonText.ReadObject(path);
+                bool same = (bool?)json["complete"] == true
+                    && (string?)json["parameterHash"] == handler.Hash
+                    && (string?)json["versions"]?["core"] == CoreBuild
+                    && (int?)json["repeat"] == repeat
+                    && File.Exists(Path.Combine(folder, (string?)json["log"] ?? ""));
+                if (!same || !Enum.TryParse((string?)json["outcome"], true, out Outcome outcome))
+                {
+                    return null;
+                }
+                // What was stopped or lost is not done.
+                return outcome == Outcome.Interrupted || outcome == Outcome.Failed ? (Outcome?)null : outcome;
+            }
+            catch (Exception error) when (error is ParameterException || error is ArgumentException
+                || error is FormatException || error is InvalidCastException)
+            {
+                return null;    // not a summary that this program wrote: the run is done anew
+            }
+        }
+
+        /// <summary>The outcome's one word.</summary>
+        internal static string Word(Outcome outcome)
+        {
+            return outcome.ToString().ToLowerInvariant();
+        }
+
+        private static JValue Finite(double value)
+        {
+            return double.IsNaN(value) || double.IsInfinity(value) ? JValue.CreateNull() : new JValue(value);
+        }
+    }
+}
