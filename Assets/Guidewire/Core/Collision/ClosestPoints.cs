@@ -5,9 +5,9 @@ namespace Guidewire.Core
 {
     /// <summary>Exact closest points between points, segments and triangles (cases after Ericson, Real-Time Collision
     /// Detection, chapter 5). A segment's parameter runs from 0 at its first end to 1 at its second.</summary>
-    /// <remarks>Every answer is a point of the triangle, found as the smallest of candidates that cover all cases, so
-    /// that needles and triangles of no area lose no digits: what rounding can spoil is which candidate wins, and
-    /// there two of them agree.</remarks>
+    /// <remarks>The answer is the smallest of candidates that cover all cases. A needle's normal has few digits left, so
+    /// there every candidate is made as a point of the triangle, its distance measured to that point: what rounding can
+    /// spoil is which candidate is tried, and where that is in doubt two of them agree.</remarks>
     internal static class ClosestPoints
     {
         /// <summary>Feature of a triangle on which a closest point lies: inside it.</summary>
@@ -18,6 +18,9 @@ namespace Guidewire.Core
 
         /// <summary>Corner k is feature Corner + k.</summary>
         public const int Corner = 4;
+
+        // Squared ratio of a triangle's height to its length below which it is a needle.
+        private const double Needle = 1e-8;
 
         /// <summary>Parameter in [0, 1] of the point of segment a b nearest to p; 0 for a segment of no length.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -85,10 +88,14 @@ namespace Guidewire.Core
         {
             Vector3d n = Vector3d.Cross(v1 - v0, v2 - v0);
             double nn = n.LengthSquared;
+            if (IsNeedle(nn, v1 - v0, v2 - v0))
+            {
+                return PointNeedle(p, v0, v1, v2, out point, out feature);
+            }
             bool beyond0 = !(Vector3d.Dot(Vector3d.Cross(n, v1 - v0), p - v0) >= 0.0);
             bool beyond1 = !(Vector3d.Dot(Vector3d.Cross(n, v2 - v1), p - v1) >= 0.0);
             bool beyond2 = !(Vector3d.Dot(Vector3d.Cross(n, v0 - v2), p - v2) >= 0.0);
-            if (nn > 0.0 && !beyond0 && !beyond1 && !beyond2)
+            if (!beyond0 && !beyond1 && !beyond2)
             {
                 double height = Vector3d.Dot(n, p - v0);
                 feature = Face;
@@ -97,19 +104,18 @@ namespace Guidewire.Core
             }
 
             // Only an edge that p lies beyond can hold the closest point of a convex figure.
-            bool all = !(nn > 0.0);
             double best = double.PositiveInfinity;
             point = v0;
             feature = Corner;
-            if (all || beyond0)
+            if (beyond0)
             {
                 PointEdge(p, v0, v1, 0, ref best, ref point, ref feature);
             }
-            if (all || beyond1)
+            if (beyond1)
             {
                 PointEdge(p, v1, v2, 1, ref best, ref point, ref feature);
             }
-            if (all || beyond2)
+            if (beyond2)
             {
                 PointEdge(p, v2, v0, 2, ref best, ref point, ref feature);
             }
@@ -132,7 +138,14 @@ namespace Guidewire.Core
             point = v0;
             feature = Corner;
             bool crosses = (ha <= 0.0 && hb >= 0.0) || (ha >= 0.0 && hb <= 0.0);
-            if (nn > 0.0)
+            if (IsNeedle(nn, e0, v2 - v0))
+            {
+                double cut = crosses && ha != hb ? ha / (ha - hb) : 0.0;
+                NeedleCandidate(a, 0.0, v0, v1, v2, ref best, ref s, ref point, ref feature);
+                NeedleCandidate(b, 1.0, v0, v1, v2, ref best, ref s, ref point, ref feature);
+                NeedleCandidate(Vector3d.Lerp(a, b, cut), cut, v0, v1, v2, ref best, ref s, ref point, ref feature);
+            }
+            else
             {
                 double nearer = Math.Min(Math.Abs(ha), Math.Abs(hb));
                 if (!crosses && nearer * nearer > limit * nn)
@@ -197,6 +210,54 @@ namespace Guidewire.Core
         {
             return Vector3d.Dot(m0, x - v0) >= 0.0 && Vector3d.Dot(m1, x - v1) >= 0.0
                 && Vector3d.Dot(m2, x - v2) >= 0.0;
+        }
+
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        private static bool IsNeedle(double areaSquared, in Vector3d edge, in Vector3d other)
+        {
+            double size = edge.LengthSquared + other.LengthSquared;
+            return !(areaSquared > Needle * size * size);
+        }
+
+        private static double PointNeedle(
+            in Vector3d p, in Vector3d v0, in Vector3d v1, in Vector3d v2, out Vector3d point, out int feature)
+        {
+            double best = double.PositiveInfinity;
+            point = v0;
+            feature = Corner;
+            PointEdge(p, v0, v1, 0, ref best, ref point, ref feature);
+            PointEdge(p, v1, v2, 1, ref best, ref point, ref feature);
+            PointEdge(p, v2, v0, 2, ref best, ref point, ref feature);
+            Vector3d n = Vector3d.Cross(v1 - v0, v2 - v0);
+            double nn = n.LengthSquared;
+            double weight1 = Vector3d.Dot(Vector3d.Cross(p - v0, v2 - v0), n) / nn;
+            double weight2 = Vector3d.Dot(Vector3d.Cross(v1 - v0, p - v0), n) / nn;
+            if (weight1 >= 0.0 && weight2 >= 0.0 && weight1 + weight2 <= 1.0)
+            {
+                Vector3d x = v0 + weight1 * (v1 - v0) + weight2 * (v2 - v0);
+                double squared = (p - x).LengthSquared;
+                if (squared < best)
+                {
+                    best = squared;
+                    point = x;
+                    feature = Face;
+                }
+            }
+            return best;
+        }
+
+        private static void NeedleCandidate(
+            in Vector3d p, double sFixed, in Vector3d v0, in Vector3d v1, in Vector3d v2,
+            ref double best, ref double s, ref Vector3d point, ref int feature)
+        {
+            double squared = PointNeedle(p, v0, v1, v2, out Vector3d x, out int at);
+            if (squared < best)
+            {
+                best = squared;
+                s = sFixed;
+                point = x;
+                feature = at;
+            }
         }
 
         private static void PointEdge(
