@@ -228,10 +228,13 @@ namespace Guidewire.Core
             PointEdge(p, v0, v1, 0, ref best, ref point, ref feature);
             PointEdge(p, v1, v2, 1, ref best, ref point, ref feature);
             PointEdge(p, v2, v0, 2, ref best, ref point, ref feature);
-            Vector3d n = Vector3d.Cross(v1 - v0, v2 - v0);
-            double nn = n.LengthSquared;
-            double weight1 = Vector3d.Dot(Vector3d.Cross(p - v0, v2 - v0), n) / nn;
-            double weight2 = Vector3d.Dot(Vector3d.Cross(v1 - v0, p - v0), n) / nn;
+
+            // Gram and Schmidt: an error of the small part across one edge leaves the part along it exact.
+            Vector3d u = v1 - v0;
+            double skew = Vector3d.Dot(v2 - v0, u) / u.LengthSquared;
+            Vector3d across = v2 - v0 - skew * u;
+            double weight2 = Vector3d.Dot(p - v0, across) / across.LengthSquared;
+            double weight1 = Vector3d.Dot(p - v0, u) / u.LengthSquared - skew * weight2;
             if (weight1 >= 0.0 && weight2 >= 0.0 && weight1 + weight2 <= 1.0)
             {
                 Vector3d x = v0 + weight1 * (v1 - v0) + weight2 * (v2 - v0);
