@@ -229,12 +229,14 @@ namespace Guidewire.Core
             PointEdge(p, v1, v2, 1, ref best, ref point, ref feature);
             PointEdge(p, v2, v0, 2, ref best, ref point, ref feature);
 
-            // Gram and Schmidt: an error of the small part across one edge leaves the part along it exact.
+            // Gram and Schmidt, modified: what lies along the first edge is taken out of p before its small part across
+            // is asked for, whose direction has few digits.
             Vector3d u = v1 - v0;
             double skew = Vector3d.Dot(v2 - v0, u) / u.LengthSquared;
             Vector3d across = v2 - v0 - skew * u;
-            double weight2 = Vector3d.Dot(p - v0, across) / across.LengthSquared;
-            double weight1 = Vector3d.Dot(p - v0, u) / u.LengthSquared - skew * weight2;
+            double along = Vector3d.Dot(p - v0, u) / u.LengthSquared;
+            double weight2 = Vector3d.Dot(p - v0 - along * u, across) / across.LengthSquared;
+            double weight1 = along - skew * weight2;
             if (weight1 >= 0.0 && weight2 >= 0.0 && weight1 + weight2 <= 1.0)
             {
                 Vector3d x = v0 + weight1 * (v1 - v0) + weight2 * (v2 - v0);
