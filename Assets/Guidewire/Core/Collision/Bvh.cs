@@ -110,13 +110,14 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Fraction of the motion of segment a b that stays clear of every triangle, as
-        /// <see cref="ContactShape.Sweep"/>, and the triangle that ends it (-1 for none).</summary>
+        /// <summary>Fraction of the motion of segment a b during which it stays at least <paramref name="keep"/> from every
+        /// triangle, <see cref="ContactShape.NoImpact"/> for all of it, and the triangle that ends it (-1 for none).
+        /// </summary>
         public double Sweep(
-            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance, out int triangle)
+            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep, out int triangle)
         {
             var swept = new BvhNode();
-            swept.EncloseSwept(a0, b0, a1, b1, clearance);
+            swept.EncloseSwept(a0, b0, a1, b1, keep);
             double impact = ContactShape.NoImpact;
             triangle = -1;
             Span<int> stack = stackalloc int[StackSize];
@@ -140,11 +141,11 @@ namespace Guidewire.Core
                     ref readonly Vector3d v0 = ref _corners[3 * k];
                     ref readonly Vector3d v1 = ref _corners[3 * k + 1];
                     ref readonly Vector3d v2 = ref _corners[3 * k + 2];
-                    if (StaysOnOneSide(a0, b0, a1, b1, v0, v1, v2, clearance))
+                    if (StaysOnOneSide(a0, b0, a1, b1, v0, v1, v2, keep))
                     {
                         continue;
                     }
-                    double time = SweptTest.Impact(new TriangleBody(v0, v1, v2), a0, b0, a1, b1, clearance);
+                    double time = SweptTest.Impact(new TriangleBody(v0, v1, v2), a0, b0, a1, b1, keep);
                     if (time < impact)
                     {
                         impact = time;
@@ -169,10 +170,10 @@ namespace Guidewire.Core
 
         private static bool StaysOnOneSide(
             in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
-            in Vector3d v0, in Vector3d v1, in Vector3d v2, double clearance)
+            in Vector3d v0, in Vector3d v1, in Vector3d v2, double distance)
         {
             Vector3d n = Vector3d.Cross(v1 - v0, v2 - v0);
-            double keep = clearance * n.Length;
+            double keep = distance * n.Length;
             double w = Vector3d.Dot(n, a0 - v0);
             double x = Vector3d.Dot(n, b0 - v0);
             double y = Vector3d.Dot(n, a1 - v0);

@@ -72,7 +72,10 @@ namespace Guidewire.Core
             in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance,
             out SurfaceContact contact)
         {
-            double impact = _wall.Tree.Sweep(a0, b0, a1, b1, clearance, out int hint);
+            int hint = -1;
+            double keep = Nearest(a0, b0, 2.0 * clearance, ref hint, out contact)
+                ? 0.5 * Math.Abs(contact.Distance) : clearance;
+            double impact = _wall.Tree.Sweep(a0, b0, a1, b1, keep, out hint);
             contact = default;
             if (impact < NoImpact)
             {

@@ -12,17 +12,16 @@ namespace Guidewire.Core
     {
         private const int MaxAdvances = 64;
 
-        /// <summary>Fraction of the motion during which the distance stays at least min(clearance, half of what it is at
-        /// the start), <see cref="ContactShape.NoImpact"/> for all of it. Where the advances run out before the answer
-        /// is known, the time that is proven safe is returned.</summary>
+        /// <summary>Fraction of the motion during which the distance stays at least <paramref name="keep"/>,
+        /// <see cref="ContactShape.NoImpact"/> for all of it. It must be more at the start. Where the advances run out
+        /// before the answer is known, the time that is proven safe is returned.</summary>
         public static double Impact<TBody>(
-            in TBody body, in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance)
+            in TBody body, in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep)
             where TBody : struct, IConvexBody
         {
             Vector3d va = a1 - a0;
             Vector3d vb = b1 - b0;
             double time = 0.0;
-            double keep = clearance;
             for (int k = 0; k < MaxAdvances; k++)
             {
                 Vector3d a = a0 + time * va;
@@ -31,10 +30,6 @@ namespace Guidewire.Core
                 if (!(distance > 0.0))
                 {
                     return time;
-                }
-                if (k == 0)
-                {
-                    keep = Math.Min(clearance, 0.5 * distance);
                 }
                 Vector3d n = (Vector3d.Lerp(a, b, s) - c) / distance;
                 double advance = Math.Min(

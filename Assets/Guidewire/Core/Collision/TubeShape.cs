@@ -13,6 +13,9 @@ namespace Guidewire.Core
     public sealed class TubeShape : ContactShape
     {
         private const int MaxHalvings = 48;
+        private const int MaxHandovers = 64;
+        private const int MaxSplits = 20;
+        private const double LeastAdvance = 1e-12;
         private readonly Vector3d[] _knots;
         private readonly double[] _radii;
         private readonly double _resolution;
@@ -119,7 +122,7 @@ namespace Guidewire.Core
             int hint = -1;
             Nearest(a0, b0, double.PositiveInfinity, ref hint, out SurfaceContact start);
             double keep = Math.Min(clearance, 0.5 * start.Distance);
-            double impact = FirstUnsafe(a0, b0, a1, b1, 0.0, 1.0, keep, 0);
+            double impact = SafeUntil(a0, b0, a1, b1, 0.0, NoImpact, keep, 0);
             if (impact < NoImpact)
             {
                 Nearest(
@@ -168,43 +171,85 @@ namespace Guidewire.Core
             return best;
         }
 
-        // Start of the first part of the motion that is not proven to keep the clearance. A part is proven where one
-        // piece's lumen, being convex, holds the four corners of the swept patch.
-        private double FirstUnsafe(
-            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double t0, double t1, double keep, int depth)
+        // Largest time until which the segment is proven to keep its distance, from a time at which it does. While one
+        // piece's lumen, being convex, holds both ends it holds all between them; where none does, each half is asked,
+        // first the one whose end is nearer to the wall, which limits what is asked of the other.
+        private double SafeUntil(
+            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double time, double limit, double keep,
+            int depth)
         {
-            for (int i = 0; i + 1 < _knots.Length; i++)
+            for (int k = 0; k < MaxHandovers; k++)
             {
-                if (PieceDistance(i, a0, out _) >= keep && PieceDistance(i, b0, out _) >= keep
-                    && PieceDistance(i, a1, out _) >= keep && PieceDistance(i, b1, out _) >= keep)
+                double until = time;
+                for (int i = 0; i + 1 < _knots.Length && until < 1.0; i++)
+                {
+                    until = Math.Max(until, LeavesPiece(i, a0, b0, a1, b1, time, keep));
+                }
+                if (until >= 1.0 || until >= limit)
                 {
                     return NoImpact;
                 }
+                if (until - time <= LeastAdvance)
+                {
+                    break;
+                }
+                time = until;
             }
-            double width = Math.Max(Vector3d.Distance(a0, b0), Vector3d.Distance(a1, b1));
-            double path = Math.Max(Vector3d.Distance(a0, a1), Vector3d.Distance(b0, b1));
-            double lowest = Math.Min(Distance(a0, out _), Distance(b0, out _));
-            if (lowest - 0.5 * width - path >= keep)
+            if (depth == MaxSplits)
             {
-                return NoImpact;
+                return time;
             }
-            if (depth == MaxHalvings || lowest < keep || width + path <= 1e-3 * Math.Abs(keep))
+            Vector3d m0 = Vector3d.Lerp(a0, b0, 0.5);
+            Vector3d m1 = Vector3d.Lerp(a1, b1, 0.5);
+            double atA = Distance(Vector3d.Lerp(a0, a1, time), out _);
+            double atB = Distance(Vector3d.Lerp(b0, b1, time), out _);
+            double nearer = atA <= atB
+                ? SafeUntil(a0, m0, a1, m1, time, limit, keep, depth + 1)
+                : SafeUntil(m0, b0, m1, b1, time, limit, keep, depth + 1);
+            if (nearer <= time)
             {
-                return t0;
+                return nearer;
             }
-            if (width > path)
+            limit = Math.Min(limit, nearer);
+            double farther = atA <= atB
+                ? SafeUntil(m0, b0, m1, b1, time, limit, keep, depth + 1)
+                : SafeUntil(a0, m0, a1, m1, time, limit, keep, depth + 1);
+            return Math.Min(nearer, farther);
+        }
+
+        // When the first end leaves piece i's lumen, less the distance to keep; the time itself when it is not in it. The
+        // piece's term is concave along each end's straight way, so it leaves once.
+        private double LeavesPiece(
+            int i, in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double time, double keep)
+        {
+            if (!IsInPiece(i, Vector3d.Lerp(a0, a1, time), Vector3d.Lerp(b0, b1, time), keep))
             {
-                Vector3d m0 = Vector3d.Lerp(a0, b0, 0.5);
-                Vector3d m1 = Vector3d.Lerp(a1, b1, 0.5);
-                return Math.Min(
-                    FirstUnsafe(a0, m0, a1, m1, t0, t1, keep, depth + 1),
-                    FirstUnsafe(m0, b0, m1, b1, t0, t1, keep, depth + 1));
+                return time;
             }
-            Vector3d am = Vector3d.Lerp(a0, a1, 0.5);
-            Vector3d bm = Vector3d.Lerp(b0, b1, 0.5);
-            double tm = 0.5 * (t0 + t1);
-            double first = FirstUnsafe(a0, b0, am, bm, t0, tm, keep, depth + 1);
-            return first < NoImpact ? first : FirstUnsafe(am, bm, a1, b1, tm, t1, keep, depth + 1);
+            if (IsInPiece(i, a1, b1, keep))
+            {
+                return 1.0;
+            }
+            double inside = time;
+            double outside = 1.0;
+            while (outside - inside > LeastAdvance)
+            {
+                double middle = 0.5 * (inside + outside);
+                if (IsInPiece(i, Vector3d.Lerp(a0, a1, middle), Vector3d.Lerp(b0, b1, middle), keep))
+                {
+                    inside = middle;
+                }
+                else
+                {
+                    outside = middle;
+                }
+            }
+            return inside;
+        }
+
+        private bool IsInPiece(int i, in Vector3d a, in Vector3d b, double keep)
+        {
+            return PieceDistance(i, a, out _) >= keep && PieceDistance(i, b, out _) >= keep;
         }
 
         // max over u in [0, 1] of R(u) - |x - c(u)| for piece i, and the centre that gives it. With h the distance of
