@@ -9,6 +9,8 @@ namespace Guidewire.Core
         private readonly ITimeStep _step;
         private readonly StopRule _stopRule;
         private readonly double _timeStep;
+        private int _firstStep;
+        private double _firstTime;    // s
         private string? _ownReason;
 
         private Simulation(RodState state, ITimeStep step, StopRule stopRule, double timeStep)
@@ -26,7 +28,7 @@ namespace Guidewire.Core
         public int StepCount { get; private set; }
 
         /// <summary>In-game time in s, k dt after k steps.</summary>
-        public double Time => StepCount * _timeStep;
+        public double Time => _firstTime + (StepCount - _firstStep) * _timeStep;
 
         /// <summary>Delta_p of the last step in units; 0 before the first.</summary>
         public double PredictionError => _step.PredictionError;
@@ -103,6 +105,23 @@ namespace Guidewire.Core
                 return;
             }
             Outcome = _stopRule.Judge(State, StepCount, PredictionError);
+        }
+
+        /// <summary>A run that goes on from this one's state with other parameters: steps and time go on counting, the
+        /// displacement of the start is not made again.</summary>
+        /// <param name="parameters">The other parameters, for a wire of as many elements. Their
+        /// <see cref="SimulationParameters.Start"/> and <see cref="SimulationParameters.Displacement"/> are
+        /// overwritten.</param>
+        /// <exception cref="ArgumentException">As <see cref="Create"/>, and another number of elements.</exception>
+        public Simulation Continue(SimulationParameters parameters)
+        {
+            parameters.Start = new RodStart(State.Positions, State.Orientations, State.Velocities, State.AngularVelocities);
+            parameters.Displacement = 0.0;
+            Simulation next = Create(parameters);
+            next.StepCount = StepCount;
+            next._firstStep = StepCount;
+            next._firstTime = Time;
+            return next;
         }
 
         /// <summary>Ends the run where it is.</summary>

@@ -30,7 +30,7 @@ namespace Guidewire.Cli
         {
             var answer = new JObject
             {
-                ["id"] = null,
+                ["id"] = RunRequest.IdOf(line),
                 ["exitCode"] = ExitCodes.BadInput,
                 ["outcome"] = null,
                 ["message"] = "",
@@ -41,7 +41,6 @@ namespace Guidewire.Cli
             try
             {
                 RunRequest request = RunRequest.Parse(line);
-                answer["id"] = request.Id;
                 ParameterHandler handler = ParameterHandler.Load(request.ParameterFile, request.Overrides);
                 var run = new SimulationRun(handler, request.Out, request.Repeat) { StopRequested = stopRequested };
                 folder = run.Folder;
@@ -54,7 +53,6 @@ namespace Guidewire.Cli
             }
             catch (ParameterException error)
             {
-                answer["id"] ??= RunRequest.IdOf(line);
                 answer["message"] = error.Message;
             }
             catch (Exception error)

@@ -9,7 +9,6 @@ namespace Guidewire.Cli
     {
         private RunRequest(JObject json)
         {
-            Id = json["id"];
             ParameterFile = (string?)json["parameters"];
             Out = (string?)json["out"];
             Repeat = (int?)json["repeat"];
@@ -19,9 +18,6 @@ namespace Guidewire.Cli
                 Overrides.Add(new KeyValuePair<string, JToken>(property.Name, property.Value));
             }
         }
-
-        /// <summary>What the answer repeats.</summary>
-        public JToken? Id { get; }
 
         /// <summary>The parameter file, or null for the defaults.</summary>
         public string? ParameterFile { get; }
@@ -51,7 +47,7 @@ namespace Guidewire.Cli
             return new RunRequest(json);
         }
 
-        /// <summary>The id of a line that may not be a request, or null.</summary>
+        /// <summary>What the answer repeats: the id of a line, which need not be a whole request, or null.</summary>
         public static JToken? IdOf(string line)
         {
             try

@@ -119,10 +119,22 @@ namespace Guidewire.Io
             }
             if (Values.StartFile.Length > 0)
             {
-                simulation.Start = StartFileReader.Read(Values.StartFile, simulation.NumberRodElements);
+                simulation.Start = ReadStart(simulation.NumberRodElements);
             }
             Warn();
             Hash = ComputeHash();
+        }
+
+        private RodStart ReadStart(int n)
+        {
+            try
+            {
+                return StartFileReader.Read(Values.StartFile, n);
+            }
+            catch (ParameterException error)
+            {
+                throw new ParameterException(_given["startFile"].Source + ": startFile: " + error.Message);
+            }
         }
 
         private void ApplyKey(string key)

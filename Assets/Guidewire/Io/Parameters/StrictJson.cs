@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using System.Globalization;
 
@@ -106,7 +107,8 @@ namespace Guidewire.Io
             {
                 return complaint;
             }
-            string name = _text.Substring(start, _at - 1 - start);
+            // Compared as it reads, not as it is written: "a" and "\u0061" are the same key.
+            string name = JsonText.Parse(_text.Substring(start - 1, _at - start + 1)).ToString();
             if (!names.Add(name))
             {
                 _at = start;
@@ -138,13 +140,25 @@ namespace Guidewire.Io
                 if (c == '\\')
                 {
                     _at++;
-                    if (!"\"\\/bfnrtu".Contains(Current()))
+                    if (!"\"\\/bfnrtu".Contains(Current()) || (Current() == 'u' && !FourHexDigits(_at + 1)))
                     {
                         return At("has an unknown escape in a string");
                     }
                 }
             }
             return At("ends inside a string");
+        }
+
+        private bool FourHexDigits(int start)
+        {
+            for (int i = start; i < start + 4; i++)
+            {
+                if (i >= _text.Length || !Uri.IsHexDigit(_text[i]))
+                {
+                    return false;
+                }
+            }
+            return true;
         }
 
         private string? Word(string word)

@@ -15,22 +15,28 @@ namespace Guidewire.Io
         private const int Buffer = 1 << 16;
         private const double FlushAfter = 1000.0;     // ms of run time
 
-        private readonly FileStream _stream;
+        private readonly Stream _stream;
         private readonly RunParameters _parameters;
         private byte[] _bytes = new byte[Buffer];
         private int _length;
         private bool _empty = true;
         private double _flushed;
 
-        /// <summary>Opens the file and keeps others from writing to it.</summary>
-        /// <param name="path">Where to write.</param>
+        /// <summary>A log into a stream, which it closes.</summary>
+        /// <param name="stream">Where to write.</param>
         /// <param name="parameters">What to write of each state.</param>
-        /// <exception cref="IOException">The file cannot be written, or another run writes to it.</exception>
-        public DataLogger(string path, RunParameters parameters)
+        public DataLogger(Stream stream, RunParameters parameters)
         {
-            _stream = new FileStream(path, FileMode.Create, FileAccess.Write, FileShare.Read, 1);
+            _stream = stream;
             _parameters = parameters;
             Append("{\n");
+        }
+
+        /// <summary>A log into a file, which others are kept from writing to.</summary>
+        /// <exception cref="IOException">The file cannot be written, or another run writes to it.</exception>
+        public static DataLogger Open(string path, RunParameters parameters)
+        {
+            return new DataLogger(new FileStream(path, FileMode.Create, FileAccess.Write, FileShare.None, 1), parameters);
         }
 
         /// <summary>Writes one state.</summary>
@@ -83,7 +89,10 @@ namespace Guidewire.Io
         {
             Append("\n}\n");
             Flush();
-            _stream.Flush(true);
+            if (_stream is FileStream file)
+            {
+                file.Flush(true);
+            }
             _stream.Dispose();
         }
 

@@ -1,20 +1,12 @@
 using System;
-using System.Diagnostics;
-using System.IO;
 using Guidewire.Core;
-using Newtonsoft.Json;
 
 namespace Guidewire.Io
 {
     /// <summary>Runs a simulation from its parameters to a folder of results: positions.json, parameters.json,
     /// summary.json. The console program and Unity's batch mode share it.</summary>
-    /// <remarks>All three are written as *.partial and renamed at the end, the summary last, so that an earlier result
-    /// stays whole until the new one is. What a killed run leaves is positions.json.partial.</remarks>
     public sealed class SimulationRun
     {
-        private const string PositionsFile = "positions.json";
-        private const string ParametersFile = "parameters.json";
-
         private readonly ParameterHandler _handler;
         private readonly string _folder;
         private readonly int? _repeat;
@@ -56,56 +48,8 @@ namespace Guidewire.Io
                 return new RunResult(earlier.Value, "taken from an earlier run", true);
             }
             Simulation simulation = Simulation.Create(_handler.Values.Simulation);
-            using DataLogger logger = OpenLog();
-            var times = new StepTimes();
-            Stopwatch clock = Stopwatch.StartNew();
-            string log = PositionsFile + AtomicFile.Partial;
-            try
-            {
-                Step(simulation, logger, times, clock);
-                logger.Close();
-                Publish();
-                log = PositionsFile;
-            }
-            catch (Exception error) when (error is IOException || error is UnauthorizedAccessException)
-            {
-                simulation.End(Outcome.Failed, "the log could not be written: " + error.Message);
-            }
-            try
-            {
-                AtomicFile.Write(Path.Combine(_folder, RunSummary.FileName), RunSummary.Text(simulation, _handler, times,
-                    clock.Elapsed.TotalSeconds, _repeat, log));
-            }
-            catch (Exception error) when (error is IOException || error is UnauthorizedAccessException)
-            {
-                if (simulation.Outcome != Outcome.Failed)
-                {
-                    simulation.End(Outcome.Failed, "the summary could not be written: " + error.Message);
-                }
-            }
-            return new RunResult(simulation.Outcome, simulation.Reason, false);
-        }
-
-        private DataLogger OpenLog()
-        {
-            try
-            {
-                Directory.CreateDirectory(_folder);
-                return new DataLogger(Path.Combine(_folder, PositionsFile + AtomicFile.Partial), _handler.Values);
-            }
-            catch (Exception error) when (error is IOException || error is UnauthorizedAccessException
-                || error is ArgumentException || error is NotSupportedException)
-            {
-                throw new ParameterException("out = " + _folder + " cannot be written (" + error.Message
-                    + "): needs a folder that this user may write to and no other run is writing to");
-            }
-        }
-
-        private void Step(Simulation simulation, DataLogger logger, StepTimes times, Stopwatch clock)
-        {
-            double toMilliseconds = 1000.0 / Stopwatch.Frequency;
-            logger.Log(simulation, clock.Elapsed.TotalMilliseconds);
-            int lastLogged = 0;
+            using RunFolder results = RunFolder.Open(_handler, _folder, _repeat);
+            results.Begin(simulation);
             if (_handler.Values.Simulation.MaxSimulationSteps == 0)
             {
                 simulation.End(Outcome.Finished, "no steps were asked for");
@@ -117,29 +61,11 @@ namespace Guidewire.Io
                     simulation.End(Outcome.Interrupted, "stopped from outside after step " + simulation.StepCount);
                     break;
                 }
-                long before = Stopwatch.GetTimestamp();
-                simulation.Step();
-                times.Add((Stopwatch.GetTimestamp() - before) * toMilliseconds);
-                double elapsed = clock.Elapsed.TotalMilliseconds;
-                if (simulation.StepCount % _handler.Values.LogEvery == 0)
-                {
-                    logger.Log(simulation, elapsed);
-                    lastLogged = simulation.StepCount;
-                }
-                Progress?.Invoke(simulation, elapsed);
+                results.Step(simulation);
+                Progress?.Invoke(simulation, results.Elapsed);
             }
-            if (lastLogged != simulation.StepCount)
-            {
-                logger.Log(simulation, clock.Elapsed.TotalMilliseconds);
-            }
-        }
-
-        private void Publish()
-        {
-            // Without its summary an earlier result does not count, so no mixture of two runs ever does.
-            File.Delete(Path.Combine(_folder, RunSummary.FileName));
-            AtomicFile.Publish(Path.Combine(_folder, PositionsFile));
-            AtomicFile.Write(Path.Combine(_folder, ParametersFile), _handler.ToJson().ToString(Formatting.Indented) + "\n");
+            results.Finish(simulation);
+            return new RunResult(simulation.Outcome, simulation.Reason, false);
         }
     }
 }

@@ -1,0 +1,160 @@
+using System;
+using System.Diagnostics;
+using System.IO;
+using Guidewire.Core;
+using Newtonsoft.Json;
+
+namespace Guidewire.Io
+{
+    /// <summary>The results of one run as they come to be: positions.json, parameters.json, summary.json in a folder.
+    /// Whoever steps a simulation, a loop of its own or Unity's frames, steps it through here to have it logged.</summary>
+    /// <remarks>All three are written as *.partial and renamed at the end, the summary last, so that an earlier result
+    /// stays whole until the new one is. What a killed run leaves is positions.json.partial.</remarks>
+    public sealed class RunFolder : IDisposable
+    {
+        private const string PositionsFile = "positions.json";
+        private const string ParametersFile = "parameters.json";
+        private static readonly double ToMilliseconds = 1000.0 / Stopwatch.Frequency;
+
+        private readonly ParameterHandler _handler;
+        private readonly string _folder;
+        private readonly int? _repeat;
+        private readonly DataLogger _logger;
+        private readonly StepTimes _times = new StepTimes();
+        private readonly Stopwatch _clock = new Stopwatch();
+        private int _lastLogged = -1;
+        private bool _lost;
+
+        private RunFolder(ParameterHandler handler, string folder, int? repeat, DataLogger logger)
+        {
+            _handler = handler;
+            _folder = folder;
+            _repeat = repeat;
+            _logger = logger;
+        }
+
+        /// <summary>Wall time since the run's start in ms.</summary>
+        public double Elapsed => _clock.Elapsed.TotalMilliseconds;
+
+        /// <summary>A folder that takes a run; made where it is missing.</summary>
+        /// <param name="handler">The parameters.</param>
+        /// <param name="folder">The folder.</param>
+        /// <param name="repeat">Number of a timed repeat, or null.</param>
+        /// <exception cref="ParameterException">The folder cannot be written; nothing has been.</exception>
+        public static RunFolder Open(ParameterHandler handler, string folder, int? repeat)
+        {
+            try
+            {
+                Directory.CreateDirectory(folder);
+                string log = Path.Combine(folder, PositionsFile + AtomicFile.Partial);
+                return new RunFolder(handler, folder, repeat, DataLogger.Open(log, handler.Values));
+            }
+            catch (Exception error) when (error is IOException || error is UnauthorizedAccessException
+                || error is ArgumentException || error is NotSupportedException)
+            {
+                throw new ParameterException("out = " + folder + " cannot be written (" + error.Message
+                    + "): needs a folder that this user may write to and no other run is writing to");
+            }
+        }
+
+        /// <summary>Starts the clock and logs the state before the first step.</summary>
+        public void Begin(Simulation simulation)
+        {
+            _clock.Start();
+            Log(simulation);
+        }
+
+        /// <summary>Makes one step, times it and logs it where logEvery says so. A disk that is full or gone ends the run
+        /// as Failed.</summary>
+        public void Step(Simulation simulation)
+        {
+            long before = Stopwatch.GetTimestamp();
+            simulation.Step();
+            _times.Add((Stopwatch.GetTimestamp() - before) * ToMilliseconds);
+            if (simulation.StepCount % _handler.Values.LogEvery == 0)
+            {
+                Log(simulation);
+            }
+        }
+
+        /// <summary>Logs the last state, closes the log and writes the summary. What cannot be written turns the outcome
+        /// into Failed.</summary>
+        /// <param name="simulation">The run at its end.</param>
+        public void Finish(Simulation simulation)
+        {
+            if (_lastLogged != simulation.StepCount)
+            {
+                Log(simulation);
+            }
+            try
+            {
+                if (!_lost)
+                {
+                    _logger.Close();
+                    Publish();
+                }
+            }
+            catch (Exception error) when (IsDisk(error))
+            {
+                Lose(simulation, "the log could not be written: " + error.Message);
+            }
+            string log = _lost ? PositionsFile + AtomicFile.Partial : PositionsFile;
+            try
+            {
+                string text = RunSummary.Text(simulation, _handler, _times, _clock.Elapsed.TotalSeconds, _repeat, log);
+                AtomicFile.Write(Path.Combine(_folder, RunSummary.FileName), text);
+            }
+            catch (Exception error) when (IsDisk(error))
+            {
+                Lose(simulation, "the summary could not be written: " + error.Message);
+            }
+        }
+
+        /// <summary>Lets go of the log as it is.</summary>
+        public void Dispose()
+        {
+            _logger.Dispose();
+        }
+
+        private static bool IsDisk(Exception error)
+        {
+            return error is IOException || error is UnauthorizedAccessException;
+        }
+
+        private void Log(Simulation simulation)
+        {
+            if (_lost)
+            {
+                return;
+            }
+            try
+            {
+                _logger.Log(simulation, Elapsed);
+                _lastLogged = simulation.StepCount;
+            }
+            catch (Exception error) when (IsDisk(error))
+            {
+                Lose(simulation, "the log could not be written: " + error.Message);
+            }
+        }
+
+        // The first reason of a failure is the one to tell.
+        private void Lose(Simulation simulation, string reason)
+        {
+            _lost = true;
+            if (simulation.Outcome != Outcome.Failed)
+            {
+                simulation.End(Outcome.Failed, reason);
+            }
+        }
+
+        private void Publish()
+        {
+            // Without its summary an earlier result does not count, so no mixture of two runs ever does.
+            File.Delete(Path.Combine(_folder, RunSummary.FileName));
+            AtomicFile.Publish(Path.Combine(_folder, PositionsFile));
+            string parameters = _handler.ToJson().ToString(Formatting.Indented) + "\n";
+            AtomicFile.Write(Path.Combine(_folder, ParametersFile), parameters);
+        }
+    }
+}

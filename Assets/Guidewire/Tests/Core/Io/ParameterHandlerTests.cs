@@ -1,0 +1,168 @@
+using System.Collections.Generic;
+using System.IO;
+using Guidewire.Core;
+using Guidewire.Io;
+using Newtonsoft.Json.Linq;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    public sealed class ParameterHandlerTests
+    {
+        private string _folder = "";
+
+        [SetUp]
+        public void MakeFolder()
+        {
+            _folder = Path.Combine(Path.GetTempPath(), "guidewire-" + Path.GetRandomFileName());
+            Directory.CreateDirectory(_folder);
+        }
+
+        [TearDown]
+        public void RemoveFolder()
+        {
+            Directory.Delete(_folder, true);
+        }
+
+        [Test]
+        public void Defaults_AreThesisTable41()
+        {
+            SimulationParameters defaults = Load("{}").Values.Simulation;
+            Assert.That(defaults.ConstraintSolverSteps, Is.EqualTo(500));
+            Assert.That(defaults.NumberRodElements, Is.EqualTo(30));
+            Assert.That(defaults.TimeStep, Is.EqualTo(0.01));
+            Assert.That(defaults.GuidewireLength, Is.EqualTo(300.0));
+            Assert.That(defaults.TotalMass, Is.EqualTo(0.01));
+            Assert.That(defaults.Displacement, Is.EqualTo(10.0));
+            Assert.That(defaults.SphereRadius, Is.EqualTo(5.0));
+            Assert.That(defaults.StretchStiffness, Is.EqualTo(0.1));
+            Assert.That(defaults.BendStiffness, Is.EqualTo(0.1));
+            Assert.That(defaults.CollisionStiffness, Is.EqualTo(1e-4));
+        }
+
+        [Test]
+        public void FilesOfTheSeedsShape_LoadWithOneWarningWhereTheElementLengthDisagrees()
+        {
+            ParameterHandler handler = Load("{\"logFilePath\": \"results/seed/\", \"rodElementLength\": 10.0,"
+                + "\"guidewireLength\": 1000.0, \"numberRodElements\": 30, \"position\": {\"x\": 1.0, \"y\": 0.0, \"z\": 0.0},"
+                + "\"VerletIntegration\": true, \"SteadyState\": true}");
+            Assert.That(handler.Warnings, Has.Count.EqualTo(1));
+            Assert.That(handler.Warnings[0], Does.Contain("rodElementLength = 10").And.Contain("33.33"));
+            Assert.That(handler.Values.Simulation.Position.X, Is.EqualTo(1.0));
+            Assert.That(handler.Values.LogFilePath, Is.EqualTo("results/seed/"));
+        }
+
+        [TestCase("{\"VerletIntegration\": false}", Integrator.Euler)]
+        [TestCase("{\"VerletIntegration\": true, \"integrator\": \"verlet\"}", Integrator.Verlet)]
+        public void OlderWords_SayTheSameAsTheNewer(string text, Integrator expected)
+        {
+            Assert.That(Load(text).Values.Simulation.Integrator, Is.EqualTo(expected));
+        }
+
+        [Test]
+        public void SteadyStateFalse_MovesTheFirstSphereEachStepByTheDisplacement()
+        {
+            SimulationParameters simulation = Load("{\"SteadyState\": false, \"displacement\": 0.5}").Values.Simulation;
+            Assert.That(simulation.Drive, Is.EqualTo(Drive.Displace));
+            Assert.That(simulation.DisplacementPerStep, Is.EqualTo(0.5));
+        }
+
+        [TestCase("{\"VerletIntegration\": true, \"integrator\": \"euler\"}", "disagree")]
+        [TestCase("{\"SteadyState\": true, \"drive\": \"push\"}", "disagree")]
+        [TestCase("{\"timStep\": 0.01}", "did you mean 'timeStep'")]
+        [TestCase("{\"timeStep\": 0}", "timeStep = 0 is not allowed: needs a number > 0 (s)")]
+        [TestCase("{\"timeStep\": \"fast\"}", "timeStep = \"fast\" is not allowed")]
+        [TestCase("{\"timeStep\": null}", "timeStep = null is not allowed")]
+        [TestCase("{\"timeStep\": 1e999}", "timeStep")]
+        [TestCase("{\"numberRodElements\": 0}", "a whole number from 1 to 1000000")]
+        [TestCase("{\"numberRodElements\": 1000000000}", "a whole number from 1 to 1000000")]
+        [TestCase("{\"numberRodElements\": 2.5}", "numberRodElements = 2.5 is not allowed")]
+        [TestCase("{\"numberRodElements\": 123456789012345678901234567890}", "numberRodElements")]
+        [TestCase("{\"drive\": \"shove\"}", "one of \"hold\", \"displace\", \"push\", \"force\"")]
+        [TestCase("{\"displacementDirection\": [0, 0, 0]}", "not all 0")]
+        [TestCase("{\"displacementDirection\": [0, 1]}", "three numbers")]
+        [TestCase("{\"SteadyState\": 1}", "true or false")]
+        [TestCase("{\"timeStep\": 0.1, \"timeStep\": 0.2}", "second time")]
+        [TestCase("{\"timeStep\": 0.1,}", "comma before '}'")]
+        [TestCase("{\"timeStep\": NaN}", "not JSON")]
+        [TestCase("{timeStep: 0.1}", "not JSON")]
+        [TestCase("[1, 2]", "needs one JSON object")]
+        [TestCase("", "not JSON")]
+        public void WhatIsNotAllowed_IsOneLineThatNamesFileAndKey(string text, string expected)
+        {
+            ParameterException error = Assert.Throws<ParameterException>(() => Load(text))!;
+            Assert.That(error.Message, Does.Contain(expected));
+            Assert.That(error.Message, Does.Contain("wire.json"));
+            Assert.That(error.Message, Does.Not.Contain("\n"));
+        }
+
+        [Test]
+        public void Override_CountsInsteadOfTheFilesOlderWord()
+        {
+            ParameterHandler handler = Load("{\"VerletIntegration\": true}", ("integrator", "euler"));
+            Assert.That(handler.Values.Simulation.Integrator, Is.EqualTo(Integrator.Euler));
+        }
+
+        [Test]
+        public void EffectiveParameters_LoadAgainAsTheSameRun()
+        {
+            ParameterHandler first = Load("{\"drive\": \"push\", \"displacementPerStep\": 0.1, \"timeStep\": 0.1234567890123}");
+            ParameterHandler second = Load(first.ToJson().ToString());
+            Assert.That(second.Hash, Is.EqualTo(first.Hash));
+            Assert.That(second.Values.Simulation.TimeStep, Is.EqualTo(0.1234567890123));
+        }
+
+        [Test]
+        public void Hash_LeavesOutputPathsOut_AndNothingElse()
+        {
+            string plain = Load("{}").Hash;
+            Assert.That(Load("{\"logFilePath\": \"elsewhere\"}").Hash, Is.EqualTo(plain));
+            Assert.That(Load("{\"timeStep\": 0.02}").Hash, Is.Not.EqualTo(plain));
+            Assert.That(Load("{\"logEvery\": 2}").Hash, Is.Not.EqualTo(plain), "a thinned log is another result");
+        }
+
+        [Test]
+        public void GainsBeyondTheirLimits_AreWarnedOf()
+        {
+            Assert.That(Load("{\"stretchStiffness\": 2.0}").Warnings, Has.Count.EqualTo(1));
+            Assert.That(Load("{\"bendStiffness\": 10.1}").Warnings, Has.Count.EqualTo(1));
+            Assert.That(Load("{\"bendStiffness\": 10.0, \"stretchStiffness\": 1.99}").Warnings, Is.Empty);
+        }
+
+        [Test]
+        public void StartFile_IsRead_AndRefusedWhereItDoesNotFit()
+        {
+            string start = Path.Combine(_folder, "start.json");
+            File.WriteAllText(start, "{\"positions\": [[0,0,0],[0,0,5],[0,5,5]], \"orientations\": [[0,0,0,1],[0,0,0,2]]}");
+            SimulationParameters simulation = Load("{\"numberRodElements\": 2}", ("startFile", start)).Values.Simulation;
+            Assert.That(simulation.Start!.Positions[2], Is.EqualTo(new Vector3d(0.0, 5.0, 5.0)));
+            ParameterException error = Assert.Throws<ParameterException>(
+                () => Load("{\"numberRodElements\": 3}", ("startFile", start)))!;
+            Assert.That(error.Message, Does.Contain("start.json").And.Contain("positions").Or.Contain("orientations"));
+        }
+
+        [Test]
+        public void Table_NamesEachKeyOnce_WithHelpAndADefaultThatIsAllowed()
+        {
+            foreach (ParameterEntry entry in ParameterTable.Entries)
+            {
+                Assert.That(entry.Help, Is.Not.Empty, entry.Key);
+                Assert.That(entry.Allowed, Is.Not.Empty, entry.Key);
+                Assert.That(ParameterTable.Find(entry.Key), Is.SameAs(entry));
+                Assert.DoesNotThrow(() => Load("{\"" + entry.Key + "\": " + entry.Default + "}"), entry.Key);
+            }
+        }
+
+        private ParameterHandler Load(string text, params (string Key, string Value)[] overrides)
+        {
+            string file = Path.Combine(_folder, "wire.json");
+            File.WriteAllText(file, text);
+            var list = new List<KeyValuePair<string, JToken>>();
+            foreach ((string key, string value) in overrides)
+            {
+                list.Add(new KeyValuePair<string, JToken>(key, new JValue(value)));
+            }
+            return ParameterHandler.Load(file, list);
+        }
+    }
+}

@@ -1,0 +1,173 @@
+using System.Collections.Generic;
+using System.Globalization;
+using System.IO;
+using System.Threading;
+using Guidewire.Core;
+using Guidewire.Io;
+using Newtonsoft.Json.Linq;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    public sealed class SimulationRunTests
+    {
+        private string _folder = "";
+
+        [SetUp]
+        public void NameFolder()
+        {
+            _folder = Path.Combine(Path.GetTempPath(), "guidewire-" + Path.GetRandomFileName());
+        }
+
+        [TearDown]
+        public void RemoveFolder()
+        {
+            if (Directory.Exists(_folder))
+            {
+                Directory.Delete(_folder, true);
+            }
+        }
+
+        [Test]
+        public void Log_HoldsEveryStateRoundTripExact()
+        {
+            ParameterHandler handler = Load(("maxSimulationSteps", 7), ("constraintSolverSteps", 20),
+                ("displacementDirection", new JArray(1.0, 2.0, 3.0)));
+            new SimulationRun(handler, _folder, null).Execute(false);
+            JObject log = Read("positions.json");
+            Simulation again = Simulation.Create(handler.Values.Simulation);
+            Assert.That(log.Count, Is.EqualTo(8));
+            for (int step = 0; step <= 7; step++)
+            {
+                JToken entry = log[step.ToString(CultureInfo.InvariantCulture)]!;
+                Assert.That((double)entry["totalTime"]!, Is.EqualTo(step * 0.01).Within(1e-15));
+                Assert.That((double)entry["delta"]!, Is.EqualTo(again.PredictionError));
+                for (int i = 0; i <= 30; i++)
+                {
+                    JToken sphere = entry["sphere"]![i.ToString(CultureInfo.InvariantCulture)]!;
+                    Assert.That((double)sphere["x"]!, Is.EqualTo(again.State.Positions[i].X));
+                    Assert.That((double)sphere["z"]!, Is.EqualTo(again.State.Positions[i].Z));
+                    Assert.That((double)sphere["vy"]!, Is.EqualTo(again.State.Velocities[i].Y));
+                }
+                again.Step();
+            }
+        }
+
+        [Test]
+        public void Log_IsWrittenWithPoints_WhateverTheCulture()
+        {
+            CultureInfo before = Thread.CurrentThread.CurrentCulture;
+            var commas = (CultureInfo)CultureInfo.InvariantCulture.Clone();
+            commas.NumberFormat.NumberDecimalSeparator = ",";
+            Thread.CurrentThread.CurrentCulture = commas;
+            try
+            {
+                new SimulationRun(Load(("maxSimulationSteps", 2)), _folder, null).Execute(false);
+            }
+            finally
+            {
+                Thread.CurrentThread.CurrentCulture = before;
+            }
+            Assert.That((double)Read("positions.json")["1"]!["totalTime"]!, Is.EqualTo(0.01));
+        }
+
+        [Test]
+        public void ThinnedLog_KeepsEveryKthStepAndTheLast()
+        {
+            new SimulationRun(Load(("maxSimulationSteps", 10), ("logEvery", 4), ("logSpheres", "last"),
+                ("logOrientations", true)), _folder, null).Execute(false);
+            JObject log = Read("positions.json");
+            Assert.That(((IDictionary<string, JToken?>)log).Keys, Is.EqualTo(new[] { "0", "4", "8", "10" }));
+            Assert.That(((JObject)log["8"]!["sphere"]!).Count, Is.EqualTo(1));
+            Assert.That(((JObject)log["8"]!["orientation"]!).Count, Is.EqualTo(30));
+        }
+
+        [Test]
+        public void Summary_SaysWhatBecameOfTheRun()
+        {
+            RunResult result = new SimulationRun(Load(("maxSimulationSteps", 5)), _folder, 2).Execute(false);
+            JObject summary = Read("summary.json");
+            Assert.That(result.Outcome, Is.EqualTo(Outcome.Finished));
+            Assert.That((string?)summary["outcome"], Is.EqualTo("finished"));
+            Assert.That((int)summary["steps"]!, Is.EqualTo(5));
+            Assert.That((double)summary["inGameTime"]!, Is.EqualTo(0.05).Within(1e-15));
+            Assert.That((bool)summary["timed"]!, Is.True);
+            Assert.That((int)summary["repeat"]!, Is.EqualTo(2));
+            Assert.That((double)summary["medianStepTime"]!, Is.GreaterThan(0.0));
+            Assert.That((bool)summary["complete"]!, Is.True);
+            Assert.That(Directory.GetFiles(_folder, "*.partial"), Is.Empty);
+        }
+
+        [Test]
+        public void StopRequest_EndsTheRunWithAWholeLog()
+        {
+            int asked = 0;
+            var run = new SimulationRun(Load(("constraintSolverSteps", 1)), _folder, null) { StopRequested = () => ++asked > 4 };
+            Assert.That(run.Execute(false).Outcome, Is.EqualTo(Outcome.Interrupted));
+            Assert.That(Read("positions.json").Count, Is.EqualTo(5), "entries 0 to 4");
+            Assert.That((string?)Read("summary.json")["outcome"], Is.EqualTo("interrupted"));
+        }
+
+        [Test]
+        public void EarlierResult_StandsIn_OnlyForTheSameParametersAndRepeat()
+        {
+            ParameterHandler handler = Load(("maxSimulationSteps", 3));
+            new SimulationRun(handler, _folder, null).Execute(false);
+            Assert.That(new SimulationRun(handler, _folder, null).Execute(true).Reused, Is.True);
+            Assert.That(new SimulationRun(handler, _folder, 0).Execute(true).Reused, Is.False, "timed and untimed");
+            Assert.That(new SimulationRun(handler, _folder, 1).Execute(true).Reused, Is.False, "another repeat");
+            Assert.That(new SimulationRun(Load(("maxSimulationSteps", 4)), _folder, 1).Execute(true).Reused, Is.False);
+        }
+
+        [Test]
+        public void TwoRunsIntoOneFolder_AreRefused()
+        {
+            RunResult? inner = null;
+            ParameterException? refused = null;
+            var run = new SimulationRun(Load(("maxSimulationSteps", 2)), _folder, null)
+            {
+                Progress = (simulation, elapsed) =>
+                {
+                    try
+                    {
+                        inner = new SimulationRun(Load(("maxSimulationSteps", 1)), _folder, null).Execute(false);
+                    }
+                    catch (ParameterException error)
+                    {
+                        refused = error;
+                    }
+                },
+            };
+            run.Execute(false);
+            Assert.That(inner, Is.Null);
+            Assert.That(refused!.Message, Does.Contain("no other run is writing"));
+        }
+
+        [Test]
+        public void StepTimes_FindTheMedianWithinHalfAPercent()
+        {
+            var times = new StepTimes();
+            for (int k = 1; k <= 999; k++)
+            {
+                times.Add(0.01 * k);
+            }
+            Assert.That(times.Median(), Is.EqualTo(5.0).Within(0.5).Percent);
+            Assert.That(times.Average, Is.EqualTo(5.0).Within(1e-9));
+        }
+
+        private JObject Read(string name)
+        {
+            return JObject.Parse(File.ReadAllText(Path.Combine(_folder, name)));
+        }
+
+        private static ParameterHandler Load(params (string Key, JToken Value)[] overrides)
+        {
+            var list = new List<KeyValuePair<string, JToken>>();
+            foreach ((string key, JToken value) in overrides)
+            {
+                list.Add(new KeyValuePair<string, JToken>(key, value));
+            }
+            return ParameterHandler.Load(null, list);
+        }
+    }
+}

@@ -1,0 +1,111 @@
+using System;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    public sealed class StepTests
+    {
+        [TestCase(Integrator.Verlet, SweepOrder.Naive)]
+        [TestCase(Integrator.Euler, SweepOrder.Bilateral)]
+        public void Step_AllocatesNothing(Integrator integrator, SweepOrder order)
+        {
+            Simulation run = Simulation.Create(new SimulationParameters
+            {
+                Integrator = integrator,
+                SweepOrder = order,
+                ConstraintSolverSteps = 10,
+                DeltaThreshold = 0.0,
+                Drive = Drive.Push,
+                DisplacementPerStep = 0.01,
+                Gravity = new Vector3d(0.0, -1.0, 0.0),
+            });
+            for (int step = 0; step < 50; step++)
+            {
+                run.Step();
+            }
+            long before = GC.GetAllocatedBytesForCurrentThread();
+            for (int step = 0; step < 500; step++)
+            {
+                run.Step();
+            }
+            Assert.That(GC.GetAllocatedBytesForCurrentThread() - before, Is.Zero);
+            Assert.That(run.StepCount, Is.EqualTo(550));
+        }
+
+        [Test]
+        public void SameParameters_GiveTheSameBits()
+        {
+            var parameters = new SimulationParameters
+            {
+                NumberRodElements = 17,
+                Start = Wires.Random(17, 300.0, 4),
+                Gravity = new Vector3d(1.0, -2.0, 0.5),
+                DeltaThreshold = 0.0,
+                MaxSimulationSteps = 100,
+                ConstraintSolverSteps = 50,
+            };
+            RodState first = Wires.Run(parameters).State;
+            RodState second = Wires.Run(parameters).State;
+            Assert.That(first.Positions, Is.EqualTo(second.Positions));
+            Assert.That(first.Orientations, Is.EqualTo(second.Orientations));
+        }
+
+        [Test]
+        public void TurnedScene_GivesTheTurnedResult()
+        {
+            // The equations know no direction: turn everything by one rotation, and the result is turned by it.
+            const int N = 9;
+            Quaterniond turn = Quaterniond.FromAxisAngle(Vector3d.Normalize(new Vector3d(1.0, -2.0, 0.7)), 2.1);
+            RodStart start = Wires.Random(N, 90.0, 8);
+            var positions = new Vector3d[N + 1];
+            var velocities = new Vector3d[N + 1];
+            var orientations = new Quaterniond[N];
+            for (int i = 0; i <= N; i++)
+            {
+                positions[i] = Quaterniond.Rotate(turn, start.Positions[i]);
+                velocities[i] = Quaterniond.Rotate(turn, start.Velocities[i]);
+            }
+            for (int j = 0; j < N; j++)
+            {
+                orientations[j] = turn * start.Orientations[j];
+            }
+            var turned = new RodStart(positions, orientations, velocities, start.AngularVelocities);
+            Simulation plain = Free(start, N);
+            Simulation rotated = Free(turned, N);
+            for (int step = 0; step < 50; step++)
+            {
+                plain.Step();
+                rotated.Step();
+            }
+            for (int i = 0; i <= N; i++)
+            {
+                Vector3d expected = Quaterniond.Rotate(turn, plain.State.Positions[i]);
+                Assert.That(Vector3d.Distance(rotated.State.Positions[i], expected), Is.LessThan(1e-10), "sphere " + i);
+            }
+        }
+
+        [Test]
+        public void OneElement_IsAWireToo()
+        {
+            SimulationParameters parameters = Wires.Longitudinal(200);
+            parameters.NumberRodElements = 1;
+            parameters.TotalMass = 1e-6;
+            Simulation run = Wires.Run(parameters);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished));
+            Assert.That(run.State.Positions[1].Z, Is.EqualTo(190.0).Within(1e-9));
+        }
+
+        private static Simulation Free(RodStart start, int n)
+        {
+            return Simulation.Create(new SimulationParameters
+            {
+                NumberRodElements = n,
+                GuidewireLength = 10.0 * n,
+                Drive = Drive.Force,
+                Start = start,
+                DeltaThreshold = 0.0,
+                ConstraintSolverSteps = 30,
+            });
+        }
+    }
+}

@@ -1,0 +1,76 @@
+using System;
+using Guidewire.Core;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>The wires that tests share.</summary>
+    internal static class Wires
+    {
+        /// <summary>Thesis table 4.1, displaced along y, with no steady state to end it.</summary>
+        public static SimulationParameters Transversal(int maxSteps)
+        {
+            return new SimulationParameters
+            {
+                DisplacementDirection = Vector3d.UnitY,
+                DeltaThreshold = 0.0,
+                MaxSimulationSteps = maxSteps,
+            };
+        }
+
+        /// <summary>Thesis table 4.1, displaced along z, with no steady state to end it.</summary>
+        public static SimulationParameters Longitudinal(int maxSteps)
+        {
+            return new SimulationParameters { DeltaThreshold = 0.0, MaxSimulationSteps = maxSteps };
+        }
+
+        /// <summary>A bent and twisted start at rest with velocities, from a seed.</summary>
+        public static RodStart Random(int n, double length, int seed)
+        {
+            var random = new System.Random(seed);
+            double l = length / n;
+            var positions = new Vector3d[n + 1];
+            var velocities = new Vector3d[n + 1];
+            var orientations = new Quaterniond[n];
+            var spins = new Vector3d[n];
+            Quaterniond frame = Quaterniond.Identity;
+            for (int j = 0; j < n; j++)
+            {
+                frame = frame * Quaterniond.FromAxisAngle(Vector3d.Normalize(Any(random)), 0.4 * random.NextDouble());
+                orientations[j] = frame;
+                positions[j + 1] = positions[j] + l * (1.0 + 0.1 * (random.NextDouble() - 0.5)) * frame.Director3;
+                velocities[j + 1] = l * Any(random);
+                spins[j] = Any(random);
+            }
+            return new RodStart(positions, orientations, velocities, spins);
+        }
+
+        /// <summary>Runs to its end.</summary>
+        public static Simulation Run(SimulationParameters parameters)
+        {
+            Simulation simulation = Simulation.Create(parameters);
+            while (simulation.Outcome == Outcome.Running)
+            {
+                simulation.Step();
+            }
+            return simulation;
+        }
+
+        /// <summary>A vector with components in [-1, 1).</summary>
+        public static Vector3d Any(System.Random random)
+        {
+            return new Vector3d(2.0 * random.NextDouble() - 1.0, 2.0 * random.NextDouble() - 1.0,
+                2.0 * random.NextDouble() - 1.0);
+        }
+
+        /// <summary>The largest distance between spheres of the same index.</summary>
+        public static double Distance(RodState a, RodState b)
+        {
+            double worst = 0.0;
+            for (int i = 0; i < a.SphereCount; i++)
+            {
+                worst = Math.Max(worst, Vector3d.Distance(a.Positions[i], b.Positions[i]));
+            }
+            return worst;
+        }
+    }
+}

@@ -1,0 +1,75 @@
+"""The figures by their numbers: what each needs and how it is drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+from analysis.figures import default_run
+from analysis.figures.sweeps import VIEWS, draw_sweep
+from analysis.tables import read_table
+
+Drawn = tuple[Figure, str]
+
+
+@dataclass(frozen=True)
+class FigureSpec:
+    """One figure.
+
+    Attributes
+    ----------
+    id : str
+        Its number, such as "4.5".
+    title : str
+        What it shows, in a few words.
+    studies : tuple of str
+        Names of the studies whose runs it is drawn from.
+    draw : callable
+        From a mapping of study name to study folder to the figure and its caption. Raises analysis.logs.LogError
+        where a file cannot be read and analysis.relaxation.RelaxationError where nothing relaxes.
+    """
+
+    id: str
+    title: str
+    studies: tuple[str, ...]
+    draw: Callable[[Mapping[str, Path]], Drawn]
+
+
+def _draw_default(draw: Callable[[default_run.RunTable], Drawn], options: dict, studies: Mapping[str, Path]) -> Drawn:
+    return draw(default_run.read_default_run(studies["default"], **options))
+
+
+def _draw_study(number: str, study: str, studies: Mapping[str, Path]) -> Drawn:
+    view = VIEWS[number]
+    return draw_sweep(view, read_table(studies[study], view.key))
+
+
+def _default_spec(number: str, title: str, draw: Callable[[default_run.RunTable], Drawn], **options) -> FigureSpec:
+    return FigureSpec(number, title, ("default",), partial(_draw_default, draw, options))
+
+
+def _study_spec(number: str, title: str, study: str) -> FigureSpec:
+    return FigureSpec(number, title, (study,), partial(_draw_study, number, study))
+
+
+FIGURES: dict[str, FigureSpec] = {
+    spec.id: spec
+    for spec in (
+        _default_spec("4.1", "time evolution of the last sphere", default_run.draw_time_evolution),
+        _default_spec(
+            "4.2", "displacement of all spheres over time", default_run.draw_heat_map, spheres="all",
+            most_entries=default_run.MOST_COLUMNS,
+        ),
+        _default_spec("4.3", "fit of the relaxation time", default_run.draw_relaxation),
+        _default_spec("4.4", "displacement error of each sphere", default_run.draw_final_error, spheres="all"),
+        _study_spec("4.5", "convergence against the constraint solver steps", "constraint-solver-steps"),
+        _study_spec("4.6", "convergence against the number of rod elements", "rod-elements"),
+        _study_spec("4.7", "convergence against the displacement", "displacement"),
+        _study_spec("4.8", "convergence against the time step size", "time-step"),
+        _study_spec("4.9", "convergence against the total mass", "total-mass"),
+    )
+}

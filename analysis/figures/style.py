@@ -1,0 +1,91 @@
+"""The look that all figures share: style file, panel letters, and the caption drawn under the panels."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import wraps
+from pathlib import Path
+from typing import ParamSpec, TypeVar
+
+import matplotlib.style
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties
+
+STYLE = Path(__file__).resolve().parent.parent / "guidewire.mplstyle"
+CAPTION_ID = "caption"  # gid of the caption's text in the figure
+
+_CAPTION_SIZE = 8.5  # points
+_LINE_SPACING = 1.35
+_MARGIN = 0.15  # inches around the caption
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+
+def styled(function: Callable[P, R]) -> Callable[P, R]:
+    """Runs a function that draws or saves under the shared style, and leaves matplotlib's settings as they were."""
+
+    @wraps(function)
+    def inner(*args: P.args, **kwargs: P.kwargs) -> R:
+        with matplotlib.style.context(str(STYLE)):
+            return function(*args, **kwargs)
+
+    return inner
+
+
+class _StyledFigure(Figure):
+    """A figure that is saved under the style it was drawn in: ticks made only then ask for it again."""
+
+    @styled
+    def savefig(self, *args, **kwargs) -> None:
+        super().savefig(*args, **kwargs)
+
+
+def new_figure(width: float, height: float) -> Figure:
+    """A figure with room for panels of the given size in inches; a caption makes it taller."""
+    figure = _StyledFigure(figsize=(width, height), layout="constrained")
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def letter(axes: Axes, name: str, title: str) -> None:
+    """Titles a panel "(a) title"."""
+    axes.set_title(f"({name}) {title}")
+
+
+def add_caption(figure: Figure, caption: str) -> None:
+    """Writes the caption under the panels, over the figure's width, and makes the figure taller by its height."""
+    width, height = figure.get_size_inches()
+    font = FontProperties(size=_CAPTION_SIZE)
+    lines = _wrap(figure, caption, font, (width - 2 * _MARGIN) * figure.dpi)
+    text_height = len(lines) * _CAPTION_SIZE * _LINE_SPACING / 72.0
+    below = text_height + 2 * _MARGIN
+    figure.set_size_inches(width, height + below)
+    share = below / (height + below)
+    figure.get_layout_engine().set(rect=(0.0, share, 1.0, 1.0 - share))
+    figure.text(
+        _MARGIN / width,
+        (below - _MARGIN) / (height + below),
+        "\n".join(lines),
+        fontproperties=font,
+        linespacing=_LINE_SPACING,
+        va="top",
+        ha="left",
+        gid=CAPTION_ID,
+        parse_math=False,
+    )
+
+
+def _wrap(figure: Figure, text: str, font: FontProperties, width: float) -> list[str]:
+    """Breaks a text between words so that no line is wider than ``width`` pixels."""
+    renderer = figure.canvas.get_renderer()
+    lines: list[str] = []
+    for word in text.split():
+        longer = f"{lines[-1]} {word}" if lines else word
+        if lines and renderer.get_text_width_height_descent(longer, font, False)[0] <= width:
+            lines[-1] = longer
+        else:
+            lines.append(word)
+    return lines

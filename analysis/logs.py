@@ -1,0 +1,287 @@
+"""Reads position logs of any size in one pass.
+
+A log is one JSON object, ``{"0": {"totalTime", "elapsedMilliseconds", "delta", "sphere": {"0": {"x", ...}}}, ...}``.
+It may stand on one line or on many. Only one entry is decoded at a time and only what was asked for is kept, so that
+memory is set by the request and not by the file.
+"""
+
+from __future__ import annotations
+
+import json
+from array import array
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+LOG_NAME = "positions.json"
+PARTIAL_LOG_NAME = "positions.json.partial"
+
+_CHUNK = 1 << 20  # characters read at a time
+_LONGEST_TOKEN = 64  # characters; the decoder reports a cut token at most this far before the cut
+_WHITESPACE = " \t\r\n"
+
+
+class LogError(Exception):
+    """A log that cannot be understood. The message is one line that names the file."""
+
+
+@dataclass(frozen=True)
+class PositionLog:
+    """What was asked of one log, ``k`` entries and ``s`` spheres.
+
+    Attributes
+    ----------
+    source : Path
+        The file read.
+    steps : ndarray of int64, shape (k,)
+        Step numbers; entry 0 is the start, after the first sphere's displacement.
+    time, elapsed : ndarray of float64, shape (k,)
+        In-game time and real time since the start of the run, both in seconds.
+    prediction_error : ndarray of float64, shape (k,)
+        Delta_p of the last sphere, in units.
+    spheres : ndarray of int64, shape (s,)
+        Indices of the spheres kept, ascending.
+    positions : ndarray of float64, shape (k, s, 3)
+        In units.
+    velocities : ndarray of float64, shape (k, s, 3), or None
+        In units/s; None unless asked for.
+    final_step : int
+        The last whole step in the file, also where thinning skips it.
+    final_spheres : ndarray of int64, shape (f,)
+        Indices of all spheres that the last whole step states, whatever ``spheres`` asked for.
+    final_positions : ndarray of float64, shape (f, 3)
+        Their positions, in units.
+    warning : str or None
+        One line where the log ends before the run did; what was read then goes up to the last whole step.
+    """
+
+    source: Path
+    steps: np.ndarray
+    time: np.ndarray
+    elapsed: np.ndarray
+    prediction_error: np.ndarray
+    spheres: np.ndarray
+    positions: np.ndarray
+    velocities: np.ndarray | None
+    final_step: int
+    final_spheres: np.ndarray
+    final_positions: np.ndarray
+    warning: str | None
+
+    @property
+    def complete(self) -> bool:
+        """Whether the log was closed by the run that wrote it."""
+        return self.warning is None
+
+    def sphere(self, index: int) -> np.ndarray:
+        """Positions of one sphere, shape (k, 3), in units."""
+        column = np.flatnonzero(self.spheres == index)
+        if column.size == 0:
+            raise LogError(f"{self.source}: sphere {index} was not read")
+        return self.positions[:, column[0]]
+
+
+def find_log(path: Path) -> Path:
+    """The log that ``path`` means: a file itself, or a run folder's log, complete or else partial."""
+    if path.is_dir():
+        for name in (LOG_NAME, PARTIAL_LOG_NAME):
+            if (path / name).is_file():
+                return path / name
+        raise LogError(f"{path}: holds neither {LOG_NAME} nor {PARTIAL_LOG_NAME}")
+    if not path.is_file():
+        raise LogError(f"{path}: no such log")
+    return path
+
+
+def read_log(
+    path: Path,
+    spheres: str | Sequence[int] = "last",
+    every: int = 1,
+    velocities: bool = False,
+) -> PositionLog:
+    """Reads a log, or a run folder's log, in one pass.
+
+    Parameters
+    ----------
+    path : Path
+        The log or the run folder.
+    spheres : "last", "all" or a sequence of int
+        Which spheres' positions to keep.
+    every : int
+        Keep the entries whose step number is a multiple of this.
+    velocities : bool
+        Keep the velocities of these spheres too.
+
+    Raises
+    ------
+    LogError
+        The file is missing, is not a log, holds no whole step, or lacks a sphere that was asked for.
+    """
+    if every < 1:
+        raise ValueError(f"every = {every}: must be at least 1")
+    source = find_log(path)
+    entries = _Entries(source)
+    columns = _Columns(source, spheres, velocities)
+    step, entry = -1, None
+    for step, entry in entries:
+        if step % every == 0:
+            columns.append(step, entry)
+    if entry is None:
+        raise LogError(f"{source}: holds no whole step")
+    return columns.finish(step, entry, entries.warning)
+
+
+class _Entries:
+    """Yields (step, entry) of a log; afterwards ``warning`` says whether its end was missing."""
+
+    def __init__(self, source: Path) -> None:
+        self.warning: str | None = None
+        self._source = source
+        self._decoder = json.JSONDecoder()
+        self._buffer = ""
+        self._at = 0
+        self._dropped = 0  # characters before the buffer
+        self._ended = False
+
+    def __iter__(self) -> Iterator[tuple[int, dict]]:
+        step = -1
+        try:
+            with open(self._source, encoding="utf-8-sig") as stream:
+                self._stream = stream
+                try:
+                    self._expect("{")
+                    if self._peek() == "}":
+                        return
+                    while True:
+                        following = self._key()
+                        if following <= step:
+                            raise LogError(f"{self._source}: step {following} stands after step {step}")
+                        self._expect(":")
+                        entry = self._value()
+                        step = following
+                        yield step, entry
+                        if self._expect(",}") == "}":
+                            break
+                    if self._peek(at_end=True):
+                        raise self._unreadable()
+                except EOFError:
+                    self.warning = f"{self._source}: cut short, read up to step {step}, its last whole step"
+        except UnicodeDecodeError as error:
+            raise LogError(f"{self._source}: not a text file ({error.reason})") from error
+        except OSError as error:
+            raise LogError(f"{self._source}: {error.strerror}") from error
+
+    def _more(self) -> None:
+        """Reads on. An entry may be longer than a chunk, so what is read grows with what is waiting."""
+        if self._ended:
+            raise EOFError
+        waiting = self._buffer[self._at:]
+        text = self._stream.read(max(_CHUNK, len(waiting)))
+        self._ended = not text
+        self._dropped += self._at
+        self._buffer = waiting + text
+        self._at = 0
+
+    def _peek(self, at_end: bool = False) -> str:
+        """The next character that is not white space; at the end of the file "" if ``at_end``."""
+        while True:
+            while self._at < len(self._buffer):
+                if self._buffer[self._at] not in _WHITESPACE:
+                    return self._buffer[self._at]
+                self._at += 1
+            if self._ended and at_end:
+                return ""
+            self._more()
+
+    def _expect(self, characters: str) -> str:
+        found = self._peek()
+        if found not in characters:
+            raise self._unreadable()
+        self._at += 1
+        return found
+
+    def _key(self) -> int:
+        self._peek()
+        key = self._decode()
+        if not (isinstance(key, str) and key.isdecimal()):
+            raise self._unreadable()
+        return int(key)
+
+    def _value(self) -> dict:
+        self._peek()
+        entry = self._decode()
+        if not isinstance(entry, dict):
+            raise self._unreadable()
+        return entry
+
+    def _decode(self) -> object:
+        """One JSON value. An error near the end of what has been read is a value still to be read on."""
+        while True:
+            try:
+                value, self._at = self._decoder.raw_decode(self._buffer, self._at)
+                return value
+            except json.JSONDecodeError as error:
+                if len(self._buffer) - error.pos > _LONGEST_TOKEN:
+                    self._at = error.pos
+                    raise self._unreadable() from error
+                self._more()
+
+    def _unreadable(self) -> LogError:
+        return LogError(f"{self._source}: not a position log at character {self._dropped + self._at}")
+
+
+class _Columns:
+    """Collects what was asked for, one entry at a time, in flat arrays of numbers."""
+
+    def __init__(self, source: Path, spheres: str | Sequence[int], velocities: bool) -> None:
+        self._source = source
+        self._asked = spheres
+        self._spheres: list[str] | None = None
+        self._steps = array("q")
+        self._scalars = {name: array("d") for name in ("totalTime", "elapsedMilliseconds", "delta")}
+        self._positions = array("d")
+        self._velocities = array("d") if velocities else None
+
+    def append(self, step: int, entry: dict) -> None:
+        try:
+            if self._spheres is None:
+                self._spheres = self._choose(entry["sphere"])
+            self._steps.append(step)
+            for name, column in self._scalars.items():
+                column.append(float(entry[name]))
+            for index in self._spheres:
+                sphere = entry["sphere"][index]
+                self._positions.extend((float(sphere["x"]), float(sphere["y"]), float(sphere["z"])))
+                if self._velocities is not None:
+                    self._velocities.extend((float(sphere["vx"]), float(sphere["vy"]), float(sphere["vz"])))
+        except (KeyError, TypeError, ValueError) as error:
+            raise LogError(f"{self._source}: step {step} lacks {error}") from error
+
+    def _choose(self, logged: dict) -> list[str]:
+        if self._asked == "all":
+            return sorted(logged, key=int)
+        if self._asked == "last":
+            return [max(logged, key=int)]
+        return [str(index) for index in sorted(self._asked)]
+
+    def finish(self, step: int, entry: dict, warning: str | None) -> PositionLog:
+        if self._spheres is None:
+            raise LogError(f"{self._source}: no step left after thinning")
+        count = len(self._spheres)
+        final = sorted(entry["sphere"], key=int)
+        return PositionLog(
+            source=self._source,
+            steps=np.frombuffer(self._steps, dtype=np.int64),
+            time=np.frombuffer(self._scalars["totalTime"]),
+            elapsed=np.frombuffer(self._scalars["elapsedMilliseconds"]) / 1000.0,
+            prediction_error=np.frombuffer(self._scalars["delta"]),
+            spheres=np.array([int(index) for index in self._spheres]),
+            positions=np.frombuffer(self._positions).reshape(-1, count, 3),
+            velocities=None if self._velocities is None else np.frombuffer(self._velocities).reshape(-1, count, 3),
+            final_step=step,
+            final_spheres=np.array([int(index) for index in final]),
+            final_positions=np.array([[float(entry["sphere"][i][axis]) for axis in "xyz"] for i in final]),
+            warning=warning,
+        )

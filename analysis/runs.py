@@ -1,0 +1,151 @@
+"""Run folders (parameters.json, summary.json, the log) and study folders (study.json above runs)."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from analysis.logs import LogError, find_log
+
+PARAMETERS_NAME = "parameters.json"
+SUMMARY_NAME = "summary.json"
+STUDY_NAME = "study.json"
+
+
+@dataclass(frozen=True)
+class Run:
+    """One run folder.
+
+    Attributes
+    ----------
+    folder : Path
+        Where the run stands.
+    parameters : mapping of str to Any
+        All effective values, by key.
+    summary : mapping of str to Any, or None
+        summary.json; None where the run was killed before it could be written.
+    key, overrides, repeat : str, mapping, int or None
+        From the study's table where the run belongs to one: the run's name, what it lays over the scene, and the
+        number of the timed repeat (None for a run that is not timed).
+    """
+
+    folder: Path
+    parameters: Mapping[str, Any]
+    summary: Mapping[str, Any] | None
+    key: str = ""
+    overrides: Mapping[str, Any] = field(default_factory=dict)
+    repeat: int | None = None
+
+    def value(self, key: str) -> Any:
+        """The effective value of a parameter."""
+        if key not in self.parameters:
+            raise LogError(f"{self.folder / PARAMETERS_NAME}: has no {key}")
+        return self.parameters[key]
+
+    def number(self, key: str) -> float:
+        """The effective value of a parameter that is a number."""
+        value = self.value(key)
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            raise LogError(f"{self.folder / PARAMETERS_NAME}: {key} is {json.dumps(value)}, not a number")
+        return value
+
+    def measured(self, name: str) -> float:
+        """A number of the summary."""
+        if self.summary is None:
+            raise LogError(f"{self.folder}: has no {SUMMARY_NAME}, the run did not end by itself")
+        if name not in self.summary:
+            raise LogError(f"{self.folder / SUMMARY_NAME}: has no {name}")
+        return self.summary[name]
+
+    @property
+    def outcome(self) -> str:
+        """How the run ended; "killed" where it could not say so."""
+        return "killed" if self.summary is None else str(self.summary.get("outcome"))
+
+    @property
+    def direction(self) -> np.ndarray:
+        """Unit vector of the first sphere's displacement, shape (3,)."""
+        direction = np.asarray(self.value("displacementDirection"), dtype=float)
+        return direction / np.linalg.norm(direction)
+
+    @property
+    def displacement(self) -> np.ndarray:
+        """Displacement of the first sphere at the start, shape (3,), in units."""
+        return self.number("displacement") * self.direction
+
+    @property
+    def rest_positions(self) -> np.ndarray:
+        """x_i before the displacement, shape (n+1, 3), in units: sphere i at z = guidewireOffset + i L/n."""
+        count = int(self.number("numberRodElements"))
+        rest = np.zeros((count + 1, 3))
+        rest[:, 2] = self.number("guidewireOffset") + self.number("guidewireLength") * np.arange(count + 1) / count
+        return rest
+
+
+@dataclass(frozen=True)
+class StudyRuns:
+    """The runs of one study, in the order of its table, without those that left no log."""
+
+    name: str
+    folder: Path
+    runs: tuple[Run, ...]
+    missing: tuple[str, ...]  # keys of the runs that left nothing to read
+
+    @property
+    def untimed(self) -> tuple[Run, ...]:
+        """Runs made for their positions."""
+        return tuple(run for run in self.runs if run.repeat is None)
+
+    def timed(self, key: str) -> tuple[Run, ...]:
+        """Timed repeats of the run named ``key`` that ended by themselves: a killed one has no step time."""
+        return tuple(
+            run for run in self.runs if run.repeat is not None and run.key == key and run.summary is not None
+        )
+
+
+def read_run(folder: Path, key: str = "", overrides: Mapping[str, Any] | None = None, repeat: int | None = None) -> Run:
+    """Reads a run folder's small files; the log is read by whoever needs it.
+
+    Raises
+    ------
+    LogError
+        parameters.json is missing, or one of the two files is not a JSON object.
+    """
+    summary_file = folder / SUMMARY_NAME
+    summary = _read_object(summary_file) if summary_file.is_file() else None
+    return Run(folder, _read_object(folder / PARAMETERS_NAME), summary, key, overrides or {}, repeat)
+
+
+def read_study(folder: Path) -> StudyRuns:
+    """Reads study.json and every run of it that left a log."""
+    table = _read_object(folder / STUDY_NAME)
+    runs, missing = [], []
+    for row in table.get("runs", []):
+        try:
+            key, place, overrides, repeat = row["key"], folder / row["folder"], row["overrides"], row["repeat"]
+        except (KeyError, TypeError) as error:
+            raise LogError(f"{folder / STUDY_NAME}: a run lacks {error}") from error
+        try:
+            find_log(place)
+        except LogError:
+            missing.append(key)
+        else:
+            runs.append(read_run(place, key, overrides, repeat))
+    return StudyRuns(str(table.get("study", folder.name)), folder, tuple(runs), tuple(missing))
+
+
+def _read_object(path: Path) -> Mapping[str, Any]:
+    try:
+        content = json.loads(path.read_text(encoding="utf-8-sig"))
+    except OSError as error:
+        raise LogError(f"{path}: {error.strerror}") from error
+    except ValueError as error:
+        raise LogError(f"{path}: not JSON ({error})") from error
+    if not isinstance(content, dict):
+        raise LogError(f"{path}: not a JSON object")
+    return content

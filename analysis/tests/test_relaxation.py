@@ -1,0 +1,111 @@
+"""Peaks, envelope and period: against closed forms, and against the thesis's method run by an independent chain."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from analysis.relaxation import RelaxationError, fit_relaxation, relaxation_error
+from analysis.tests.chain import Chain
+
+
+def measured(chain: Chain):
+    return fit_relaxation(chain.time, np.abs(chain.z[:, -1] - chain.rest[-1] - chain.displacement))
+
+
+def test_envelope_of_a_damped_oscillation_is_found() -> None:
+    """|8 exp(-t/0.4) cos(2 pi t/0.25)| has its peaks on a constant times its envelope, half a period apart."""
+    step = 1e-4
+    time = np.arange(0.0, 3.0, step)
+    fit = fit_relaxation(time, np.abs(8.0 * np.exp(-time / 0.4) * np.cos(2.0 * np.pi * time / 0.25)))
+    sampled = 0.5 * step / 0.4  # a peak is found up to half a step too early or late, where the envelope is so different
+    # At a peak tan(w t) = -1/(w tau), so cos = w tau/sqrt(1 + (w tau)^2).
+    turn = 2.0 * np.pi / 0.25 * 0.4
+    assert fit.time == pytest.approx(0.4, rel=sampled)
+    assert fit.amplitude == pytest.approx(8.0 * turn / np.hypot(1.0, turn), rel=sampled)
+    assert fit.period == pytest.approx(0.25, abs=step)
+    assert fit.largest_misfit < 2.0 * sampled
+    np.testing.assert_allclose(fit.envelope(fit.peak_times), fit.peak_heights, rtol=2.0 * sampled)
+
+
+def test_all_peaks_enter_the_fit() -> None:
+    """Peaks of heights 2^-k and one raised by a factor: least squares must move, however late the peak."""
+    time = np.arange(0.0, 21.0)
+    error = np.where(time % 2 == 1, 2.0 ** (-time / 2.0), 0.0)
+    plain = fit_relaxation(time, error)
+    assert plain.peak_times.size == 10 and plain.time == pytest.approx(2.0 / np.log(2.0), rel=1e-9)
+    for peak in plain.peak_entries:
+        raised = error.copy()
+        raised[peak] *= 1.2
+        assert fit_relaxation(time, raised).time != pytest.approx(plain.time, rel=1e-9)
+
+
+@pytest.mark.parametrize(("scale", "pace"), [(1e-6, 1.0), (1.0, 1e-4), (1e5, 1e3)])
+def test_fit_has_no_scale_of_its_own(scale: float, pace: float) -> None:
+    time = np.arange(400.0) * 0.01
+    error = np.abs(np.exp(-time / 0.5) * np.cos(9.0 * time))
+    one, other = fit_relaxation(time, error), fit_relaxation(time * pace, error * scale)
+    assert other.time == pytest.approx(one.time * pace, rel=1e-6)
+    assert other.amplitude == pytest.approx(one.amplitude * scale, rel=1e-6)
+    assert other.period == pytest.approx(one.period * pace, rel=1e-9)
+
+
+def test_noise_of_the_last_digits_is_no_peak() -> None:
+    time = np.arange(4000) * 0.01
+    motion = 10.0 * np.exp(-time / 0.3) * np.cos(2.0 * np.pi * time / 0.24)
+    noise = 1e-12 * np.random.default_rng(1).standard_normal(time.size)
+    assert fit_relaxation(time, np.abs(motion + noise)).period == pytest.approx(0.24, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("error", "said"),
+    [
+        (np.linspace(1.0, 0.0, 50), "0 peaks are too few"),
+        (np.zeros(50), "0 peaks are too few"),
+        (np.array([0.0, 1.0, 0.0, 0.5, 0.0]), "2 peaks are too few"),
+        (np.array([0.0, 1.0, np.nan, 0.5, 0.0]), "not finite"),
+        (np.array([]), "0 peaks are too few"),
+    ],
+)
+def test_what_does_not_oscillate_has_no_relaxation_time(error: np.ndarray, said: str) -> None:
+    with pytest.raises(RelaxationError, match=said):
+        fit_relaxation(np.arange(error.size, dtype=float), error)
+
+
+def test_distance_is_measured_along_the_displacement() -> None:
+    rest, displacement = np.array([1.0, 2.0, 3.0]), np.array([0.0, 0.0, -4.0])
+    positions = np.array([[9.0, 9.0, 3.0], [9.0, 9.0, -1.0], [9.0, 9.0, -2.5]])
+    np.testing.assert_allclose(relaxation_error(positions, rest, displacement), [4.0, 0.0, 1.5])
+    with pytest.raises(RelaxationError, match="nothing to relax"):
+        relaxation_error(positions, rest, np.zeros(3))
+
+
+# The check numbers of the seed's method in double precision; fitted ones hold to 1 %.
+
+
+def test_default_run_relaxes_in_0_297_s_with_a_period_of_0_24_s(default_chain: Chain) -> None:
+    fit = measured(default_chain)
+    assert fit.time == pytest.approx(0.297, rel=0.01)
+    assert fit.period == pytest.approx(0.24, abs=0.005)  # two digits are given
+
+
+@pytest.mark.parametrize(
+    ("changed", "tau"),
+    [
+        ({"constraint_solver_steps": 100}, 1.548),
+        ({"constraint_solver_steps": 300}, 0.504),
+        ({"constraint_solver_steps": 1000}, 0.148),
+        ({"elements": 10}, 0.092),
+        ({"elements": 40}, 0.520),
+        ({"total_mass": 0.1}, 0.478),
+        ({"total_mass": 1.0}, 2.34),
+    ],
+)
+def test_relaxation_time_of_the_studies(changed: dict, tau: float) -> None:
+    assert measured(Chain(**changed)).time == pytest.approx(tau, rel=0.01)
+
+
+def test_chain_with_gain_0_3_is_where_the_seed_is() -> None:
+    chain = Chain(stretch_gain=0.3, most_steps=50)
+    assert chain.z[10, -1] - chain.rest[-1] == pytest.approx(10.2667809, abs=5e-8)
+    assert chain.z[50, -1] - chain.rest[-1] == pytest.approx(10.0147801, abs=5e-8)

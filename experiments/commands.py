@@ -1,0 +1,223 @@
+"""The commands of guidewire.py: what people type, and what is printed."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import subprocess
+import sys
+import tempfile
+import traceback
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from experiments import runner
+from experiments.prepare import DRAWING, ROOT, TESTING, PreparationError
+from experiments.runner import INTERNAL_ERROR, INTERRUPTED, Answer
+from experiments.studies import STUDIES
+from experiments.sweep import SweepResult, run_study
+
+if TYPE_CHECKING:
+    from experiments.gallery import Gallery  # itself imported only where its packages are there
+
+FAILED = 5  # as of a run: something that was asked for is not there
+_RUNNER_WORDS = ("parameters", "out", "repeat", "lines", "logFile")  # the runner's own arguments, like -KEY
+_DESCRIPTION = "Simulates guidewires as Cosserat rods, without Unity: runs, sweeps, figures, tests."
+
+
+def parse(argv: list[str]) -> argparse.Namespace:
+    """Read the command line. `packages` of the result names what the command imports, `action` runs it.
+
+    Exits with 2 and one line on stderr where it cannot be read.
+    """
+    parser = _Parser(prog="guidewire.py", description=_DESCRIPTION)
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True, parser_class=_Parser)
+
+    demo = commands.add_parser("demo", help="build, run the default scene, fit tau, draw Figures 4.1 to 4.4")
+    demo.add_argument("--out", type=Path, default=Path("results/demo"), help="folder for the run and the pictures")
+    demo.set_defaults(action=_demo, packages=DRAWING)
+
+    test = commands.add_parser("test", help="all tests; the last line says 'N passed, N failed'")
+    test.add_argument("--all", action="store_true", help="random campaigns in full instead of a seeded fraction")
+    test.set_defaults(action=_test, packages=TESTING)
+
+    run = commands.add_parser("run", help="one run of one parameter file")
+    run.add_argument("file", metavar="FILE", type=Path, help="parameter file, such as params/default.json")
+    run.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], type=_assignment, dest="overrides",
+                     help="a parameter laid over the file; may be given several times")
+    run.add_argument("--out", type=Path, help="folder of the run (results/<name of FILE>)")
+    run.set_defaults(action=_run, packages=())
+
+    sweep = commands.add_parser("sweep", help="a study's runs; what is done already is not run again")
+    sweep.add_argument("study", metavar="STUDY", choices=list(STUDIES), help=", ".join(STUDIES))
+    sweep.add_argument("--jobs", type=_positive, default=os.cpu_count() or 1, metavar="N",
+                       help="untimed runs at once (one per processor); timed ones always run alone")
+    sweep.add_argument("--out", type=Path, default=Path("results"), help="folder above the study's (results)")
+    sweep.set_defaults(action=_sweep, packages=())
+
+    figures = commands.add_parser("figures", help="the thesis's figures and ours, running what is missing")
+    figures.add_argument("ids", metavar="ID", nargs="*", help="such as 4.5; all where none is given")
+    figures.add_argument("--jobs", type=_positive, default=os.cpu_count() or 1, metavar="N",
+                         help="untimed runs at once")
+    figures.add_argument("--out", type=Path, default=Path("results"),
+                         help="folder above the studies' (results); the pictures stand in its 'figures'")
+    figures.set_defaults(action=_figures, packages=DRAWING)
+
+    bench = commands.add_parser("bench", help="what a step costs, part by part")
+    bench.set_defaults(action=_bench, packages=())
+
+    check = commands.add_parser("unity-check", help="check the Unity project's files without Unity")
+    check.add_argument("--write-metas", action="store_true", help="make the .meta files that are missing")
+    check.set_defaults(action=_unity_check, packages=())
+    return parser.parse_args(argv)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Run a parsed command and return the exit code.
+
+    Raises PreparationError for what a user has to mend. Any other error is the program's own: its trace goes into a
+    file, and one line says where.
+    """
+    try:
+        return arguments.action(arguments)
+    except KeyboardInterrupt:
+        print("guidewire: interrupted; what has ended is kept, the same command goes on from here", file=sys.stderr)
+        return INTERRUPTED
+    except PreparationError:
+        raise
+    except OSError as error:
+        if error.filename is None:
+            raise
+        raise PreparationError(f"{error.filename}: {error.strerror}") from error
+    except Exception as error:
+        trace = Path(tempfile.mkdtemp(prefix="guidewire-")) / "error.txt"
+        trace.write_text(traceback.format_exc(), encoding="utf-8")
+        print(f"guidewire: internal error ({type(error).__name__}: {error}): please report {trace}", file=sys.stderr)
+        return INTERNAL_ERROR
+
+
+class _Parser(argparse.ArgumentParser):
+    """Says what is wrong in one line, without argparse's usage lines before it."""
+
+    def error(self, message: str) -> None:
+        self.exit(2, f"guidewire: {message} ('{self.prog} --help' lists what is allowed)\n")
+
+
+def _assignment(text: str) -> tuple[str, str]:
+    key, equals, value = text.partition("=")
+    if not key or not equals:
+        raise argparse.ArgumentTypeError(f"'{text}' is not KEY=VALUE")
+    if key in _RUNNER_WORDS:
+        raise argparse.ArgumentTypeError(f"'{key}' is no parameter")
+    return key, value
+
+
+def _positive(text: str) -> int:
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a whole number above 0")
+    return int(text)
+
+
+def _demo(arguments: argparse.Namespace) -> int:
+    from analysis import figures
+    from experiments import gallery
+
+    command = _build_runner()
+    result = _run_study("default", command, arguments.out, jobs=1)
+    if result.failures:
+        return FAILED
+    ids = [name for name, spec in figures.FIGURES.items() if set(spec.studies) == {"default"}]
+    drawn = gallery.draw(ids, {"default": result.folder}, arguments.out)
+    for line in gallery.describe_default_run(result.folder):
+        print(line)
+    return _tell(drawn)
+
+
+def _test(arguments: argparse.Namespace) -> int:
+    from experiments import testing
+
+    return testing.run_tests(full=arguments.all)
+
+
+def _run(arguments: argparse.Namespace) -> int:
+    out = arguments.out or Path("results") / arguments.file.stem
+    command = [*_build_runner(), "-parameters", str(arguments.file), "-out", str(out)]
+    for key, value in arguments.overrides:
+        command += [f"-{key}", value]
+    return _hand_to(command)
+
+
+def _sweep(arguments: argparse.Namespace) -> int:
+    result = _run_study(arguments.study, _build_runner(), arguments.out, arguments.jobs)
+    print(f"runs: {os.path.relpath(result.folder)}")
+    return FAILED if result.failures else 0
+
+
+def _figures(arguments: argparse.Namespace) -> int:
+    from analysis import figures
+    from experiments import gallery
+
+    unknown = [name for name in arguments.ids if name not in figures.FIGURES]
+    if unknown:
+        raise PreparationError(f"there is no figure {unknown[0]}; there are {', '.join(figures.FIGURES)}")
+    ids = arguments.ids or list(figures.FIGURES)
+    needed = [name for name in STUDIES if any(name in figures.FIGURES[figure].studies for figure in ids)]
+    command = _build_runner()
+    results = {name: _run_study(name, command, arguments.out, arguments.jobs) for name in needed}
+    folders = {name: result.folder for name, result in results.items()}
+    code = _tell(gallery.draw(ids, folders, arguments.out / "figures"))
+    return FAILED if any(result.failures for result in results.values()) else code
+
+
+def _tell(drawn: Gallery) -> int:
+    for problem in drawn.problems:
+        print(f"guidewire: {problem}", file=sys.stderr)
+    print(f"pictures and captions: {os.path.relpath(drawn.index)}")
+    return FAILED if drawn.problems else 0
+
+
+def _bench(_: argparse.Namespace) -> int:
+    return _hand_to(runner.build("Guidewire.Benchmarks"))
+
+
+def _unity_check(arguments: argparse.Namespace) -> int:
+    options = ["--write-metas"] if arguments.write_metas else []
+    return _hand_to([sys.executable, "-m", "unitycheck", *options], cwd=ROOT)
+
+
+def _build_runner() -> list[str]:
+    print("building the runner", file=sys.stderr, flush=True)
+    return runner.build("Guidewire.Cli")
+
+
+def _run_study(name: str, command: list[str], out: Path, jobs: int) -> SweepResult:
+    """Run a study with one line of progress (several where stderr is no terminal), and say what failed."""
+    same_line = sys.stderr.isatty()
+
+    def progress(done: int, total: int, answer: Answer) -> None:
+        if answer.outcome in ("converged", "finished"):
+            ended = answer.outcome + (", done already" if answer.reused else "")
+        else:
+            ended = f"{answer.outcome or 'failed'}: {answer.message}"
+        if same_line:
+            print(f"\r\x1b[K{name}: {done}/{total}  {answer.name}: {ended}", end="", file=sys.stderr, flush=True)
+        elif done == total or done % 10 == 0:
+            print(f"{name}: {done}/{total} runs", file=sys.stderr, flush=True)
+
+    result = run_study(STUDIES[name], command, out, jobs, progress)
+    if same_line:
+        print(file=sys.stderr)
+    for answer in result.failures:
+        print(f"guidewire: {name}/{answer.name}: {answer.message}", file=sys.stderr)
+    return result
+
+
+def _hand_to(command: list[str], cwd: Path | None = None) -> int:
+    """Run a program on our terminal and return its exit code. Ctrl-C reaches it too: it decides how to end."""
+    process = subprocess.Popen(command, cwd=cwd)
+    while True:
+        try:
+            code = process.wait()
+            return code if code >= 0 else 128 - code
+        except KeyboardInterrupt:
+            continue

@@ -1,0 +1,79 @@
+"""Puts figures into a folder: one picture and one caption file each, and an index.md that shows them together."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import matplotlib.pyplot as pyplot
+
+from analysis.figures import FIGURES
+from analysis.logs import LogError, read_log
+from analysis.relaxation import RelaxationError
+from analysis.runs import read_run
+from analysis.tables import measure_relaxation
+
+INDEX = "index.md"
+
+
+@dataclass(frozen=True)
+class Gallery:
+    """What was drawn: the index of the folder, and one line for each figure that could not be drawn."""
+
+    index: Path
+    problems: tuple[str, ...]
+
+
+def draw(ids: Sequence[str], folders: Mapping[str, Path], out: Path) -> Gallery:
+    """Draw figures from studies that were run, as many as can be drawn.
+
+    Parameters
+    ----------
+    ids : keys of `analysis.figures.FIGURES`.
+    folders : study name to its folder, for every study that these figures need.
+    out : folder for `figure-<id>.png`, `figure-<id>.txt` (the caption) and index.md.
+
+    Returns
+    -------
+    Gallery : its index lists every figure of the folder, also those drawn earlier.
+    """
+    pyplot.switch_backend("Agg")  # pictures go to files; no screen is needed
+    out.mkdir(parents=True, exist_ok=True)
+    problems = []
+    for name in ids:
+        try:
+            figure, caption = FIGURES[name].draw({study: folders[study] for study in FIGURES[name].studies})
+        except (LogError, RelaxationError) as error:
+            problems.append(f"figure {name} cannot be drawn: {error}")
+            continue
+        figure.savefig(out / f"figure-{name}.png")
+        pyplot.close(figure)
+        (out / f"figure-{name}.txt").write_text(caption + "\n", encoding="utf-8")
+    index = out / INDEX
+    index.write_text(_index(out), encoding="utf-8")
+    return Gallery(index, tuple(problems))
+
+
+def describe_default_run(study: Path) -> list[str]:
+    """What the default study's run measured, one line each: relaxation time and period with the fit's error."""
+    run = read_run(study / "default")
+    log = read_log(run.folder)
+    relaxation = measure_relaxation(run, log.time, log.positions[:, 0])
+    return [
+        f"run: {run.outcome} after {log.final_step} steps ({log.final_step * run.number('timeStep'):.2f} s in-game)",
+        f"relaxation time tau = {relaxation.time:.4f} s (standard error of the fit {relaxation.time_error:.1g} s, "
+        f"{len(relaxation.peak_times)} peaks)",
+        f"period = {relaxation.period:.3f} s",
+        *([log.warning] if log.warning else []),
+    ]
+
+
+def _index(out: Path) -> str:
+    parts = ["# Figures\n"]
+    for name, spec in FIGURES.items():
+        caption = out / f"figure-{name}.txt"
+        if caption.exists():
+            text = caption.read_text(encoding="utf-8").strip()
+            parts.append(f"## Figure {name}: {spec.title}\n\n![{spec.title}](figure-{name}.png)\n\n{text}\n")
+    return "\n".join(parts)

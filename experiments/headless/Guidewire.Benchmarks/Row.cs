@@ -1,0 +1,62 @@
+using System.Globalization;
+using System.Reflection;
+using BenchmarkDotNet.Reports;
+
+namespace Guidewire.Benchmarks
+{
+    /// <summary>One line of the table.</summary>
+    internal sealed class Row
+    {
+        private Row(string name, string unit)
+        {
+            Name = name;
+            Unit = unit;
+        }
+
+        /// <summary>What was measured, with its parameters.</summary>
+        public string Name { get; }
+
+        /// <summary>The unit of work that <see cref="PerUnit"/> counts.</summary>
+        public string Unit { get; }
+
+        /// <summary>False where the benchmark did not run.</summary>
+        public bool Measured { get; private set; }
+
+        /// <summary>Median time of one call in ns.</summary>
+        public double Median { get; private set; }
+
+        /// <summary>Median time of one unit of work in ns.</summary>
+        public double PerUnit { get; private set; }
+
+        /// <summary>Interquartile range over median, in percent.</summary>
+        public double Spread { get; private set; }
+
+        /// <summary>Bytes allocated by one call.</summary>
+        public long Allocated { get; private set; }
+
+        /// <summary>The row of a report; the work of a call is what the benchmark's own attribute and parameters say.
+        /// </summary>
+        public static Row From(BenchmarkReport report)
+        {
+            MethodInfo method = report.BenchmarkCase.Descriptor.WorkloadMethod;
+            WorkAttribute work = method.GetCustomAttribute<WorkAttribute>()!;
+            string parameters = report.BenchmarkCase.Parameters.DisplayInfo;
+            var row = new Row((method.Name + " " + parameters).Trim(), work.Unit);
+            if (report.ResultStatistics == null)
+            {
+                return row;
+            }
+            double units = work.Count;
+            foreach (var parameter in report.BenchmarkCase.Parameters.Items)
+            {
+                units *= System.Convert.ToDouble(parameter.Value, CultureInfo.InvariantCulture);
+            }
+            row.Measured = true;
+            row.Median = report.ResultStatistics.Median;
+            row.PerUnit = row.Median / units;
+            row.Spread = 100.0 * report.ResultStatistics.InterquartileRange / row.Median;
+            row.Allocated = report.GcStats.GetBytesAllocatedPerOperation(report.BenchmarkCase) ?? 0;
+            return row;
+        }
+    }
+}

@@ -1,0 +1,102 @@
+"""The commands as a user types them, with the real runner."""
+
+import argparse
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from experiments import commands
+from experiments.prepare import ROOT
+
+
+def guidewire(*arguments, cwd=ROOT):
+    return subprocess.run([sys.executable, str(ROOT / "guidewire.py"), *map(str, arguments)], capture_output=True,
+                          text=True, check=False, cwd=cwd)
+
+
+@pytest.fixture(scope="module")
+def demo(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("demo")
+    return folder, guidewire("demo", "--out", folder)
+
+
+def test_the_demo_prints_tau_and_period_of_the_thesis_run_and_draws_four_figures(demo):
+    folder, done = demo
+    assert done.returncode == 0, done.stderr
+    tau = float(done.stdout.split("tau = ")[1].split()[0])
+    period = float(done.stdout.split("period = ")[1].split()[0])
+    # An independent double-precision implementation gave 0.297 s and 0.24 s for Table 4.1.
+    assert tau == pytest.approx(0.297, rel=0.01)
+    assert period == pytest.approx(0.24, abs=0.005)
+    for number in ("4.1", "4.2", "4.3", "4.4"):
+        assert (folder / f"figure-{number}.png").stat().st_size > 10_000
+        assert len((folder / f"figure-{number}.txt").read_text()) > 100
+    assert "index.md" in done.stdout
+
+
+def test_the_demo_a_second_time_runs_nothing_again(demo):
+    folder, _ = demo
+    log = folder / "default" / "default" / "positions.json"
+    before = log.stat().st_mtime_ns
+    assert guidewire("demo", "--out", folder).returncode == 0
+    assert log.stat().st_mtime_ns == before
+
+
+def test_a_run_writes_its_three_files_and_takes_parameters_from_the_command_line(tmp_path):
+    done = guidewire("run", ROOT / "params" / "default.json", "--set", "maxSimulationSteps=5", "--set",
+                     "guidewireOffset=-3", "--set", "sweepOrder=bilateral", "--out", tmp_path / "out")
+    assert done.returncode == 0, done.stderr
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [
+        "parameters.json", "positions.json", "summary.json",
+    ]
+    parameters = json.loads((tmp_path / "out" / "parameters.json").read_text())
+    assert (parameters["guidewireOffset"], parameters["sweepOrder"]) == (-3, "bilateral")
+    assert json.loads((tmp_path / "out" / "summary.json").read_text())["steps"] == 5
+
+
+def test_a_run_with_a_bad_value_passes_on_the_runners_line_and_code(tmp_path):
+    done = guidewire("run", ROOT / "params" / "default.json", "--set", "timeStep=0", "--out", tmp_path / "out")
+    assert done.returncode == 2
+    assert [line for line in done.stderr.splitlines() if line.startswith("guidewire: ")] == [
+        line for line in done.stderr.splitlines() if "timeStep" in line
+    ]
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("key", ["out", "parameters", "repeat", "lines", "logFile"])
+def test_a_word_of_the_runner_is_no_parameter(tmp_path, key):
+    done = guidewire("run", ROOT / "params" / "default.json", "--set", f"{key}=x", "--out", tmp_path / "out")
+    assert done.returncode == 2
+    assert f"'{key}' is no parameter" in done.stderr
+    assert not (tmp_path / "out").exists()
+
+
+def test_paths_are_those_of_the_folder_where_the_user_stands(tmp_path):
+    (tmp_path / "mine.json").write_text(json.dumps({"maxSimulationSteps": 2}))
+    assert guidewire("run", "mine.json", cwd=tmp_path).returncode == 0
+    assert (tmp_path / "results" / "mine" / "summary.json").exists()
+
+
+def test_an_unknown_figure_is_one_line_that_names_those_there_are():
+    done = guidewire("figures", "9.9")
+    assert done.returncode == 2
+    assert "no figure 9.9" in done.stderr and "4.5" in done.stderr
+
+
+def test_a_folder_that_cannot_be_made_is_one_line():
+    done = guidewire("sweep", "default", "--out", "/proc/guidewire")
+    assert done.returncode == 2
+    assert [line for line in done.stderr.splitlines() if "/proc/guidewire" in line] == done.stderr.splitlines()[-1:]
+
+
+def test_an_error_of_the_program_itself_is_one_line_and_a_trace_in_a_file(capsys):
+    def broken(_):
+        raise ZeroDivisionError("a mistake")
+
+    assert commands.run(argparse.Namespace(action=broken)) == 70
+    line = capsys.readouterr().err
+    assert line.count("\n") == 1 and "ZeroDivisionError: a mistake" in line
+    assert "in broken" in Path(line.split("please report ")[1].strip()).read_text()

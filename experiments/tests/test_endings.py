@@ -1,0 +1,199 @@
+"""How runs end that do not end by themselves: killed, interrupted, on a full disk; and runs that are very long."""
+
+import json
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+
+from analysis.logs import LogError, read_log
+from experiments.prepare import ROOT
+
+FULL = os.environ.get("GUIDEWIRE_ALL") == "1"
+# Small and endless: it never comes to rest, and a step takes some 2 us.
+ENDLESS = {
+    "numberRodElements": 10, "constraintSolverSteps": 2, "deltaThreshold": 0, "maxSimulationSteps": 1_000_000_000,
+}
+
+
+def scene_of(folder, **changes):
+    path = folder / "scene.json"
+    path.write_text(json.dumps({**ENDLESS, **changes}))
+    return path
+
+
+def start(command, scene, out):
+    return subprocess.Popen([*command, "-parameters", str(scene), "-out", str(out)], stdout=subprocess.PIPE,
+                            stderr=subprocess.PIPE, text=True)
+
+
+def wait_for_log(out, least=200_000):
+    """Return when the log under way has some bytes; a run that writes none in 30 s fails the test."""
+    partial = out / "positions.json.partial"
+    for _ in range(3000):
+        if partial.exists() and partial.stat().st_size >= least:
+            return
+        time.sleep(0.01)
+    pytest.fail("no log was written")
+
+
+def assert_steps_are_whole(log, time_step=0.01):
+    np.testing.assert_array_equal(log.steps, np.arange(len(log.steps)))
+    np.testing.assert_allclose(log.time, time_step * log.steps, rtol=1e-12)
+    assert np.all(np.isfinite(log.positions))
+
+
+@pytest.mark.parametrize("moment", range(40 if FULL else 8))
+def test_a_killed_run_leaves_a_log_up_to_its_last_whole_step(runner_command, tmp_path, moment):
+    out = tmp_path / "out"
+    process = start(runner_command, scene_of(tmp_path), out)
+    wait_for_log(out)
+    time.sleep(random.Random(moment).uniform(0.0, 1.5))
+    process.kill()
+    process.wait()
+    assert not (out / "summary.json").exists() and not (out / "positions.json").exists()
+    log = read_log(out, spheres="all")
+    assert_steps_are_whole(log)
+    assert not log.complete
+    assert f"read up to step {log.final_step}" in log.warning and "cut short" in log.warning
+    assert log.final_step == last_whole_entry((out / "positions.json.partial").read_text())
+
+
+def last_whole_entry(text):
+    """The number of the last entry that is there from its first to its last character; entries stand one a line."""
+    last, before = text.rstrip().splitlines()[-1], text.rstrip().splitlines()[-2]
+    for line in (last, before):
+        try:
+            return int(*json.loads("{" + line.rstrip(",") + "}"))
+        except ValueError:
+            continue
+    pytest.fail("the last two lines are no entries")
+
+
+def test_a_run_killed_at_its_very_start_leaves_nothing_that_reads_as_a_result(runner_command, tmp_path):
+    for wait in (0.02, 0.05, 0.1, 0.2):
+        out = tmp_path / f"out-{wait}"
+        process = start(runner_command, scene_of(tmp_path), out)
+        time.sleep(wait)
+        process.kill()
+        process.wait()
+        assert not (out / "summary.json").exists() and not (out / "positions.json").exists()
+        try:
+            assert not read_log(out).complete
+        except LogError as error:
+            assert "\n" not in str(error)
+
+
+def test_a_killed_run_leaves_an_earlier_result_as_it_was(runner_command, tmp_path):
+    out = tmp_path / "out"
+    assert start(runner_command, scene_of(tmp_path, maxSimulationSteps=10), out).wait() == 0
+    before = {name: (out / name).read_bytes() for name in ("positions.json", "parameters.json", "summary.json")}
+    process = start(runner_command, scene_of(tmp_path), out)
+    wait_for_log(out)
+    process.kill()
+    process.wait()
+    assert {name: (out / name).read_bytes() for name in before} == before
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_an_interrupted_run_ends_with_130_and_a_complete_log(runner_command, tmp_path, number):
+    out = tmp_path / "out"
+    process = start(runner_command, scene_of(tmp_path), out)
+    wait_for_log(out)
+    process.send_signal(number)
+    assert process.wait(timeout=30) == 130
+    summary = json.loads((out / "summary.json").read_text())
+    assert summary["outcome"] == "interrupted" and summary["complete"] is True
+    assert not (out / "positions.json.partial").exists()
+    log = read_log(out, spheres="all")
+    assert log.complete and log.final_step == summary["steps"] > 0
+    assert_steps_are_whole(log)
+    assert json.loads((out / "positions.json").read_text())
+
+
+@pytest.fixture
+def small_disk(tmp_path):
+    """A file system of 1 MiB."""
+    disk = tmp_path / "disk"
+    disk.mkdir()
+    mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=1m", "tmpfs", str(disk)], capture_output=True,
+                             text=True, check=False)
+    if mounted.returncode != 0:
+        pytest.skip(f"a small disk cannot be mounted here: {mounted.stderr.strip()}")
+    yield disk
+    subprocess.run(["umount", str(disk)], check=True)
+
+
+def test_a_disk_that_fills_ends_a_run_as_failed_and_says_so(runner_command, tmp_path, small_disk):
+    out = small_disk / "out"
+    process = start(runner_command, scene_of(tmp_path), out)
+    _, complaint = process.communicate(timeout=60)
+    assert process.returncode == 5
+    lines = complaint.splitlines()
+    assert len(lines) == 1 and lines[0].startswith("guidewire: failed: ") and "space" in lines[0].lower()
+    assert not (out / "positions.json").exists()
+    if (out / "summary.json").exists():
+        assert json.loads((out / "summary.json").read_text())["outcome"] == "failed"
+    assert_steps_are_whole(read_log(out, spheres="all"))
+
+
+def test_a_disk_that_fills_leaves_an_earlier_result_whole(runner_command, tmp_path, small_disk):
+    out = small_disk / "out"
+    assert start(runner_command, scene_of(tmp_path, maxSimulationSteps=10), out).wait() == 0
+    positions = (out / "positions.json").read_bytes()
+    process = start(runner_command, scene_of(tmp_path), out)
+    process.communicate(timeout=60)
+    assert process.returncode == 5
+    assert (out / "positions.json").read_bytes() == positions
+    summary = json.loads((out / "summary.json").read_text())
+    assert summary["outcome"] == "failed" or summary["steps"] == 10
+
+
+def test_a_sweep_goes_on_after_a_full_disk(runner_command, tmp_path, small_disk):
+    requests = [
+        {"id": 1, "parameters": str(scene_of(tmp_path)), "out": str(small_disk / "out")},
+        {"id": 2, "parameters": str(tmp_path / "scene.json"), "set": {"maxSimulationSteps": 3},
+         "out": str(tmp_path / "out")},
+    ]
+    done = subprocess.run([*runner_command, "-lines"], input="\n".join(map(json.dumps, requests)) + "\n",
+                          capture_output=True, text=True, check=False, timeout=60)
+    answers = [json.loads(line) for line in done.stdout.splitlines()]
+    assert [(a["id"], a["exitCode"], a["outcome"]) for a in answers] == [(1, 5, "failed"), (2, 0, "finished")]
+
+
+def memory_of(command):
+    """Bytes of memory that a program held at most; it must end with 0."""
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, cwd=ROOT)
+    _, status, used = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    assert process.returncode == 0
+    return used.ru_maxrss * 1024
+
+
+def test_a_run_of_100_000_steps_takes_constant_memory_and_linear_time(runner_command, tmp_path):
+    steps, runs = 100_000, {}
+    for count in (1_000, steps):
+        out = tmp_path / str(count)
+        scene = scene_of(tmp_path, maxSimulationSteps=count)
+        runs[count] = (out, memory_of([*runner_command, "-parameters", str(scene), "-out", str(out)]))
+    long, short = runs[steps][0], runs[1_000][0]
+    log_bytes = (long / "positions.json").stat().st_size
+    assert log_bytes > 100e6
+    # Held in memory the log would add at least its own size; what the runtime takes for itself varies by some MB.
+    assert runs[steps][1] - runs[1_000][1] < 0.2 * log_bytes
+    reader = "import sys, pathlib; from analysis.logs import read_log; read_log(pathlib.Path(sys.argv[1]))"
+    reading = {folder: memory_of([sys.executable, "-c", reader, str(folder)]) for folder in (long, short)}
+    assert reading[long] - reading[short] < 0.2 * log_bytes
+
+    log = read_log(long)
+    assert log.complete and log.final_step == steps
+    assert_steps_are_whole(log)
+    # Linear: a step and its entry cost at the end what they cost after the first tenth. The median of single steps
+    # does not see what else the machine was doing.
+    each = np.diff(log.elapsed)
+    assert np.median(each[-steps // 10:]) < 1.5 * np.median(each[steps // 10:steps // 5])

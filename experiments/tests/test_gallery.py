@@ -1,0 +1,53 @@
+"""Pictures, captions and the index beside them; and that every figure's study can be run."""
+
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+from analysis.figures import FIGURES, FigureSpec
+from analysis.logs import LogError
+from experiments import gallery
+from experiments.studies import STUDIES
+
+
+def spec(name, studies=("default",)):
+    def draw(folders):
+        assert set(folders) == set(studies)
+        return Figure(figsize=(1, 1)), f"Caption of {name}."
+
+    return FigureSpec(name, f"title of {name}", studies, draw)
+
+
+def test_every_study_that_a_figure_needs_can_be_run():
+    assert {study for figure in FIGURES.values() for study in figure.studies} <= set(STUDIES)
+
+
+def test_a_figure_is_a_picture_a_caption_and_a_place_in_the_index(tmp_path, monkeypatch):
+    monkeypatch.setattr(gallery, "FIGURES", {"1.1": spec("1.1"), "1.2": spec("1.2")})
+    drawn = gallery.draw(["1.2"], {"default": Path("a"), "other": Path("b")}, tmp_path / "out")
+    index = drawn.index
+    assert drawn.problems == () and index == tmp_path / "out" / "index.md"
+    assert (tmp_path / "out" / "figure-1.2.png").read_bytes().startswith(b"\x89PNG")
+    assert (tmp_path / "out" / "figure-1.2.txt").read_text() == "Caption of 1.2.\n"
+    assert "figure-1.2.png" in index.read_text() and "Caption of 1.2." in index.read_text()
+    assert "1.1" not in index.read_text()
+
+
+def test_the_index_keeps_figures_drawn_earlier_in_the_order_of_their_numbers(tmp_path, monkeypatch):
+    monkeypatch.setattr(gallery, "FIGURES", {"1.1": spec("1.1"), "1.2": spec("1.2")})
+    for name in ("1.2", "1.1"):
+        drawn = gallery.draw([name], {"default": Path("a")}, tmp_path)
+    text = drawn.index.read_text()
+    assert text.index("figure-1.1.png") < text.index("figure-1.2.png")
+
+
+def test_a_figure_that_cannot_be_drawn_is_told_and_the_others_are_drawn(tmp_path, monkeypatch):
+    def broken(folders):
+        raise LogError("study.json: no such file")
+
+    monkeypatch.setattr(gallery, "FIGURES", {
+        "1.1": FigureSpec("1.1", "broken", ("default",), broken), "1.2": spec("1.2"),
+    })
+    drawn = gallery.draw(["1.1", "1.2"], {"default": Path("a")}, tmp_path)
+    assert drawn.problems == ("figure 1.1 cannot be drawn: study.json: no such file",)
+    assert (tmp_path / "figure-1.2.png").exists() and not (tmp_path / "figure-1.1.png").exists()

@@ -1,0 +1,90 @@
+"""API level: names of the base library that netstandard2.1 does not have, or that Unity keeps from its users."""
+
+from __future__ import annotations
+
+from typing import Iterator
+
+from unitycheck.csharp import Token, tokens
+from unitycheck.project import Project
+from unitycheck.violation import Violation
+
+# Single names, absent from netstandard2.1 under any owner.
+NAMES = {
+    "BitOperations", "Vector64", "Vector128", "Vector256", "Vector512", "FusedMultiplyAdd", "BitIncrement",
+    "BitDecrement",
+    "CollectionsMarshal", "NativeMemory", "GetArrayDataReference", "ThrowIfNull", "ThrowIfNullOrEmpty",
+    "ThrowIfNullOrWhiteSpace", "ThrowIfNegative", "ThrowIfNegativeOrZero", "ThrowIfZero", "ThrowIfGreaterThan",
+    "ThrowIfLessThan",
+    "ThrowIfEqual", "ThrowIfNotEqual", "ThrowIfGreaterThanOrEqual", "ThrowIfLessThanOrEqual",
+    "DefaultInterpolatedStringHandler", "ModuleInitializer", "SkipLocalsInit", "CallerArgumentExpression",
+    "DateOnly", "TimeOnly",
+    "PriorityQueue", "Int128", "UInt128", "FrozenDictionary", "FrozenSet", "SearchValues", "PeriodicTimer",
+    "CompositeFormat", "MemberNotNull", "MemberNotNullWhen", "SetsRequiredMembers", "UnreachableException",
+    "InlineArray",
+    "OverloadResolutionPriority", "StringSyntax", "PosixSignalRegistration",
+    "AllocateUninitializedArray", "ToHexString", "TryGetNonEnumeratedCount", "MaxBy", "MinBy", "DistinctBy",
+    "ForEachAsync", "WaitForExitAsync", "CreateTempSubdirectory", "GetElapsedTime", "IBinaryInteger",
+    "INumber", "IFloatingPoint", "ISpanParsable", "IParsable", "ISpanFormattable",
+}
+
+# Owner.Member pairs whose single names would be too common to forbid.
+MEMBERS = {
+    ("Random", "Shared"), ("Math", "Log2"), ("Math", "ScaleB"), ("Math", "ILogB"), ("Math", "CopySign"),
+    ("Math", "Tau"),
+    ("Math", "MaxMagnitude"), ("Math", "MinMagnitude"), ("Math", "ReciprocalEstimate"), ("Math", "SinCos"),
+    ("Environment", "ProcessPath"), ("Environment", "ProcessId"), ("Environment", "TickCount64"),
+    ("GC", "GetTotalAllocatedBytes"), ("GC", "GetGCMemoryInfo"), ("GC", "GetTotalPauseDuration"), ("Path", "Exists"),
+    ("SHA256", "HashData"), ("MD5", "HashData"), ("double", "Lerp"), ("double", "Clamp"), ("double", "Sqrt"),
+    ("double", "Abs"),
+    ("Array", "MaxLength"), ("Thread", "UnsafeStart"), ("Stopwatch", "GetElapsedTime"), ("File", "OpenHandle"),
+    ("File", "AppendAllBytes"), ("OperatingSystem", "IsWindows"), ("OperatingSystem", "IsLinux"),
+    ("RuntimeInformation", "RuntimeIdentifier"), ("CancellationTokenSource", "TryReset"),
+}
+
+NAMESPACES = (
+    ("System", "Text", "Json"), ("System", "Runtime", "Intrinsics"), ("System", "Collections", "Immutable"),
+    ("System", "Collections", "Frozen"), ("System", "Numerics", "Tensors"), ("System", "Threading", "Channels"),
+    ("System", "IO", "Pipelines"), ("System", "Formats"), ("System", "Diagnostics", "Metrics"),
+)
+
+
+def _starts(items: list[Token], i: int, words: tuple[str, ...]) -> bool:
+    for offset, word in enumerate(words):
+        place = i + 2 * offset
+        if place >= len(items) or items[place].text != word:
+            return False
+        if offset and items[place - 1].text != ".":
+            return False
+    return True
+
+
+def scan(source: str) -> list[tuple[int, str]]:
+    """(line, name) for every use of an API that Unity's netstandard2.1 lacks."""
+    items = tokens(source)
+    found = []
+    for i, token in enumerate(items):
+        if token.kind != "word":
+            continue
+        before = items[i - 1].text if i else ""
+        after = items[i + 1].text if i + 1 < len(items) else ""
+        member = items[i + 2].text if i + 2 < len(items) else ""
+        name = token.text[:-len("Attribute")] if token.text.endswith("Attribute") else token.text
+        if name in NAMES:
+            found.append((token.line, name))
+        if after == "." and before != "." and (token.text, member) in MEMBERS:
+            found.append((token.line, f"{token.text}.{member}"))
+        if token.text == "Unsafe" and after == ".":
+            found.append((token.line, "System.Runtime.CompilerServices.Unsafe"))
+        if before != "." and token.text == "System":
+            found += [(token.line, ".".join(words)) for words in NAMESPACES if _starts(items, i, words)]
+        if token.text == "Enum" and after == "." and member in ("GetValues", "GetNames", "GetName", "IsDefined") and \
+                i + 3 < len(items) and items[i + 3].text == "<":
+            found.append((token.line, f"Enum.{member}<T>"))
+    return sorted(set(found))
+
+
+def check(project: Project) -> Iterator[Violation]:
+    """Rule api: outside `#if NET8_0_OR_GREATER` only what netstandard2.1 has."""
+    for path in project.assets(".cs"):
+        for line, name in scan(project.text(path)):
+            yield Violation(path, line, "api", f"{name} is not in Unity's netstandard2.1")

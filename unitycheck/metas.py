@@ -1,0 +1,130 @@
+"""Meta files: one beside every asset, with a stable GUID and the importer that the extension calls for."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from pathlib import PurePosixPath
+from typing import Iterator
+
+from unitycheck.project import Project
+from unitycheck.violation import Violation
+
+GUID = re.compile(r"^[0-9a-f]{32}$")
+KNOWN_GUIDS = "unitycheck/known_guids.txt"
+
+_TRAILER = "  userData: \n  assetBundleName: \n  assetBundleVariant: \n"
+_TEXT = {".json", ".txt", ".md", ".csv", ".xml", ".html", ".yaml", ".bytes"}
+
+
+def importer(path: str, is_folder: bool) -> str:
+    """The name of the importer that Unity uses for a path."""
+    suffix = PurePosixPath(path).suffix
+    if is_folder:
+        return "DefaultImporter"
+    if PurePosixPath(path).name == "package.json":
+        return "PackageManifestImporter"
+    if suffix in _TEXT:
+        return "TextScriptImporter"
+    return {".cs": "MonoImporter", ".asmdef": "AssemblyDefinitionImporter", ".mat": "NativeFormatImporter",
+            ".asset": "NativeFormatImporter"}.get(suffix, "DefaultImporter")
+
+
+def stable_guid(path: str) -> str:
+    """The GUID given to a new asset: the same on every machine, and kept when the file is renamed."""
+    return hashlib.md5(f"guidewire/{path}".encode("utf-8")).hexdigest()
+
+
+def meta_text(path: str, is_folder: bool) -> str:
+    """The whole .meta file of a new asset."""
+    name = importer(path, is_folder)
+    text = f"fileFormatVersion: 2\nguid: {stable_guid(path)}\n"
+    if is_folder:
+        text += "folderAsset: yes\n"
+    text += f"{name}:\n  externalObjects: {{}}\n"
+    if name == "MonoImporter":
+        text += "  serializedVersion: 2\n  defaultReferences: []\n  executionOrder: 0\n  icon: {instanceID: 0}\n"
+    if name == "NativeFormatImporter":
+        text += f"  mainObjectFileID: {2100000 if path.endswith('.mat') else 11400000}\n"
+    return text + _TRAILER
+
+
+def _assets(project: Project) -> Iterator[tuple[str, bool]]:
+    for path in project.asset_folders:
+        yield path, True
+    for path in project.asset_files:
+        if not path.endswith(".meta"):
+            yield path, False
+
+
+def write_missing(project: Project) -> list[str]:
+    """Write the .meta files that are missing and return their paths; existing ones are never touched."""
+    written = []
+    for path, is_folder in _assets(project):
+        meta = f"{path}.meta"
+        if not project.exists(meta):
+            (project.root / meta).write_bytes(meta_text(path, is_folder).encode("utf-8"))
+            written.append(meta)
+    return written
+
+
+def guid_of(project: Project, path: str) -> str:
+    """The GUID in the .meta beside a path, or an empty string."""
+    meta = f"{path}.meta"
+    if not project.exists(meta):
+        return ""
+    found = re.search(r"^guid: (\S*)$", project.text(meta), re.MULTILINE)
+    return found.group(1) if found else ""
+
+
+def guids(project: Project) -> dict[str, str]:
+    """Asset path by GUID, for everything that has a .meta."""
+    return {guid_of(project, path): path for path, _ in _assets(project)}
+
+
+def _known(project: Project) -> set[tuple[str, str]]:
+    if not project.exists(KNOWN_GUIDS):
+        return set()
+    lines = (line.split() for line in project.text(KNOWN_GUIDS).splitlines() if not line.startswith("#"))
+    return {(words[0], words[1]) for words in lines if len(words) == 2}
+
+
+def check(project: Project) -> Iterator[Violation]:
+    """Rules meta-missing, meta-orphan, meta-form, guid-form, guid-twice, guid-changed, meta-importer."""
+    seen: dict[str, str] = {}
+    known = _known(project)
+    for path, is_folder in _assets(project):
+        meta = f"{path}.meta"
+        if not project.exists(meta):
+            yield Violation(path, 0, "meta-missing", "no .meta beside it; run with --write-metas")
+            continue
+        text = project.text(meta)
+        if not text.startswith("fileFormatVersion: 2\nguid: "):
+            yield Violation(meta, 1, "meta-form", "must start with 'fileFormatVersion: 2', then 'guid: '")
+            continue
+        guid = guid_of(project, path)
+        if not GUID.match(guid):
+            yield Violation(meta, 2, "guid-form", f"guid '{guid}' is not 32 lowercase hexadecimal digits")
+            continue
+        if guid in seen:
+            yield Violation(meta, 2, "guid-twice", f"guid {guid} also belongs to {seen[guid]}")
+        seen[guid] = path
+        if guid != stable_guid(path) and (path, guid) not in known:
+            yield Violation(meta, 2, "guid-changed", f"guid {guid} is not that of this path ({stable_guid(path)}); "
+                            f"an asset that was renamed or made by Unity is listed in {KNOWN_GUIDS}")
+        yield from _importer_rules(path, is_folder, meta, text)
+    for path in project.assets(".meta"):
+        if not project.exists(path[:-len(".meta")]):
+            yield Violation(path, 0, "meta-orphan", "the file or folder that it describes is gone")
+
+
+def _importer_rules(path: str, is_folder: bool, meta: str, text: str) -> Iterator[Violation]:
+    lines = text.splitlines()
+    if is_folder != ("folderAsset: yes" in lines):
+        said = "a folder needs" if is_folder else "a file must not have"
+        yield Violation(meta, 3, "meta-importer", f"{said} 'folderAsset: yes'")
+    blocks = [line[:-1] for line in lines if re.match(r"^\w+Importer:$", line)]
+    expected = importer(path, is_folder)
+    # Unity 6 writes new scripts' metas without any importer block.
+    if blocks != [expected] and not (path.endswith(".cs") and not blocks):
+        yield Violation(meta, 3, "meta-importer", f"importer {', '.join(blocks) or 'missing'}, expected {expected}")

@@ -1,0 +1,63 @@
+"""MonoBehaviours: name, form, messages, and which fields Unity stores."""
+
+from __future__ import annotations
+
+import pytest
+
+from unitycheck.scripts import classes
+
+SPINNER = "Assets/Guidewire/Runtime/Spinner.cs"
+
+
+def fields(body: str) -> list[str]:
+    return [field.name for field in classes(f"public class A : MonoBehaviour {{ {body} }}")[0].fields]
+
+
+@pytest.mark.parametrize("body, stored", [
+    ("public int A;", ["A"]), ("int _a;", []), ("private float _a = 3f;", []), ("[SerializeField] float _a = F(1, 2);",
+                                                                                ["_a"]),
+    ("[SerializeField, Range(0, 1)] private float _a, _b = 2f;", ["_a", "_b"]), ("public static int A;", []),
+    ("public const int A = 3;", []), ("public readonly int A = 3;", []), ("[NonSerialized] public int A;", []),
+    ("public int P { get; set; }", []), ("[field: SerializeField] public int P { get; set; } = 3;",
+                                         ["<P>k__BackingField"]),
+    ("public int P => 3;", []), ("public event System.Action E;", []),
+    ("[SerializeField] private Dictionary<int, float> _a = new Dictionary<int, float>();", ["_a"]),
+    ("void F() { int a; } public int B;", ["B"]), ("int F(int a) => a; public int B;", ["B"]),
+    ("[Header(\"a\")] [Tooltip(\"b\")] [SerializeField] private string[] _names = { \"a\" };", ["_names"]),
+    ("private struct P { public int X; } public int B;", ["B"]), ("public A() : this(3) { } public int B;", ["B"])])
+def test_stored_fields(body: str, stored: list[str]) -> None:
+    assert fields(body) == stored
+
+
+def test_class_called_otherwise(sample) -> None:
+    sample.edit(SPINNER, "class Spinner", "class Spiner")
+    assert (SPINNER, "script-name") in sample.broken()
+
+
+@pytest.mark.parametrize("form", ["internal sealed class", "public abstract class"])
+def test_class_that_cannot_be_attached(sample, form: str) -> None:
+    sample.edit(SPINNER, "public sealed class", form)
+    assert sample.broken() == {(SPINNER, "script-form")}
+
+
+def test_behaviour_in_editor_assembly(sample) -> None:
+    sample.add("Assets/Guidewire/Editor/Tool.cs",
+               "using UnityEngine;\n\nnamespace A\n{\n    public class Tool : MonoBehaviour\n"
+               "    {\n    }\n}\n")
+    assert sample.broken() == {("Assets/Guidewire/Editor/Tool.cs", "script-form")}
+
+
+@pytest.mark.parametrize("wrong", ["Updte", "update", "StartIO", "OnGui"])
+def test_message_that_unity_never_sends(sample, wrong: str) -> None:
+    sample.edit(SPINNER, "private void Update()", f"private void {wrong}()")
+    assert sample.broken() == {(SPINNER, "script-message")}
+
+
+def test_static_message(breakage) -> None:
+    breakage(SPINNER, "private void Update()", "private static void Update()", "script-message")
+
+
+def test_private_method_that_is_called_passes(sample) -> None:
+    sample.edit(SPINNER, "private void Turn()",
+                "private void Start()\n        {\n        }\n\n        private void Turn()")
+    assert sample.broken() == set()
