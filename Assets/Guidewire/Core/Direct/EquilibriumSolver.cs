@@ -7,7 +7,9 @@ namespace Guidewire.Core
     /// metric is added until it is, so that the direction descends; the step is cut until the energy falls by a part of
     /// what the slope promises. At a saddle (a straight rod under a thrust along its axis) the search leaves along the
     /// direction of most negative curvature. Converged means: the second derivative as it is has positive pivots only,
-    /// and the full step is below the tolerance. Whatever else happens ends with a reason.</remarks>
+    /// and the full step is below the tolerance. Whatever else happens ends with a reason. A shape that may turn without
+    /// any change of energy (a buckled rod about its thrust) has an eigenvalue 0, which rounding makes one of either
+    /// sign: eigenvalues within rounding of 0, 8 eps n^2 EA and at most 1e-4 EI/L^2, count as not negative.</remarks>
     internal sealed class EquilibriumSolver
     {
         private const double LargestTurn = 1.0;          // rad an iteration, of one element where forces act
@@ -15,6 +17,7 @@ namespace Guidewire.Core
         private const double SufficientDecrease = 1e-4;
         private const double SaddleStep = 1e-7;          // a shifted step this small means: no force left
         private const int MostCuts = 40;
+        private const double Epsilon = 2.2e-16;
         private const int PowerIterations = 40;
 
         private readonly MaterialRod _rod;
@@ -27,6 +30,7 @@ namespace Guidewire.Core
         private readonly RodShape _trial;
         private readonly double _length;
         private readonly double _bendForce;  // EI/L^2 of the stiffest element, N
+        private readonly double _rounding;   // of an eigenvalue, N
 
         /// <summary>A solver for this rod, held so, under these terms.</summary>
         public EquilibriumSolver(MaterialRod rod, RodSupports supports, EnergyTerm[] terms)
@@ -44,6 +48,12 @@ namespace Guidewire.Core
             {
                 _bendForce = Math.Max(_bendForce, stiffness / (_length * _length));
             }
+            double n = rod.ElementCount;
+            foreach (double stiffness in rod.StretchStiffness)
+            {
+                _rounding = Math.Max(_rounding, 8.0 * Epsilon * n * n * stiffness);
+            }
+            _rounding = Math.Min(_rounding, 1e-4 * _bendForce);
         }
 
         /// <summary>The gradient at the last shape: at a support, minus the reaction.</summary>
@@ -112,6 +122,12 @@ namespace Guidewire.Core
         {
             result.Factorisations++;
             if (_system.Factorise(_terms, shape, _gradient, _direction, 0.0) == 0)
+            {
+                _system.Back(_direction);
+                return true;
+            }
+            result.Factorisations++;
+            if (_system.Factorise(_terms, shape, _gradient, _direction, _rounding) == 0)
             {
                 _system.Back(_direction);
                 return true;
@@ -204,8 +220,15 @@ namespace Guidewire.Core
         private EquilibriumResult Finish(RodShape shape, EquilibriumResult result)
         {
             Anchor(shape);
-            int negative = _system.Factorise(_terms, shape, _gradient, _direction, 0.0);
+            double shift = 0.0;
+            int negative = _system.Factorise(_terms, shape, _gradient, _direction, shift);
             result.Factorisations++;
+            if (negative > 0)
+            {
+                shift = _rounding;
+                negative = _system.Factorise(_terms, shape, _gradient, _direction, shift);
+                result.Factorisations++;
+            }
             double loads = _bendForce;
             foreach (EnergyTerm term in _terms)
             {
@@ -228,6 +251,7 @@ namespace Guidewire.Core
             if (negative == 0)
             {
                 InverseIteration(out result.SmallestEigenvalue);
+                result.SmallestEigenvalue -= shift;
                 result.Converged = true;
                 result.Reason = string.Empty;
             }

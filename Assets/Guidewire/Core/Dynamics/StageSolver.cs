@@ -14,6 +14,7 @@ namespace Guidewire.Core
         private const int MostKept = 6;
         private const int MostFactorisations = 6;
         private const int MostOnTrust = 16;  // stages
+        private const double Caution = 10.0; // on an error that is not measured but extrapolated
 
         private readonly MaterialRod _rod;
         private readonly RodSupports _supports;
@@ -115,7 +116,7 @@ namespace Guidewire.Core
                 _system.Back(_direction);
                 double first = Move(shape);
                 _stagesOnTrust++;
-                if (_stagesOnTrust < MostOnTrust && _curvature * first * first <= tolerance)
+                if (_stagesOnTrust < MostOnTrust && Caution * _curvature * first * first <= tolerance)
                 {
                     return true;
                 }

@@ -41,6 +41,7 @@ namespace Guidewire.Core
                 ProximalForce = parameters.Drive == Drive.Force ? parameters.ExternalForce : Vector3d.Zero,
                 ProximalPosition = Shape.X[0],
                 ProximalFrame = Shape.ProximalFrame,
+                ProximalTwistRate = parameters.TwistPerStep / parameters.TimeStep,
                 DistalPosition = Shape.X[n],
                 DistalFrame = Shape.DistalFrame,
                 DistalDisplacement = Metres * material.DistalDisplacement,

@@ -59,7 +59,8 @@ namespace Guidewire.Core
             }
         }
 
-        private static RungeKuttaScheme? Scheme(Integrator integrator)
+        /// <summary>The scheme of an integrator of the direct solver; null for BDF2.</summary>
+        public static RungeKuttaScheme? Scheme(Integrator integrator)
         {
             switch (integrator)
             {

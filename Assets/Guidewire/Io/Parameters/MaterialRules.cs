@@ -10,6 +10,7 @@ namespace Guidewire.Io
     /// on the command line must belong to the one it has; what a scene's file holds of the other is passed over.</summary>
     internal static class MaterialRules
     {
+        private static readonly string[] WallKeys = { "vessel", "obstacles" };
         private static readonly string[] GainKeys = { "stretchStiffness", "bendStiffness", "totalMass" };
 
         /// <summary>Sets the defaults that depend on the solver, and checks what belongs together.</summary>
@@ -73,6 +74,18 @@ namespace Guidewire.Io
             MaterialParameters material = simulation.Material;
             bool freeStart = simulation.Drive == Drive.Force || material.ProximalEnd == ProximalEnd.Free;
             bool clamped = material.ProximalEnd == ProximalEnd.Clamped && !freeStart;
+            foreach (string key in WallKeys)
+            {
+                if (given.TryGetValue(key, out var wall) && wall.Value.HasValues)
+                {
+                    throw new ParameterException(wall.Source, key, wall.Value.ToString(Formatting.None),
+                        "solver pbd: a wire with a material meets no walls");
+                }
+            }
+            if (simulation.TwistPerStep != 0.0 && !clamped)
+            {
+                Refuse(given, "twistPerStep", "proximalEnd \"clamped\" in a run with a material");
+            }
             if (material.InitialState == InitialState.Equilibrium && !clamped && material.DistalEnd == DistalEnd.Free)
             {
                 Refuse(given, "initialState", "a clamped end: a wire that turns freely has no single rest shape");
