@@ -15,9 +15,8 @@ UNIT = 1e-3  # m; one unit of length of the files
 SCENE = "params/cantilever.json"  # the base wire, clamped
 
 _SETTLED = 12.0  # a critically damped motion is over after this many 1/omega
-_EXPLICIT_SHARE = 0.75  # of the explicit solver's stable substep
+_SHARE = {"explicit": 0.75, "xpbd": 4.0}  # of the explicit solver's stable substep; three sweeps then nearly converge
 _SWEEPS = 3  # of xpbd in a substep
-_XPBD_SUBSTEP = 1e-6 / BASE.time_unit  # in units of the wire's own time: where three sweeps nearly converge
 _SUBSTEPS = 1000
 
 
@@ -48,19 +47,11 @@ def settled(solver: str, wire: Wire, overrides: Mapping[str, Any], frequency: fl
     frequency : of the slowest motion, Hz; that of the cantilever where it is not given.
     """
     omega = 2.0 * math.pi * (beam.frequencies(wire, 1)[0] if frequency is None else frequency)
-    if solver == "explicit":
-        step = _SUBSTEPS * _EXPLICIT_SHARE * stable_substep(wire)
-        step = min(step, 0.05 / omega)
-        substeps = math.ceil(step / (_EXPLICIT_SHARE * stable_substep(wire)))
-        method = {"substeps": substeps}
-    elif solver == "xpbd":
-        slowest = 2.0 * math.pi * beam.frequencies(wire, 1)[0]
-        step = min(_SUBSTEPS * _XPBD_SUBSTEP * wire.time_unit, 0.05 / omega)
-        substeps = math.ceil(step / (_XPBD_SUBSTEP * wire.time_unit * min(1.0, slowest / omega)))
-        method = {"substeps": substeps, "constraintSolverSteps": _SWEEPS}
+    if solver == "direct":
+        step, method = 0.05 / omega, {"integrator": "implicitEuler"}
     else:
-        step = 0.05 / omega
-        method = {"integrator": "implicitEuler"}
+        step = min(_SUBSTEPS * _SHARE[solver] * stable_substep(wire), 0.05 / omega)
+        method = small_steps(solver, wire, step)
     return {
         "solver": solver,
         "timeStep": step,
@@ -71,6 +62,14 @@ def settled(solver: str, wire: Wire, overrides: Mapping[str, Any], frequency: fl
         "logOrientations": True,
         **overrides,
     }
+
+
+def small_steps(solver: str, wire: Wire, step: float) -> dict[str, Any]:
+    """Substeps of a time step in s (and sweeps of each) of the explicit solver or of xpbd."""
+    method: dict[str, Any] = {"substeps": math.ceil(step / (_SHARE[solver] * stable_substep(wire)))}
+    if solver == "xpbd":
+        method["constraintSolverSteps"] = _SWEEPS
+    return method
 
 
 def stable_substep(wire: Wire) -> float:

@@ -11,7 +11,7 @@ import numpy as np
 
 from analysis.figures.wording import number, percent
 from analysis.runs import Run
-from analysis.validation import beam, elastica, pictures, scenes, twisted
+from analysis.validation import elastica, pictures, scenes, twisted
 from analysis.validation.check import Case, Check, Finding, Plan, Result
 from analysis.validation.spatial import CurvedRod
 from analysis.validation.states import last_state, solver_report, wall_time
@@ -23,9 +23,6 @@ ARC_GATE = 1e-3  # of L
 EXACT = 1e-9  # rad; what a search to 1e-9 may leave
 _REPEATS = 5
 _GRAVITY = 9.81  # m/s^2
-
-_NAMES = {"direct": "direct", "explicit": "explicit", "xpbd": "xpbd"}
-
 
 def _solver_cases(
     wire: Wire, loads: Mapping[str, Any], name: str = "", frequency: float | None = None,
@@ -59,10 +56,10 @@ def _dead_load(title: str, wire: Wire, loads: Mapping[str, Any], reference: elas
         step = (len(exact) - 1) // (len(nodes) - 1)
         error = float(np.max(np.linalg.norm(nodes - exact[::step], axis=1)))
         results.append(Result(
-            f"{title}, n = {len(nodes) - 1}: deflection of the tip", _NAMES[case.key], nodes[-1, 1],
+            f"{title}, n = {len(nodes) - 1}: deflection of the tip", case.key, nodes[-1, 1],
             reference.tip[1], error, SHAPE_GATE, "L", wall_time(run, case.repeats), "L, worst node",
         ))
-        drawn[_NAMES[case.key]] = nodes
+        drawn[case.key] = nodes
     caption = f"{title}: nodes (points) on the elastica (line). Worst distance of a node: " + ", ".join(
         f"{r.solver} {percent(r.error)}" for r in results) + " of L. explicit and xpbd: the end of a damped motion."
     return Finding(tuple(results), pictures.shapes({"elastica": exact}, drawn), caption)

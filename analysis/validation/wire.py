@@ -26,6 +26,12 @@ class Wire:
     shear_modulus: float = 23e9
     density: float = 6450.0
 
+    @classmethod
+    def of_stiffness(cls, length: float, radius: float, bending: float, torsion: float, density: float) -> Wire:
+        """The wire of this radius whose EI and GJ are given."""
+        second = 0.25 * math.pi * radius**4
+        return cls(length, radius, bending / second, 0.5 * torsion / second, density)
+
     @property
     def area(self) -> float:
         """A, m^2."""
