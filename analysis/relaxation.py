@@ -110,7 +110,10 @@ def fit_relaxation(time: np.ndarray, error: np.ndarray) -> Relaxation:
         start = times[low[0]] - times[0] if low.size and low[0] > 0 else times[-1] - times[0]
         # In units of the first guess the fit is well scaled for every displacement and time step.
         parameters, covariance = curve_fit(
-            lambda t, amplitude, tau: amplitude * np.exp(-t / tau), times / start, heights / heights.max(), p0=(1.0, 1.0)
+            lambda t, amplitude, tau: amplitude * np.exp(-t / tau),
+            times / start,
+            heights / heights.max(),
+            p0=(1.0, 1.0),
         )
     except RuntimeError as error_of_fit:
         raise RelaxationError("the peaks do not fit an exponential") from error_of_fit

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -29,16 +29,15 @@ class Run:
         All effective values, by key.
     summary : mapping of str to Any, or None
         summary.json; None where the run was killed before it could be written.
-    key, overrides, repeat : str, mapping, int or None
-        From the study's table where the run belongs to one: the run's name, what it lays over the scene, and the
-        number of the timed repeat (None for a run that is not timed).
+    key, repeat : str, int or None
+        From the study's table where the run belongs to one: the run's name, and the number of the timed repeat (None
+        for a run that is not timed).
     """
 
     folder: Path
     parameters: Mapping[str, Any]
     summary: Mapping[str, Any] | None
     key: str = ""
-    overrides: Mapping[str, Any] = field(default_factory=dict)
     repeat: int | None = None
 
     def value(self, key: str) -> Any:
@@ -108,7 +107,7 @@ class StudyRuns:
         )
 
 
-def read_run(folder: Path, key: str = "", overrides: Mapping[str, Any] | None = None, repeat: int | None = None) -> Run:
+def read_run(folder: Path, key: str = "", repeat: int | None = None) -> Run:
     """Reads a run folder's small files; the log is read by whoever needs it.
 
     Raises
@@ -118,7 +117,7 @@ def read_run(folder: Path, key: str = "", overrides: Mapping[str, Any] | None = 
     """
     summary_file = folder / SUMMARY_NAME
     summary = _read_object(summary_file) if summary_file.is_file() else None
-    return Run(folder, _read_object(folder / PARAMETERS_NAME), summary, key, overrides or {}, repeat)
+    return Run(folder, _read_object(folder / PARAMETERS_NAME), summary, key, repeat)
 
 
 def read_study(folder: Path) -> StudyRuns:
@@ -127,7 +126,7 @@ def read_study(folder: Path) -> StudyRuns:
     runs, missing = [], []
     for row in table.get("runs", []):
         try:
-            key, place, overrides, repeat = row["key"], folder / row["folder"], row["overrides"], row["repeat"]
+            key, place, repeat = row["key"], folder / row["folder"], row["repeat"]
         except (KeyError, TypeError) as error:
             raise LogError(f"{folder / STUDY_NAME}: a run lacks {error}") from error
         try:
@@ -135,7 +134,7 @@ def read_study(folder: Path) -> StudyRuns:
         except LogError:
             missing.append(key)
         else:
-            runs.append(read_run(place, key, overrides, repeat))
+            runs.append(read_run(place, key, repeat))
     return StudyRuns(str(table.get("study", folder.name)), folder, tuple(runs), tuple(missing))
 
 

@@ -13,10 +13,10 @@ the m sweeps of a step by
 
     a = exp(-m gamma/(1 - gamma) (pi/(2 N))^2).
 
-With the prediction 2 u_k - u_{k-1}, a step is u_{k+1} = a (2 u_k - u_{k-1}). From rest it gives u_k = u_0 r^k cos(k theta)
-with r = sqrt(a) and cos(theta) = sqrt(a): the decay is what the sweeps leave undone, not a damping of the model, and dt
-does not appear. A start with all spheres at distance D from their new rest has 4 D/pi of this mode at the last sphere,
-and its prediction error there is (1 - a)/a of the next distance.
+With the prediction 2 u_k - u_{k-1}, a step is u_{k+1} = a (2 u_k - u_{k-1}). From rest it gives
+u_k = u_0 r^k cos(k theta) with r = sqrt(a) and cos(theta) = sqrt(a): the decay is what the sweeps leave undone, not a
+damping of the model, and dt does not appear. A start with all spheres at distance D from their new rest has 4 D/pi of
+this mode at the last sphere, and its prediction error there is (1 - a)/a of the next distance.
 """
 
 from __future__ import annotations

@@ -15,7 +15,7 @@ from analysis.slowest_mode import SlowestMode
 from analysis.tables import StudyTable
 
 _SAME = 1e-9  # relative spread up to which values that should be one number are one
-_STEADY = 0.12  # relative spread up to which a measured product is called constant
+_NEARLY = 0.12  # relative spread up to which a measured product is called constant
 
 
 def sweep_caption(figure: str, table: StudyTable) -> str:
@@ -30,14 +30,14 @@ def _solver_steps(table: StudyTable) -> list[str]:
     m, tau, dt = table.column("value"), table.column("relaxation.time"), table.column("time_step")
     sentences = [f"Default run with m = {_values(m)} constraint solver steps. (a) τ goes {_ends(m, tau, 'm', ' s')}."]
     sweeps = m * tau / dt
-    if relative_spread(sweeps) < _STEADY:
+    if relative_spread(sweeps) < _NEARLY:
         sentences.append(
             f"m τ/Δt is nearly constant, {span(sweeps)} sweeps: the wire relaxes by sweeps, a fixed part of the way in "
             f"each. The thesis speaks of growing stiffness parameters; the gains stay, there are more sweeps."
         )
     sentences.append(_straight(table, "(b) The step time", "solver step"))
-    sentences.append(f"(c) The in-game time to the steady state goes {_ends(m, table.column('steady_state_time'), 'm', ' s')}.")
-    if relative_spread(sweeps) < _STEADY:
+    sentences.append(_steady(table, "m"))
+    if relative_spread(sweeps) < _NEARLY:
         sentences.append("The thesis did not expect it to fall; it falls because τ does.")
     work = m * table.column("steady_state_step")
     wall = table.column("computation_time.median")
@@ -46,7 +46,7 @@ def _solver_steps(table: StudyTable) -> list[str]:
         f"(d) Getting there {seconds}goes, counted in sweeps and so free of the machine, {_ends(m, work, 'm', '')}."
     )
     waited = table.column("steady_state_time") / tau
-    if relative_spread(work) > _STEADY and _rises(m, waited):
+    if relative_spread(work) > _NEARLY and _rises(m, waited):
         sentences.append(
             f"The thesis calls the computation time relatively constant. It rises because more sweeps leave a larger "
             f"prediction error at the same distance from rest, so that the same threshold takes "
@@ -60,25 +60,24 @@ def _rod_elements(table: StudyTable) -> list[str]:
     best = int(np.nanargmin(tau))
     gains = np.array([SlowestMode.of(row.run).effective_gain for row in table.rows])
     sentences = [
-        f"Default run with n = {_values(n)} rod elements; dashed: n = 30, where sphere touches sphere. (a) τ is smallest, "
-        f"{number(tau[best])} s, at n = {n[best]:g} and largest, {number(np.nanmax(tau))} s, at n = "
+        f"Default run with n = {_values(n)} rod elements; dashed: n = 30, where sphere touches sphere. (a) τ is "
+        f"smallest, {number(tau[best])} s, at n = {n[best]:g} and largest, {number(np.nanmax(tau))} s, at n = "
         f"{n[np.nanargmax(tau)]:g}."
     ]
-    if np.nanmax(tau) > 2.0 * np.nanmin(tau):
-        sentences.append(
-            f"The thesis sees only a small influence, here it is a factor of {number(np.nanmax(tau) / np.nanmin(tau), 2)}."
-        )
+    factor = np.nanmax(tau) / np.nanmin(tau)
+    if factor > 2.0:
+        sentences.append(f"The thesis sees only a small influence, here it is a factor of {number(factor, 2)}.")
     fine = n >= 30
     if np.count_nonzero(fine) > 2:
         sentences.append(
-            f"From n = 30 on τ grows with the power {number(_exponent(n[fine], tau[fine]), 2)} of n: a sweep hands a displacement on "
-            f"as diffusion does, in steps of one element."
+            f"From n = 30 on τ grows with the power {number(_exponent(n[fine], tau[fine]), 2)} of n: a sweep hands a "
+            f"displacement on as diffusion does, in steps of one element."
         )
     if best > 0 and _rises(n, gains):
         sentences.append(
             f"Below n = {n[best]:g} it rises again, because long elements give most of each correction to the "
-            f"orientations, along the quaternion, where normalising removes it: {number(gains[best], 2)} of a stretch is "
-            f"taken out per iteration at n = {n[best]:g}, {number(gains[0], 2)} at n = {n[0]:g}."
+            f"orientations, along the quaternion, where normalising removes it: {number(gains[best], 2)} of a stretch "
+            f"is taken out per iteration at n = {n[best]:g}, {number(gains[0], 2)} at n = {n[0]:g}."
         )
     sentences.append(_straight(table, "(b) The step time", "element"))
     sentences.append(_follows(table, n, "n"))
@@ -90,9 +89,9 @@ def _displacement(table: StudyTable) -> list[str]:
     sentences = [f"Default run with displacements of {_values(size)} units. (a) τ = {span(tau, 4)} s."]
     if relative_spread(tau) < 1e-3:
         sentences.append(
-            f"It does not depend on the displacement (to {number(relative_spread(tau), 1)} of its value), because along "
-            f"the wire a step is linear in the distances from rest; the thesis finds the same and gives the solver's "
-            f"efficiency as the reason."
+            f"It does not depend on the displacement (to {number(relative_spread(tau), 1)} of its value), because "
+            f"along the wire a step is linear in the distances from rest; the thesis finds the same and gives the "
+            f"solver's efficiency as the reason."
         )
     sentences.append(_constant(table, "(b) The step time"))
     known = np.isfinite(steady)
@@ -100,8 +99,8 @@ def _displacement(table: StudyTable) -> list[str]:
         slope = np.polyfit(np.log10(size[known]), steady[known], 1)[0]
         expected = np.nanmedian(tau) * np.log(10.0)
         sentences.append(
-            f"(c, d) The time to the steady state is no constant: it grows by {number(slope)} s per tenfold displacement, "
-            f"as it must where a motion that decays with τ has to come below a threshold of fixed length "
+            f"(c, d) The time to the steady state is no constant: it grows by {number(slope)} s per tenfold "
+            f"displacement, as it must where a motion that decays with τ has to come below a threshold of fixed length "
             f"(τ ln 10 = {number(expected)} s, in whole half periods of the oscillation). The thesis sees barely any "
             f"influence."
         )
@@ -112,19 +111,20 @@ def _time_step(table: StudyTable) -> list[str]:
     dt, tau = table.column("value"), table.column("relaxation.time")
     in_steps, steps = tau / dt, table.column("steady_state_step")
     sentences = [
-        f"Default run with Δt = {_values(dt)} s. (a) τ goes {_ends(dt, tau, 'Δt', ' s')}, τ/Δt = {span(in_steps, 4)} steps."
+        f"Default run with Δt = {_values(dt)} s. (a) τ goes {_ends(dt, tau, 'Δt', ' s')}, τ/Δt = "
+        f"{span(in_steps, 4)} steps."
     ]
     errors = table.column("total_error")
     same_motion = np.all(steps == steps[0]) and (np.all(np.isnan(errors)) or relative_spread(errors) < 1e-6)
     if relative_spread(in_steps) < _SAME and same_motion:
         sentences.append(
-            "It is perfectly linear, as in the thesis. The thesis's reason, more sweeps in the same in-game "
-            "time, is a part of the whole one: without forces the method, step by step, does not contain Δt at all. All these runs are one "
-            f"and the same sequence of positions (same Δx at the end, steady from step {steps[0]:g} on) with another "
-            "time written beside each step."
+            "It is perfectly linear, as in the thesis. The thesis's reason, more sweeps in the same in-game time, is a "
+            "part of the whole one: without forces the method, step by step, does not contain Δt at all. All these "
+            f"runs are one and the same sequence of positions (same Δx at the end, steady from step {steps[0]:g} on) "
+            "with another time written beside each step."
         )
     sentences.append(_constant(table, "(b) The step time"))
-    sentences.append(f"(c) The in-game time to the steady state goes {_ends(dt, table.column('steady_state_time'), 'Δt', ' s')}.")
+    sentences.append(_steady(table, "Δt"))
     sentences.append(_constant(table, "(d) The computation time", "computation_time", "s"))
     return sentences
 
@@ -136,7 +136,7 @@ def _total_mass(table: StudyTable) -> list[str]:
     length = run.number("guidewireLength") / run.number("numberRodElements")
     knee = (run.number("numberRodElements") + 1) / (2.0 * length * length)
     sentences = [f"Default run with M = {_values(mass)} units of mass. (a) τ goes {_ends(mass, tau, 'M', ' s')}."]
-    if relative_spread(tau * gains) < 2.0 * _STEADY and _rises(mass, tau):
+    if relative_spread(tau * gains) < 2.0 * _NEARLY and _rises(mass, tau):
         sentences.append(
             f"The thesis explains this by inertia. But the spheres' masses cancel between spheres; M acts only against "
             f"the orientations, whose weight stays 1: heavy spheres leave most of each correction to the orientations, "
@@ -147,13 +147,13 @@ def _total_mass(table: StudyTable) -> list[str]:
         )
     sentences.append(_constant(table, "(b) The step time"))
     steady = table.column("steady_state_time")
-    sentences.append(f"(c) The in-game time to the steady state goes {_ends(mass, steady, 'M', ' s')}.")
+    sentences.append(_steady(table, "M"))
     wall = table.column("computation_time.median")
     if np.any(np.isfinite(wall / steady)):
         sentences.append(
             f"(d) The computation time is {span(wall / steady)} s of real time for each in-game second."
         )
-        if relative_spread(wall / steady) < _STEADY:
+        if relative_spread(wall / steady) < _NEARLY:
             sentences.append("The thesis has it grow more than the in-game time, which no constant step time allows.")
     return sentences
 
@@ -180,6 +180,11 @@ def _ends(x: np.ndarray, y: np.ndarray, name: str, unit: str) -> str:
     first, last = known[0], known[-1]
     ends = (f"{number(y[row])}{unit} at {name} = {x[row]:g}" for row in (first, last))
     return "from " + " to ".join(ends)
+
+
+def _steady(table: StudyTable, name: str) -> str:
+    ends = _ends(table.column("value"), table.column("steady_state_time"), name, " s")
+    return f"(c) The in-game time to the steady state goes {ends}."
 
 
 def _rises(x: np.ndarray, y: np.ndarray) -> bool:
@@ -230,10 +235,10 @@ def _closed_form(table: StudyTable) -> str:
     modes = [SlowestMode.of(row.run) for row in table.rows]
     tau = np.array([mode.relaxation_time for mode in modes]) / table.column("relaxation.time") - 1.0
     steady = np.array([mode.steady_state_time for mode in modes]) / table.column("steady_state_time") - 1.0
-    sentence = f"Grey: the slowest mode in closed form, without a fit; it is within {percent(np.nanmax(np.abs(tau)))} of τ"
+    off = f"{percent(np.nanmax(np.abs(tau)))} of τ"
     if np.any(np.isfinite(steady)):
-        sentence += f" and within {percent(np.nanmax(np.abs(steady)))} of the time to the steady state"
-    return sentence + "."
+        off += f" and within {percent(np.nanmax(np.abs(steady)))} of the time to the steady state"
+    return f"Grey: the slowest mode in closed form, without a fit; it is within {off}."
 
 
 def _end_of_run(table: StudyTable) -> str:
@@ -245,13 +250,13 @@ def _end_of_run(table: StudyTable) -> str:
     waited = (table.column("steps") - table.column("steady_state_step")) * table.column("time_step")
     relaxations = waited / table.column("relaxation.time")
     known = np.isfinite(relaxations) & (errors > 0.0)
-    varied = all(relative_spread(values[known]) > _STEADY for values in (relaxations, errors))
+    varied = all(relative_spread(values[known]) > _NEARLY for values in (relaxations, errors))
     if np.count_nonzero(known) < 4 or not varied:
         return sentence + "."
     if np.corrcoef(relaxations[known], np.log(errors[known]))[0, 1] < -0.8:
         return (
-            f"{sentence}: the steps in which a run must hold still before it stops are {span(relaxations, 2)} relaxation "
-            f"times, in which the error goes on decaying."
+            f"{sentence}: the steps in which a run must hold still before it stops are {span(relaxations, 2)} "
+            f"relaxation times, in which the error goes on decaying."
         )
     return sentence + "."
 
@@ -264,8 +269,8 @@ def _repeats(table: StudyTable) -> str:
     counted = f"{counts[0]}" if len(counts) == 1 else f"{counts[0]} to {counts[-1]}"
     widest = max((spread.highest - spread.lowest) / spread.median for spread in spreads)
     return (
-        f"Wall times: median and range of {counted} runs with no other run beside them; the range of the step time is at most "
-        f"{percent(widest)} of the median."
+        f"Wall times: median and range of {counted} runs with no other run beside them; the range of the step time is "
+        f"at most {percent(widest)} of the median."
     )
 
 

@@ -114,8 +114,8 @@ def _time_evolution_caption(
     else:
         parts.append(
             f"(c) The prediction error oscillates with the motion: before the steady state it dips below the threshold "
-            f"for up to {dips} steps at a time, so touching the threshold once says nothing. It is below for good, that "
-            f"is for {int(run.number('steadyStateHold'))} steps on end, from step {step} "
+            f"for up to {dips} steps at a time, so touching the threshold once says nothing. It is below for good, "
+            f"that is for {int(run.number('steadyStateHold'))} steps on end, from step {step} "
             f"(t = {number(step * run.number('timeStep'))} s) on."
         )
     if log.warning:
@@ -179,9 +179,8 @@ def draw_relaxation(table: RunTable) -> tuple[Figure, str]:
         letter(axes, name, title)
         axes.plot(log.time, error, linewidth=0.9, label=r"$|z_n(t) - \tilde z_n|$")
         axes.plot(fit.peak_times, fit.peak_heights, "o", label=f"{fit.peak_times.size} peaks")
-        axes.plot(
-            log.time, fit.envelope(log.time), "--", color="0.3", label=rf"$\zeta_0 e^{{-t/\tau}}$, $\tau$ = {fit.time:.3f} s"
-        )
+        curve = rf"$\zeta_0 e^{{-t/\tau}}$, $\tau$ = {fit.time:.3f} s"
+        axes.plot(log.time, fit.envelope(log.time), "--", color="0.3", label=curve)
         axes.set(xlabel="in-game time $t$ (s)", ylabel="displacement error (units)")
     linear.legend(loc="upper right")
     logarithmic.set_yscale("log")
@@ -239,6 +238,6 @@ def _final_error_caption(run: Run, log: PositionLog, errors: np.ndarray, peak: i
         f"(t = {log.time[-1]:.2f} s, {run.outcome}), the total error Δx (eq. 4.4) is {number(total_error(end))} units "
         f"and the mean {number(mean_error(end), 2)} units. The error oscillates, so the moment decides: at the peak "
         f"near t = {log.time[peak]:.2f} s (step {log.steps[peak]}) the mean is {number(mean, 2)} units; {compared}. "
-        f"There the error {rising}, from {number(then[0], 1)} at the held first sphere to {number(then[-1], 2)} units at "
-        f"the last, {percent(then[-1] / abs(run.number('displacement')))} of the displacement."
+        f"There the error {rising}, from {number(then[0], 1)} at the held first sphere to {number(then[-1], 2)} units "
+        f"at the last, {percent(then[-1] / abs(run.number('displacement')))} of the displacement."
     )

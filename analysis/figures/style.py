@@ -79,10 +79,10 @@ def add_caption(figure: Figure, caption: str) -> None:
 
 
 def _wrap(figure: Figure, text: str, font: FontProperties, width: float) -> list[str]:
-    """Breaks a text between words so that no line is wider than ``width`` pixels."""
+    """Breaks a text between words so that no line is wider than ``width`` pixels; "n = 60" stays together."""
     renderer = figure.canvas.get_renderer()
     lines: list[str] = []
-    for word in text.split():
+    for word in text.replace(" = ", "\u00a0=\u00a0").split(" "):
         longer = f"{lines[-1]} {word}" if lines else word
         if lines and renderer.get_text_width_height_descent(longer, font, False)[0] <= width:
             lines[-1] = longer

@@ -117,7 +117,7 @@ def _draw_spread(axes: Axes, table: StudyTable, choose: Callable[[StudyRow], Spr
 
 
 def _dress(axes: Axes, view: SweepView, on_log: bool) -> None:
-    """Labels and scales. Times that a sweep over decades spreads over decades are logarithmic, wall times start at 0."""
+    """Labels and scales: logarithmic where the sweep spreads the values over decades, else from 0."""
     axes.set_xlabel(view.label)
     if view.logarithmic:
         axes.set_xscale("log")

@@ -139,6 +139,11 @@ class Chain:
         return folder
 
 
+def small(**changed: float) -> Chain:
+    """A quick run of the same kind: 10 elements, 100 solver steps."""
+    return Chain(**{"constraint_solver_steps": 100, "elements": 10, **changed})  # type: ignore[arg-type]
+
+
 def write_study(folder: Path, name: str, key: str | None, chains: list[Chain], repeats: int = 3) -> Path:
     """Writes a study folder: each chain's run and timed repeats of it, of 2, 3, 4 ... ms a step, and study.json."""
     rows = []

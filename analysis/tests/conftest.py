@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from analysis.tests.chain import Chain, write_study
+from analysis.tests.chain import Chain, small, write_study
 
 
 @pytest.fixture(scope="session")
@@ -20,16 +20,13 @@ def default_study(tmp_path_factory: pytest.TempPathFactory, default_chain: Chain
     return write_study(tmp_path_factory.mktemp("default"), "default", None, [default_chain])
 
 
-def small(**changed: float) -> Chain:
-    """A quick run of the same kind: 10 elements, 100 solver steps."""
-    return Chain(**{"constraint_solver_steps": 100, "elements": 10, **changed})  # type: ignore[arg-type]
-
-
 @pytest.fixture(scope="session")
 def studies(tmp_path_factory: pytest.TempPathFactory, default_study: Path) -> dict[str, Path]:
     """Every study that a figure asks for, in small."""
     made = {
-        "constraint-solver-steps": ("constraintSolverSteps", [small(constraint_solver_steps=m) for m in (80, 120, 160, 200)]),
+        "constraint-solver-steps": (
+            "constraintSolverSteps", [small(constraint_solver_steps=m) for m in (80, 120, 160, 200)]
+        ),
         "rod-elements": ("numberRodElements", [small(elements=n) for n in (3, 5, 8, 10)]),
         "displacement": ("displacement", [small(displacement=size) for size in (1.0, 10.0, 100.0)]),
         "time-step": ("timeStep", [small(time_step=dt) for dt in (1e-4, 1e-3, 1e-2, 1e-1)]),

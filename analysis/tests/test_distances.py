@@ -16,7 +16,7 @@ LENGTH = 12.0  # units
 RATE = np.array([0.1, -0.2, 0.3])  # units/s
 
 
-def wire(elements: int, time_step: float, steps: int, shift: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Trajectory:
+def wire(elements: int, time_step: float, steps: int, shift: tuple[float, ...] = (0.0, 0.0, 0.0)) -> Trajectory:
     """A straight wire along z that drifts at RATE: linear in arc length and in time, so interpolation is exact."""
     arc = LENGTH * np.arange(elements + 1) / elements
     time = time_step * np.arange(steps + 1)
@@ -101,7 +101,8 @@ def test_runs_are_compared_from_their_folders(tmp_path: Path) -> None:
     """Positions step by step do not depend on dt: equal step numbers are at no distance, equal times are."""
     read = {}
     for name, time_step in (("coarse", 0.01), ("fine", 0.005)):
-        folder = Chain(constraint_solver_steps=20, elements=5, most_steps=40, time_step=time_step).write(tmp_path / name)
+        chain = Chain(constraint_solver_steps=20, elements=5, most_steps=40, time_step=time_step)
+        folder = chain.write(tmp_path / name)
         read[name] = trajectory(read_run(folder), read_log(folder, spheres="all"))
     np.testing.assert_allclose(read["fine"].arc_length, [0, 60, 120, 180, 240, 300])
     assert distances(read["coarse"], read["fine"], match="step").mean == 0.0

@@ -170,7 +170,8 @@ def test_folder_means_the_complete_log_before_the_partial_one(tmp_path: Path, ch
 @pytest.mark.parametrize("one_line", [False, True])
 def test_memory_is_set_by_what_is_asked(tmp_path: Path, one_line: bool) -> None:
     """20 MB of log, of which 200 steps of one sphere are 12 kB: the reader stays below 8 chunks of 1 MB."""
-    sphere = '{"x": 0.1234567890123456, "y": -0.1234567890123456, "z": 123.45678901234567, "vx": 0.0, "vy": 0.0, "vz": 0.0}'
+    sphere = json.dumps({"x": 0.1234567890123456, "y": -0.1234567890123456, "z": 123.45678901234567,
+                         "vx": 0.0, "vy": 0.0, "vz": 0.0})
     spheres = ", ".join(f'"{i}": {sphere}' for i in range(91))
     path = tmp_path / "positions.json"
     with path.open("w") as stream:

@@ -18,7 +18,7 @@ def test_envelope_of_a_damped_oscillation_is_found() -> None:
     step = 1e-4
     time = np.arange(0.0, 3.0, step)
     fit = fit_relaxation(time, np.abs(8.0 * np.exp(-time / 0.4) * np.cos(2.0 * np.pi * time / 0.25)))
-    sampled = 0.5 * step / 0.4  # a peak is found up to half a step too early or late, where the envelope is so different
+    sampled = 0.5 * step / 0.4  # a peak is found up to half a step beside its place; so much does the envelope change
     # At a peak tan(w t) = -1/(w tau), so cos = w tau/sqrt(1 + (w tau)^2).
     turn = 2.0 * np.pi / 0.25 * 0.4
     assert fit.time == pytest.approx(0.4, rel=sampled)

@@ -11,8 +11,7 @@ import pytest
 from analysis.logs import LogError, read_log
 from analysis.runs import read_run, read_study
 from analysis.tables import Spread, read_table, steady_state_step
-from analysis.tests.chain import Chain, write_study
-from analysis.tests.conftest import small
+from analysis.tests.chain import Chain, small, write_study
 
 
 @pytest.fixture(scope="module")

@@ -148,7 +148,8 @@ namespace Guidewire.Core
         /// <exception cref="ArgumentException">As <see cref="Create"/>, and another number of elements.</exception>
         public Simulation Continue(SimulationParameters parameters)
         {
-            parameters.Start = new RodStart(State.Positions, State.Orientations, State.Velocities, State.AngularVelocities);
+            parameters.Start = new RodStart(State.Positions, State.Orientations, State.Velocities,
+                State.AngularVelocities);
             parameters.Displacement = 0.0;
             Simulation next = Create(parameters);
             next.StepCount = StepCount;
