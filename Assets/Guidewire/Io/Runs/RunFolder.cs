@@ -162,11 +162,13 @@ namespace Guidewire.Io
 
         private void Publish()
         {
-            // Without its summary an earlier result does not count, so no mixture of two runs ever does.
+            // First what may not fit on the disk; from then on names only change. Without its summary an earlier result
+            // does not count, so no mixture of two runs ever does.
+            string parameters = Path.Combine(_folder, ParametersFile);
+            AtomicFile.Prepare(parameters, _handler.ToJson().ToString(Formatting.Indented) + "\n");
             File.Delete(Path.Combine(_folder, RunSummary.FileName));
             AtomicFile.Publish(Path.Combine(_folder, PositionsFile));
-            string parameters = _handler.ToJson().ToString(Formatting.Indented) + "\n";
-            AtomicFile.Write(Path.Combine(_folder, ParametersFile), parameters);
+            AtomicFile.Publish(parameters);
         }
     }
 }
