@@ -142,6 +142,9 @@ namespace Guidewire.Core
         /// <summary>A vessel's Euler angles in degrees, about z, then x, then y, as in Unity.</summary>
         public Vector3d Rotation { get; set; }
 
+        /// <summary>A hand that pushes and turns the wire as it goes, in place of the drive's motion, or null.</summary>
+        public Steering? Steering { get; set; }
+
         /// <summary>A start other than the straight wire along z at rest, or null.</summary>
         public RodStart? Start { get; set; }
     }
