@@ -85,11 +85,9 @@ def run(arguments: argparse.Namespace) -> int:
         return INTERRUPTED
     except PreparationError:
         raise
-    except OSError as error:
-        if error.filename is None:
-            raise
-        raise PreparationError(f"{error.filename}: {error.strerror}") from error
     except Exception as error:
+        if isinstance(error, OSError) and error.filename is not None:
+            raise PreparationError(f"{error.filename}: {error.strerror}") from error
         trace = Path(tempfile.mkdtemp(prefix="guidewire-")) / "error.txt"
         trace.write_text(traceback.format_exc(), encoding="utf-8")
         print(f"guidewire: internal error ({type(error).__name__}: {error}): please report {trace}", file=sys.stderr)

@@ -108,9 +108,18 @@ class Runner:
     def __init__(self, command: Sequence[str]) -> None:
         self._command = [*command, "-lines"]
         self._process: subprocess.Popen[str] | None = None
+        self._interrupted = False
 
     def run(self, request: Request) -> Answer:
         """Make one run and wait for its end. Never raises for what the runner does."""
+        used = self._process is not None
+        answer = self._ask(request)
+        if used and self._process is None and not self._interrupted:
+            # What killed a process that had worked before may be its past: the run gets a process of its own, once.
+            answer = self._ask(request)
+        return answer
+
+    def _ask(self, request: Request) -> Answer:
         try:
             process = self._start()
             process.stdin.write(request.to_line())
@@ -129,6 +138,7 @@ class Runner:
 
     def interrupt(self) -> None:
         """Ask for a clean end of the run that is under way, as Ctrl-C does."""
+        self._interrupted = True
         if self._process is not None and self._process.poll() is None:
             self._process.send_signal(signal.SIGINT)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from typing import Iterator
 
 from unitycheck.csharp import Token, tokens
@@ -58,6 +59,7 @@ def _starts(items: list[Token], i: int, words: tuple[str, ...]) -> bool:
     return True
 
 
+@functools.lru_cache(maxsize=2048)
 def scan(source: str) -> list[tuple[int, str]]:
     """(line, name) for every use of an API that Unity's netstandard2.1 lacks."""
     items = tokens(source)

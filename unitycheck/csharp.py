@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import re
 from dataclasses import dataclass
 from typing import Iterator
@@ -178,8 +179,9 @@ def _format_start(source: str, start: int, end: int) -> int:
     return end
 
 
+@functools.lru_cache(maxsize=2048)
 def tokens(source: str) -> list[Token]:
-    """The tokens that Unity's compiler could see."""
+    """The tokens that Unity's compiler could see. Every rule reads the same list: none may change it."""
     source = unity_source(source)
     return list(_scan(source, 0, len(source), 1))
 

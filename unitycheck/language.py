@@ -6,6 +6,7 @@ which builds every file here as C# 9 as well.
 
 from __future__ import annotations
 
+import functools
 from typing import Iterator
 
 from unitycheck.csharp import Token, closing, tokens
@@ -240,6 +241,7 @@ def _structs(scan: _Scan, i: int) -> Iterator[tuple[str, int]]:
         position += 1
 
 
+@functools.lru_cache(maxsize=2048)
 def scan(source: str) -> list[tuple[int, str]]:
     """(line, feature) for every feature beyond Unity's C# 9 in one file's source."""
     view = _Scan(tokens(source))

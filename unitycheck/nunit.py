@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from typing import Iterator
 
 from unitycheck.csharp import closing, tokens
@@ -16,6 +17,7 @@ NAMES = {"UsingPropertiesComparer", "DefaultFloatingPointTolerance", "NonParalle
          "CancelAfter", "SetArgDisplayNames", "AnyOf", "ClassicAssert", "ItemAt"}
 
 
+@functools.lru_cache(maxsize=2048)
 def scan(source: str) -> list[tuple[int, str]]:
     """(line, what) for everything that NUnit 3.5 in Unity lacks or cannot run."""
     items = tokens(source)

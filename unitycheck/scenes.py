@@ -204,7 +204,8 @@ def _field_value(path: str, document: Document, stem: str, stored: Field, value:
              "float": isinstance(value, str) and bool(_NUMBER.match(value)),
              "double": isinstance(value, str) and bool(_NUMBER.match(value)), "string": isinstance(value, str),
              "Vector3": isinstance(value, dict) and set(value) == {"x", "y", "z"},
-             "Color": isinstance(value, dict) and set(value) == {"r", "g", "b", "a"}}
+             "Color": isinstance(value, dict) and set(value) == {"r", "g", "b", "a"},
+             "string[]": isinstance(value, list) and all(isinstance(item, str) for item in value)}
     is_reference = isinstance(value, dict) and "fileID" in value
     is_enum = isinstance(value, str) and bool(_INTEGER.match(value))
     if not right.get(kind, is_reference or is_enum or isinstance(value, list)):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from dataclasses import dataclass, field
 from typing import Iterator
 
@@ -57,6 +58,7 @@ def _modifiers(items: list[Token], i: int) -> set[str]:
     return found
 
 
+@functools.lru_cache(maxsize=2048)
 def classes(source: str) -> list[Script]:
     """The classes of one file with their serialized fields and their methods."""
     items = tokens(source)
@@ -116,7 +118,10 @@ def _members(items: list[Token], start: int, end: int, script: Script) -> None:
                     position += 1
             attributes, member = [], []
         elif token.text in ("{", "(", "["):
-            position = closing(items, position)
+            stop = closing(items, position)
+            if token.text == "[" and not _has_initialiser(member):
+                member += items[position:stop + 1]
+            position = stop
         elif token.text in (";", ","):
             if token.text == "," and _depth(member) > 0:
                 member.append(token)

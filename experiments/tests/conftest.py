@@ -1,12 +1,18 @@
 """What several test files need: the real runner, built once, and a fake one with the journal of what it was asked."""
 
 import json
+import signal
 import sys
 from pathlib import Path
 
 import pytest
 
 from experiments import runner
+
+
+# A shell that starts us in the background leaves Ctrl-C ignored, for us and for every program that we start; the tests
+# of Ctrl-C then wait for ever.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 class FakeRunner:

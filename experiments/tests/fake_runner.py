@@ -1,6 +1,7 @@
 """A stand-in for the headless runner's lines mode: it simulates nothing and misbehaves as the request asks.
 
 `set` of a request steers it: {"die": code} ends the process before the answer, {"signal": number} kills it,
+{"dieLater": 1} ends it after the answer,
 {"babble": text} answers something that is no JSON, {"sleep": seconds} works for that long, {"exitCode": code}
 fails in the ordinary way. Everything it was asked stands in the file named by its first argument, one line each:
 process id, start and end of the run, request.
@@ -48,6 +49,8 @@ def main(journal):
         with open(journal, "a") as file:
             file.write(json.dumps([os.getpid(), started, time.monotonic(), request]) + "\n")
         print(wish.get("babble") or json.dumps(answer), flush=True)
+        if "dieLater" in wish:
+            os._exit(1)
 
 
 if __name__ == "__main__":

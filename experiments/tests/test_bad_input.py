@@ -80,7 +80,8 @@ BAD_FILES = {
     "no direction": ('{"displacementDirection": [0, 0, 0]}', ["displacementDirection", "[0,0,0]", "not all 0"]),
     "old and new key disagree": ('{"VerletIntegration": true, "integrator": "euler"}',
                                  ["VerletIntegration", "integrator", "disagree"]),
-    "a file to start from that is missing": ('{"startFile": "no-such-start.json"}', ["startFile", "no-such-start.json", "no such"]),
+    "a file to start from that is missing": ('{"startFile": "no-such-start.json"}',
+                                             ["startFile", "no-such-start.json", "no such"]),
     "nested beyond any meaning": ("[" * 100_000, ["JSON"]),
 }
 
@@ -156,8 +157,8 @@ def test_an_output_folder_that_is_a_file_is_one_line(runner_command, tmp_path, e
 def test_an_output_folder_that_nobody_may_write_to_is_one_line(runner_command, tmp_path, earlier):
     if os.geteuid() == 0:
         # Root may write everywhere but where the kernel itself has the say.
-        for out in ("/proc/guidewire", "/sys/guidewire"):
-            assert_one_line(run(runner_command, "-parameters", tmp_path / "good.json", "-out", out), out, "out")
+        out = "/proc/guidewire"
+        assert_one_line(run(runner_command, "-parameters", tmp_path / "good.json", "-out", out), out, "out")
         return
     earlier.chmod(0o555)
     before = contents(earlier)
@@ -184,3 +185,26 @@ def test_bad_input_in_lines_mode_is_answered_and_the_next_request_is_served(runn
     assert [answer["id"] for answer in answers[1:5]] == [1, 2, 3, 4]
     assert all("\n" not in answer["message"] and answer["message"] for answer in answers)
     assert not (tmp_path / "out").exists() and (tmp_path / "good" / "summary.json").exists()
+
+
+STRAIGHT = {"positions": [[0, 0, 0], [0, 0, 1]], "orientations": [[0, 0, 0, 1]]}
+BAD_STARTS = {
+    "no positions": ({"positions": None}, ["positions", "list of 2"]),
+    "one position too few": ({"positions": [[0, 0, 0]]}, ["positions", "list of 2"]),
+    "one orientation too many": ({"orientations": [[0, 0, 0, 1]] * 2}, ["orientations", "list of 1"]),
+    "a position of two numbers": ({"positions": [[0, 0, 0], [0, 1]]}, ["positions[1]", "three numbers"]),
+    "a word for a number": ({"positions": [[0, 0, 0], [0, 0, "1"]]}, ["positions[1]", "three numbers"]),
+    "no direction": ({"orientations": [[0, 0, 0, 0]]}, ["orientations[0]", "not all 0"]),
+    "velocities of one sphere": ({"velocities": [[0, 0, 0]]}, ["velocities", "list of 2"]),
+    "an unknown key": ({"position": []}, ["position", "positions, orientations"]),
+}
+
+
+@pytest.mark.parametrize("change, words", BAD_STARTS.values(), ids=BAD_STARTS)
+def test_a_bad_file_to_start_from_is_one_line_and_writes_nothing(runner_command, tmp_path, change, words):
+    start, scene = tmp_path / "start.json", tmp_path / "scene.json"
+    start.write_text(json.dumps({**STRAIGHT, **change}))
+    scene.write_text(json.dumps({"numberRodElements": 1, "guidewireLength": 1, "startFile": str(start)}))
+    done = run(runner_command, "-parameters", scene, "-out", tmp_path / "out")
+    assert_one_line(done, str(scene), "startFile", str(start), *words)
+    assert not (tmp_path / "out").exists()

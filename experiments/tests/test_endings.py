@@ -6,7 +6,9 @@ import random
 import signal
 import subprocess
 import sys
+import tempfile
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,21 +17,40 @@ from analysis.logs import LogError, read_log
 from experiments.prepare import ROOT
 
 FULL = os.environ.get("GUIDEWIRE_ALL") == "1"
-# Small and endless: it never comes to rest, and a step takes some 2 us.
-ENDLESS = {
-    "numberRodElements": 10, "constraintSolverSteps": 2, "deltaThreshold": 0, "maxSimulationSteps": 1_000_000_000,
+# A small wire that never comes to rest and logs some 50 MB a second: longer than any test waits, but not for ever.
+LONG = {
+    "numberRodElements": 10, "constraintSolverSteps": 2, "deltaThreshold": 0, "maxSimulationSteps": 1_000_000,
 }
+
+
+@pytest.fixture
+def scratch():
+    """A folder that is gone after the test: the logs here are large."""
+    with tempfile.TemporaryDirectory() as folder:
+        yield Path(folder)
+
+
+@pytest.fixture
+def start(runner_command):
+    """A function that starts a run; what still runs at the end of the test is killed."""
+    started = []
+
+    def start_run(scene, out):
+        process = subprocess.Popen([*runner_command, "-parameters", str(scene), "-out", str(out)],
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        started.append(process)
+        return process
+
+    yield start_run
+    for process in started:
+        process.kill()
+        process.communicate()
 
 
 def scene_of(folder, **changes):
     path = folder / "scene.json"
-    path.write_text(json.dumps({**ENDLESS, **changes}))
+    path.write_text(json.dumps({**LONG, **changes}))
     return path
-
-
-def start(command, scene, out):
-    return subprocess.Popen([*command, "-parameters", str(scene), "-out", str(out)], stdout=subprocess.PIPE,
-                            stderr=subprocess.PIPE, text=True)
 
 
 def wait_for_log(out, least=200_000):
@@ -49,11 +70,11 @@ def assert_steps_are_whole(log, time_step=0.01):
 
 
 @pytest.mark.parametrize("moment", range(40 if FULL else 8))
-def test_a_killed_run_leaves_a_log_up_to_its_last_whole_step(runner_command, tmp_path, moment):
-    out = tmp_path / "out"
-    process = start(runner_command, scene_of(tmp_path), out)
+def test_a_killed_run_leaves_a_log_up_to_its_last_whole_step(start, scratch, moment):
+    out = scratch / "out"
+    process = start(scene_of(scratch), out)
     wait_for_log(out)
-    time.sleep(random.Random(moment).uniform(0.0, 1.5))
+    time.sleep(random.Random(moment).uniform(0.0, 2.0 if FULL else 0.5))
     process.kill()
     process.wait()
     assert not (out / "summary.json").exists() and not (out / "positions.json").exists()
@@ -75,10 +96,10 @@ def last_whole_entry(text):
     pytest.fail("the last two lines are no entries")
 
 
-def test_a_run_killed_at_its_very_start_leaves_nothing_that_reads_as_a_result(runner_command, tmp_path):
+def test_a_run_killed_at_its_very_start_leaves_nothing_that_reads_as_a_result(start, scratch):
     for wait in (0.02, 0.05, 0.1, 0.2):
-        out = tmp_path / f"out-{wait}"
-        process = start(runner_command, scene_of(tmp_path), out)
+        out = scratch / f"out-{wait}"
+        process = start(scene_of(scratch), out)
         time.sleep(wait)
         process.kill()
         process.wait()
@@ -89,11 +110,11 @@ def test_a_run_killed_at_its_very_start_leaves_nothing_that_reads_as_a_result(ru
             assert "\n" not in str(error)
 
 
-def test_a_killed_run_leaves_an_earlier_result_as_it_was(runner_command, tmp_path):
-    out = tmp_path / "out"
-    assert start(runner_command, scene_of(tmp_path, maxSimulationSteps=10), out).wait() == 0
+def test_a_killed_run_leaves_an_earlier_result_as_it_was(start, scratch):
+    out = scratch / "out"
+    assert start(scene_of(scratch, maxSimulationSteps=10), out).wait() == 0
     before = {name: (out / name).read_bytes() for name in ("positions.json", "parameters.json", "summary.json")}
-    process = start(runner_command, scene_of(tmp_path), out)
+    process = start(scene_of(scratch), out)
     wait_for_log(out)
     process.kill()
     process.wait()
@@ -101,9 +122,9 @@ def test_a_killed_run_leaves_an_earlier_result_as_it_was(runner_command, tmp_pat
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_an_interrupted_run_ends_with_130_and_a_complete_log(runner_command, tmp_path, number):
-    out = tmp_path / "out"
-    process = start(runner_command, scene_of(tmp_path), out)
+def test_an_interrupted_run_ends_with_130_and_a_complete_log(start, scratch, number):
+    out = scratch / "out"
+    process = start(scene_of(scratch), out)
     wait_for_log(out)
     process.send_signal(number)
     assert process.wait(timeout=30) == 130
@@ -117,9 +138,9 @@ def test_an_interrupted_run_ends_with_130_and_a_complete_log(runner_command, tmp
 
 
 @pytest.fixture
-def small_disk(tmp_path):
+def small_disk(scratch):
     """A file system of 1 MiB."""
-    disk = tmp_path / "disk"
+    disk = scratch / "disk"
     disk.mkdir()
     mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=1m", "tmpfs", str(disk)], capture_output=True,
                              text=True, check=False)
@@ -129,9 +150,9 @@ def small_disk(tmp_path):
     subprocess.run(["umount", str(disk)], check=True)
 
 
-def test_a_disk_that_fills_ends_a_run_as_failed_and_says_so(runner_command, tmp_path, small_disk):
+def test_a_disk_that_fills_ends_a_run_as_failed_and_says_so(start, scratch, small_disk):
     out = small_disk / "out"
-    process = start(runner_command, scene_of(tmp_path), out)
+    process = start(scene_of(scratch), out)
     _, complaint = process.communicate(timeout=60)
     assert process.returncode == 5
     lines = complaint.splitlines()
@@ -142,11 +163,11 @@ def test_a_disk_that_fills_ends_a_run_as_failed_and_says_so(runner_command, tmp_
     assert_steps_are_whole(read_log(out, spheres="all"))
 
 
-def test_a_disk_that_fills_leaves_an_earlier_result_whole(runner_command, tmp_path, small_disk):
+def test_a_disk_that_fills_leaves_an_earlier_result_whole(start, scratch, small_disk):
     out = small_disk / "out"
-    assert start(runner_command, scene_of(tmp_path, maxSimulationSteps=10), out).wait() == 0
+    assert start(scene_of(scratch, maxSimulationSteps=10), out).wait() == 0
     positions = (out / "positions.json").read_bytes()
-    process = start(runner_command, scene_of(tmp_path), out)
+    process = start(scene_of(scratch), out)
     process.communicate(timeout=60)
     assert process.returncode == 5
     assert (out / "positions.json").read_bytes() == positions
@@ -154,11 +175,11 @@ def test_a_disk_that_fills_leaves_an_earlier_result_whole(runner_command, tmp_pa
     assert summary["outcome"] == "failed" or summary["steps"] == 10
 
 
-def test_a_sweep_goes_on_after_a_full_disk(runner_command, tmp_path, small_disk):
+def test_a_sweep_goes_on_after_a_full_disk(runner_command, scratch, small_disk):
     requests = [
-        {"id": 1, "parameters": str(scene_of(tmp_path)), "out": str(small_disk / "out")},
-        {"id": 2, "parameters": str(tmp_path / "scene.json"), "set": {"maxSimulationSteps": 3},
-         "out": str(tmp_path / "out")},
+        {"id": 1, "parameters": str(scene_of(scratch)), "out": str(small_disk / "out")},
+        {"id": 2, "parameters": str(scratch / "scene.json"), "set": {"maxSimulationSteps": 3},
+         "out": str(scratch / "out")},
     ]
     done = subprocess.run([*runner_command, "-lines"], input="\n".join(map(json.dumps, requests)) + "\n",
                           capture_output=True, text=True, check=False, timeout=60)
@@ -175,11 +196,11 @@ def memory_of(command):
     return used.ru_maxrss * 1024
 
 
-def test_a_run_of_100_000_steps_takes_constant_memory_and_linear_time(runner_command, tmp_path):
+def test_a_run_of_100_000_steps_takes_constant_memory_and_linear_time(runner_command, scratch):
     steps, runs = 100_000, {}
     for count in (1_000, steps):
-        out = tmp_path / str(count)
-        scene = scene_of(tmp_path, maxSimulationSteps=count)
+        out = scratch / str(count)
+        scene = scene_of(scratch, maxSimulationSteps=count)
         runs[count] = (out, memory_of([*runner_command, "-parameters", str(scene), "-out", str(out)]))
     long, short = runs[steps][0], runs[1_000][0]
     log_bytes = (long / "positions.json").stat().st_size

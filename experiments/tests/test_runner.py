@@ -69,6 +69,11 @@ def test_a_runner_that_dies_takes_one_run_with_it_and_no_other(fake, tmp_path, w
     assert [answers[f"run-{i}"].outcome for i in (0, 2, 4)] == ["converged"] * 3
 
 
+def test_a_runner_that_dies_between_two_runs_takes_none_with_it(fake, tmp_path):
+    answers = answers_of(fake.command, requests(tmp_path, *[{"dieLater": 1}] * 20))
+    assert [answer.outcome for answer in answers.values()] == ["converged"] * 20
+
+
 def test_an_ordinary_failure_keeps_its_code_and_its_line(fake, tmp_path):
     answer = answers_of(fake.command, requests(tmp_path, {"exitCode": 2}))["run-0"]
     assert (answer.exit_code, answer.outcome, answer.message) == (2, None, "guidewire: bad key")

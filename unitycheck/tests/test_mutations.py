@@ -20,6 +20,11 @@ IO = f"{GUIDEWIRE}/Io/Guidewire.Io.asmdef"
 RUNTIME = f"{GUIDEWIRE}/Runtime/Guidewire.Runtime.asmdef"
 TESTS = f"{GUIDEWIRE}/Tests/Core/Guidewire.Core.Tests.asmdef"
 MANIFEST = "Packages/manifest.json"
+BUILD = "ProjectSettings/EditorBuildSettings.asset"
+SCENE = f"{GUIDEWIRE}/Scenes/Insertion.unity"
+MATERIAL = f"{GUIDEWIRE}/Materials/Wire.mat"
+LOOP = f"{GUIDEWIRE}/Runtime/Loop/SimulationLoop.cs"
+HUD = f"{GUIDEWIRE}/Runtime/Views/Hud.cs"
 
 
 @pytest.fixture
@@ -127,6 +132,40 @@ BREAKAGES = {
                              "editor-settings"),
     "settings header": (replace("ProjectSettings/EditorSettings.asset", "%YAML 1.1", "YAML 1.1"),
                         "ProjectSettings/EditorSettings.asset", "yaml-header"),
+    "script guid changed in a scene": (replace(SCENE, "guid: [0-9a-f]{8}(.*type: 3)", r"guid: 00000000\1"), SCENE,
+                                       "guid-unknown"),
+    "script's own guid changed": (replace(f"{LOOP}.meta", "^guid: .{8}", "guid: 00000000"), SCENE, "guid-unknown"),
+    "script renamed": (move(LOOP, LOOP.replace("SimulationLoop", "Loop")), LOOP.replace("SimulationLoop", "Loop"),
+                       "script-name"),
+    "class renamed": (replace(LOOP, "class SimulationLoop", "class MainLoop"), LOOP, "script-name"),
+    "script made abstract": (replace(LOOP, "sealed class", "abstract class"), LOOP, "script-form"),
+    "script that is no behaviour": (replace(LOOP, "SimulationLoop : MonoBehaviour", "SimulationLoop"), SCENE,
+                                    "scene-script"),
+    "field misspelt in a scene": (replace(SCENE, "_parameterFile:", "_parametersFile:"), SCENE, "field-unknown"),
+    "field renamed in a script": (replace(LOOP, "string _parameterFile", "string _file"), SCENE, "field-unknown"),
+    "field not stored any more": (replace(LOOP, r"\[SerializeField\] private string _parameterFile",
+                                          "private string _parameterFile"), SCENE, "field-unknown"),
+    "number where a field is text": (replace(SCENE, "  _pace: .*", "  _pace: fast"), SCENE, "field-value"),
+    "broken fileID": (replace(SCENE, r"_loop: \{fileID: 302\}", "_loop: {fileID: 392}"), SCENE, "reference-local"),
+    "component points elsewhere": (replace(SCENE, r"m_GameObject: \{fileID: 300\}", "m_GameObject: {fileID: 400}"),
+                                   SCENE, "scene-component"),
+    "component not listed": (replace(SCENE, r"  - component: \{fileID: 302\}\n", ""), SCENE, "scene-component"),
+    "two objects of one number": (replace(SCENE, "^--- !u!1 &400", "--- !u!1 &300"), SCENE, "file-id"),
+    "root not listed": (replace(SCENE, r"  - \{fileID: 401\}\n", ""), SCENE, "scene-roots"),
+    "settings document missing": (replace(SCENE, "^--- !u!157 &3", "--- !u!157 &33"), SCENE, "scene-settings"),
+    "class number": (replace(SCENE, "^--- !u!108 &", "--- !u!109 &"), SCENE, "class-id"),
+    "missing brace": (replace(SCENE, r"m_Father: \{fileID: 0\}", "m_Father: {fileID: 0"), SCENE, "yaml-form"),
+    "material gone": (lambda root: (remove(MATERIAL)(root), remove(f"{MATERIAL}.meta")(root)), SCENE, "guid-unknown"),
+    "type of a reference": (replace(SCENE, "type: 3", "type: 2"), SCENE, "reference-type"),
+    "scene not in the build": (replace(BUILD, "Transversal", "Transverse"), BUILD, "build-scenes"),
+    "scene switched off": (replace(BUILD, "enabled: 1", "enabled: 0"), BUILD, "build-scenes"),
+    "message misspelt": (replace(LOOP, r"void Update\(\)", "void Udpate()"), LOOP, "script-message"),
+    "message in wrong case": (replace(HUD, r"void OnGUI\(\)", "void OnGui()"), HUD, "script-message"),
+    "editor in a player": (replace(LOOP, "^using UnityEngine;", "using UnityEditor;\nusing UnityEngine;"), LOOP,
+                           "editor-in-player"),
+    "module of IMGUI missing": (replace(MANIFEST, '    "com.unity.modules.imgui": "1.0.0",\n', ""), HUD,
+                                "module-missing"),
+    "primary constructor": (replace(LOOP, "class SimulationLoop ", "class SimulationLoop(int x) "), LOOP, "language"),
     "attributes": (replace(".gitattributes", r"^\*\.unity.*\n", ""), ".gitattributes", "gitattributes"),
 }
 

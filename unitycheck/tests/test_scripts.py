@@ -29,6 +29,12 @@ def test_stored_fields(body: str, stored: list[str]) -> None:
     assert fields(body) == stored
 
 
+def test_types_of_stored_fields() -> None:
+    source = "class A : MonoBehaviour { public int[] A; [SerializeField] private List<float> _b; public B.C D; }"
+    assert [(field.name, field.type) for field in classes(source)[0].fields] == [
+        ("A", "int[]"), ("_b", "List<float>"), ("D", "B.C")]
+
+
 def test_class_called_otherwise(sample) -> None:
     sample.edit(SPINNER, "class Spinner", "class Spiner")
     assert (SPINNER, "script-name") in sample.broken()

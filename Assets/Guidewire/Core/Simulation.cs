@@ -42,20 +42,24 @@ namespace Guidewire.Core
         /// <summary>First step of the steady state, or -1.</summary>
         public int SteadyStateStep => _stopRule.SteadyStateStep;
 
+        /// <summary>What contact with walls came to; null in a scene without walls.</summary>
+        public ContactRecord? Contacts { get; private set; }
+
         /// <summary>Builds the wire and chooses every part of the method, once.</summary>
-        /// <exception cref="ArgumentException">A value out of the range that the rod allows.</exception>
+        /// <exception cref="ArgumentException">A value out of the range that the rod allows, or a wire that starts outside
+        /// the vessel.</exception>
         public static Simulation Create(SimulationParameters parameters)
         {
             if (parameters.DisplacementDirection.Length == 0.0)
             {
                 throw new ArgumentException("the displacement has no direction");
             }
-            var state = new RodState(parameters.NumberRodElements, parameters.GuidewireLength, parameters.TotalMass,
-                parameters.GuidewireOffset);
-            if (parameters.Start != null)
+            string? complaint = WireStart.Complaint(parameters);
+            if (complaint != null)
             {
-                state.Load(parameters.Start);
+                throw new ArgumentException(complaint);
             }
+            RodState state = StartOf(parameters);
             Vector3d origin = state.Positions[0];
             Vector3d direction = Vector3d.Normalize(parameters.DisplacementDirection);
             IDriveMotion? drive = null;
@@ -63,7 +67,7 @@ namespace Guidewire.Core
             {
                 case Drive.Hold:
                     state.InverseMasses[0] = 0.0;
-                    state.Place(0, origin + parameters.Displacement * direction);
+                    state.Place(0, WireStart.Displaced(parameters, state, origin + parameters.Displacement * direction));
                     break;
                 case Drive.Displace:
                     state.InverseMasses[0] = 0.0;
@@ -79,15 +83,44 @@ namespace Guidewire.Core
                 default:
                     throw new ArgumentException("unknown drive " + parameters.Drive);
             }
+            if (parameters.TwistPerStep != 0.0)
+            {
+                state.OrientationWeights[0] = 0.0;
+                drive = new TwistDrive(drive, parameters.TwistPerStep);
+            }
             IPositionPrediction prediction = parameters.Integrator == Integrator.Euler
                 ? (IPositionPrediction)new EulerPrediction(parameters.Damping, parameters.Gravity)
                 : new VerletPrediction(parameters.Damping, parameters.Gravity);
+            IContactRule? rule = parameters.Walls.Length == 0 ? null
+                : parameters.ElementContact == ElementContact.Seed ? new SeedContactRule(state, parameters)
+                : (IContactRule)new ContactRule(state, parameters);
             var solver = new GaussSeidelSolver(state, parameters.ConstraintSolverSteps, parameters.StretchStiffness,
-                parameters.BendStiffness, parameters.SweepOrder);
-            var step = new PositionBasedStep(parameters.TimeStep, prediction, drive, solver);
+                parameters.BendStiffness, parameters.SweepOrder, rule);
+            ContactStep? contactStep = rule == null ? null
+                : new ContactStep(state, parameters, prediction, drive, solver, rule);
+            ITimeStep step = (ITimeStep?)contactStep
+                ?? new PositionBasedStep(parameters.TimeStep, prediction, drive, solver);
             var stopRule = new StopRule(parameters.DeltaThreshold, parameters.SteadyStateHold,
                 parameters.MaxSimulationSteps, state);
-            return new Simulation(state, step, stopRule, parameters.TimeStep);
+            if (contactStep != null && parameters.Drive == Drive.Hold)
+            {
+                contactStep.Record.DriveAsked = Math.Abs(parameters.Displacement);
+                contactStep.Record.DriveShortfall =
+                    Vector3d.Distance(state.Positions[0], origin + parameters.Displacement * direction);
+            }
+            return new Simulation(state, step, stopRule, parameters.TimeStep) { Contacts = contactStep?.Record };
+        }
+
+        /// <summary>The wire as the parameters start it, before any displacement.</summary>
+        internal static RodState StartOf(SimulationParameters parameters)
+        {
+            var state = new RodState(parameters.NumberRodElements, parameters.GuidewireLength, parameters.TotalMass,
+                parameters.GuidewireOffset);
+            if (parameters.Start != null)
+            {
+                state.Load(parameters.Start);
+            }
+            return state;
         }
 
         /// <summary>One step. Does nothing once the run has ended.</summary>
@@ -115,7 +148,8 @@ namespace Guidewire.Core
         /// <exception cref="ArgumentException">As <see cref="Create"/>, and another number of elements.</exception>
         public Simulation Continue(SimulationParameters parameters)
         {
-            parameters.Start = new RodStart(State.Positions, State.Orientations, State.Velocities, State.AngularVelocities);
+            parameters.Start = new RodStart(State.Positions, State.Orientations, State.Velocities,
+                State.AngularVelocities);
             parameters.Displacement = 0.0;
             Simulation next = Create(parameters);
             next.StepCount = StepCount;

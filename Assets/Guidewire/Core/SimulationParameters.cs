@@ -36,6 +36,19 @@ namespace Guidewire.Core
         Bilateral,
     }
 
+    /// <summary>What touches a wall besides the spheres.</summary>
+    public enum ElementContact
+    {
+        /// <summary>Rod elements; their spheres share the push by the lever rule.</summary>
+        Barycentric,
+
+        /// <summary>Nothing.</summary>
+        None,
+
+        /// <summary>Rod elements, by the rule as published (thesis 3.1.2).</summary>
+        Seed,
+    }
+
     /// <summary>Everything that one run is told, as typed values. The initial values are the defaults (thesis
     /// table 4.1). Text, units and allowed ranges of each stand in the parameter table of Guidewire.Io.</summary>
     public sealed class SimulationParameters
@@ -91,6 +104,16 @@ namespace Guidewire.Core
 
         /// <summary>k_C, gain of a contact, dimensionless.</summary>
         public double CollisionStiffness { get; set; } = 1e-4;
+
+        /// <summary>What touches a wall besides the spheres.</summary>
+        public ElementContact ElementContact { get; set; } = ElementContact.Barycentric;
+
+        /// <summary>Turn of element 0 about its own axis in radians a step; where it is not 0 the element's frame is
+        /// held.</summary>
+        public double TwistPerStep { get; set; }
+
+        /// <summary>The vessel and what stands in it, placed; none costs nothing.</summary>
+        public ContactShape[] Walls { get; set; } = System.Array.Empty<ContactShape>();
 
         /// <summary>epsilon, in units: a steady state's prediction errors lie below it; 0 switches the test off.</summary>
         public double DeltaThreshold { get; set; } = 0.001;

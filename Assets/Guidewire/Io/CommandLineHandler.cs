@@ -14,7 +14,7 @@ namespace Guidewire.Io
 
         /// <summary>Reads <c>-parameters FILE -out DIR -repeat K -KEY VALUE ...</c>.</summary>
         /// <param name="arguments">The arguments.</param>
-        /// <param name="logFileIsOurs">Whether the seed's <c>-logFile DIR</c> stands for <c>-out</c>; in Unity it is Unity's
+        /// <param name="logFileIsOurs">Whether the thesis's <c>-logFile DIR</c> stands for <c>-out</c>; in Unity it is Unity's
         /// own.</param>
         /// <exception cref="ParameterException">An unknown key, a value that is missing or not allowed.</exception>
         public static CommandLine Read(IReadOnlyList<string> arguments, bool logFileIsOurs)

@@ -2,7 +2,6 @@ using System;
 using System.IO;
 using System.Runtime.InteropServices;
 using System.Threading;
-using Guidewire.Core;
 using Guidewire.Io;
 
 namespace Guidewire.Cli
@@ -24,7 +23,7 @@ namespace Guidewire.Cli
 
         private static int Main(string[] arguments)
         {
-            string? folder = null;
+            var command = new RunCommand(logFileIsOurs: true);
             try
             {
                 using PosixSignalRegistration interrupt = OnSignal(PosixSignal.SIGINT);
@@ -51,7 +50,7 @@ namespace Guidewire.Cli
                     case "-lines":
                         return RequestLoop.Serve(Console.In, Console.Out, () => StopRequested);
                     default:
-                        return RunOnce(arguments, out folder);
+                        return RunOnce(arguments, command);
                 }
             }
             catch (ParameterException error)
@@ -61,37 +60,27 @@ namespace Guidewire.Cli
             }
             catch (Exception error)
             {
-                Console.Error.WriteLine("guidewire: " + ErrorTrace.Write(error, folder));
+                Console.Error.WriteLine("guidewire: " + ErrorTrace.Write(error, command.Folder));
                 return ExitCodes.Internal;
             }
         }
 
-        private static int RunOnce(string[] arguments, out string? folder)
+        private static int RunOnce(string[] arguments, RunCommand command)
         {
-            folder = null;
-            CommandLine line = CommandLineHandler.Read(arguments, logFileIsOurs: true);
-            ParameterHandler handler = ParameterHandler.Load(line.ParameterFile, line.Overrides);
-            var run = new SimulationRun(handler, line.Out, line.Repeat);
-            folder = run.Folder;
-            foreach (string warning in handler.Warnings)
+            using var progress = new ProgressLine(command);
+            command.Progress = progress.Show;
+            command.StopRequested = () => StopRequested;
+            command.Error = line =>
             {
-                Console.Error.WriteLine("guidewire: warning: " + warning);
-            }
-            run.StopRequested = () => StopRequested;
-            using var progress = new ProgressLine(handler.Values.Simulation.MaxSimulationSteps);
-            run.Progress = progress.Show;
-            RunResult result = run.Execute(reuse: false);
-            progress.Dispose();
-            string ending = result.Word + ": " + result.Reason;
-            if (result.Outcome == Outcome.Failed)
+                progress.Dispose();
+                Console.Error.WriteLine("guidewire: " + line);
+            };
+            command.Say = line =>
             {
-                Console.Error.WriteLine("guidewire: " + ending);
-            }
-            else
-            {
-                Console.Out.WriteLine(ending + " -> " + run.Folder);
-            }
-            return ExitCodes.Of(result.Outcome);
+                progress.Dispose();
+                Console.Out.WriteLine(line);
+            };
+            return command.Execute(arguments);
         }
 
         private static PosixSignalRegistration OnSignal(PosixSignal signal)

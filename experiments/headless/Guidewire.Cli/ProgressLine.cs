@@ -1,6 +1,7 @@
 using System;
 using System.Globalization;
 using Guidewire.Core;
+using Guidewire.Io;
 
 namespace Guidewire.Cli
 {
@@ -10,15 +11,15 @@ namespace Guidewire.Cli
         private const double FirstAfter = 1000.0;     // ms
         private const double Every = 200.0;           // ms
 
-        private readonly int _steps;
+        private readonly RunCommand _command;
         private readonly bool _silent = Console.IsErrorRedirected;
         private double _next = FirstAfter;
         private bool _shown;
 
-        /// <param name="steps">Steps of the whole run.</param>
-        public ProgressLine(int steps)
+        /// <param name="command">The run.</param>
+        public ProgressLine(RunCommand command)
         {
-            _steps = steps;
+            _command = command;
         }
 
         /// <summary>Told after every step, with the wall time in ms.</summary>
@@ -32,7 +33,7 @@ namespace Guidewire.Cli
             _shown = true;
             Console.Error.Write(string.Format(CultureInfo.InvariantCulture,
                 "\rstep {0} of at most {1}, {2:0.000} s in game, {3:0} s, prediction error {4:0.0e+0} units   ",
-                simulation.StepCount, _steps, simulation.Time, 1e-3 * elapsed, simulation.PredictionError));
+                simulation.StepCount, _command.MaxSteps, simulation.Time, 1e-3 * elapsed, simulation.PredictionError));
         }
 
         /// <summary>Ends the line.</summary>

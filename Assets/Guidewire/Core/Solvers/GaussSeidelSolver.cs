@@ -1,7 +1,7 @@
 namespace Guidewire.Core
 {
     /// <summary>Position-and-orientation-based dynamics (thesis 2.1.2): m iterations, each all stretch constraints, then
-    /// all bend-twist constraints. The answer depends on m, because gains act per iteration.</summary>
+    /// all bend-twist constraints, then all contacts. The answer depends on m, because gains act per iteration.</summary>
     internal sealed class GaussSeidelSolver : IConstraintSolver
     {
         private readonly int _iterations;
@@ -9,15 +9,19 @@ namespace Guidewire.Core
         private readonly BendTwistConstraint _bendTwist;
         private readonly int[] _elements;
         private readonly int[] _joints;
+        private readonly IContactRule? _contacts;
 
         /// <param name="state">The wire, with its final masses and weights.</param>
         /// <param name="iterations">m, 0 or more.</param>
         /// <param name="stretchGain">k_A, dimensionless.</param>
         /// <param name="bendGain">k_B in units.</param>
         /// <param name="order">The order of each sweep.</param>
-        public GaussSeidelSolver(RodState state, int iterations, double stretchGain, double bendGain, SweepOrder order)
+        /// <param name="contacts">Contacts, or null in a scene without walls.</param>
+        public GaussSeidelSolver(RodState state, int iterations, double stretchGain, double bendGain, SweepOrder order,
+            IContactRule? contacts)
         {
             _iterations = iterations;
+            _contacts = contacts;
             _stretch = new StretchConstraint(state, stretchGain);
             _bendTwist = new BendTwistConstraint(state, bendGain);
             _elements = SweepOrders.Indices(order, state.ElementCount);
@@ -33,6 +37,7 @@ namespace Guidewire.Core
             {
                 _stretch.Sweep(x, q, _elements);
                 _bendTwist.Sweep(q, _joints);
+                _contacts?.Sweep(x);
             }
         }
     }

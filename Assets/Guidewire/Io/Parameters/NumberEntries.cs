@@ -101,7 +101,7 @@ namespace Guidewire.Io
         }
     }
 
-    /// <summary>Three numbers: [x, y, z], or {"x": .., "y": .., "z": ..} as the seed's files have them.</summary>
+    /// <summary>Three numbers: [x, y, z], or {"x": .., "y": .., "z": ..} as older files have them.</summary>
     internal sealed class VectorEntry : ParameterEntry
     {
         private readonly bool _mayBeZero;

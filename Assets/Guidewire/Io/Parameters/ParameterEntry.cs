@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using Newtonsoft.Json;
 using Newtonsoft.Json.Linq;
 
@@ -28,7 +29,11 @@ namespace Guidewire.Io
         /// <summary>What is allowed, as a noun phrase with the unit.</summary>
         public abstract string Allowed { get; }
 
-        /// <summary>Whether the value only says where results go: such a key does not enter the parameter hash.</summary>
+        /// <summary>The words to choose from; empty where the value is not one of a few words.</summary>
+        public virtual IReadOnlyList<string> Choices => Array.Empty<string>();
+
+        /// <summary>Whether the value only says where results go: such a key does not enter the parameter
+        /// hash.</summary>
         public bool IsOutputPath { get; internal set; }
 
         /// <summary>The value in a set of parameters, as JSON.</summary>
@@ -40,7 +45,8 @@ namespace Guidewire.Io
         /// <summary>Takes over a value; false where the value is not allowed.</summary>
         internal abstract bool TryRead(RunParameters target, JToken value);
 
-        /// <summary>The JSON value that a text on the command line stands for, or null where it stands for none.</summary>
+        /// <summary>The JSON value that a text on the command line stands for, or null where it stands for
+        /// none.</summary>
         internal virtual JToken? FromText(string text)
         {
             if (StrictJson.Complaint(text) != null)

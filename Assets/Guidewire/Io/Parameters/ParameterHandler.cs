@@ -121,8 +121,21 @@ namespace Guidewire.Io
             {
                 simulation.Start = ReadStart(simulation.NumberRodElements);
             }
+            ReadWalls(simulation);
             Warn();
             Hash = ComputeHash();
+        }
+
+        private void ReadWalls(SimulationParameters simulation)
+        {
+            string vessel = _given.TryGetValue("vessel", out var named) ? named.Source : "";
+            string obstacles = _given.TryGetValue("obstacles", out var given) ? given.Source : "";
+            simulation.Walls = WallReader.Read(Values, vessel, obstacles);
+            string? complaint = WireStart.Complaint(simulation);
+            if (complaint != null)
+            {
+                throw new ParameterException((vessel.Length > 0 ? vessel : obstacles) + ": " + complaint);
+            }
         }
 
         private RodStart ReadStart(int n)
@@ -191,7 +204,7 @@ namespace Guidewire.Io
             var text = new StringBuilder();
             foreach (ParameterEntry entry in ParameterTable.Entries)
             {
-                if (!entry.IsOutputPath && entry.Key != "startFile")
+                if (!entry.IsOutputPath && entry.Key != "startFile" && entry.Key != "vessel")
                 {
                     text.Append(entry.Key).Append('=').Append(entry.Write(Values).ToString(Formatting.None)).Append('\n');
                 }
@@ -199,9 +212,16 @@ namespace Guidewire.Io
             if (Values.StartFile.Length > 0)
             {
                 // What the file holds counts, not what it is called.
-                text.Append("start=").Append(File.ReadAllText(Values.StartFile));
+                text.Append("start=").Append(File.ReadAllText(Values.StartFile)).Append('\n');
             }
             using SHA256 sha = SHA256.Create();
+            if (Values.Vessel?.DeepClone() is JObject vessel)
+            {
+                string mesh = (string?)vessel["file"] ?? "";
+                vessel.Remove("file");
+                text.Append("vessel=").Append(vessel.ToString(Formatting.None)).Append('\n');
+                text.Append(mesh.Length == 0 ? "" : Convert.ToBase64String(sha.ComputeHash(File.ReadAllBytes(mesh))));
+            }
             byte[] digest = sha.ComputeHash(Encoding.UTF8.GetBytes(text.ToString()));
             return BitConverter.ToString(digest).Replace("-", "").ToLowerInvariant();
         }

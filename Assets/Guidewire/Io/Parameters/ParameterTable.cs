@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Text;
 using Guidewire.Core;
+using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
@@ -60,6 +61,9 @@ namespace Guidewire.Io
             new NumberEntry("displacementPerStep", "units a step", NumberRange.Any,
                 "motion of sphere 0 with drive \"displace\" or \"push\"",
                 p => p.Simulation.DisplacementPerStep, (p, v) => p.Simulation.DisplacementPerStep = v),
+            new NumberEntry("twistPerStep", "radians a step", NumberRange.Any,
+                "turn of element 0 about its own axis; where it is not 0 the element's frame is held",
+                p => p.Simulation.TwistPerStep, (p, v) => p.Simulation.TwistPerStep = v),
             new VectorEntry("externalForce", "mass unit * unit/s^2", true, "force on sphere 0 with drive \"force\"",
                 p => p.Simulation.ExternalForce, (p, v) => p.Simulation.ExternalForce = v),
             new VectorEntry("gravity", "unit/s^2", true, "acceleration of every free sphere",
@@ -77,6 +81,18 @@ namespace Guidewire.Io
                 p => p.Simulation.SteadyStateHold, (p, v) => p.Simulation.SteadyStateHold = v),
             new IntegerEntry("maxSimulationSteps", "steps", 0, MostSteps, "where the run ends at the latest",
                 p => p.Simulation.MaxSimulationSteps, (p, v) => p.Simulation.MaxSimulationSteps = v),
+            new ChoiceEntry<ElementContact>("elementContact", "what touches a wall besides the spheres: rod elements by the"
+                + " lever rule, nothing, or rod elements by the rule as published",
+                p => p.Simulation.ElementContact, (p, v) => p.Simulation.ElementContact = v),
+            new JsonEntry("vessel", JTokenType.Object, "null, {\"shape\": \"plane\", \"point\", \"normal\"}, {\"shape\":"
+                + " \"tube\", \"knots\", \"radius\", \"openStart\", \"openEnd\"} or {\"shape\": \"mesh\", \"file\","
+                + " \"metresPerUnit\", \"openRims\"}", "the wall around the wire; a mesh file's name counts from the parameter"
+                + " file's folder, openRims names a point near the middle of each open rim",
+                p => p.Vessel, (p, v) => p.Vessel = v),
+            new JsonEntry("obstacles", JTokenType.Array, "null or a list of {\"shape\": \"sphere\", \"centre\","
+                + " \"radius\"}, {\"shape\": \"capsule\", \"from\", \"to\", \"radius\"}, {\"shape\": \"box\","
+                + " \"centre\", \"halfSize\", \"rotation\"}, {\"shape\": \"hull\", \"points\", \"radius\"}",
+                "convex bodies in the wire's way (units, degrees)", p => p.Obstacles, (p, v) => p.Obstacles = v),
             new VectorEntry("position", "units", true, "where the vessel lies",
                 p => p.Simulation.Position, (p, v) => p.Simulation.Position = v),
             new VectorEntry("scale", "", false, "factors on the vessel's size",
@@ -92,6 +108,9 @@ namespace Guidewire.Io
                 p => p.LogSpheres, (p, v) => p.LogSpheres = v),
             new SwitchEntry("logOrientations", "whether orientations are logged too",
                 p => p.LogOrientations, (p, v) => p.LogOrientations = v),
+            new SwitchEntry("logContacts", "whether each entry of the log also has \"contact\": the walls' force on each sphere"
+                + " they touch, their total, and the first sphere's reaction (mass unit * unit/s^2)",
+                p => p.LogContacts, (p, v) => p.LogContacts = v),
             new TextEntry("logFilePath", "folder of the results, where -out does not name one",
                 p => p.LogFilePath, (p, v) => p.LogFilePath = v) { IsOutputPath = true },
             new NumberEntry("rodElementLength", "units", NumberRange.Positive,

@@ -1,4 +1,5 @@
 using Guidewire.Core;
+using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
@@ -24,6 +25,12 @@ namespace Guidewire.Io
         /// <summary>File with a start other than the straight wire; empty for none.</summary>
         public string StartFile { get; set; } = "";
 
+        /// <summary>The vessel as its key has it, or null.</summary>
+        public JToken? Vessel { get; set; }
+
+        /// <summary>The obstacles as their key has them, or null.</summary>
+        public JToken? Obstacles { get; set; }
+
         /// <summary>Every k-th step is logged.</summary>
         public int LogEvery { get; set; } = 1;
 
@@ -32,5 +39,8 @@ namespace Guidewire.Io
 
         /// <summary>Whether orientations are logged too.</summary>
         public bool LogOrientations { get; set; }
+
+        /// <summary>Whether contact forces are logged too.</summary>
+        public bool LogContacts { get; set; }
     }
 }

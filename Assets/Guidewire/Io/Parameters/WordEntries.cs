@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
@@ -48,18 +49,9 @@ namespace Guidewire.Io
             _set = set;
         }
 
-        public override string Allowed
-        {
-            get
-            {
-                string[] names = Enum.GetNames(typeof(T));
-                for (int i = 0; i < names.Length; i++)
-                {
-                    names[i] = "\"" + Word(names[i]) + "\"";
-                }
-                return "one of " + string.Join(", ", names);
-            }
-        }
+        public override string Allowed => "one of \"" + string.Join("\", \"", Choices) + "\"";
+
+        public override IReadOnlyList<string> Choices => Array.ConvertAll(Enum.GetNames(typeof(T)), Word);
 
         public override JToken Write(RunParameters source)
         {

@@ -12,6 +12,14 @@ namespace Guidewire.Io
         /// <exception cref="IOException">The disk is full, or the folder is gone.</exception>
         public static void Write(string path, string text)
         {
+            Prepare(path, text);
+            Publish(path);
+        }
+
+        /// <summary>Writes a text file under its temporary name only.</summary>
+        /// <exception cref="IOException">The disk is full, or the folder is gone; nothing is left of it.</exception>
+        public static void Prepare(string path, string text)
+        {
             try
             {
                 File.WriteAllText(path + Partial, text);
@@ -21,7 +29,6 @@ namespace Guidewire.Io
                 File.Delete(path + Partial);
                 throw;
             }
-            Publish(path);
         }
 
         /// <summary>Gives what was written under the temporary name its own.</summary>

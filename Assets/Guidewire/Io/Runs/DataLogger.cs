@@ -7,7 +7,8 @@ namespace Guidewire.Io
 {
     /// <summary>Writes positions.json (thesis 3.2.3) as the run goes, one entry a line, in constant memory:
     /// <c>{"0": {"totalTime": s, "elapsedMilliseconds": ms, "delta": units, "sphere": {"0": {"x","y","z","vx","vy","vz"},
-    /// ...}}, "1": ...}</c>, and where asked for <c>"orientation": {"0": {"x","y","z","w"}, ...}</c>.</summary>
+    /// ...}}, "1": ...}</c>, and where asked for <c>"orientation": {"0": {"x","y","z","w"}, ...}</c> and <c>"contact": {"total": {"x","y","z"},
+    /// "reaction": ..., "sphere": {"i": ..., spheres that no wall pushes left out}}</c>.</summary>
     /// <remarks>Entry "k" is the state after k steps. Until <see cref="Close"/> the file is not whole JSON, but every
     /// line that ends is a whole entry. Numbers are round-trip exact; one that is not finite is null.</remarks>
     internal sealed class DataLogger : IDisposable
@@ -75,6 +76,10 @@ namespace Guidewire.Io
             {
                 AppendOrientations(state);
             }
+            if (_parameters.LogContacts && simulation.Contacts != null)
+            {
+                AppendContacts(simulation.Contacts);
+            }
             Append("}");
             if (elapsed - _flushed > FlushAfter)
             {
@@ -116,6 +121,34 @@ namespace Guidewire.Io
                 Append(", \"w\": ", state.Orientations[j].W);
                 Append("}");
             }
+            Append("}");
+        }
+
+        private void AppendContacts(ContactRecord contacts)
+        {
+            Append(", \"contact\": {\"total\": ", contacts.Total);
+            Append(", \"reaction\": ", contacts.Reaction);
+            Append(", \"sphere\": {");
+            bool first = true;
+            for (int i = 0; i < contacts.Forces.Length; i++)
+            {
+                if (contacts.Forces[i] != Vector3d.Zero)
+                {
+                    Append(first ? "\"" : ", \"");
+                    Append(i);
+                    Append("\": ", contacts.Forces[i]);
+                    first = false;
+                }
+            }
+            Append("}}");
+        }
+
+        private void Append(string name, in Vector3d value)
+        {
+            Append(name);
+            Append("{\"x\": ", value.X);
+            Append(", \"y\": ", value.Y);
+            Append(", \"z\": ", value.Z);
             Append("}");
         }
 

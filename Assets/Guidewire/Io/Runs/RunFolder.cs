@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.Diagnostics;
 using System.IO;
 using Guidewire.Core;
@@ -7,7 +8,8 @@ using Newtonsoft.Json;
 namespace Guidewire.Io
 {
     /// <summary>The results of one run as they come to be: positions.json, parameters.json, summary.json in a folder.
-    /// Whoever steps a simulation, a loop of its own or Unity's frames, steps it through here to have it logged.</summary>
+    /// Whoever steps a simulation, a loop of its own or Unity's frames, steps it through here to have it
+    /// logged.</summary>
     /// <remarks>All three are written as *.partial and renamed at the end, the summary last, so that an earlier result
     /// stays whole until the new one is. What a killed run leaves is positions.json.partial.</remarks>
     public sealed class RunFolder : IDisposable
@@ -22,6 +24,7 @@ namespace Guidewire.Io
         private readonly DataLogger _logger;
         private readonly StepTimes _times = new StepTimes();
         private readonly Stopwatch _clock = new Stopwatch();
+        private readonly List<string> _notes = new List<string>();
         private int _lastLogged = -1;
         private bool _lost;
 
@@ -64,8 +67,8 @@ namespace Guidewire.Io
             Log(simulation);
         }
 
-        /// <summary>Makes one step, times it and logs it where logEvery says so. A disk that is full or gone ends the run
-        /// as Failed.</summary>
+        /// <summary>Makes one step, times it and logs it where logEvery says so. A disk that is full or gone ends the
+        /// run as Failed.</summary>
         public void Step(Simulation simulation)
         {
             long before = Stopwatch.GetTimestamp();
@@ -77,8 +80,16 @@ namespace Guidewire.Io
             }
         }
 
-        /// <summary>Logs the last state, closes the log and writes the summary. What cannot be written turns the outcome
-        /// into Failed.</summary>
+        /// <summary>Says in the summary that something other than the parameters made this run: it has no parameter
+        /// hash then, and no later run takes its place for granted.</summary>
+        /// <param name="line">What it was, in one line.</param>
+        public void Note(string line)
+        {
+            _notes.Add(line);
+        }
+
+        /// <summary>Logs the last state, closes the log and writes the summary. What cannot be written turns the
+        /// outcome into Failed.</summary>
         /// <param name="simulation">The run at its end.</param>
         public void Finish(Simulation simulation)
         {
@@ -101,7 +112,8 @@ namespace Guidewire.Io
             string log = _lost ? PositionsFile + AtomicFile.Partial : PositionsFile;
             try
             {
-                string text = RunSummary.Text(simulation, _handler, _times, _clock.Elapsed.TotalSeconds, _repeat, log);
+                string text = RunSummary.Text(simulation, _handler, _times, _clock.Elapsed.TotalSeconds, _repeat, log,
+                    _notes);
                 AtomicFile.Write(Path.Combine(_folder, RunSummary.FileName), text);
             }
             catch (Exception error) when (IsDisk(error))
@@ -150,11 +162,13 @@ namespace Guidewire.Io
 
         private void Publish()
         {
-            // Without its summary an earlier result does not count, so no mixture of two runs ever does.
+            // First what may not fit on the disk; from then on names only change. Without its summary an earlier result
+            // does not count, so no mixture of two runs ever does.
+            string parameters = Path.Combine(_folder, ParametersFile);
+            AtomicFile.Prepare(parameters, _handler.ToJson().ToString(Formatting.Indented) + "\n");
             File.Delete(Path.Combine(_folder, RunSummary.FileName));
             AtomicFile.Publish(Path.Combine(_folder, PositionsFile));
-            string parameters = _handler.ToJson().ToString(Formatting.Indented) + "\n";
-            AtomicFile.Write(Path.Combine(_folder, ParametersFile), parameters);
+            AtomicFile.Publish(parameters);
         }
     }
 }

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.IO;
 using System.Runtime.InteropServices;
 using Guidewire.Core;
@@ -23,8 +24,9 @@ namespace Guidewire.Io
         /// <param name="wallTime">Wall time since the start of the run in s.</param>
         /// <param name="repeat">Number of a timed repeat, or null.</param>
         /// <param name="log">Name of the log in the run's folder.</param>
+        /// <param name="notes">What other than the parameters made the run, one line each.</param>
         internal static string Text(Simulation simulation, ParameterHandler handler, StepTimes times, double wallTime,
-            int? repeat, string log)
+            int? repeat, string log, IReadOnlyList<string> notes)
         {
             var json = new JObject
             {
@@ -38,9 +40,14 @@ namespace Guidewire.Io
                 ["medianStepTime"] = times.Median(),
                 ["predictionError"] = Finite(simulation.PredictionError),
                 ["steadyStateStep"] = simulation.SteadyStateStep,
+                ["passages"] = simulation.Contacts?.Passages ?? 0,
+                ["maxPenetration"] = simulation.Contacts?.MaxPenetration ?? 0.0,
+                ["driveAsked"] = simulation.Contacts?.DriveAsked,
+                ["driveShortfall"] = simulation.Contacts?.DriveShortfall ?? 0.0,
                 ["timed"] = repeat.HasValue,
                 ["repeat"] = repeat,
                 ["warnings"] = new JArray(handler.Warnings),
+                ["notes"] = new JArray(notes),
                 ["log"] = log,
                 ["versions"] = new JObject
                 {
@@ -50,7 +57,7 @@ namespace Guidewire.Io
                     ["machine"] = RuntimeInformation.OSDescription + ", " + RuntimeInformation.ProcessArchitecture + ", "
                         + Environment.ProcessorCount + " processors",
                 },
-                ["parameterHash"] = handler.Hash,
+                ["parameterHash"] = notes.Count == 0 ? handler.Hash : null,
                 ["complete"] = true,
             };
             return json.ToString(Formatting.Indented) + "\n";
@@ -59,8 +66,8 @@ namespace Guidewire.Io
         /// <summary>The product's version.</summary>
         public static string Version => typeof(RunSummary).Assembly.GetName().Version?.ToString(3) ?? "0";
 
-        /// <summary>The outcome that a folder already holds for the same parameters, the same repeat and the same build,
-        /// or null.</summary>
+        /// <summary>The outcome that a folder already holds for the same parameters, the same repeat and the same
+        /// build, or null.</summary>
         internal static Outcome? Reusable(string folder, ParameterHandler handler, int? repeat)
         {
             string path = Path.Combine(folder, FileName);

@@ -1,0 +1,185 @@
+using System;
+using System.Runtime.CompilerServices;
+
+namespace Guidewire.Core
+{
+    /// <summary>Bounding volume hierarchy over triangles: a binary tree of boxes, built once and refitted when the
+    /// triangles move. Flat arrays; a query allocates nothing.</summary>
+    internal sealed class Bvh
+    {
+        private const int StackSize = 96;
+        private readonly BvhNode[] _nodes;
+        private readonly int[] _order;
+        private readonly int[] _slot;
+        private readonly Vector3d[] _corners;
+
+        /// <summary>The tree over triangles 0 to corners.Length/3 - 1, three corners each, in units.</summary>
+        public Bvh(Vector3d[] corners)
+        {
+            _nodes = BvhBuilder.Build(corners, out _order);
+            _corners = new Vector3d[corners.Length];
+            _slot = new int[_order.Length];
+            for (int k = 0; k < _order.Length; k++)
+            {
+                _slot[_order[k]] = k;
+            }
+            Refit(corners);
+        }
+
+        /// <summary>Takes over new corners of the same triangles; the tree keeps its shape.</summary>
+        public void Refit(Vector3d[] corners)
+        {
+            for (int k = 0; k < _order.Length; k++)
+            {
+                Array.Copy(corners, 3 * _order[k], _corners, 3 * k, 3);
+            }
+
+            // Children stand behind their parent, so the last node comes first.
+            for (int i = _nodes.Length - 1; i >= 0; i--)
+            {
+                ref BvhNode node = ref _nodes[i];
+                if (node.Count > 0)
+                {
+                    node.Enclose(_corners, 3 * node.First, 3 * node.Count);
+                }
+                else
+                {
+                    node.Enclose(_nodes[node.First], _nodes[node.First + 1]);
+                }
+            }
+        }
+
+        /// <summary>Triangle nearest to segment a b among those within <paramref name="range"/>, -1 if there is none,
+        /// with the closest points and the squared distance. <paramref name="hint"/>: a triangle that may be near,
+        /// -1 for none.</summary>
+        public int Nearest(
+            in Vector3d a, in Vector3d b, double range, int hint,
+            out double squared, out double s, out Vector3d point, out int feature)
+        {
+            var search = new SegmentSearch(a, b, range);
+            if (hint >= 0)
+            {
+                TestTriangle(_slot[hint], ref search);
+            }
+            Span<int> stack = stackalloc int[StackSize];
+            Span<double> bounds = stackalloc double[StackSize];
+            int depth = 0;
+            int current = 0;
+            while (true)
+            {
+                ref readonly BvhNode node = ref _nodes[current];
+                if (node.Count > 0)
+                {
+                    for (int k = node.First; k < node.First + node.Count; k++)
+                    {
+                        TestTriangle(k, ref search);
+                    }
+                }
+                else
+                {
+                    int left = node.First;
+                    bool goLeft = search.MayHold(_nodes[left], out double boundLeft, out double orderLeft);
+                    bool goRight = search.MayHold(_nodes[left + 1], out double boundRight, out double orderRight);
+                    if (goLeft && goRight)
+                    {
+                        bool leftFirst = orderLeft <= orderRight;
+                        stack[depth] = leftFirst ? left + 1 : left;
+                        bounds[depth++] = leftFirst ? boundRight : boundLeft;
+                        current = leftFirst ? left : left + 1;
+                        continue;
+                    }
+                    if (goLeft || goRight)
+                    {
+                        current = goLeft ? left : left + 1;
+                        continue;
+                    }
+                }
+                do
+                {
+                    if (depth == 0)
+                    {
+                        squared = search.Squared;
+                        s = search.S;
+                        point = search.Point;
+                        feature = search.Feature;
+                        return search.Slot < 0 ? -1 : _order[search.Slot];
+                    }
+                    current = stack[--depth];
+                }
+                while (bounds[depth] > search.Squared);
+            }
+        }
+
+        /// <summary>Fraction of the motion of segment a b during which it stays at least <paramref name="keep"/> from every
+        /// triangle, <see cref="ContactShape.NoImpact"/> for all of it, and the triangle that ends it (-1 for none).
+        /// </summary>
+        public double Sweep(
+            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep, out int triangle)
+        {
+            var swept = new BvhNode();
+            swept.EncloseSwept(a0, b0, a1, b1, keep);
+            double impact = ContactShape.NoImpact;
+            triangle = -1;
+            Span<int> stack = stackalloc int[StackSize];
+            int depth = 0;
+            stack[depth++] = 0;
+            while (depth > 0)
+            {
+                ref readonly BvhNode node = ref _nodes[stack[--depth]];
+                if (!swept.Overlaps(node))
+                {
+                    continue;
+                }
+                if (node.Count == 0)
+                {
+                    stack[depth++] = node.First;
+                    stack[depth++] = node.First + 1;
+                    continue;
+                }
+                for (int k = node.First; k < node.First + node.Count; k++)
+                {
+                    ref readonly Vector3d v0 = ref _corners[3 * k];
+                    ref readonly Vector3d v1 = ref _corners[3 * k + 1];
+                    ref readonly Vector3d v2 = ref _corners[3 * k + 2];
+                    if (StaysOnOneSide(a0, b0, a1, b1, v0, v1, v2, keep))
+                    {
+                        continue;
+                    }
+                    double time = SweptTest.Impact(new TriangleBody(v0, v1, v2), a0, b0, a1, b1, keep);
+                    if (time < impact)
+                    {
+                        impact = time;
+                        triangle = _order[k];
+                    }
+                }
+            }
+            return impact;
+        }
+
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        private void TestTriangle(int slot, ref SegmentSearch search)
+        {
+            double squared = ClosestPoints.SegmentTriangle(
+                search.A, search.B, _corners[3 * slot], _corners[3 * slot + 1], _corners[3 * slot + 2],
+                search.Squared, out double s, out Vector3d point, out int feature);
+            if (squared < search.Squared)
+            {
+                search.Accept(squared, slot, s, point, feature);
+            }
+        }
+
+        private static bool StaysOnOneSide(
+            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
+            in Vector3d v0, in Vector3d v1, in Vector3d v2, double distance)
+        {
+            Vector3d n = Vector3d.Cross(v1 - v0, v2 - v0);
+            double keep = distance * n.Length;
+            double w = Vector3d.Dot(n, a0 - v0);
+            double x = Vector3d.Dot(n, b0 - v0);
+            double y = Vector3d.Dot(n, a1 - v0);
+            double z = Vector3d.Dot(n, b1 - v0);
+            return (w > keep && x > keep && y > keep && z > keep)
+                || (w < -keep && x < -keep && y < -keep && z < -keep);
+        }
+    }
+}

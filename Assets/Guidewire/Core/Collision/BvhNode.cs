@@ -1,0 +1,80 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>A box of the hierarchy, 64 bytes: one line of the processor's cache.</summary>
+    internal struct BvhNode
+    {
+        /// <summary>Middle of the box.</summary>
+        public Vector3d Centre;
+
+        /// <summary>Half the box's edges.</summary>
+        public Vector3d Extent;
+
+        /// <summary>Distance of the box's corners from its centre.</summary>
+        public double Radius;
+
+        /// <summary>First triangle of a leaf; else the first of two children, which stand side by side.</summary>
+        public int First;
+
+        /// <summary>Triangles of a leaf; 0 for a node with children.</summary>
+        public int Count;
+
+        /// <summary>Makes the box hold <paramref name="count"/> points.</summary>
+        public void Enclose(Vector3d[] points, int first, int count)
+        {
+            Vector3d low = points[first];
+            Vector3d high = low;
+            for (int k = first + 1; k < first + count; k++)
+            {
+                low = Min(low, points[k]);
+                high = Max(high, points[k]);
+            }
+            Set(low, high);
+        }
+
+        /// <summary>Makes the box hold two others.</summary>
+        public void Enclose(in BvhNode left, in BvhNode right)
+        {
+            Set(
+                Min(left.Centre - left.Extent, right.Centre - right.Extent),
+                Max(left.Centre + left.Extent, right.Centre + right.Extent));
+        }
+
+        /// <summary>Makes the box hold a moving segment and all within a distance of it.</summary>
+        public void EncloseSwept(
+            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double distance)
+        {
+            var border = new Vector3d(distance, distance, distance);
+            Set(Min(Min(a0, b0), Min(a1, b1)) - border, Max(Max(a0, b0), Max(a1, b1)) + border);
+        }
+
+        /// <summary>True where two boxes share a point.</summary>
+        public readonly bool Overlaps(in BvhNode other)
+        {
+            return Math.Abs(Centre.X - other.Centre.X) <= Extent.X + other.Extent.X
+                && Math.Abs(Centre.Y - other.Centre.Y) <= Extent.Y + other.Extent.Y
+                && Math.Abs(Centre.Z - other.Centre.Z) <= Extent.Z + other.Extent.Z;
+        }
+
+        public static Vector3d Min(in Vector3d a, in Vector3d b)
+        {
+            return new Vector3d(Math.Min(a.X, b.X), Math.Min(a.Y, b.Y), Math.Min(a.Z, b.Z));
+        }
+
+        public static Vector3d Max(in Vector3d a, in Vector3d b)
+        {
+            return new Vector3d(Math.Max(a.X, b.X), Math.Max(a.Y, b.Y), Math.Max(a.Z, b.Z));
+        }
+
+        // Middle and half edge round; the border of some units in the last place makes up for it, or a triangle that
+        // fills its box could be left out of a search.
+        private void Set(in Vector3d low, in Vector3d high)
+        {
+            Centre = 0.5 * (low + high);
+            Vector3d size = Max(Max(low, high), Max(-low, -high));
+            Extent = 0.5 * (high - low) + 1e-15 * size;
+            Radius = Extent.Length * (1.0 + 1e-15);
+        }
+    }
+}

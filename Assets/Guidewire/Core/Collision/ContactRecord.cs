@@ -1,0 +1,66 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>What contact with walls came to: forces of the last step, and sums over the run.</summary>
+    public sealed class ContactRecord
+    {
+        private readonly Vector3d[] _impulses;
+
+        internal ContactRecord(int sphereCount)
+        {
+            _impulses = new Vector3d[sphereCount];
+            Forces = new Vector3d[sphereCount];
+        }
+
+        /// <summary>Force of the walls on each of the n + 1 spheres in the last step, mass unit * unit/s^2. What a held
+        /// sphere's element took stands at that sphere.</summary>
+        public Vector3d[] Forces { get; }
+
+        /// <summary>Their sum.</summary>
+        public Vector3d Total { get; private set; }
+
+        /// <summary>Force of the held or driven first sphere on the rest of the wire in the last step, mass unit * unit/s^2:
+        /// what constraints gave the free spheres less what walls gave them. 0 where the first sphere is free.</summary>
+        public Vector3d Reaction { get; private set; }
+
+        /// <summary>Points of the wire, ten an element, that were inside before a step and outside after it.</summary>
+        public long Passages { get; internal set; }
+
+        /// <summary>Largest depth by which the wire's surface reached into a wall after a step, units.</summary>
+        public double MaxPenetration { get; internal set; }
+
+        /// <summary>What the drive asked of sphere 0 and the walls did not let it go, units, summed over the run.</summary>
+        public double DriveShortfall { get; internal set; }
+
+        /// <summary>The way that the drive asked of sphere 0, units, summed over the run.</summary>
+        public double DriveAsked { get; internal set; }
+
+        /// <summary>Momenta over dt, dp/w, that walls gave each sphere in the present step, mass unit * unit.</summary>
+        internal Vector3d[] Impulses => _impulses;
+
+        internal void StartStep()
+        {
+            Array.Clear(_impulses, 0, _impulses.Length);
+        }
+
+        internal void EndStep(RodState state, Vector3d[] predicted, double timeStep)
+        {
+            double rate = 1.0 / (timeStep * timeStep);
+            Vector3d total = Vector3d.Zero;
+            Vector3d given = Vector3d.Zero;
+            for (int i = 0; i < _impulses.Length; i++)
+            {
+                Forces[i] = rate * _impulses[i];
+                total += Forces[i];
+                double w = state.InverseMasses[i];
+                if (w > 0.0)
+                {
+                    given += (rate / w) * (state.PredictedPositions[i] - predicted[i]) - Forces[i];
+                }
+            }
+            Total = total;
+            Reaction = state.InverseMasses[0] == 0.0 ? given : Vector3d.Zero;
+        }
+    }
+}

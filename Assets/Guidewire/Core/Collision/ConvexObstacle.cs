@@ -1,0 +1,108 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>A convex body that stands in the wire's way: all points within a radius of the convex hull of some
+    /// points. One point makes a sphere, two a capsule, eight corners a box, any number a hull.</summary>
+    /// <remarks>Distances by GJK, depth by EPA. Keeps scratch memory: one object serves one thread.</remarks>
+    public sealed class ConvexObstacle : ContactShape
+    {
+        private readonly Vector3d[] _points;
+        private readonly double _radius;
+        private readonly Gjk _gjk = new Gjk();
+
+        /// <summary>The body of all points within <paramref name="radius"/> (0 or more, units) of the convex hull of
+        /// <paramref name="points"/> (at least one).</summary>
+        /// <exception cref="ArgumentException">No point, a value that is not finite, a negative radius.</exception>
+        public ConvexObstacle(Vector3d[] points, double radius)
+        {
+            if (points.Length == 0 || !(radius >= 0.0) || double.IsInfinity(radius)
+                || !Array.TrueForAll(points, point => point.IsFinite))
+            {
+                throw new ArgumentException("an obstacle needs at least one finite point and a radius of 0 or more");
+            }
+            _points = (Vector3d[])points.Clone();
+            _radius = radius;
+        }
+
+        /// <summary>A ball.</summary>
+        public static ConvexObstacle Sphere(in Vector3d centre, double radius)
+        {
+            return new ConvexObstacle(new[] { centre }, radius);
+        }
+
+        /// <summary>All points within a radius of the segment between two points.</summary>
+        public static ConvexObstacle Capsule(in Vector3d from, in Vector3d to, double radius)
+        {
+            return new ConvexObstacle(new[] { from, to }, radius);
+        }
+
+        /// <summary>A box with edges along the directors of <paramref name="orientation"/> and the lengths
+        /// 2 <paramref name="halfSize"/>.</summary>
+        public static ConvexObstacle Box(in Vector3d centre, in Vector3d halfSize, in Quaterniond orientation)
+        {
+            var corners = new Vector3d[8];
+            for (int k = 0; k < 8; k++)
+            {
+                corners[k] = centre
+                    + ((k & 1) == 0 ? -halfSize.X : halfSize.X) * orientation.Director1
+                    + ((k & 2) == 0 ? -halfSize.Y : halfSize.Y) * orientation.Director2
+                    + ((k & 4) == 0 ? -halfSize.Z : halfSize.Z) * orientation.Director3;
+            }
+            return new ConvexObstacle(corners, 0.0);
+        }
+
+        /// <inheritdoc/>
+        public override bool Nearest(
+            in Vector3d a, in Vector3d b, double range, ref int hint, out SurfaceContact contact)
+        {
+            double distance = _gjk.Distance(a, b, _points, out double s, out Vector3d point, out Vector3d normal);
+            contact = new SurfaceContact(s, point + _radius * normal, normal, distance - _radius);
+            return contact.Distance <= range;
+        }
+
+        /// <inheritdoc/>
+        public override bool Contains(in Vector3d point)
+        {
+            return _gjk.Distance(point, point, _points, out _, out _, out _) > _radius;
+        }
+
+        /// <inheritdoc/>
+        public override double Sweep(
+            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance,
+            out SurfaceContact contact)
+        {
+            int hint = -1;
+            Nearest(a0, b0, double.PositiveInfinity, ref hint, out contact);
+            double keep = Math.Min(clearance, 0.5 * contact.Distance);
+            double impact = SweptTest.Impact(new Body(this), a0, b0, a1, b1, keep);
+            contact = default;
+            if (impact < NoImpact)
+            {
+                Nearest(
+                    Vector3d.Lerp(a0, a1, impact), Vector3d.Lerp(b0, b1, impact), double.PositiveInfinity, ref hint,
+                    out contact);
+            }
+            return impact;
+        }
+
+        private readonly struct Body : IConvexBody
+        {
+            private readonly ConvexObstacle _obstacle;
+
+            public Body(ConvexObstacle obstacle)
+            {
+                _obstacle = obstacle;
+            }
+
+            public double Closest(in Vector3d a, in Vector3d b, out double s, out Vector3d point)
+            {
+                int hint = -1;
+                _obstacle.Nearest(a, b, double.PositiveInfinity, ref hint, out SurfaceContact contact);
+                s = contact.Position;
+                point = contact.Point;
+                return contact.Distance;
+            }
+        }
+    }
+}

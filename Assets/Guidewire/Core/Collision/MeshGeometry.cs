@@ -1,0 +1,165 @@
+using System;
+using System.Collections.Generic;
+
+namespace Guidewire.Core
+{
+    /// <summary>A mesh at its place: the hierarchy over its triangles and the normals of its faces, edges and
+    /// corners.</summary>
+    internal sealed class MeshGeometry
+    {
+        private readonly Vector3d[] _rest;
+        private readonly int[] _triangles;
+        private readonly int[] _twin;
+        private readonly bool[] _isRimVertex;
+        private readonly Vector3d[] _vertices;
+        private readonly Vector3d[] _corners;
+        private readonly Vector3d[] _faceNormals;
+        private readonly Vector3d[] _vertexNormals;
+        private bool _mirrored;
+
+        /// <summary>The mesh, with a fan over each open rim or without.</summary>
+        public MeshGeometry(TriangleMesh mesh, bool closeRims, in Placement placement)
+        {
+            var vertices = new List<Vector3d>(mesh.Vertices);
+            var triangles = new List<int>(mesh.Triangles);
+            if (closeRims)
+            {
+                foreach (int[] rim in mesh.Rims)
+                {
+                    AddFan(vertices, triangles, rim);
+                }
+            }
+            _rest = vertices.ToArray();
+            _triangles = triangles.ToArray();
+            _isRimVertex = new bool[_rest.Length];
+            _twin = FindTwins(_triangles, _isRimVertex);
+            _vertices = new Vector3d[_rest.Length];
+            _corners = new Vector3d[_triangles.Length];
+            _faceNormals = new Vector3d[_triangles.Length / 3];
+            _vertexNormals = new Vector3d[_rest.Length];
+            Update(placement);
+            Tree = new Bvh(_corners);
+        }
+
+        /// <summary>The hierarchy over the placed triangles.</summary>
+        public Bvh Tree { get; }
+
+        /// <summary>Moves everything to its new place.</summary>
+        public void Place(in Placement placement)
+        {
+            Update(placement);
+            Tree.Refit(_corners);
+        }
+
+        /// <summary>The contact of point x with the feature on which its nearest point c lies.</summary>
+        public SurfaceContact ContactAt(
+            in Vector3d x, double position, in Vector3d c, double distance, int triangle, int feature)
+        {
+            Vector3d inward = FeatureNormal(triangle, feature, out bool isRim);
+            if (!(distance > 0.0))
+            {
+                return new SurfaceContact(position, c, inward, 0.0);
+            }
+            Vector3d away = (x - c) / distance;
+            return isRim || Vector3d.Dot(away, inward) >= 0.0
+                ? new SurfaceContact(position, c, away, distance)
+                : new SurfaceContact(position, c, -away, -distance);
+        }
+
+        private Vector3d FeatureNormal(int triangle, int feature, out bool isRim)
+        {
+            isRim = false;
+            if (feature == ClosestPoints.Face)
+            {
+                return _faceNormals[triangle];
+            }
+            if (feature >= ClosestPoints.Corner)
+            {
+                int vertex = _triangles[3 * triangle + feature - ClosestPoints.Corner];
+                isRim = _isRimVertex[vertex];
+                return _vertexNormals[vertex];
+            }
+            int twin = _twin[3 * triangle + feature - ClosestPoints.Edge];
+            isRim = twin < 0;
+            return isRim ? _faceNormals[triangle] : Vector3d.Normalize(_faceNormals[triangle] + _faceNormals[twin]);
+        }
+
+        private void Update(in Placement placement)
+        {
+            _mirrored = placement.Mirrors;
+            for (int i = 0; i < _rest.Length; i++)
+            {
+                _vertices[i] = placement.Apply(_rest[i]);
+                _vertexNormals[i] = Vector3d.Zero;
+            }
+            for (int t = 0; t < _faceNormals.Length; t++)
+            {
+                for (int k = 0; k < 3; k++)
+                {
+                    _corners[3 * t + k] = _vertices[_triangles[3 * t + k]];
+                }
+                Vector3d normal = Vector3d.Normalize(Vector3d.Cross(
+                    _corners[3 * t + 1] - _corners[3 * t], _corners[3 * t + 2] - _corners[3 * t]));
+                _faceNormals[t] = _mirrored ? -normal : normal;
+                for (int k = 0; k < 3; k++)
+                {
+                    double angle = Angle(
+                        _corners[3 * t + (k + 1) % 3] - _corners[3 * t + k],
+                        _corners[3 * t + (k + 2) % 3] - _corners[3 * t + k]);
+                    _vertexNormals[_triangles[3 * t + k]] += angle * _faceNormals[t];
+                }
+            }
+            for (int i = 0; i < _vertexNormals.Length; i++)
+            {
+                _vertexNormals[i] = Vector3d.Normalize(_vertexNormals[i]);
+            }
+        }
+
+        private static double Angle(in Vector3d u, in Vector3d v)
+        {
+            return Math.Atan2(Vector3d.Cross(u, v).Length, Vector3d.Dot(u, v));
+        }
+
+        private static void AddFan(List<Vector3d> vertices, List<int> triangles, int[] rim)
+        {
+            int centre = vertices.Count;
+            vertices.Add(TriangleMesh.RimCentre(vertices.ToArray(), rim));
+            for (int i = 0; i < rim.Length; i++)
+            {
+                triangles.Add(rim[(i + 1) % rim.Length]);
+                triangles.Add(rim[i]);
+                triangles.Add(centre);
+            }
+        }
+
+        // The triangle on the other side of each edge, -1 at a rim.
+        private static int[] FindTwins(int[] triangles, bool[] isRimVertex)
+        {
+            var twins = new int[triangles.Length];
+            var entered = new Dictionary<(int, int), int>(triangles.Length);
+            for (int place = 0; place < triangles.Length; place++)
+            {
+                twins[place] = -1;
+                entered[(triangles[place], End(triangles, place))] = place;
+            }
+            for (int place = 0; place < triangles.Length; place++)
+            {
+                if (entered.TryGetValue((End(triangles, place), triangles[place]), out int other))
+                {
+                    twins[place] = other / 3;
+                }
+                else
+                {
+                    isRimVertex[triangles[place]] = true;
+                    isRimVertex[End(triangles, place)] = true;
+                }
+            }
+            return twins;
+        }
+
+        private static int End(int[] triangles, int place)
+        {
+            return triangles[place % 3 == 2 ? place - 2 : place + 1];
+        }
+    }
+}

@@ -1,0 +1,89 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>A vessel given by triangles. Distance and normal are those of the surface itself, also at its edges and
+    /// corners.</summary>
+    /// <remarks>On which side of the wall a point lies follows from the nearest feature: the sign of (x - c).n, with n the
+    /// triangle's normal, the sum of both at an edge, the sum weighted by angle at a corner (Baerentzen and Aanaes 2005).
+    /// The normal is then (x - c)/|x - c|, turned into the lumen. A rim's edge has no second side: there the wall is only
+    /// repelling, and on which side a point lies is asked of the surface closed by a fan over each rim.</remarks>
+    public sealed class MeshShape : ContactShape
+    {
+        private readonly TriangleMesh _mesh;
+        private readonly MeshGeometry _wall;
+        private readonly MeshGeometry _closed;
+
+        /// <summary>The wall at the place where its file has it.</summary>
+        public MeshShape(TriangleMesh mesh)
+            : this(mesh, Placement.Identity)
+        {
+        }
+
+        /// <summary>The wall, placed.</summary>
+        public MeshShape(TriangleMesh mesh, in Placement placement)
+        {
+            _mesh = mesh;
+            _wall = new MeshGeometry(mesh, closeRims: false, placement);
+            _closed = mesh.Rims.Count > 0 ? new MeshGeometry(mesh, closeRims: true, placement) : _wall;
+        }
+
+        /// <summary>What was found in the mesh and repaired.</summary>
+        public MeshReport Report => _mesh.Report;
+
+        /// <summary>Moves, turns and scales the wall; its hierarchy is refitted, not built again.</summary>
+        public void Place(in Placement placement)
+        {
+            _wall.Place(placement);
+            if (_closed != _wall)
+            {
+                _closed.Place(placement);
+            }
+        }
+
+        /// <inheritdoc/>
+        public override bool Nearest(
+            in Vector3d a, in Vector3d b, double range, ref int hint, out SurfaceContact contact)
+        {
+            int triangle = _wall.Tree.Nearest(
+                a, b, range, hint, out double squared, out double s, out Vector3d point, out int feature);
+            if (triangle < 0)
+            {
+                // Beyond the wall by more than the range is seen only by the sign, which a wire that the swept test
+                // keeps inside never needs.
+                contact = default;
+                return false;
+            }
+            hint = triangle;
+            contact = _wall.ContactAt(Vector3d.Lerp(a, b, s), s, point, Math.Sqrt(squared), triangle, feature);
+            return true;
+        }
+
+        /// <inheritdoc/>
+        public override bool Contains(in Vector3d point)
+        {
+            int triangle = _closed.Tree.Nearest(
+                point, point, double.PositiveInfinity, -1, out double squared, out _, out Vector3d c, out int feature);
+            return _closed.ContactAt(point, 0.0, c, Math.Sqrt(squared), triangle, feature).Distance > 0.0;
+        }
+
+        /// <inheritdoc/>
+        public override double Sweep(
+            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance,
+            out SurfaceContact contact)
+        {
+            int hint = -1;
+            double keep = Nearest(a0, b0, 2.0 * clearance, ref hint, out contact)
+                ? 0.5 * Math.Abs(contact.Distance) : clearance;
+            double impact = _wall.Tree.Sweep(a0, b0, a1, b1, keep, out hint);
+            contact = default;
+            if (impact < NoImpact)
+            {
+                Nearest(
+                    Vector3d.Lerp(a0, a1, impact), Vector3d.Lerp(b0, b1, impact), double.PositiveInfinity, ref hint,
+                    out contact);
+            }
+            return impact;
+        }
+    }
+}

@@ -1,0 +1,293 @@
+using System;
+using System.Collections.Generic;
+
+namespace Guidewire.Core
+{
+    /// <summary>Makes one oriented surface of a file's triangles: equal vertices become one, collapsed and repeated
+    /// triangles go, neighbours are turned the same way round, open rims are found. What has no single answer is refused:
+    /// an edge of three triangles, a surface of one side only, several surfaces, a hole that nobody named.</summary>
+    internal sealed class MeshTopology
+    {
+        private readonly Dictionary<long, EdgeUse> _edges = new Dictionary<long, EdgeUse>();
+
+        private MeshTopology(Vector3d[] vertices, int[] triangles)
+        {
+            Vertices = vertices;
+            Triangles = triangles;
+        }
+
+        /// <summary>Different vertices.</summary>
+        public Vector3d[] Vertices { get; private set; }
+
+        /// <summary>Three vertices a triangle, all triangles the same way round.</summary>
+        public int[] Triangles { get; private set; }
+
+        /// <summary>Open rims, each a closed chain of vertices in the direction of its triangles' edges.</summary>
+        public List<int[]> Rims { get; } = new List<int[]>();
+
+        /// <summary>What was found.</summary>
+        public MeshReport Report { get; } = new MeshReport();
+
+        /// <summary>The surface of these triangles.</summary>
+        /// <exception cref="MeshException">It cannot be one oriented surface.</exception>
+        public static MeshTopology Create(Vector3d[] vertices, int[] triangles)
+        {
+            CheckNumbers(vertices, triangles);
+            var topology = new MeshTopology(vertices, triangles);
+            topology.Weld();
+            topology.DropTriangles();
+            topology.JoinEdges();
+            topology.TurnAlike();
+            topology.FindRims();
+            topology.Report.Vertices = topology.Vertices.Length;
+            topology.Report.Triangles = topology.Triangles.Length / 3;
+            return topology;
+        }
+
+        /// <summary>Turns every triangle and rim round.</summary>
+        public void TurnAll()
+        {
+            for (int t = 0; t < Triangles.Length; t += 3)
+            {
+                Turn(t);
+            }
+            foreach (int[] rim in Rims)
+            {
+                Array.Reverse(rim);
+            }
+        }
+
+        private static void CheckNumbers(Vector3d[] vertices, int[] triangles)
+        {
+            int bad = 0;
+            foreach (Vector3d vertex in vertices)
+            {
+                bad += vertex.IsFinite ? 0 : 1;
+            }
+            int wild = 0;
+            foreach (int index in triangles)
+            {
+                wild += index >= 0 && index < vertices.Length ? 0 : 1;
+            }
+            if (bad > 0 || wild > 0 || triangles.Length == 0 || triangles.Length % 3 != 0)
+            {
+                throw new MeshException(
+                    triangles.Length == 0 ? "the mesh has no triangles"
+                    : bad > 0 ? bad + " vertices have a coordinate that is not finite"
+                    : wild + " corners name a vertex that does not exist (there are " + vertices.Length + ")");
+            }
+        }
+
+        private void Weld()
+        {
+            var first = new Dictionary<Vector3d, int>(Vertices.Length);
+            var kept = new List<Vector3d>(Vertices.Length);
+            var index = new int[Vertices.Length];
+            for (int i = 0; i < Vertices.Length; i++)
+            {
+                // Adding 0 makes -0 a 0: the two are equal but differ in their bits.
+                Vector3d vertex = Vertices[i] + Vector3d.Zero;
+                if (!first.TryGetValue(vertex, out index[i]))
+                {
+                    index[i] = kept.Count;
+                    first.Add(vertex, kept.Count);
+                    kept.Add(vertex);
+                }
+            }
+            Report.WeldedVertices = Vertices.Length - kept.Count;
+            Vertices = kept.ToArray();
+            Triangles = Array.ConvertAll(Triangles, corner => index[corner]);
+        }
+
+        private void DropTriangles()
+        {
+            var kept = new List<int>(Triangles.Length);
+            var known = new HashSet<(int, int, int)>();
+            for (int t = 0; t < Triangles.Length; t += 3)
+            {
+                int i = Triangles[t];
+                int j = Triangles[t + 1];
+                int k = Triangles[t + 2];
+                if (i == j || j == k || k == i)
+                {
+                    Report.CollapsedTriangles++;
+                    continue;
+                }
+                int low = Math.Min(i, Math.Min(j, k));
+                int high = Math.Max(i, Math.Max(j, k));
+                if (!known.Add((low, i + j + k - low - high, high)))
+                {
+                    Report.RepeatedTriangles++;
+                    continue;
+                }
+                Vector3d area = Vector3d.Cross(Vertices[j] - Vertices[i], Vertices[k] - Vertices[i]);
+                Report.FlatTriangles += area.LengthSquared > 0.0 ? 0 : 1;
+                kept.Add(i);
+                kept.Add(j);
+                kept.Add(k);
+            }
+            Triangles = kept.ToArray();
+            if (Triangles.Length == 0)
+            {
+                throw new MeshException("the mesh has no triangle with three different corners");
+            }
+        }
+
+        private void JoinEdges()
+        {
+            int crowded = 0;
+            for (int t = 0; t < Triangles.Length; t += 3)
+            {
+                for (int e = 0; e < 3; e++)
+                {
+                    long key = Key(t, e);
+                    _edges.TryGetValue(key, out EdgeUse use);
+                    crowded += use.Count == 2 ? 1 : 0;
+                    _edges[key] = use.With(t + e);
+                }
+            }
+            if (crowded > 0)
+            {
+                throw new MeshException(crowded + " edges belong to more than two triangles");
+            }
+        }
+
+        private void TurnAlike()
+        {
+            int count = Triangles.Length / 3;
+            var turned = new bool[count];
+            var seen = new bool[count];
+            var queue = new Queue<int>();
+            int surfaces = 0;
+            int turnedCount = 0;
+            int clashes = 0;
+            for (int start = 0; start < count; start++)
+            {
+                if (seen[start])
+                {
+                    continue;
+                }
+                surfaces++;
+                seen[start] = true;
+                queue.Enqueue(start);
+                while (queue.Count > 0)
+                {
+                    int t = queue.Dequeue();
+                    for (int e = 0; e < 3; e++)
+                    {
+                        int other = _edges[Key(3 * t, e)].Other(3 * t + e);
+                        if (other < 0)
+                        {
+                            continue;
+                        }
+
+                        // Neighbours agree when they run through their common edge in opposite directions.
+                        bool turn = turned[t] ^ (Triangles[3 * t + e] == Triangles[other]);
+                        int neighbour = other / 3;
+                        if (seen[neighbour])
+                        {
+                            clashes += turned[neighbour] == turn ? 0 : 1;
+                            continue;
+                        }
+                        seen[neighbour] = true;
+                        turned[neighbour] = turn;
+                        turnedCount += turn ? 1 : 0;
+                        queue.Enqueue(neighbour);
+                    }
+                }
+            }
+            if (clashes > 0 || surfaces > 1)
+            {
+                throw new MeshException(
+                    clashes > 0 ? "the surface has one side only (" + clashes + " edges cannot be turned to agree)"
+                    : "the mesh has " + surfaces + " separate surfaces; a vessel is one");
+            }
+            Report.TurnedTriangles = Math.Min(turnedCount, count - turnedCount);
+            for (int t = 0; t < count; t++)
+            {
+                if (turned[t])
+                {
+                    Turn(3 * t);
+                }
+            }
+        }
+
+        private void FindRims()
+        {
+            var next = new Dictionary<int, int>();
+            int pinched = 0;
+            for (int t = 0; t < Triangles.Length; t += 3)
+            {
+                for (int e = 0; e < 3; e++)
+                {
+                    if (_edges[Key(t, e)].Count == 1)
+                    {
+                        pinched += next.TryAdd(Triangles[t + e], Triangles[t + (e + 1) % 3]) ? 0 : 1;
+                    }
+                }
+            }
+            if (pinched > 0)
+            {
+                throw new MeshException(pinched + " open rims touch themselves or each other");
+            }
+            while (next.Count > 0)
+            {
+                var rim = new List<int>();
+                int vertex = FirstKey(next);
+                while (next.Remove(vertex, out int following))
+                {
+                    rim.Add(vertex);
+                    vertex = following;
+                }
+                Rims.Add(rim.ToArray());
+            }
+        }
+
+        private static int FirstKey(Dictionary<int, int> next)
+        {
+            int least = int.MaxValue;
+            foreach (int key in next.Keys)
+            {
+                least = Math.Min(least, key);
+            }
+            return least;
+        }
+
+        private long Key(int triangle, int edge)
+        {
+            int i = Triangles[triangle + edge];
+            int j = Triangles[triangle + (edge + 1) % 3];
+            return ((long)Math.Min(i, j) << 32) | (uint)Math.Max(i, j);
+        }
+
+        private void Turn(int triangle)
+        {
+            (Triangles[triangle + 1], Triangles[triangle + 2]) = (Triangles[triangle + 2], Triangles[triangle + 1]);
+        }
+
+        // An edge's triangles, each by the place in Triangles where it enters the edge.
+        private readonly struct EdgeUse
+        {
+            public readonly int Count;
+            private readonly int _first;
+            private readonly int _second;
+
+            private EdgeUse(int count, int first, int second)
+            {
+                Count = count;
+                _first = first;
+                _second = second;
+            }
+
+            public EdgeUse With(int place)
+            {
+                return Count == 0 ? new EdgeUse(1, place, -1) : new EdgeUse(2, _first, place);
+            }
+
+            public int Other(int place)
+            {
+                return Count < 2 ? -1 : place == _first ? _second : _first;
+            }
+        }
+    }
+}

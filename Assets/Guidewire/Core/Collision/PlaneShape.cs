@@ -1,0 +1,75 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>A half-space: free is where (x - point).normal is positive.</summary>
+    public sealed class PlaneShape : ContactShape
+    {
+        private readonly Vector3d _point;
+        private readonly Vector3d _normal;
+
+        /// <summary>The plane through <paramref name="point"/> whose <paramref name="normal"/>, of any length but 0,
+        /// points to the free side.</summary>
+        /// <exception cref="ArgumentException">The normal has no direction or a value is not finite.</exception>
+        public PlaneShape(in Vector3d point, in Vector3d normal)
+        {
+            if (!point.IsFinite || !normal.IsFinite || !(normal.Length > 0.0))
+            {
+                throw new ArgumentException("a plane needs a finite point and a normal of finite, non-zero length");
+            }
+            _point = point;
+            _normal = Vector3d.Normalize(normal);
+        }
+
+        /// <inheritdoc/>
+        public override bool Nearest(
+            in Vector3d a, in Vector3d b, double range, ref int hint, out SurfaceContact contact)
+        {
+            double da = Vector3d.Dot(a - _point, _normal);
+            double db = Vector3d.Dot(b - _point, _normal);
+            contact = At(a, b, da, db);
+            return contact.Distance <= range;
+        }
+
+        /// <inheritdoc/>
+        public override bool Contains(in Vector3d point)
+        {
+            return Vector3d.Dot(point - _point, _normal) > 0.0;
+        }
+
+        /// <inheritdoc/>
+        public override double Sweep(
+            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance,
+            out SurfaceContact contact)
+        {
+            double da0 = Vector3d.Dot(a0 - _point, _normal);
+            double db0 = Vector3d.Dot(b0 - _point, _normal);
+            double da1 = Vector3d.Dot(a1 - _point, _normal);
+            double db1 = Vector3d.Dot(b1 - _point, _normal);
+            double keep = Math.Min(clearance, 0.5 * Math.Min(da0, db0));
+            double impact = Math.Min(Crossing(da0, da1, keep), Crossing(db0, db1, keep));
+            contact = default;
+            if (impact < NoImpact)
+            {
+                contact = At(
+                    Vector3d.Lerp(a0, a1, impact), Vector3d.Lerp(b0, b1, impact),
+                    da0 + impact * (da1 - da0), db0 + impact * (db1 - db0));
+            }
+            return impact;
+        }
+
+        private static double Crossing(double before, double after, double keep)
+        {
+            return after < keep ? Math.Max(0.0, (before - keep) / (before - after)) : NoImpact;
+        }
+
+        // An element parallel to the plane touches it everywhere: its middle stands for it, which keeps a symmetric
+        // problem symmetric.
+        private SurfaceContact At(in Vector3d a, in Vector3d b, double da, double db)
+        {
+            double s = da < db ? 0.0 : da > db ? 1.0 : 0.5;
+            double distance = Math.Min(da, db);
+            return new SurfaceContact(s, Vector3d.Lerp(a, b, s) - distance * _normal, _normal, distance);
+        }
+    }
+}

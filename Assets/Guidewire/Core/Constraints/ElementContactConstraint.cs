@@ -1,0 +1,106 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>Keeps the point at position s of a rod element at a distance from a wall. With weights a_j = 1 - s,
+    /// a_{j+1} = s, contact point c and unit normal n: g = max(0, reach - (a_j p_j + a_{j+1} p_{j+1} - c).n),
+    /// dp_i = gain w_i a_i g n/(w_j a_j^2 + w_{j+1} a_{j+1}^2), per iteration.</summary>
+    /// <remarks>The point then moves by gain g n, and the two spheres share the push by the lever rule: a force F at s is
+    /// (1 - s) F and s F on them. It never attracts and never pulls sideways.</remarks>
+    internal sealed class ElementContactConstraint
+    {
+        private readonly double[] _inverseMasses;
+        private readonly int[] _element;
+        private readonly double[] _position;   // s
+        private readonly double[] _denominator; // w_j a_j^2 + w_{j+1} a_{j+1}^2
+        private readonly Vector3d[] _normal;
+        private readonly double[] _offset;     // (c.n + reach), units
+        private readonly double[] _gain;
+        private readonly double[] _impulse;    // sum of gain g / denominator, mass unit * unit
+
+        /// <param name="state">The wire, with its final masses.</param>
+        /// <param name="capacity">Contacts that fit; what comes on top is left out.</param>
+        public ElementContactConstraint(RodState state, int capacity)
+        {
+            _inverseMasses = state.InverseMasses;
+            _element = new int[capacity];
+            _position = new double[capacity];
+            _denominator = new double[capacity];
+            _normal = new Vector3d[capacity];
+            _offset = new double[capacity];
+            _gain = new double[capacity];
+            _impulse = new double[capacity];
+        }
+
+        /// <summary>Contacts at present.</summary>
+        public int Count { get; private set; }
+
+        /// <summary>Forgets all contacts.</summary>
+        public void Clear()
+        {
+            Count = 0;
+        }
+
+        /// <summary>Adds the contact of an element.</summary>
+        public void Add(int element, in SurfaceContact contact, double reach, double gain)
+        {
+            double s = contact.Position;
+            double denominator = (1.0 - s) * (1.0 - s) * _inverseMasses[element] + s * s * _inverseMasses[element + 1];
+            if (Count == _element.Length || !(denominator > 0.0))
+            {
+                return;
+            }
+            _element[Count] = element;
+            _position[Count] = s;
+            _denominator[Count] = denominator;
+            _normal[Count] = contact.Normal;
+            _offset[Count] = Vector3d.Dot(contact.Point, contact.Normal) + reach;
+            _gain[Count] = gain;
+            _impulse[Count] = 0.0;
+            Count++;
+        }
+
+        /// <summary>Projects all contacts once, in the order in which they were added.</summary>
+        /// <param name="x">n + 1 positions in units, corrected in place.</param>
+        public void Sweep(Vector3d[] x)
+        {
+            for (int k = 0; k < Count; k++)
+            {
+                int j = _element[k];
+                double s = _position[k];
+                Vector3d n = _normal[k];
+                double gap = _offset[k] - (1.0 - s) * Vector3d.Dot(x[j], n) - s * Vector3d.Dot(x[j + 1], n);
+                if (gap > 0.0)
+                {
+                    double impulse = _gain[k] * gap / _denominator[k];
+                    _impulse[k] += impulse;
+                    x[j] += (impulse * (1.0 - s) * _inverseMasses[j]) * n;
+                    x[j + 1] += (impulse * s * _inverseMasses[j + 1]) * n;
+                }
+            }
+        }
+
+        /// <summary>Adds to each sphere the momentum over dt, in mass unit * unit, that its elements' contacts gave it; a
+        /// held sphere's share is what its holder took.</summary>
+        public void AddImpulses(Vector3d[] impulses)
+        {
+            for (int k = 0; k < Count; k++)
+            {
+                impulses[_element[k]] += (_impulse[k] * (1.0 - _position[k])) * _normal[k];
+                impulses[_element[k] + 1] += (_impulse[k] * _position[k]) * _normal[k];
+            }
+        }
+
+        /// <summary>Largest reach - (x(s) - c).n over all contacts, units; negative when the wire is out of reach.</summary>
+        public double LargestGap(Vector3d[] x)
+        {
+            double largest = double.NegativeInfinity;
+            for (int k = 0; k < Count; k++)
+            {
+                Vector3d point = Vector3d.Lerp(x[_element[k]], x[_element[k] + 1], _position[k]);
+                largest = Math.Max(largest, _offset[k] - Vector3d.Dot(point, _normal[k]));
+            }
+            return largest;
+        }
+    }
+}

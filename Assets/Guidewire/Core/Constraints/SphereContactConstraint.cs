@@ -1,0 +1,94 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>Keeps a sphere's centre p at a distance from a wall: with contact point c and unit normal n,
+    /// g = max(0, reach - (p - c).n), dp = gain g n, per iteration (thesis 3.1.2 for a sphere, without its drag along the
+    /// wall). It never attracts and never pulls sideways.</summary>
+    /// <remarks>reach is r + margin and the gain k_C in [0, 1], or a bare clearance with gain 1 where the swept test met
+    /// the wall. A sphere of inverse mass 0 is not moved.</remarks>
+    internal sealed class SphereContactConstraint
+    {
+        private readonly double[] _inverseMasses;
+        private readonly int[] _sphere;
+        private readonly Vector3d[] _normal;
+        private readonly double[] _offset;     // (c.n + reach), units
+        private readonly double[] _gain;
+        private readonly double[] _pushed;     // sum of gain g over the iterations, units
+
+        /// <param name="state">The wire, with its final masses.</param>
+        /// <param name="capacity">Contacts that fit; what comes on top is left out.</param>
+        public SphereContactConstraint(RodState state, int capacity)
+        {
+            _inverseMasses = state.InverseMasses;
+            _sphere = new int[capacity];
+            _normal = new Vector3d[capacity];
+            _offset = new double[capacity];
+            _gain = new double[capacity];
+            _pushed = new double[capacity];
+        }
+
+        /// <summary>Contacts at present.</summary>
+        public int Count { get; private set; }
+
+        /// <summary>Forgets all contacts.</summary>
+        public void Clear()
+        {
+            Count = 0;
+        }
+
+        /// <summary>Adds the contact of a sphere.</summary>
+        public void Add(int sphere, in SurfaceContact contact, double reach, double gain)
+        {
+            if (Count == _sphere.Length || _inverseMasses[sphere] == 0.0)
+            {
+                return;
+            }
+            _sphere[Count] = sphere;
+            _normal[Count] = contact.Normal;
+            _offset[Count] = Vector3d.Dot(contact.Point, contact.Normal) + reach;
+            _gain[Count] = gain;
+            _pushed[Count] = 0.0;
+            Count++;
+        }
+
+        /// <summary>Projects all contacts once, in the order in which they were added.</summary>
+        /// <param name="x">n + 1 positions in units, corrected in place.</param>
+        public void Sweep(Vector3d[] x)
+        {
+            for (int k = 0; k < Count; k++)
+            {
+                int i = _sphere[k];
+                Vector3d n = _normal[k];
+                double gap = _offset[k] - Vector3d.Dot(x[i], n);
+                if (gap > 0.0)
+                {
+                    double push = _gain[k] * gap;
+                    _pushed[k] += push;
+                    x[i] += push * n;
+                }
+            }
+        }
+
+        /// <summary>Adds to each sphere the momentum over dt, dp/w, in mass unit * unit, that its contacts gave it.</summary>
+        public void AddImpulses(Vector3d[] impulses)
+        {
+            for (int k = 0; k < Count; k++)
+            {
+                impulses[_sphere[k]] += (_pushed[k] / _inverseMasses[_sphere[k]]) * _normal[k];
+            }
+        }
+
+        /// <summary>Largest reach - (p - c).n over all contacts, units: how far the wire lies within its reach of the wall;
+        /// negative when nothing does.</summary>
+        public double LargestGap(Vector3d[] x)
+        {
+            double largest = double.NegativeInfinity;
+            for (int k = 0; k < Count; k++)
+            {
+                largest = Math.Max(largest, _offset[k] - Vector3d.Dot(x[_sphere[k]], _normal[k]));
+            }
+            return largest;
+        }
+    }
+}

@@ -1,0 +1,82 @@
+using System;
+using System.IO;
+using System.Linq;
+using Guidewire.Io;
+using UnityEditor;
+using UnityEditor.Build.Reporting;
+using UnityEngine;
+
+namespace Guidewire.Editor
+{
+    /// <summary>Builds players: <c>-executeMethod Guidewire.Editor.PlayerBuild.Linux</c> or <c>.Windows</c>, or the
+    /// menu. The parameter files go beside the program, where the scenes look for them.</summary>
+    public static class PlayerBuild
+    {
+        private const string Parameters = "params";
+
+        /// <summary>Builds Build/Linux/Guidewire.x86_64; in batch mode it ends the editor with 0, or 70 where the build
+        /// failed.</summary>
+        [MenuItem("Guidewire/Build player for Linux")]
+        public static void Linux()
+        {
+            Run(BuildTarget.StandaloneLinux64, "Build/Linux/Guidewire.x86_64");
+        }
+
+        /// <summary>Builds Build/Windows/Guidewire.exe.</summary>
+        [MenuItem("Guidewire/Build player for Windows")]
+        public static void Windows()
+        {
+            Run(BuildTarget.StandaloneWindows64, "Build/Windows/Guidewire.exe");
+        }
+
+        private static void Run(BuildTarget target, string path)
+        {
+            int code;
+            try
+            {
+                code = Build(target, path) ? 0 : ExitCodes.Internal;
+            }
+            catch (Exception error)
+            {
+                Debug.LogError("guidewire: internal error: " + error);
+                code = ExitCodes.Internal;
+            }
+            if (Application.isBatchMode)
+            {
+                EditorApplication.Exit(code);
+            }
+        }
+
+        private static bool Build(BuildTarget target, string path)
+        {
+            var options = new BuildPlayerOptions
+            {
+                scenes = EditorBuildSettings.scenes.Where(scene => scene.enabled).Select(scene => scene.path).ToArray(),
+                target = target,
+                targetGroup = BuildTargetGroup.Standalone,
+                locationPathName = path,
+            };
+            BuildSummary summary = BuildPipeline.BuildPlayer(options).summary;
+            Debug.Log("guidewire: build " + summary.result + ", " + summary.totalErrors + " errors -> " + path);
+            if (summary.result != BuildResult.Succeeded)
+            {
+                return false;
+            }
+            CopyFolder(Parameters, Path.Combine(Path.GetDirectoryName(path)!, Parameters));
+            return true;
+        }
+
+        private static void CopyFolder(string from, string to)
+        {
+            Directory.CreateDirectory(to);
+            foreach (string file in Directory.GetFiles(from))
+            {
+                File.Copy(file, Path.Combine(to, Path.GetFileName(file)), true);
+            }
+            foreach (string folder in Directory.GetDirectories(from))
+            {
+                CopyFolder(folder, Path.Combine(to, Path.GetFileName(folder)));
+            }
+        }
+    }
+}

@@ -1,0 +1,148 @@
+using System;
+using System.Collections.Generic;
+using Guidewire.Core;
+using Newtonsoft.Json;
+using Newtonsoft.Json.Linq;
+
+namespace Guidewire.Io
+{
+    /// <summary>Fields of one JSON object; each error is one line that names source, key, value and what is allowed.
+    /// </summary>
+    internal sealed class JsonFields
+    {
+        private readonly string _source;
+        private readonly string _key;
+        private readonly JObject _object;
+
+        /// <param name="source">The file, or "command line".</param>
+        /// <param name="key">Where the object stands.</param>
+        /// <param name="value">The object.</param>
+        /// <exception cref="ParameterException">It is no object.</exception>
+        public JsonFields(string source, string key, JToken value)
+        {
+            _source = source;
+            _key = key;
+            _object = value as JObject ?? throw new ParameterException(
+                source, key, value.ToString(Formatting.None), "an object {\"shape\": ...}");
+        }
+
+        /// <summary>Refuses every field but these.</summary>
+        public void Allow(params string[] names)
+        {
+            foreach (JProperty property in _object.Properties())
+            {
+                if (Array.IndexOf(names, property.Name) < 0)
+                {
+                    throw new ParameterException(_source + ": unknown key '" + _key + "." + property.Name
+                        + "': allowed are " + string.Join(", ", names));
+                }
+            }
+        }
+
+        /// <summary>A text; an empty one where it is missing.</summary>
+        public string Text(string name)
+        {
+            JToken? value = _object[name];
+            return value == null ? "" : value.Type == JTokenType.String ? (string?)value ?? ""
+                : throw Wrong(name, "a text in double quotes");
+        }
+
+        /// <summary>true or false, or what counts where it is missing.</summary>
+        public bool Switch(string name, bool missing)
+        {
+            JToken? value = _object[name];
+            return value == null ? missing : value.Type == JTokenType.Boolean ? (bool)value
+                : throw Wrong(name, "true or false");
+        }
+
+        /// <summary>A number, or what counts where it is missing (null: it may not be).</summary>
+        public double Number(string name, double? missing)
+        {
+            JToken? value = _object[name];
+            if (value == null && missing.HasValue)
+            {
+                return missing.Value;
+            }
+            return value != null && NumberEntry.TryNumber(value, out double number) ? number : throw Wrong(name, "a number");
+        }
+
+        /// <summary>A vector, or what counts where it is missing (null: it may not be).</summary>
+        public Vector3d Vector(string name, Vector3d? missing)
+        {
+            JToken? value = _object[name];
+            if (value == null && missing.HasValue)
+            {
+                return missing.Value;
+            }
+            return value != null && VectorEntry.TryVector(value, out Vector3d vector)
+                ? vector : throw Wrong(name, "three numbers [x, y, z]");
+        }
+
+        /// <summary>A list of vectors.</summary>
+        public Vector3d[] Vectors(string name)
+        {
+            var vectors = new List<Vector3d>();
+            foreach (JToken item in _object[name] as JArray ?? throw Wrong(name, "a list of [x, y, z]"))
+            {
+                vectors.Add(VectorEntry.TryVector(item, out Vector3d vector) ? vector
+                    : throw Wrong(name, "a list of [x, y, z]"));
+            }
+            return vectors.ToArray();
+        }
+
+        /// <summary>A list of numbers, or one number that stands for <paramref name="count"/> equal ones.</summary>
+        public double[] Numbers(string name, int count)
+        {
+            JToken? value = _object[name];
+            if (value != null && NumberEntry.TryNumber(value, out double same))
+            {
+                var all = new double[count];
+                Array.Fill(all, same);
+                return all;
+            }
+            var numbers = new List<double>();
+            foreach (JToken item in value as JArray ?? throw Wrong(name, "a number or a list of numbers"))
+            {
+                numbers.Add(NumberEntry.TryNumber(item, out double number) ? number
+                    : throw Wrong(name, "a number or a list of numbers"));
+            }
+            return numbers.ToArray();
+        }
+
+        /// <summary>Named points, {"name": [x, y, z], ...}; none where the field is missing.</summary>
+        public Vector3d[] NamedPoints(string name)
+        {
+            var points = new List<Vector3d>();
+            JToken? value = _object[name];
+            if (value != null)
+            {
+                foreach (JProperty property in
+                    (value as JObject ?? throw Wrong(name, "named points {\"name\": [x, y, z]}")).Properties())
+                {
+                    points.Add(VectorEntry.TryVector(property.Value, out Vector3d point) ? point
+                        : throw Wrong(name, "named points {\"name\": [x, y, z]}"));
+                }
+            }
+            return points.ToArray();
+        }
+
+        /// <summary>Replaces a text by another.</summary>
+        public void Replace(string name, string text)
+        {
+            _object[name] = text;
+        }
+
+        /// <summary>The line for a field whose value is not allowed.</summary>
+        public ParameterException Wrong(string name, string allowed)
+        {
+            return new ParameterException(
+                _source, _key + "." + name, _object[name]?.ToString(Formatting.None) ?? "(missing)", allowed);
+        }
+
+        /// <summary>The line for something that Core refused.</summary>
+        public ParameterException Refused(string reason)
+        {
+            return new ParameterException(_source + ": " + _key + ": " + reason);
+        }
+    }
+}

@@ -1,0 +1,85 @@
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+using Guidewire.Core;
+
+namespace Guidewire.Io
+{
+    /// <summary>Wavefront OBJ: lines "v x y z" and "f i j k ..." with indices from 1, or from the end when negative. A
+    /// polygon becomes a fan; texture and normal indices, groups and materials are passed over.</summary>
+    internal static class ObjReader
+    {
+        private static readonly string[] PassedOver =
+        {
+            "vt", "vn", "vp", "g", "o", "s", "l", "p", "mtllib", "usemtl",
+        };
+
+        /// <summary>Adds what the file holds; what is wrong with it in one phrase, or null.</summary>
+        public static string? Read(byte[] bytes, List<Vector3d> vertices, List<int> triangles)
+        {
+            if (bytes.Length == 0)
+            {
+                return "is empty";
+            }
+            if (!TextLines.IsText(bytes))
+            {
+                return "is not text, which OBJ is";
+            }
+            var lines = new TextLines(bytes);
+            while (lines.Next())
+            {
+                string word = lines.Words.Length > 0 ? lines.Words[0] : "";
+                string? complaint = word == "v" ? ReadVertex(lines, vertices)
+                    : word == "f" ? ReadFace(lines, vertices.Count, triangles)
+                    : word.Length == 0 || Array.IndexOf(PassedOver, word) >= 0 ? null
+                    : lines.Complain("an OBJ word (v, f, ...)");
+                if (complaint != null)
+                {
+                    return complaint;
+                }
+            }
+            return triangles.Count == 0 ? "has no triangles" : null;
+        }
+
+        private static string? ReadVertex(TextLines lines, List<Vector3d> vertices)
+        {
+            if (!lines.TryNumber(1, out double x) || !lines.TryNumber(2, out double y) || !lines.TryNumber(3, out double z))
+            {
+                return lines.Complain("three finite numbers behind v");
+            }
+            vertices.Add(new Vector3d(x, y, z));
+            return null;
+        }
+
+        private static string? ReadFace(TextLines lines, int count, List<int> triangles)
+        {
+            string[] words = lines.Words;
+            if (words.Length < 4)
+            {
+                return lines.Complain("at least three vertices behind f");
+            }
+            int first = 0;
+            int previous = 0;
+            for (int k = 1; k < words.Length; k++)
+            {
+                int slash = words[k].IndexOf('/');
+                string text = slash < 0 ? words[k] : words[k].Substring(0, slash);
+                if (!int.TryParse(text, NumberStyles.AllowLeadingSign, CultureInfo.InvariantCulture, out int index)
+                    || index == 0 || index > count || index < -count)
+                {
+                    return lines.Complain("vertices from 1 to " + count.ToString(CultureInfo.InvariantCulture));
+                }
+                index = index > 0 ? index - 1 : count + index;
+                if (k > 2)
+                {
+                    triangles.Add(first);
+                    triangles.Add(previous);
+                    triangles.Add(index);
+                }
+                first = k == 1 ? index : first;
+                previous = index;
+            }
+            return null;
+        }
+    }
+}

@@ -1,0 +1,71 @@
+using System;
+using System.Globalization;
+using System.Text;
+
+namespace Guidewire.Io
+{
+    /// <summary>Lines of words separated by blanks, from the bytes of a text file.</summary>
+    internal sealed class TextLines
+    {
+        private static readonly char[] Blanks = { ' ', '\t' };
+        private readonly byte[] _bytes;
+        private int _next;
+
+        public TextLines(byte[] bytes)
+        {
+            _bytes = bytes;
+        }
+
+        /// <summary>Number of the current line, from 1.</summary>
+        public int Number { get; private set; }
+
+        /// <summary>Words of the current line.</summary>
+        public string[] Words { get; private set; } = Array.Empty<string>();
+
+        /// <summary>True where the bytes look like text: no zero byte among the first thousand.</summary>
+        public static bool IsText(byte[] bytes)
+        {
+            return Array.IndexOf(bytes, (byte)0, 0, Math.Min(bytes.Length, 1000)) < 0;
+        }
+
+        /// <summary>Goes to the next line; false behind the last.</summary>
+        public bool Next()
+        {
+            if (_next >= _bytes.Length)
+            {
+                return false;
+            }
+            int end = Array.IndexOf(_bytes, (byte)'\n', _next);
+            end = end < 0 ? _bytes.Length : end;
+            string line = Encoding.UTF8.GetString(_bytes, _next, end - _next).TrimEnd('\r');
+            int comment = line.IndexOf('#');
+            Words = (comment < 0 ? line : line.Substring(0, comment))
+                .Split(Blanks, StringSplitOptions.RemoveEmptyEntries);
+            _next = end + 1;
+            Number++;
+            return true;
+        }
+
+        /// <summary>The number that word k is; not finite is no number.</summary>
+        public bool TryNumber(int k, out double number)
+        {
+            number = double.NaN;
+            return k < Words.Length
+                && double.TryParse(Words[k], NumberStyles.Float, CultureInfo.InvariantCulture, out number)
+                && !double.IsNaN(number) && !double.IsInfinity(number);
+        }
+
+        /// <summary>What is wrong with the current line, in one phrase.</summary>
+        public string Complain(string needed)
+        {
+            string line = string.Join(" ", Words);
+            line = line.Length > 60 ? line.Substring(0, 57) + "..." : line;
+            var clean = new StringBuilder();
+            foreach (char c in line)
+            {
+                clean.Append(char.IsControl(c) ? '?' : c);
+            }
+            return "line " + Number.ToString(CultureInfo.InvariantCulture) + " '" + clean + "' needs " + needed;
+        }
+    }
+}

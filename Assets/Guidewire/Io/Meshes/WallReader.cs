@@ -1,0 +1,148 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using Guidewire.Core;
+using Newtonsoft.Json.Linq;
+
+namespace Guidewire.Io
+{
+    /// <summary>Makes walls of the keys vessel and obstacles. A vessel is placed by position, scale and rotation; obstacles
+    /// stand where their numbers say.</summary>
+    internal static class WallReader
+    {
+        private const double SceneMetresPerUnit = 1e-3;
+
+        /// <summary>All walls of a scene.</summary>
+        /// <param name="values">Its parameters; a mesh's file name is replaced by the one that was found.</param>
+        /// <param name="vesselSource">The parameter file that names the vessel, or "command line".</param>
+        /// <param name="obstacleSource">The same for the obstacles.</param>
+        /// <exception cref="ParameterException">A wall that cannot be made.</exception>
+        public static ContactShape[] Read(RunParameters values, string vesselSource, string obstacleSource)
+        {
+            var walls = new List<ContactShape>();
+            if (values.Vessel != null)
+            {
+                walls.Add(Vessel(new JsonFields(vesselSource, "vessel", values.Vessel), values.Simulation, vesselSource));
+            }
+            int count = 0;
+            foreach (JToken item in values.Obstacles ?? new JArray())
+            {
+                walls.Add(Obstacle(new JsonFields(obstacleSource, "obstacles[" + count++ + "]", item)));
+            }
+            return walls.ToArray();
+        }
+
+        private static ContactShape Vessel(JsonFields fields, SimulationParameters scene, string source)
+        {
+            var placement = new Placement(scene.Position, Placement.FromEulerDegrees(scene.Rotation), scene.Scale);
+            try
+            {
+                switch (fields.Text("shape"))
+                {
+                    case "plane":
+                        fields.Allow("shape", "point", "normal");
+                        return Plane(fields, scene, placement);
+                    case "tube":
+                        fields.Allow("shape", "knots", "radius", "openStart", "openEnd");
+                        return Tube(fields, scene, placement);
+                    case "mesh":
+                        fields.Allow("shape", "file", "metresPerUnit", "openRims");
+                        return Mesh(fields, scene, placement, source);
+                    default:
+                        throw fields.Wrong("shape", "one of \"plane\", \"tube\", \"mesh\"");
+                }
+            }
+            catch (ArgumentException error)
+            {
+                throw fields.Refused(error.Message);
+            }
+        }
+
+        private static PlaneShape Plane(JsonFields fields, SimulationParameters scene, in Placement placement)
+        {
+            // A plane's normal goes with the inverse of the scale.
+            Vector3d n = fields.Vector("normal", null);
+            var stretched = new Vector3d(n.X / scene.Scale.X, n.Y / scene.Scale.Y, n.Z / scene.Scale.Z);
+            Quaterniond turn = Placement.FromEulerDegrees(scene.Rotation);
+            return new PlaneShape(placement.Apply(fields.Vector("point", Vector3d.Zero)), Quaterniond.Rotate(turn, stretched));
+        }
+
+        private static TubeShape Tube(JsonFields fields, SimulationParameters scene, in Placement placement)
+        {
+            double size = Math.Abs(scene.Scale.X);
+            if (Math.Abs(scene.Scale.Y) != size || Math.Abs(scene.Scale.Z) != size)
+            {
+                throw fields.Refused("a tube's scale needs three equal factors, so that it stays round");
+            }
+            Vector3d[] knots = fields.Vectors("knots");
+            double[] radii = fields.Numbers("radius", knots.Length);
+            for (int i = 0; i < knots.Length; i++)
+            {
+                knots[i] = placement.Apply(knots[i]);
+            }
+            return new TubeShape(
+                knots, Array.ConvertAll(radii, radius => size * radius), fields.Switch("openStart", true),
+                fields.Switch("openEnd", true));
+        }
+
+        private static MeshShape Mesh(
+            JsonFields fields, SimulationParameters scene, in Placement placement, string source)
+        {
+            if (scene.Scale.X == 0.0 || scene.Scale.Y == 0.0 || scene.Scale.Z == 0.0)
+            {
+                throw fields.Refused("scale needs three factors other than 0");
+            }
+            double metresPerUnit = fields.Number("metresPerUnit", SceneMetresPerUnit);
+            if (!(metresPerUnit > 0.0))
+            {
+                throw fields.Wrong("metresPerUnit", "a number > 0 (m)");
+            }
+            string file = Find(fields.Text("file"), source);
+            if (file.Length == 0)
+            {
+                throw fields.Wrong("file", "the name of an .obj or .stl file");
+            }
+            fields.Replace("file", file);
+            TriangleMesh mesh = MeshFile.Read(file, metresPerUnit / SceneMetresPerUnit, fields.NamedPoints("openRims"));
+            return new MeshShape(mesh, placement);
+        }
+
+        // Beside the parameter file that names it, or from the current folder.
+        private static string Find(string file, string source)
+        {
+            string beside = Path.Combine(Path.GetDirectoryName(source) ?? "", file);
+            return file.Length > 0 && source != CommandLineHandler.Source && File.Exists(beside) ? beside : file;
+        }
+
+        private static ConvexObstacle Obstacle(JsonFields fields)
+        {
+            try
+            {
+                switch (fields.Text("shape"))
+                {
+                    case "sphere":
+                        fields.Allow("shape", "centre", "radius");
+                        return ConvexObstacle.Sphere(fields.Vector("centre", null), fields.Number("radius", null));
+                    case "capsule":
+                        fields.Allow("shape", "from", "to", "radius");
+                        return ConvexObstacle.Capsule(
+                            fields.Vector("from", null), fields.Vector("to", null), fields.Number("radius", null));
+                    case "box":
+                        fields.Allow("shape", "centre", "halfSize", "rotation");
+                        return ConvexObstacle.Box(
+                            fields.Vector("centre", null), fields.Vector("halfSize", null),
+                            Placement.FromEulerDegrees(fields.Vector("rotation", Vector3d.Zero)));
+                    case "hull":
+                        fields.Allow("shape", "points", "radius");
+                        return new ConvexObstacle(fields.Vectors("points"), fields.Number("radius", 0.0));
+                    default:
+                        throw fields.Wrong("shape", "one of \"sphere\", \"capsule\", \"box\", \"hull\"");
+                }
+            }
+            catch (ArgumentException error)
+            {
+                throw fields.Refused(error.Message);
+            }
+        }
+    }
+}

@@ -1,0 +1,143 @@
+using System;
+using System.Collections.Generic;
+using System.Diagnostics;
+using Guidewire.Core;
+using Newtonsoft.Json.Linq;
+
+namespace Guidewire.Io
+{
+    /// <summary>One run that a user steers: built from a parameter file, changed while it goes on, logged where asked
+    /// for. Its host, such as a Unity scene, decides when to step.</summary>
+    public sealed class SimulationSession : IDisposable
+    {
+        private const double Smoothing = 0.02;     // share of the newest step in the step time shown
+        private static readonly double ToMilliseconds = 1000.0 / Stopwatch.Frequency;
+
+        private readonly string _file;
+        private readonly List<KeyValuePair<string, JToken>> _overrides;
+        private ParameterHandler _handler;
+        private RunFolder? _results;
+        private bool _isNoted;
+
+        private SimulationSession(string file, List<KeyValuePair<string, JToken>> overrides, ParameterHandler handler)
+        {
+            _file = file;
+            _overrides = overrides;
+            _handler = handler;
+            Simulation = Simulation.Create(handler.Values.Simulation);
+        }
+
+        /// <summary>The run as it is now; another object after <see cref="Set"/>.</summary>
+        public Simulation Simulation { get; private set; }
+
+        /// <summary>The effective parameters.</summary>
+        public SimulationParameters Parameters => _handler.Values.Simulation;
+
+        /// <summary>What is allowed but most likely not meant, one line each.</summary>
+        public IReadOnlyList<string> Warnings => _handler.Warnings;
+
+        /// <summary>Wall time of a step in ms, smoothed over some 50 steps; 0 before the first.</summary>
+        public double StepTime { get; private set; }
+
+        /// <summary>A run at its start.</summary>
+        /// <param name="file">Parameter file.</param>
+        /// <param name="overrides">Parameters that count instead of the file's.</param>
+        /// <param name="logFolder">Folder that takes the results; empty for a run that is not logged.</param>
+        /// <exception cref="ParameterException">The file, a value or the folder cannot be used.</exception>
+        public static SimulationSession Open(string file, IEnumerable<KeyValuePair<string, JToken>> overrides,
+            string logFolder)
+        {
+            var given = new List<KeyValuePair<string, JToken>>(overrides);
+            ParameterHandler handler = ParameterHandler.Load(file, given);
+            var session = new SimulationSession(file, given, handler);
+            if (logFolder.Length > 0)
+            {
+                session._results = RunFolder.Open(handler, logFolder, null);
+                session._results.Begin(session.Simulation);
+            }
+            return session;
+        }
+
+        /// <summary>One step.</summary>
+        /// <param name="push">Motion of sphere 0 along the first element (thesis eq. 3.6) before it, in units; negative
+        /// values pull.</param>
+        /// <param name="turn">Turn of the first element about its axis before it, in rad.</param>
+        public void Step(double push, double turn)
+        {
+            if (push != 0.0 || turn != 0.0)
+            {
+                Note("steered by hand");
+                Move(Simulation.State, push, turn);
+            }
+            long before = Stopwatch.GetTimestamp();
+            if (_results != null)
+            {
+                _results.Step(Simulation);
+            }
+            else
+            {
+                Simulation.Step();
+            }
+            double time = (Stopwatch.GetTimestamp() - before) * ToMilliseconds;
+            StepTime = StepTime == 0.0 ? time : StepTime + Smoothing * (time - StepTime);
+        }
+
+        /// <summary>The value of a parameter, as in a file.</summary>
+        public JToken Get(string key)
+        {
+            return ParameterTable.Find(key)!.Write(_handler.Values);
+        }
+
+        /// <summary>Changes a parameter; the wire goes on from where it is.</summary>
+        /// <exception cref="ParameterException">The value is not allowed; nothing has changed.</exception>
+        public void Set(string key, JToken value)
+        {
+            var changed = new List<KeyValuePair<string, JToken>>(_overrides);
+            changed.RemoveAll(pair => pair.Key == key);
+            changed.Add(new KeyValuePair<string, JToken>(key, value));
+            ParameterHandler handler = ParameterHandler.Load(_file, changed);
+            Simulation = Simulation.Continue(handler.Values.Simulation);
+            Note("parameters changed by hand");
+            _handler = handler;
+            _overrides.Clear();
+            _overrides.AddRange(changed);
+        }
+
+        /// <summary>Ends a run that goes on as interrupted, and its log with it.</summary>
+        public void Dispose()
+        {
+            if (_results == null)
+            {
+                return;
+            }
+            if (Simulation.Outcome == Outcome.Running)
+            {
+                Simulation.End(Outcome.Interrupted, "stopped by hand after step " + Simulation.StepCount);
+            }
+            _results.Finish(Simulation);
+            _results.Dispose();
+            _results = null;
+        }
+
+        // A wire whose sphere 0 is not held cannot be steered.
+        private static void Move(RodState state, double push, double turn)
+        {
+            if (state.InverseMasses[0] != 0.0)
+            {
+                return;
+            }
+            Vector3d axis = Vector3d.Normalize(state.Positions[1] - state.Positions[0]);
+            state.Place(0, state.Positions[0] + push * axis);
+            state.Orientations[0] = Quaterniond.FromAxisAngle(axis, turn) * state.Orientations[0];
+        }
+
+        private void Note(string what)
+        {
+            if (_results != null && !_isNoted)
+            {
+                _isNoted = true;
+                _results.Note(what + " from step " + Simulation.StepCount + " on");
+            }
+        }
+    }
+}

@@ -1,0 +1,49 @@
+using System;
+using Guidewire.Io;
+using UnityEngine;
+
+namespace Guidewire.Runtime
+{
+    /// <summary>One run without frames, inside Unity. What follows <c>-guidewire</c> on the command line is ours, what
+    /// stands before is Unity's.</summary>
+    public static class BatchRun
+    {
+        /// <summary>The word that ends Unity's arguments.</summary>
+        public const string Marker = "-guidewire";
+
+        /// <summary>The arguments behind the marker, or null where there is none.</summary>
+        public static string[]? Own(string[] arguments)
+        {
+            int marker = Array.IndexOf(arguments, Marker);
+            return marker < 0 ? null : arguments.AsSpan(marker + 1).ToArray();
+        }
+
+        /// <summary>Runs to the end. Never throws: an editor that is left by an exception may not end.</summary>
+        /// <param name="commandLine">All arguments of the process.</param>
+        /// <returns>The exit code, as the console program's.</returns>
+        public static int Execute(string[] commandLine)
+        {
+            try
+            {
+                string[] arguments = Own(commandLine) ?? throw new ParameterException("command line: " + Marker
+                    + " is missing; behind it stand -parameters FILE, -out DIR and -KEY VALUE");
+                var command = new RunCommand(logFileIsOurs: false)
+                {
+                    Say = line => Debug.Log("guidewire: " + line),
+                    Error = line => Debug.LogError("guidewire: " + line),
+                };
+                return command.Execute(arguments);
+            }
+            catch (ParameterException error)
+            {
+                Debug.LogError("guidewire: " + error.Message);
+                return ExitCodes.BadInput;
+            }
+            catch (Exception error)
+            {
+                Debug.LogError("guidewire: internal error: " + error);
+                return ExitCodes.Internal;
+            }
+        }
+    }
+}

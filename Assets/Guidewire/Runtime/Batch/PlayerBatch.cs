@@ -1,0 +1,24 @@
+using System;
+using UnityEngine;
+
+namespace Guidewire.Runtime
+{
+    /// <summary>Makes a player with <c>-batchmode ... -guidewire ...</c> do one run and end, before any scene is shown.
+    /// </summary>
+    public static class PlayerBatch
+    {
+        /// <summary>Whether this process was started for a run without frames. Batch mode alone is not enough: the Test
+        /// Runner's PlayMode tests run in it too.</summary>
+        public static bool IsAsked =>
+            Application.isBatchMode && BatchRun.Own(Environment.GetCommandLineArgs()) != null;
+
+        [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.BeforeSceneLoad)]
+        private static void Run()
+        {
+            if (!Application.isEditor && IsAsked)
+            {
+                Application.Quit(BatchRun.Execute(Environment.GetCommandLineArgs()));
+            }
+        }
+    }
+}

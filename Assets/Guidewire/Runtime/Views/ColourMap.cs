@@ -1,0 +1,41 @@
+using UnityEngine;
+
+namespace Guidewire.Runtime
+{
+    /// <summary>Blue to grey to red, as a texture of one row: a material that takes it is lit and coloured by place,
+    /// with Unity's own shader.</summary>
+    internal static class ColourMap
+    {
+        /// <summary>The place of the value 0: grey.</summary>
+        public const float Middle = 0.5f;
+
+        private const int Width = 256;
+
+        /// <summary>The place of a value.</summary>
+        /// <param name="value">Any number; beyond the range it takes the end's colour.</param>
+        /// <param name="range">The value of the last colour, positive.</param>
+        public static float Place(double value, float range)
+        {
+            float place = Middle + 0.5f * (float)value / range;
+            return float.IsNaN(place) ? Middle : Mathf.Clamp(place, 0.5f / Width, 1f - 0.5f / Width);
+        }
+
+        /// <summary>The texture.</summary>
+        public static Texture2D Create()
+        {
+            var pixels = new Color32[Width];
+            var blue = new Color(0.1f, 0.3f, 0.9f);
+            var grey = new Color(0.75f, 0.76f, 0.78f);
+            var red = new Color(0.9f, 0.15f, 0.1f);
+            for (int i = 0; i < Width; i++)
+            {
+                float place = 2f * i / (Width - 1) - 1f;
+                pixels[i] = Color.Lerp(grey, place < 0f ? blue : red, Mathf.Abs(place));
+            }
+            var texture = new Texture2D(Width, 1) { wrapMode = TextureWrapMode.Clamp, name = "Colours" };
+            texture.SetPixels32(pixels);
+            texture.Apply();
+            return texture;
+        }
+    }
+}

@@ -1,0 +1,146 @@
+using System.Collections.Generic;
+using System.Globalization;
+using System.Text;
+using Guidewire.Core;
+using Guidewire.Io;
+using Newtonsoft.Json.Linq;
+using UnityEngine;
+
+namespace Guidewire.Runtime
+{
+    /// <summary>Times, errors and outcome as text, and buttons for what can be switched while the wire goes on. The
+    /// text is made a few times a second, because each making leaves garbage.</summary>
+    public sealed class Hud : MonoBehaviour
+    {
+        private const float Every = 0.2f;     // s between two texts
+        private const float Width = 380f;     // pixels
+        private const float Line = 18f;
+
+        private static readonly string[] Units = { "", "", "1/unit", "rad/unit" };    // of each colouring
+
+        // Keys with a few words each that a wire can be switched between while it goes on.
+        private static readonly string[] Switchable = { "solver", "integrator", "sweepOrder", "elementContact" };
+
+        [SerializeField] private SimulationLoop _loop = null!;
+        [SerializeField] private WireView _wire = null!;
+        [SerializeField] private bool _showsHelp = true;
+
+        private readonly StringBuilder _builder = new StringBuilder(512);
+        private readonly List<ParameterEntry> _switches = new List<ParameterEntry>();
+        private readonly List<string> _labels = new List<string>();
+        private float _age = Every;
+        private int _lines;
+
+        /// <summary>Whether the keys are listed.</summary>
+        public bool ShowsHelp
+        {
+            get => _showsHelp;
+            set => _showsHelp = value;
+        }
+
+        /// <summary>The text as it stands on the screen.</summary>
+        public string Text { get; private set; } = "";
+
+        /// <summary>Makes the text anew.</summary>
+        public void Refresh()
+        {
+            _age = 0f;
+            _builder.Clear();
+            _lines = 0;
+            SimulationSession? session = _loop.Session;
+            if (session != null)
+            {
+                Write(session);
+                for (int i = 0; i < _switches.Count; i++)
+                {
+                    _labels[i] = _switches[i].Key + ": " + session.Get(_switches[i].Key);
+                }
+            }
+            if (_loop.Problem.Length > 0)
+            {
+                Append("STOPPED: {0}", _loop.Problem);
+                Append("R starts anew");
+            }
+            Text = _builder.ToString();
+        }
+
+        private void Awake()
+        {
+            foreach (string key in Switchable)
+            {
+                ParameterEntry? entry = ParameterTable.Find(key);
+                if (entry != null)
+                {
+                    _switches.Add(entry);
+                    _labels.Add(key);
+                }
+            }
+        }
+
+        private void Update()
+        {
+            _age += Time.deltaTime;
+            if (_age >= Every || _loop.Problem.Length > 0 != Text.Contains("STOPPED"))
+            {
+                Refresh();
+            }
+        }
+
+        private void OnGUI()
+        {
+            float height = Line * (_lines + 1);
+            GUI.Box(new Rect(8f, 8f, Width, height), GUIContent.none);
+            GUI.Label(new Rect(16f, 12f, Width - 16f, height), Text);
+            float y = 12f + height;
+            for (int i = 0; i < _switches.Count; i++)
+            {
+                if (GUI.Button(new Rect(8f, y, 0.5f * Width, Line + 4f), _labels[i]) && _loop.Session != null)
+                {
+                    _loop.Set(_switches[i].Key, Next(_switches[i], _loop.Session));
+                    Refresh();
+                }
+                y += Line + 6f;
+            }
+            if (_showsHelp)
+            {
+                GUI.Label(new Rect(16f, Screen.height - 8f * Line, 2f * Width, 8f * Line), KeyboardControl.Help);
+            }
+        }
+
+        private static JToken Next(ParameterEntry entry, SimulationSession session)
+        {
+            string now = (string?)session.Get(entry.Key) ?? "";
+            int place = 0;
+            while (place < entry.Choices.Count && entry.Choices[place] != now)
+            {
+                place++;
+            }
+            return entry.Choices[(place + 1) % entry.Choices.Count];
+        }
+
+        private void Write(SimulationSession session)
+        {
+            Simulation simulation = session.Simulation;
+            Append("in-game time {0:0.000} s   real time {1:0.0} s", simulation.Time, _loop.RealTime);
+            Append("step {0}   {1:0.000} ms a step", simulation.StepCount, session.StepTime);
+            Append("prediction error {0:0.0e+0} units", simulation.PredictionError);
+            Append("{0}{1}   {2} elements", simulation.Outcome.ToString().ToLowerInvariant(),
+                _loop.IsPaused ? " (paused)" : "", simulation.State.ElementCount);
+            if (simulation.Outcome != Outcome.Running)
+            {
+                Append("{0}", simulation.Reason);
+            }
+            if (_wire.Colouring != Colouring.Plain)
+            {
+                Append("colour: {0}, red at {1} {2}", _wire.Colouring.ToString().ToLowerInvariant(), _wire.Range,
+                    Units[(int)_wire.Colouring]);
+            }
+        }
+
+        private void Append(string format, params object[] values)
+        {
+            _builder.AppendFormat(CultureInfo.InvariantCulture, format, values).Append('\n');
+            _lines++;
+        }
+    }
+}

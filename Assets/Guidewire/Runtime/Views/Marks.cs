@@ -1,0 +1,69 @@
+using UnityEngine;
+
+namespace Guidewire.Runtime
+{
+    /// <summary>Balls and sticks for one frame: spheres, directors, contact points and forces. One mesh, drawn as
+    /// often as asked, so that nothing is kept and nothing is left as garbage.</summary>
+    internal static class Marks
+    {
+        private const int Rows = 8;
+        private const int Columns = 12;
+
+        /// <summary>A ball of radius 1 around the origin.</summary>
+        public static Mesh CreateBall()
+        {
+            var normals = new Vector3[(Rows + 1) * Columns];
+            var triangles = new int[6 * Rows * Columns];
+            int place = 0;
+            for (int a = 0; a < normals.Length; a++)
+            {
+                float latitude = Mathf.PI * (a / Columns) / Rows;
+                float longitude = 2f * Mathf.PI * (a % Columns) / Columns;
+                normals[a] = new Vector3(Mathf.Sin(latitude) * Mathf.Cos(longitude), Mathf.Cos(latitude),
+                    Mathf.Sin(latitude) * Mathf.Sin(longitude));
+                if (a / Columns < Rows)
+                {
+                    int b = a % Columns == Columns - 1 ? a + 1 - Columns : a + 1;
+                    triangles[place++] = a;
+                    triangles[place++] = b;
+                    triangles[place++] = a + Columns;
+                    triangles[place++] = b;
+                    triangles[place++] = b + Columns;
+                    triangles[place++] = a + Columns;
+                }
+            }
+            var mesh = new Mesh { name = "Ball" };
+            mesh.SetVertices(normals);
+            mesh.SetNormals(normals);
+            mesh.SetTriangles(triangles, 0);
+            return mesh;
+        }
+
+        /// <summary>A material of one colour, made from another.</summary>
+        public static Material Coloured(Material from, float red, float green, float blue)
+        {
+            return new Material(from) { mainTexture = null, color = new Color(red, green, blue) };
+        }
+
+        /// <summary>Draws a ball; nothing where its place is not finite.</summary>
+        public static void DrawBall(Mesh ball, Vector3 centre, float radius, Material material)
+        {
+            if (centre.IsFinite())
+            {
+                Graphics.DrawMesh(ball, Matrix4x4.TRS(centre, Quaternion.identity, radius * Vector3.one), material, 0);
+            }
+        }
+
+        /// <summary>Draws a ball drawn out to a stick from a place along a vector.</summary>
+        public static void DrawStick(Mesh ball, Vector3 from, Vector3 along, float radius, Material material)
+        {
+            float half = 0.5f * along.magnitude;
+            if (from.IsFinite() && half > 0f && !float.IsInfinity(half))
+            {
+                Quaternion rotation = Quaternion.FromToRotation(Vector3.forward, along);
+                var scale = new Vector3(radius, radius, half);
+                Graphics.DrawMesh(ball, Matrix4x4.TRS(from + 0.5f * along, rotation, scale), material, 0);
+            }
+        }
+    }
+}

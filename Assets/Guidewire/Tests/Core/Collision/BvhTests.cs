@@ -1,0 +1,121 @@
+using System;
+using Guidewire.Core;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>The hierarchy misses nothing: compared with a loop over all triangles.</summary>
+    [TestFixture]
+    internal sealed class BvhTests
+    {
+        private const double Tolerance = 1e-9;
+
+        [Test]
+        public void Nearest_AgreesWithTheLoopOverAllTriangles()
+        {
+            Compare(TestMeshes.Ball(12, 0.2).Corners, new RandomGeometry(21), 10_000);
+        }
+
+        [Test]
+        public void Nearest_AgreesWithTheLoop_OnLooseTrianglesAndNeedles()
+        {
+            var random = new RandomGeometry(22);
+            var corners = new Vector3d[3 * 300];
+            for (int t = 0; t < 300; t++)
+            {
+                Vector3d[] triangle = random.Triangle();
+                Array.Copy(triangle, 0, corners, 3 * t, 3);
+            }
+            Compare(corners, random, 5_000);
+        }
+
+        [Test]
+        public void Nearest_StaysRight_AfterRefits()
+        {
+            Vector3d[] corners = TestMeshes.Ball(8, 0.2).Corners;
+            var random = new RandomGeometry(23);
+            var tree = new Bvh(corners);
+            for (int i = 0; i < 5; i++)
+            {
+                var placement = new Placement(
+                    0.3 * random.Point(), random.Orientation(),
+                    new Vector3d(random.Number(0.5, 1.5), random.Number(0.5, 1.5), -random.Number(0.5, 1.5)));
+                Vector3d[] moved = Array.ConvertAll(corners, corner => placement.Apply(corner));
+                tree.Refit(moved);
+                Compare(tree, moved, random, RandomGeometry.Cases(1_000));
+            }
+        }
+
+        [Test]
+        public void Nearest_WithARange_FindsExactlyWhatIsWithinIt()
+        {
+            Vector3d[] corners = TestMeshes.Ball(10, 0.0).Corners;
+            var tree = new Bvh(corners);
+            var random = new RandomGeometry(24);
+            for (int i = 0; i < RandomGeometry.Cases(10_000); i++)
+            {
+                Vector3d[] s = random.Segment(Vector3d.UnitX);
+                double distance = BruteForce.Distance(s, corners, out _);
+                bool within = tree.Nearest(s[0], s[1], distance + Tolerance, -1, out _, out _, out _, out _) >= 0;
+                bool beyond = tree.Nearest(
+                    s[0], s[1], Math.Max(0.0, distance - Tolerance), -1, out _, out _, out _, out _) >= 0;
+                Assert.That(within, Is.True, "case " + i);
+                Assert.That(beyond && distance > Tolerance, Is.False, "case " + i);
+            }
+        }
+
+        [Test]
+        public void Nearest_DoesNotDependOnTheHint()
+        {
+            Vector3d[] corners = TestMeshes.Ball(12, 0.2).Corners;
+            var tree = new Bvh(corners);
+            var random = new RandomGeometry(25);
+            for (int i = 0; i < RandomGeometry.Cases(10_000); i++)
+            {
+                Vector3d[] s = random.Segment(Vector3d.UnitX);
+                tree.Nearest(s[0], s[1], 10.0, -1, out double plain, out _, out _, out _);
+                tree.Nearest(s[0], s[1], 10.0, random.Index(corners.Length / 3), out double hinted, out _, out _, out _);
+                Assert.That(hinted, Is.EqualTo(plain), "case " + i);
+            }
+        }
+
+        [Test]
+        public void Tree_OfManyEqualTriangles_IsBuiltAndSearched()
+        {
+            var corners = new Vector3d[3 * 1000];
+            for (int t = 0; t < 1000; t++)
+            {
+                corners[3 * t + 1] = Vector3d.UnitX;
+                corners[3 * t + 2] = Vector3d.UnitY;
+            }
+            var tree = new Bvh(corners);
+            tree.Nearest(Vector3d.UnitZ, Vector3d.UnitZ, 10.0, -1, out double squared, out _, out _, out _);
+            Assert.That(squared, Is.EqualTo(1.0).Within(Tolerance));
+        }
+
+        private static void Compare(Vector3d[] corners, RandomGeometry random, int all)
+        {
+            Compare(new Bvh(corners), corners, random, RandomGeometry.Cases(all));
+        }
+
+        private static void Compare(Bvh tree, Vector3d[] corners, RandomGeometry random, int cases)
+        {
+            double worst = 0.0;
+            for (int i = 0; i < cases; i++)
+            {
+                int t = 3 * random.Index(corners.Length / 3);
+                Vector3d[] s = random.Segment(corners[t + 1] - corners[t]);
+                int found = tree.Nearest(
+                    s[0], s[1], double.PositiveInfinity, -1, out double squared, out double position,
+                    out Vector3d point, out _);
+                double direct = BruteForce.Distance(
+                    s, new[] { corners[3 * found], corners[3 * found + 1], corners[3 * found + 2] });
+                worst = Math.Max(worst, Math.Abs(Math.Sqrt(squared) - BruteForce.Distance(s, corners, out _)));
+                worst = Math.Max(worst, Math.Abs(Math.Sqrt(squared) - direct));
+                worst = Math.Max(worst, Math.Abs(
+                    Math.Sqrt(squared) - Vector3d.Distance(point, Vector3d.Lerp(s[0], s[1], position))));
+            }
+            Assert.That(worst, Is.LessThan(Tolerance));
+        }
+    }
+}

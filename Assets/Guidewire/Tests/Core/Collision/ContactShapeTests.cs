@@ -1,0 +1,282 @@
+using System;
+using Guidewire.Core;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>What holds for every shape: the normal is the gradient of the distance, the inside is where the distance is
+    /// positive, and a swept segment meets no wall before its time of impact.</summary>
+    [TestFixture]
+    internal sealed class ContactShapeTests
+    {
+        // Central differences with step h: rounding 1e-16/h, curvature h^2/distance^2; both below 1e-6 at h = 1e-6
+        // for distances above 1e-3.
+        private const double Step = 1e-6;
+        private const double GradientTolerance = 1e-6;
+        private const double NearestToAWall = 1e-3;
+
+        private static readonly string[] Names =
+        {
+            "plane", "tube", "wavy tube", "cube", "bumpy ball", "open tube", "sphere", "capsule", "box", "hull",
+        };
+
+        private static readonly double[] StraightRadii = { 0.8, 0.8 };
+        private static readonly double[] WavyRadii = { 0.5, 0.7, 0.4, 0.6 };
+
+        [TestCaseSource(nameof(Names))]
+        public void Normal_IsTheGradientOfTheDistance(string name)
+        {
+            ContactShape shape = Make(name);
+            var random = new RandomGeometry(31);
+            int cases = RandomGeometry.Cases(20_000);
+            int tested = 0;
+            for (int i = 0; i < cases; i++)
+            {
+                Vector3d x = 1.5 * random.Point();
+                SurfaceContact contact = At(shape, x);
+                Vector3d gradient = new Vector3d(
+                    Slope(shape, x, Vector3d.UnitX), Slope(shape, x, Vector3d.UnitY), Slope(shape, x, Vector3d.UnitZ));
+
+                // Where two places are equally near the distance has a crease and its differences are shorter than 1.
+                if (Math.Abs(contact.Distance) < NearestToAWall || Math.Abs(gradient.Length - 1.0) > 1e-4)
+                {
+                    continue;
+                }
+                tested++;
+                Assert.That((gradient - contact.Normal).Length, Is.LessThan(GradientTolerance), "at " + x);
+            }
+            Assert.That(tested, Is.GreaterThan(9 * cases / 10));
+        }
+
+        [TestCase("cube")]
+        [TestCase("bumpy ball")]
+        public void Inside_AgreesWithTheWindingNumber(string name)
+        {
+            TestMeshes mesh = name == "cube" ? TestMeshes.Cube() : TestMeshes.Ball(9, 0.4);
+            ContactShape shape = Make(name);
+            var random = new RandomGeometry(32);
+            for (int i = 0; i < RandomGeometry.Cases(20_000); i++)
+            {
+                Vector3d x = 1.3 * random.Point();
+                bool inside = Math.Abs(mesh.WindingNumber(x)) > 0.5;
+                Assert.That(shape.Contains(x), Is.EqualTo(inside), "at " + x);
+                Assert.That(At(shape, x).Distance > 0.0, Is.EqualTo(inside), "at " + x);
+            }
+        }
+
+        [Test]
+        public void Inside_IsRight_BesideEdgesAndCorners()
+        {
+            // Points displaced from corners and edges of a dented ball, where a plain face normal gives the wrong side.
+            TestMeshes mesh = TestMeshes.Ball(9, 0.4);
+            ContactShape shape = Make("bumpy ball");
+            var random = new RandomGeometry(33);
+            Vector3d[] corners = mesh.Corners;
+            for (int i = 0; i < RandomGeometry.Cases(20_000); i++)
+            {
+                int t = 3 * random.Index(corners.Length / 3);
+                Vector3d on = random.Index(2) == 0 ? corners[t]
+                    : Vector3d.Lerp(corners[t], corners[t + 1], random.Number(0.0, 1.0));
+                Vector3d x = on + 1e-3 * random.Direction();
+                Assert.That(shape.Contains(x), Is.EqualTo(Math.Abs(mesh.WindingNumber(x)) > 0.5), "at " + x);
+            }
+        }
+
+        [TestCaseSource(nameof(Names))]
+        public void Nearest_OfASegment_IsTheSmallestDistanceOfItsPoints(string name)
+        {
+            ContactShape shape = Make(name);
+            var random = new RandomGeometry(34);
+            for (int i = 0; i < RandomGeometry.Cases(3_000); i++)
+            {
+                if (!FreeSegment(shape, random, out Vector3d a, out Vector3d b))
+                {
+                    continue;
+                }
+                int hint = -1;
+                shape.Nearest(a, b, double.PositiveInfinity, ref hint, out SurfaceContact contact);
+                Vector3d touching = Vector3d.Lerp(a, b, contact.Position);
+                Assert.That(contact.Distance, Is.EqualTo(At(shape, touching).Distance).Within(1e-9), "case " + i);
+                Assert.That(
+                    (contact.Point + contact.Distance * contact.Normal - touching).Length, Is.LessThan(1e-9), "case " + i);
+                for (int k = 0; k <= 50; k++)
+                {
+                    double sample = At(shape, Vector3d.Lerp(a, b, k / 50.0)).Distance;
+                    Assert.That(contact.Distance, Is.LessThanOrEqualTo(sample + 1e-9), "case " + i + " at " + k);
+                }
+            }
+        }
+
+        [TestCaseSource(nameof(Names))]
+        public void Sweep_KeepsItsDistanceUntilTheImpact_AndSeesEveryPassage(string name)
+        {
+            const double Clearance = 1e-3;
+            ContactShape shape = Make(name);
+            var random = new RandomGeometry(35);
+            int impacts = 0;
+            int passes = 0;
+            for (int i = 0; i < RandomGeometry.Cases(20_000); i++)
+            {
+                if (!FreeSegment(shape, random, out Vector3d a0, out Vector3d b0))
+                {
+                    continue;
+                }
+                Vector3d a1 = a0 + random.Number(0.0, 2.0) * random.Point();
+                Vector3d b1 = b0 + random.Number(0.0, 2.0) * random.Point();
+                double impact = shape.Sweep(a0, b0, a1, b1, Clearance, out SurfaceContact contact);
+                double until = Math.Min(1.0, impact);
+                double keep = Math.Min(Clearance, 0.5 * Smallest(shape, a0, b0)) - 1e-9;
+                bool met = false;
+                for (int k = 0; k <= 40; k++)
+                {
+                    double time = k / 40.0;
+                    double distance = Smallest(shape, Vector3d.Lerp(a0, a1, time), Vector3d.Lerp(b0, b1, time));
+                    if (time <= until)
+                    {
+                        Assert.That(distance, Is.GreaterThanOrEqualTo(keep), "case " + i + " at " + time);
+                    }
+                    met |= distance <= 0.0;
+                }
+                Assert.That(met && impact > 1.0, Is.False, "case " + i + " met a wall that the sweep did not see");
+                if (impact <= 1.0)
+                {
+                    impacts++;
+                    Assert.That(contact.Distance, Is.LessThan(Clearance + 0.05), "case " + i);
+                }
+                passes += impact > 1.0 ? 1 : 0;
+            }
+            Assert.That(impacts, Is.GreaterThan(0));
+            Assert.That(passes, Is.GreaterThan(0));
+        }
+
+        [Test]
+        public void Sweep_AlongAFlatWall_IsFreeHoweverFar()
+        {
+            ContactShape cube = Make("cube");
+            double impact = cube.Sweep(
+                new Vector3d(-0.9, 0.1, -0.999), new Vector3d(-0.8, 0.1, -0.999), new Vector3d(0.8, -0.3, -0.999),
+                new Vector3d(0.9, -0.3, -0.999), 1e-2, out _);
+            Assert.That(impact, Is.EqualTo(ContactShape.NoImpact));
+        }
+
+        [Test]
+        public void Sweep_FindsTheMomentOfImpact()
+        {
+            // From z = 0 towards the wall at z = -1 with speed 4: contact at 1/4, less the clearance.
+            ContactShape cube = Make("cube");
+            double impact = cube.Sweep(
+                new Vector3d(0.1, 0.2, 0.0), new Vector3d(0.4, 0.2, 0.0), new Vector3d(0.1, 0.2, -4.0),
+                new Vector3d(0.4, 0.2, -4.0), 1e-3, out SurfaceContact contact);
+            Assert.That(impact, Is.EqualTo(0.25 * (1.0 - 1e-3)).Within(1e-9));
+            Assert.That((contact.Normal - Vector3d.UnitZ).Length, Is.LessThan(1e-9));
+        }
+
+        [Test]
+        public void Mesh_PlacedScaledAndMirrored_KeepsItsNormalsInward()
+        {
+            var shape = new MeshShape(TestMeshes.Cube().Build());
+            foreach (double sign in new[] { 1.0, -1.0 })
+            {
+                Quaterniond turn = Placement.FromEulerDegrees(new Vector3d(30.0, 20.0, 10.0));
+                shape.Place(new Placement(new Vector3d(5.0, 6.0, 7.0), turn, new Vector3d(2.0, 3.0 * sign, 4.0)));
+                Vector3d x = new Vector3d(5.0, 6.0, 7.0) + 2.5 * turn.Director2;
+                SurfaceContact contact = At(shape, x);
+                Assert.That(contact.Distance, Is.EqualTo(0.5).Within(1e-12));
+                Assert.That((contact.Normal + turn.Director2).Length, Is.LessThan(1e-12));
+                Assert.That(shape.Contains(x), Is.True);
+                Assert.That(shape.Contains(x + turn.Director2), Is.False);
+            }
+        }
+
+        [Test]
+        public void EulerAngles_TurnAboutZThenXThenY()
+        {
+            // Unity: Quaternion.Euler(90, 0, 0) takes +y to +z; (0, 90, 0) takes +z to +x; (0, 0, 90) takes +x to +y.
+            AssertTurn(new Vector3d(90.0, 0.0, 0.0), Vector3d.UnitY, Vector3d.UnitZ);
+            AssertTurn(new Vector3d(0.0, 90.0, 0.0), Vector3d.UnitZ, Vector3d.UnitX);
+            AssertTurn(new Vector3d(0.0, 0.0, 90.0), Vector3d.UnitX, Vector3d.UnitY);
+            AssertTurn(new Vector3d(90.0, 0.0, 90.0), Vector3d.UnitX, Vector3d.UnitZ);
+            AssertTurn(new Vector3d(0.0, 90.0, 90.0), Vector3d.UnitX, Vector3d.UnitY);
+        }
+
+        private static void AssertTurn(in Vector3d degrees, in Vector3d from, in Vector3d to)
+        {
+            Vector3d turned = Quaterniond.Rotate(Placement.FromEulerDegrees(degrees), from);
+            Assert.That((turned - to).Length, Is.LessThan(1e-12), "Euler angles " + degrees);
+        }
+
+        private static ContactShape Make(string name)
+        {
+            var random = new RandomGeometry(36);
+            switch (name)
+            {
+                case "plane":
+                    return new PlaneShape(0.2 * random.Point(), random.Direction());
+                case "tube":
+                    return new TubeShape(
+                        new[] { -2.0 * Vector3d.UnitZ, 2.0 * Vector3d.UnitZ }, StraightRadii, true, true);
+                case "wavy tube":
+                    return new TubeShape(
+                        new[]
+                        {
+                            new Vector3d(0.0, 0.0, -1.2), new Vector3d(0.1, 0.0, -0.3), new Vector3d(0.5, 0.2, 0.4),
+                            new Vector3d(0.2, 0.8, 1.1),
+                        },
+                        WavyRadii, true, false);
+                case "cube":
+                    return new MeshShape(TestMeshes.Cube().Build());
+                case "bumpy ball":
+                    return new MeshShape(TestMeshes.Ball(9, 0.4).Build());
+                case "open tube":
+                    return new MeshShape(
+                        TestMeshes.Tube(16, 8, 6.0).Build(Vector3d.Zero, new Vector3d(0.0, 0.0, 6.0)),
+                        new Placement(new Vector3d(0.0, 0.0, -3.0), Quaterniond.Identity, new Vector3d(1.0, 1.0, 1.0)));
+                case "sphere":
+                    return ConvexObstacle.Sphere(0.2 * random.Point(), 0.4);
+                case "capsule":
+                    return ConvexObstacle.Capsule(0.5 * random.Point(), 0.5 * random.Point(), 0.3);
+                case "box":
+                    return ConvexObstacle.Box(
+                        0.2 * random.Point(), new Vector3d(0.3, 0.5, 0.7), random.Orientation());
+                default:
+                    var points = new Vector3d[20];
+                    for (int i = 0; i < points.Length; i++)
+                    {
+                        points[i] = 0.6 * random.Point();
+                    }
+                    return new ConvexObstacle(points, 0.05);
+            }
+        }
+
+        private static SurfaceContact At(ContactShape shape, in Vector3d x)
+        {
+            int hint = -1;
+            shape.Nearest(x, x, double.PositiveInfinity, ref hint, out SurfaceContact contact);
+            return contact;
+        }
+
+        private static double Smallest(ContactShape shape, in Vector3d a, in Vector3d b)
+        {
+            int hint = -1;
+            shape.Nearest(a, b, double.PositiveInfinity, ref hint, out SurfaceContact contact);
+            return contact.Distance;
+        }
+
+        private static double Slope(ContactShape shape, in Vector3d x, in Vector3d axis)
+        {
+            return (At(shape, x + Step * axis).Distance - At(shape, x - Step * axis).Distance) / (2.0 * Step);
+        }
+
+        private static bool FreeSegment(ContactShape shape, RandomGeometry random, out Vector3d a, out Vector3d b)
+        {
+            a = random.Point();
+            b = a + random.Number(0.0, 1.0) * random.Point();
+            bool free = Smallest(shape, a, b) > 1e-3;
+            for (int k = 0; k <= 20 && free; k++)
+            {
+                free = At(shape, Vector3d.Lerp(a, b, k / 20.0)).Distance > 1e-3;
+            }
+            return free;
+        }
+    }
+}

@@ -1,0 +1,87 @@
+using System;
+using Guidewire.Core;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>Seeded random points and figures of size 1, among them the awkward ones.</summary>
+    internal sealed class RandomGeometry
+    {
+        private readonly Random _random;
+
+        public RandomGeometry(int seed)
+        {
+            _random = new Random(seed);
+        }
+
+        /// <summary>How many cases to try: all of them when the environment variable GUIDEWIRE_ALL is set, a tenth
+        /// otherwise.</summary>
+        public static int Cases(int all)
+        {
+            bool full = !string.IsNullOrEmpty(Environment.GetEnvironmentVariable("GUIDEWIRE_ALL"));
+            return full ? all : all / 10;
+        }
+
+        public double Number(double from, double to)
+        {
+            return from + (to - from) * _random.NextDouble();
+        }
+
+        public int Index(int count)
+        {
+            return _random.Next(count);
+        }
+
+        /// <summary>A point in the cube from -1 to 1.</summary>
+        public Vector3d Point()
+        {
+            return new Vector3d(Number(-1.0, 1.0), Number(-1.0, 1.0), Number(-1.0, 1.0));
+        }
+
+        public Vector3d Direction()
+        {
+            while (true)
+            {
+                Vector3d v = Point();
+                if (v.Length > 0.1 && v.Length <= 1.0)
+                {
+                    return Vector3d.Normalize(v);
+                }
+            }
+        }
+
+        public Quaterniond Orientation()
+        {
+            return Quaterniond.FromAxisAngle(Direction(), Number(0.0, 2.0 * Math.PI));
+        }
+
+        /// <summary>A triangle; one in four is a needle, down to a height of 1e-12.</summary>
+        public Vector3d[] Triangle()
+        {
+            var triangle = new[] { Point(), Point(), Point() };
+            if (Index(4) == 0)
+            {
+                double height = Math.Pow(10.0, Number(-12.0, -1.0));
+                triangle[2] = Vector3d.Lerp(triangle[0], triangle[1], Number(-0.2, 1.2)) + height * Direction();
+            }
+            return triangle;
+        }
+
+        /// <summary>A segment; one in four is nearly parallel to the direction given, one in eight has no length.
+        /// </summary>
+        public Vector3d[] Segment(in Vector3d direction)
+        {
+            Vector3d a = Point();
+            switch (Index(8))
+            {
+                case 0:
+                case 1:
+                    Vector3d along = Number(-1.0, 1.0) * direction;
+                    return new[] { a, a + along + Math.Pow(10.0, Number(-16.0, -2.0)) * Direction() };
+                case 2:
+                    return new[] { a, a };
+                default:
+                    return new[] { a, Point() };
+            }
+        }
+    }
+}

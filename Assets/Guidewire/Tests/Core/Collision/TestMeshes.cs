@@ -1,0 +1,146 @@
+using System;
+using System.Collections.Generic;
+using Guidewire.Core;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>Closed and open surfaces with known insides, as vertices and triangles.</summary>
+    internal sealed class TestMeshes
+    {
+        private readonly List<Vector3d> _vertices = new List<Vector3d>();
+        private readonly List<int> _triangles = new List<int>();
+
+        public Vector3d[] Vertices => _vertices.ToArray();
+
+        public int[] Triangles => _triangles.ToArray();
+
+        public Vector3d[] Corners => Array.ConvertAll(Triangles, i => _vertices[i]);
+
+        /// <summary>The cube from -1 to 1.</summary>
+        public static TestMeshes Cube()
+        {
+            var mesh = new TestMeshes();
+            for (int k = 0; k < 8; k++)
+            {
+                mesh._vertices.Add(new Vector3d((k & 1) * 2 - 1, (k & 2) - 1, (k & 4) / 2 - 1));
+            }
+            mesh.Quad(0, 1, 3, 2);
+            mesh.Quad(4, 6, 7, 5);
+            mesh.Quad(0, 4, 5, 1);
+            mesh.Quad(2, 3, 7, 6);
+            mesh.Quad(0, 2, 6, 4);
+            mesh.Quad(1, 5, 7, 3);
+            return mesh;
+        }
+
+        /// <summary>A closed sphere whose radius varies by <paramref name="bumps"/>: with dents, so that edges and corners
+        /// point both ways. 2 rings (rings - 1) 2 triangles.</summary>
+        public static TestMeshes Ball(int rings, double bumps)
+        {
+            var mesh = new TestMeshes();
+            int around = 2 * rings;
+            mesh._vertices.Add(new Vector3d(0.0, 0.0, 1.0));
+            mesh._vertices.Add(new Vector3d(0.0, 0.0, -1.0));
+            for (int i = 1; i < rings; i++)
+            {
+                for (int k = 0; k < around; k++)
+                {
+                    double theta = Math.PI * i / rings;
+                    double phi = 2.0 * Math.PI * k / around;
+                    double r = 1.0 + bumps * Math.Sin(3.0 * phi) * Math.Sin(theta) * Math.Sin(4.0 * theta);
+                    mesh._vertices.Add(new Vector3d(
+                        r * Math.Sin(theta) * Math.Cos(phi), r * Math.Sin(theta) * Math.Sin(phi), r * Math.Cos(theta)));
+                }
+            }
+            for (int k = 0; k < around; k++)
+            {
+                int next = (k + 1) % around;
+                mesh.Triangle(0, 2 + k, 2 + next);
+                mesh.Triangle(1, 2 + (rings - 2) * around + next, 2 + (rings - 2) * around + k);
+                for (int i = 0; i + 2 < rings; i++)
+                {
+                    int first = 2 + i * around;
+                    mesh.Quad(first + k, first + around + k, first + around + next, first + next);
+                }
+            }
+            return mesh;
+        }
+
+        /// <summary>A tube of radius 1 along z from 0 to <paramref name="length"/>, open at both ends.</summary>
+        public static TestMeshes Tube(int around, int rows, double length)
+        {
+            var mesh = new TestMeshes();
+            for (int i = 0; i <= rows; i++)
+            {
+                for (int k = 0; k < around; k++)
+                {
+                    double phi = 2.0 * Math.PI * k / around;
+                    mesh._vertices.Add(new Vector3d(Math.Cos(phi), Math.Sin(phi), length * i / rows));
+                }
+            }
+            for (int i = 0; i < rows; i++)
+            {
+                for (int k = 0; k < around; k++)
+                {
+                    int next = (k + 1) % around;
+                    mesh.Quad(
+                        i * around + k, i * around + next, (i + 1) * around + next, (i + 1) * around + k);
+                }
+            }
+            return mesh;
+        }
+
+        public void Triangle(int i, int j, int k)
+        {
+            _triangles.Add(i);
+            _triangles.Add(j);
+            _triangles.Add(k);
+        }
+
+        public int Vertex(in Vector3d vertex)
+        {
+            _vertices.Add(vertex);
+            return _vertices.Count - 1;
+        }
+
+        public void Remove(int triangle)
+        {
+            _triangles.RemoveRange(3 * triangle, 3);
+        }
+
+        public void Turn(int triangle)
+        {
+            int i = _triangles[3 * triangle];
+            _triangles[3 * triangle] = _triangles[3 * triangle + 1];
+            _triangles[3 * triangle + 1] = i;
+        }
+
+        public TriangleMesh Build(params Vector3d[] rims)
+        {
+            return TriangleMesh.Create(Vertices, Triangles, rims);
+        }
+
+        /// <summary>How often the closed surface winds around a point: the sum of the solid angles of its triangles
+        /// (Van Oosterom and Strackee 1983) over 4 pi.</summary>
+        public double WindingNumber(in Vector3d p)
+        {
+            double sum = 0.0;
+            for (int t = 0; t < _triangles.Count; t += 3)
+            {
+                Vector3d a = _vertices[_triangles[t]] - p;
+                Vector3d b = _vertices[_triangles[t + 1]] - p;
+                Vector3d c = _vertices[_triangles[t + 2]] - p;
+                double bottom = a.Length * b.Length * c.Length + Vector3d.Dot(a, b) * c.Length
+                    + Vector3d.Dot(b, c) * a.Length + Vector3d.Dot(c, a) * b.Length;
+                sum += 2.0 * Math.Atan2(Vector3d.Dot(a, Vector3d.Cross(b, c)), bottom);
+            }
+            return sum / (4.0 * Math.PI);
+        }
+
+        private void Quad(int i, int j, int k, int l)
+        {
+            Triangle(i, j, k);
+            Triangle(i, k, l);
+        }
+    }
+}

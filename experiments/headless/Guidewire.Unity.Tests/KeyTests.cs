@@ -1,0 +1,193 @@
+using System;
+using Guidewire.Core;
+using Guidewire.Runtime;
+using NUnit.Framework;
+using UnityEngine;
+using UnityStubs;
+
+namespace Guidewire.Unity.Tests
+{
+    /// <summary>What each key and the mouse do, in the scene that a user steers.</summary>
+    [TestFixture]
+    public sealed class KeyTests
+    {
+        [SetUp]
+        public void Open()
+        {
+            Stage.OpenInsertion();
+            Stage.Frames(2);
+        }
+
+        [TearDown]
+        public void Leave()
+        {
+            Engine.Unload();
+        }
+
+        private static double Along()
+        {
+            return Stage.State.Positions[0].Z;
+        }
+
+        [TestCase(KeyCode.W, 1)]
+        [TestCase(KeyCode.UpArrow, 1)]
+        [TestCase(KeyCode.S, -1)]
+        [TestCase(KeyCode.DownArrow, -1)]
+        public void PushAndPull_MoveSphere0AlongTheWire(KeyCode key, int sign)
+        {
+            double before = Along();
+            double time = Stage.Loop.Session!.Simulation.Time;
+            Engine.Press(key);
+            Stage.Frames(30);
+            double moved = Along() - before;
+            Assert.That(moved, Is.EqualTo(sign * 40.0 * (Stage.Loop.Session!.Simulation.Time - time)).Within(0.2),
+                "40 units a second of in-game time");
+            Assert.That(Math.Abs(moved), Is.GreaterThan(1.0));
+            Engine.Release(key);
+            Stage.Frames(1);
+            double after = Along();
+            Stage.Frames(10);
+            Assert.That(Along(), Is.EqualTo(after), "it is held where it was left");
+        }
+
+        [Test]
+        public void Space_PausesAndGoesOn()
+        {
+            Stage.Tap(KeyCode.Space);
+            int steps = Stage.Loop.Session!.Simulation.StepCount;
+            double real = Stage.Loop.RealTime;
+            Stage.Frames(10);
+            Assert.That(Stage.Loop.Session.Simulation.StepCount, Is.EqualTo(steps));
+            Assert.That(Stage.Loop.RealTime, Is.EqualTo(real), "a pause is not counted");
+            Stage.Tap(KeyCode.Space);
+            Stage.Frames(10);
+            Assert.That(Stage.Loop.Session.Simulation.StepCount, Is.GreaterThan(steps));
+        }
+
+        [Test]
+        public void N_MakesOneStepAndPauses()
+        {
+            Stage.Tap(KeyCode.Space);
+            int steps = Stage.Loop.Session!.Simulation.StepCount;
+            Stage.Tap(KeyCode.N);
+            Stage.Frames(5);
+            Assert.That(Stage.Loop.Session.Simulation.StepCount, Is.EqualTo(steps + 1));
+            Assert.That(Stage.Loop.IsPaused, Is.True);
+        }
+
+        [Test]
+        public void R_StartsAnew()
+        {
+            Engine.Press(KeyCode.W);
+            Stage.Frames(30);
+            Engine.Release(KeyCode.W);
+            Stage.Tap(KeyCode.Space);
+            Stage.Tap(KeyCode.R);
+            Assert.That(Stage.Loop.Generation, Is.EqualTo(2));
+            Assert.That(Stage.Loop.Session!.Simulation.StepCount, Is.EqualTo(0), "still paused");
+            Assert.That(Along(), Is.EqualTo(Stage.Loop.Session.Parameters.GuidewireOffset));
+        }
+
+        [Test]
+        public void C_GoesThroughTheColourings()
+        {
+            Colouring first = Stage.Wire.Colouring;
+            for (int k = 1; k <= 4; k++)
+            {
+                Stage.Tap(KeyCode.C);
+                Assert.That((int)Stage.Wire.Colouring, Is.EqualTo(((int)first + k) % 4));
+            }
+        }
+
+        [Test]
+        public void B_DrawsEverySphereWhereItIs()
+        {
+            Stage.Tap(KeyCode.B);
+            Stage.Frames(1);
+            for (int i = 0; i < Stage.State.SphereCount; i++)
+            {
+                Vector3 centre = Stage.State.Positions[i].ToUnity();
+                bool isDrawn = Engine.Drawn.Exists(mark =>
+                    Vector3.Distance(mark.Place.MultiplyPoint3x4(Vector3.zero), centre) < 1e-3f);
+                Assert.That(isDrawn, Is.True, "sphere " + i);
+            }
+            Stage.Tap(KeyCode.B);
+            Stage.Frames(1);
+            Assert.That(Stage.Wire.ShowsSpheres, Is.False);
+        }
+
+        [Test]
+        public void G_DrawsThreeDirectorsAnElement()
+        {
+            int before = Engine.Drawn.Count;
+            Stage.Tap(KeyCode.G);
+            Stage.Frames(1);
+            Assert.That(Engine.Drawn.Count - before, Is.EqualTo(3 * Stage.State.ElementCount));
+
+            // The third of element 0 lies along it: its far end is beyond the middle along d3.
+            RodState state = Stage.State;
+            Vector3 middle = (0.5 * (state.Positions[0] + state.Positions[1])).ToUnity();
+            Matrix4x4 place = Engine.Drawn[before + 2].Place;
+            Vector3 end = place.MultiplyPoint3x4(Vector3.forward) - middle;
+            Assert.That(Vector3.Dot(end.normalized, state.Orientations[0].Director3.ToUnity()),
+                Is.EqualTo(1f).Within(1e-4f));
+        }
+
+        [Test]
+        public void H_ShowsAndHidesTheKeys()
+        {
+            Assert.That(Engine.Labels, Does.Contain(KeyboardControl.Help));
+            Stage.Tap(KeyCode.H);
+            Assert.That(Engine.Labels, Does.Not.Contain(KeyboardControl.Help));
+        }
+
+        [Test]
+        public void T_KeepsTheTipInTheMiddle()
+        {
+            Stage.Tap(KeyCode.T);
+            Stage.Frames(1);
+            Transform camera = Engine.Find<OrbitCamera>().transform;
+            Vector3 tip = Stage.State.Positions[Stage.State.ElementCount].ToUnity();
+            Vector3 towards = (tip - camera.position).normalized;
+            Assert.That(Vector3.Dot(towards, camera.rotation * Vector3.forward), Is.EqualTo(1f).Within(1e-5f));
+        }
+
+        [Test]
+        public void RightButton_OrbitsAndWheelZooms()
+        {
+            Transform camera = Engine.Find<OrbitCamera>().transform;
+            Engine.Mouse(100f, 100f, -1, 0f);
+            Stage.Frames(1);
+            Vector3 first = camera.position;
+            Engine.Mouse(200f, 100f, -1, 0f);
+            Stage.Frames(1);
+            Assert.That(camera.position, Is.EqualTo(first), "without the button nothing turns");
+            Engine.Mouse(300f, 100f, 1, 0f);
+            Stage.Frames(1);
+            Assert.That(Vector3.Distance(camera.position, first), Is.GreaterThan(50f), "30 degrees");
+            Vector3 middle = camera.position + camera.rotation * Vector3.forward * 420f;
+            Engine.Mouse(300f, 100f, -1, 3f);
+            Stage.Frames(1);
+            Assert.That(Vector3.Distance(camera.position, middle), Is.EqualTo(420f * Mathf.Exp(-0.3f)).Within(0.1f));
+        }
+
+        [TestCase("integrator", "euler")]
+        [TestCase("sweepOrder", "bilateral")]
+        public void Button_SwitchesInFlight(string key, string expected)
+        {
+            Stage.Frames(10);
+            Vector3d tip = Stage.State.Positions[30];
+            Stage.Tap(KeyCode.Space);
+            int steps = Stage.Loop.Session!.Simulation.StepCount;
+            Engine.Click = key;
+            Stage.Frames(1);
+            Assert.That((string?)Stage.Loop.Session.Get(key), Is.EqualTo(expected));
+            Assert.That(Stage.Loop.Session.Simulation.StepCount, Is.EqualTo(steps));
+            Assert.That(Vector3d.Distance(Stage.State.Positions[30], tip), Is.LessThan(1.0));
+            Stage.Tap(KeyCode.Space);
+            Stage.Frames(5);
+            Assert.That(Stage.Loop.Session.Simulation.StepCount, Is.GreaterThan(steps));
+            Assert.That(Stage.Loop.Problem, Is.EqualTo(""));
+        }
+    }
+}

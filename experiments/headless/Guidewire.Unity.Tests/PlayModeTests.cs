@@ -1,0 +1,22 @@
+using System.Collections;
+using NUnit.Framework;
+using UnityStubs;
+
+namespace Guidewire.Unity.Tests
+{
+    /// <summary>Unity's own PlayMode test, its frames made by the stub engine.</summary>
+    [TestFixture]
+    public sealed class PlayModeTests
+    {
+        [Test]
+        public void WirePlayTests_Pass()
+        {
+            Engine.Reset(Stage.Root);
+            IEnumerator frames = new WirePlayTests().Loop_StepsTheWire_FrameByFrame();
+            while (frames.MoveNext())
+            {
+                Engine.Frame(Stage.Frame);
+            }
+        }
+    }
+}

@@ -1,0 +1,61 @@
+using System.IO;
+using Guidewire.Editor;
+using NUnit.Framework;
+using UnityEditor;
+using UnityEditor.Build.Reporting;
+using UnityEngine;
+using UnityStubs;
+
+namespace Guidewire.Unity.Tests
+{
+    [TestFixture]
+    public sealed class PlayerBuildTests
+    {
+        private string _before = "";
+
+        [SetUp]
+        public void Enter()
+        {
+            Engine.Reset(Stage.Root);
+            Application.isBatchMode = true;
+            _before = Directory.GetCurrentDirectory();
+            string project = Path.Combine(TestContext.CurrentContext.WorkDirectory, "project");
+            Directory.CreateDirectory(Path.Combine(project, "params", "vessels"));
+            File.WriteAllText(Path.Combine(project, "params", "a.json"), "{}");
+            File.WriteAllText(Path.Combine(project, "params", "vessels", "b.obj"), "");
+            Directory.SetCurrentDirectory(project);
+            EditorBuildSettings.scenes = new[]
+            {
+                new EditorBuildSettingsScene("One.unity", true), new EditorBuildSettingsScene("Two.unity", false),
+            };
+        }
+
+        [TearDown]
+        public void Leave()
+        {
+            Directory.SetCurrentDirectory(_before);
+        }
+
+        [Test]
+        public void Linux_TakesTheEnabledScenesAndTheParameters()
+        {
+            BuildPipeline.Next = BuildResult.Succeeded;
+            PlayerBuild.Linux();
+            Assert.That(Engine.ExitCode, Is.EqualTo(0));
+            Assert.That(BuildPipeline.Last.scenes, Is.EqualTo(new[] { "One.unity" }));
+            Assert.That(BuildPipeline.Last.target, Is.EqualTo(BuildTarget.StandaloneLinux64));
+            Assert.That(File.Exists("Build/Linux/params/a.json"), Is.True);
+            Assert.That(File.Exists("Build/Linux/params/vessels/b.obj"), Is.True);
+        }
+
+        [TestCase(BuildResult.Failed)]
+        [TestCase(BuildResult.Cancelled)]
+        [TestCase(BuildResult.Unknown)]
+        public void FailedBuild_NeverEndsWith0(BuildResult result)
+        {
+            BuildPipeline.Next = result;
+            PlayerBuild.Windows();
+            Assert.That(Engine.ExitCode, Is.EqualTo(70));
+        }
+    }
+}

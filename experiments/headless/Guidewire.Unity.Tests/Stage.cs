@@ -1,0 +1,84 @@
+using System.Collections.Generic;
+using System.IO;
+using Guidewire.Core;
+using Guidewire.Runtime;
+using NUnit.Framework;
+using UnityEngine;
+using UnityStubs;
+
+namespace Guidewire.Unity.Tests
+{
+    /// <summary>A scene file of the project, played frame by frame.</summary>
+    internal static class Stage
+    {
+        /// <summary>Real time of a frame in s.</summary>
+        public const float Frame = 1f / 60f;
+
+        /// <summary>Folder that holds Assets.</summary>
+        public static string Root { get; } = FindRoot();
+
+        public static SimulationLoop Loop => Engine.Find<SimulationLoop>();
+
+        public static WireView Wire => Engine.Find<WireView>();
+
+        public static RodState State => Loop.Session!.Simulation.State;
+
+        /// <summary>Scenes in the order of the build settings.</summary>
+        public static IEnumerable<string> Scenes()
+        {
+            foreach (string line in File.ReadLines(Path.Combine(Root, "ProjectSettings", "EditorBuildSettings.asset")))
+            {
+                if (line.Trim().StartsWith("path: ", System.StringComparison.Ordinal))
+                {
+                    yield return line.Trim().Substring(6);
+                }
+            }
+        }
+
+        /// <summary>Opens a scene; its objects are awake, no frame has been.</summary>
+        public static void Open(string scene)
+        {
+            Engine.Reset(Root);
+            Engine.Enter(SceneFile.Read(Root, scene, typeof(SimulationLoop).Assembly));
+        }
+
+        /// <summary>Opens the scene in which the wire is steered by hand.</summary>
+        public static void OpenInsertion()
+        {
+            Open("Assets/Guidewire/Scenes/Insertion.unity");
+        }
+
+        public static void Frames(int count)
+        {
+            for (int k = 0; k < count; k++)
+            {
+                Engine.Frame(Frame);
+            }
+        }
+
+        /// <summary>Presses a key for one frame.</summary>
+        public static void Tap(KeyCode key)
+        {
+            Engine.Press(key);
+            Frames(1);
+            Engine.Release(key);
+        }
+
+        /// <summary>An error with these words was logged.</summary>
+        public static void AssertLogged(LogType type, string words)
+        {
+            Assert.That(Engine.Console.Exists(line => line.Type == type && line.Text.Contains(words)), Is.True,
+                words + " is not among: " + string.Join(" | ", Engine.Console));
+        }
+
+        private static string FindRoot()
+        {
+            string? folder = TestContext.CurrentContext.TestDirectory;
+            while (folder != null && !Directory.Exists(Path.Combine(folder, "ProjectSettings")))
+            {
+                folder = Path.GetDirectoryName(folder);
+            }
+            return folder ?? throw new DirectoryNotFoundException("no folder above the tests holds ProjectSettings");
+        }
+    }
+}

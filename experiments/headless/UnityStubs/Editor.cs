@@ -1,0 +1,130 @@
+using System;
+using System.Collections.Generic;
+using UnityEngine;
+
+namespace UnityEditor
+{
+    public static class EditorApplication
+    {
+        public static void Exit(int returnValue)
+        {
+            UnityStubs.Engine.ExitCode = returnValue;
+        }
+    }
+
+    [AttributeUsage(AttributeTargets.Method)]
+    public sealed class MenuItem : Attribute
+    {
+        public MenuItem(string itemName)
+        {
+        }
+    }
+
+    [AttributeUsage(AttributeTargets.Class)]
+    public sealed class CustomPropertyDrawer : Attribute
+    {
+        public CustomPropertyDrawer(Type type)
+        {
+        }
+    }
+
+    public abstract class PropertyDrawer
+    {
+        public PropertyAttribute attribute { get; internal set; }
+
+        public virtual void OnGUI(Rect position, SerializedProperty property, GUIContent label)
+        {
+        }
+    }
+
+    public class SerializedProperty
+    {
+    }
+
+    public static class EditorGUI
+    {
+        public static bool PropertyField(Rect position, SerializedProperty property, GUIContent label)
+        {
+            UnityStubs.Engine.Show(label.text + "\n" + label.tooltip);
+            return false;
+        }
+    }
+
+    public enum BuildTarget
+    {
+        StandaloneWindows64 = 19,
+        StandaloneLinux64 = 24,
+    }
+
+    public enum BuildTargetGroup
+    {
+        Unknown = 0,
+        Standalone = 1,
+    }
+
+    public struct BuildPlayerOptions
+    {
+        public string[] scenes { get; set; }
+
+        public string locationPathName { get; set; }
+
+        public BuildTarget target { get; set; }
+
+        public BuildTargetGroup targetGroup { get; set; }
+    }
+
+    public sealed class EditorBuildSettingsScene
+    {
+        public EditorBuildSettingsScene(string path, bool enabled)
+        {
+            this.path = path;
+            this.enabled = enabled;
+        }
+
+        public string path { get; set; }
+
+        public bool enabled { get; set; }
+    }
+
+    public static class EditorBuildSettings
+    {
+        public static EditorBuildSettingsScene[] scenes { get; set; } = Array.Empty<EditorBuildSettingsScene>();
+    }
+
+    public static class BuildPipeline
+    {
+        /// <summary>What a test wants a build to come to.</summary>
+        internal static Build.Reporting.BuildResult Next;
+
+        internal static BuildPlayerOptions Last;
+
+        public static Build.Reporting.BuildReport BuildPlayer(BuildPlayerOptions buildPlayerOptions)
+        {
+            Last = buildPlayerOptions;
+            return new Build.Reporting.BuildReport { summary = new Build.Reporting.BuildSummary { result = Next } };
+        }
+    }
+}
+
+namespace UnityEditor.Build.Reporting
+{
+    public enum BuildResult
+    {
+        Unknown,
+        Succeeded,
+        Failed,
+        Cancelled,
+    }
+
+    public struct BuildSummary
+    {
+        public BuildResult result { get; internal set; }
+
+        public int totalErrors { get; internal set; }
+    }
+
+    public sealed class BuildReport : UnityEngine.Object
+    {
+        public BuildSummary summary { get; internal set; }
+    }
+}

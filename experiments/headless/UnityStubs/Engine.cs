@@ -1,0 +1,226 @@
+using System;
+using System.Collections.Generic;
+using System.Reflection;
+using UnityEngine;
+
+namespace UnityStubs
+{
+    /// <summary>Calls a MonoBehaviour's messages in the order in which Unity does: Awake of all, then each frame Start
+    /// of the new ones, Update, LateUpdate, and OnGUI twice (layout, repaint).</summary>
+    public static class Engine
+    {
+        private sealed class Live
+        {
+            public MonoBehaviour Behaviour;
+            public Action Start;
+            public Action Update;
+            public Action LateUpdate;
+            public Action OnGUI;
+            public Action OnDestroy;
+            public int Order;
+            public bool IsStarted;
+        }
+
+        private static readonly List<Live> Behaviours = new List<Live>();
+        private static readonly List<GameObject> Objects = new List<GameObject>();
+
+        /// <summary>Every line that was logged.</summary>
+        public static List<(LogType Type, string Text)> Console { get; } = new List<(LogType, string)>();
+
+        /// <summary>Texts of labels in the last frame.</summary>
+        public static List<string> Labels { get; } = new List<string>();
+
+        /// <summary>Where marks were drawn in the last frame, and in which material.</summary>
+        public static List<(Matrix4x4 Place, Material Material)> Drawn { get; } = new List<(Matrix4x4, Material)>();
+
+        /// <summary>What the process was ended with, or null.</summary>
+        public static int? ExitCode { get; set; }
+
+        /// <summary>The start of a button's text that is clicked in the next frame.</summary>
+        public static string Click { get; set; }
+
+        /// <summary>A process that has just started.</summary>
+        /// <param name="projectRoot">Folder that holds Assets.</param>
+        public static void Reset(string projectRoot)
+        {
+            Unload();
+            Console.Clear();
+            Input.Held.Clear();
+            Input.Down.Clear();
+            Input.Buttons.Clear();
+            ExitCode = null;
+            Click = null;
+            Application.dataPath = System.IO.Path.Combine(projectRoot, "Assets");
+            Application.isBatchMode = false;
+            Application.isEditor = true;
+            Application.isPlaying = true;
+        }
+
+        /// <summary>Takes objects whose components have their fields, and wakes them.</summary>
+        public static void Enter(IEnumerable<GameObject> objects)
+        {
+            Objects.AddRange(objects);
+            foreach (GameObject gameObject in Objects)
+            {
+                foreach (Component component in gameObject.components.ToArray())
+                {
+                    Awaken(component);
+                }
+            }
+        }
+
+        /// <summary>The component of a type in the scene, or null.</summary>
+        public static T Find<T>()
+            where T : Component
+        {
+            foreach (GameObject gameObject in Objects)
+            {
+                T found = gameObject.GetComponent<T>();
+                if (!(found is null))
+                {
+                    return found;
+                }
+            }
+            return null;
+        }
+
+        /// <summary>One frame.</summary>
+        /// <param name="seconds">Real time since the last one.</param>
+        public static void Frame(float seconds)
+        {
+            Time.deltaTime = seconds;
+            Drawn.Clear();
+            for (int i = 0; i < Behaviours.Count; i++)
+            {
+                Live live = Behaviours[i];
+                if (live.Behaviour.enabled && !live.IsStarted)
+                {
+                    live.IsStarted = true;
+                    live.Start?.Invoke();
+                }
+            }
+            for (int i = 0; i < Behaviours.Count; i++)
+            {
+                Run(Behaviours[i], Behaviours[i].Update);
+            }
+            for (int i = 0; i < Behaviours.Count; i++)
+            {
+                Run(Behaviours[i], Behaviours[i].LateUpdate);
+            }
+            for (int pass = 0; pass < 2; pass++)
+            {
+                Labels.Clear();
+                for (int i = 0; i < Behaviours.Count; i++)
+                {
+                    Run(Behaviours[i], Behaviours[i].OnGUI);
+                }
+            }
+            Input.Down.Clear();
+            Input.mouseScrollDelta = default;
+        }
+
+        /// <summary>A key goes down, and stays down until <see cref="Release"/>.</summary>
+        public static void Press(KeyCode key)
+        {
+            Input.Held.Add(key);
+            Input.Down.Add(key);
+        }
+
+        /// <summary>A key goes up.</summary>
+        public static void Release(KeyCode key)
+        {
+            Input.Held.Remove(key);
+        }
+
+        /// <summary>The mouse is somewhere, with a button down or none, and its wheel turned.</summary>
+        public static void Mouse(float x, float y, int button, float wheel)
+        {
+            Input.Buttons.Clear();
+            if (button >= 0)
+            {
+                Input.Buttons.Add(button);
+            }
+            Input.mousePosition = new Vector3(x, y, 0f);
+            Input.mouseScrollDelta = new Vector2(0f, wheel);
+        }
+
+        /// <summary>Destroys every object.</summary>
+        public static void Unload()
+        {
+            foreach (GameObject gameObject in Objects.ToArray())
+            {
+                UnityEngine.Object.DestroyImmediate(gameObject);
+            }
+            Objects.Clear();
+            Behaviours.Clear();
+        }
+
+        internal static void Awaken(Component component)
+        {
+            if (!Application.isPlaying || !(component is MonoBehaviour behaviour))
+            {
+                return;
+            }
+            int order = behaviour.GetType().GetCustomAttribute<DefaultExecutionOrder>()?.order ?? 0;
+            int place = Behaviours.FindIndex(live => live.Order > order);
+            Behaviours.Insert(place < 0 ? Behaviours.Count : place, new Live
+            {
+                Behaviour = behaviour,
+                Order = order,
+                Start = Message(behaviour, "Start"),
+                Update = Message(behaviour, "Update"),
+                LateUpdate = Message(behaviour, "LateUpdate"),
+                OnGUI = Message(behaviour, "OnGUI"),
+                OnDestroy = Message(behaviour, "OnDestroy"),
+            });
+            Message(behaviour, "Awake")?.Invoke();
+        }
+
+        internal static void Remove(Component component)
+        {
+            Live live = Behaviours.Find(item => ReferenceEquals(item.Behaviour, component));
+            if (live != null)
+            {
+                Behaviours.Remove(live);
+                live.OnDestroy?.Invoke();
+            }
+        }
+
+        internal static void Draw(Matrix4x4 place, Material material)
+        {
+            Drawn.Add((place, material));
+        }
+
+        internal static void Show(string text)
+        {
+            Labels.Add(text);
+        }
+
+        internal static bool IsClicked(string text)
+        {
+            bool clicked = Click != null && text.StartsWith(Click, StringComparison.Ordinal);
+            Click = clicked ? null : Click;
+            return clicked;
+        }
+
+        internal static void Write(LogType type, object message)
+        {
+            Console.Add((type, message?.ToString() ?? ""));
+        }
+
+        private static void Run(Live live, Action message)
+        {
+            if (message != null && live.Behaviour.enabled && live.IsStarted)
+            {
+                message();
+            }
+        }
+
+        private static Action Message(MonoBehaviour behaviour, string name)
+        {
+            MethodInfo method = behaviour.GetType().GetMethod(name,
+                BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic, null, Type.EmptyTypes, null);
+            return method == null ? null : (Action)Delegate.CreateDelegate(typeof(Action), behaviour, method);
+        }
+    }
+}

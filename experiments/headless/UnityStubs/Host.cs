@@ -1,0 +1,118 @@
+using System.Collections.Generic;
+
+namespace UnityEngine
+{
+    public static class Time
+    {
+        public static float deltaTime { get; internal set; }
+    }
+
+    public static class Application
+    {
+        public static string dataPath { get; internal set; } = "";
+
+        public static bool isBatchMode { get; internal set; }
+
+        public static bool isEditor { get; internal set; } = true;
+
+        public static bool isPlaying { get; internal set; }
+
+        public static bool runInBackground { get; set; }
+
+        public static int targetFrameRate { get; set; } = -1;
+
+        public static void Quit(int exitCode)
+        {
+            UnityStubs.Engine.ExitCode = exitCode;
+        }
+    }
+
+    public enum LogType
+    {
+        Error,
+        Assert,
+        Warning,
+        Log,
+        Exception,
+    }
+
+    public static class Debug
+    {
+        public static void Log(object message) => UnityStubs.Engine.Write(LogType.Log, message);
+
+        public static void LogWarning(object message) => UnityStubs.Engine.Write(LogType.Warning, message);
+
+        public static void LogError(object message) => UnityStubs.Engine.Write(LogType.Error, message);
+    }
+
+    public enum KeyCode
+    {
+        None = 0,
+        Space = 32,
+        A = 97,
+        B = 98,
+        C = 99,
+        D = 100,
+        F = 102,
+        G = 103,
+        H = 104,
+        N = 110,
+        R = 114,
+        S = 115,
+        T = 116,
+        V = 118,
+        W = 119,
+        UpArrow = 273,
+        DownArrow = 274,
+        RightArrow = 275,
+        LeftArrow = 276,
+    }
+
+    public static class Input
+    {
+        internal static readonly HashSet<KeyCode> Held = new HashSet<KeyCode>();
+        internal static readonly HashSet<KeyCode> Down = new HashSet<KeyCode>();
+        internal static readonly HashSet<int> Buttons = new HashSet<int>();
+
+        public static Vector3 mousePosition { get; internal set; }
+
+        public static Vector2 mouseScrollDelta { get; internal set; }
+
+        public static bool GetKey(KeyCode key) => Held.Contains(key);
+
+        public static bool GetKeyDown(KeyCode key) => Down.Contains(key);
+
+        public static bool GetMouseButton(int button) => Buttons.Contains(button);
+    }
+
+    public sealed class GUIContent
+    {
+        public static GUIContent none = new GUIContent("");
+
+        public GUIContent(string text)
+            : this(text, "")
+        {
+        }
+
+        public GUIContent(string text, string tooltip)
+        {
+            this.text = text;
+            this.tooltip = tooltip;
+        }
+
+        public string text { get; set; }
+
+        public string tooltip { get; set; }
+    }
+
+    public static class GUI
+    {
+        public static void Box(Rect position, GUIContent content)
+        {
+        }
+
+        public static void Label(Rect position, string text) => UnityStubs.Engine.Show(text);
+
+        public static bool Button(Rect position, string text) => UnityStubs.Engine.IsClicked(text);
+    }
+}

@@ -1,0 +1,145 @@
+using System;
+using System.Collections.Generic;
+
+namespace UnityEngine
+{
+    public class Object
+    {
+        internal bool isDestroyed;
+
+        public string name { get; set; } = "";
+
+        /// <summary>At once here, at the end of the frame in Unity.</summary>
+        public static void Destroy(Object obj)
+        {
+            DestroyImmediate(obj);
+        }
+
+        public static void DestroyImmediate(Object obj)
+        {
+            if (obj is null || obj.isDestroyed)
+            {
+                return;
+            }
+            obj.isDestroyed = true;
+            if (obj is GameObject gameObject)
+            {
+                foreach (Component component in gameObject.components)
+                {
+                    component.isDestroyed = true;
+                    UnityStubs.Engine.Remove(component);
+                }
+            }
+        }
+
+        public static implicit operator bool(Object exists) => !(exists == null);
+
+        public static bool operator ==(Object a, Object b)
+        {
+            bool noA = a is null || a.isDestroyed;
+            bool noB = b is null || b.isDestroyed;
+            return noA || noB ? noA && noB : ReferenceEquals(a, b);
+        }
+
+        public static bool operator !=(Object a, Object b) => !(a == b);
+
+        public override bool Equals(object other) => this == other as Object;
+
+        public override int GetHashCode() => base.GetHashCode();
+    }
+
+    public sealed class GameObject : Object
+    {
+        internal readonly List<Component> components = new List<Component>();
+
+        public GameObject()
+            : this("New Game Object")
+        {
+        }
+
+        public GameObject(string name)
+        {
+            this.name = name;
+            Attach(typeof(Transform));
+        }
+
+        public Transform transform => (Transform)components[0];
+
+        public int layer { get; set; }
+
+        public T AddComponent<T>()
+            where T : Component
+        {
+            Component component = Attach(typeof(T));
+            UnityStubs.Engine.Awaken(component);
+            return (T)component;
+        }
+
+        public T GetComponent<T>()
+        {
+            foreach (Component component in components)
+            {
+                if (component is T found)
+                {
+                    return found;
+                }
+            }
+            return default;
+        }
+
+        internal Component Attach(Type type)
+        {
+            var component = (Component)Activator.CreateInstance(type);
+            component.gameObject = this;
+            components.Add(component);
+            return component;
+        }
+    }
+
+    public class Component : Object
+    {
+        public GameObject gameObject { get; internal set; }
+
+        public Transform transform => gameObject.transform;
+
+        public T GetComponent<T>() => gameObject.GetComponent<T>();
+    }
+
+    public class Transform : Component
+    {
+        public Vector3 position { get; set; }
+
+        public Quaternion rotation { get; set; } = Quaternion.identity;
+    }
+
+    public class Behaviour : Component
+    {
+        public bool enabled { get; set; } = true;
+    }
+
+    public class MonoBehaviour : Behaviour
+    {
+    }
+
+    public class Renderer : Component
+    {
+        public Material sharedMaterial { get; set; }
+    }
+
+    public sealed class MeshRenderer : Renderer
+    {
+    }
+
+    public sealed class MeshFilter : Component
+    {
+        public Mesh sharedMesh { get; set; }
+    }
+
+    public sealed class Camera : Behaviour
+    {
+    }
+
+    public sealed class Light : Behaviour
+    {
+    }
+}

@@ -1,0 +1,188 @@
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+using System.IO;
+using System.Linq;
+using System.Reflection;
+using System.Text.RegularExpressions;
+using UnityEngine;
+
+namespace UnityStubs
+{
+    /// <summary>Reads a scene as Unity does: objects, components, and the serialized fields of scripts by exact
+    /// name.</summary>
+    public sealed class SceneFile
+    {
+        private static readonly Regex Header = new Regex(@"^--- !u!(\d+) &(-?\d+)$");
+        private static readonly Regex Entry = new Regex(@"^  ([^ :{}-][^:{}]*):(?: (.*))?$");
+        private static readonly Regex FileId = new Regex(@"\{fileID: (-?\d+)");
+        private static readonly Regex Guid = new Regex(@"guid: ([0-9a-f]{32})");
+
+        private sealed class Document
+        {
+            public int Class;
+            public long Id;
+            public readonly Dictionary<string, string> Values = new Dictionary<string, string>();
+            public readonly Dictionary<string, List<string>> Lists = new Dictionary<string, List<string>>();
+        }
+
+        private readonly string _root;
+        private readonly Assembly _scripts;
+        private readonly Dictionary<string, string> _paths = new Dictionary<string, string>();
+        private readonly Dictionary<long, UnityEngine.Object> _objects = new Dictionary<long, UnityEngine.Object>();
+
+        private SceneFile(string root, Assembly scripts)
+        {
+            _root = root;
+            _scripts = scripts;
+            string assets = Path.Combine(root, "Assets");
+            foreach (string meta in Directory.GetFiles(assets, "*.meta", SearchOption.AllDirectories))
+            {
+                _paths[Guid.Match(File.ReadAllText(meta)).Groups[1].Value] = meta.Substring(0, meta.Length - 5);
+            }
+        }
+
+        /// <summary>The objects of a scene, their fields set, not awake yet.</summary>
+        /// <param name="root">Folder that holds Assets.</param>
+        /// <param name="scene">Path of the scene from there.</param>
+        /// <param name="scripts">The assembly that holds the scripts' classes.</param>
+        public static List<GameObject> Read(string root, string scene, Assembly scripts)
+        {
+            return new SceneFile(root, scripts).Read(Parse(Path.Combine(root, scene)));
+        }
+
+        private static List<Document> Parse(string path)
+        {
+            var documents = new List<Document>();
+            List<string> list = null;
+            foreach (string line in File.ReadLines(path))
+            {
+                Match header = Header.Match(line);
+                if (header.Success)
+                {
+                    documents.Add(new Document
+                    {
+                        Class = int.Parse(header.Groups[1].Value, CultureInfo.InvariantCulture),
+                        Id = long.Parse(header.Groups[2].Value, CultureInfo.InvariantCulture),
+                    });
+                    continue;
+                }
+                Match entry = Entry.Match(line);
+                if (entry.Success)
+                {
+                    Document document = documents[documents.Count - 1];
+                    document.Values[entry.Groups[1].Value] = entry.Groups[2].Value;
+                    list = document.Lists[entry.Groups[1].Value] = new List<string>();
+                }
+                else if (line.StartsWith("  - ", StringComparison.Ordinal))
+                {
+                    list.Add(line.Substring(4));
+                }
+            }
+            return documents;
+        }
+
+        private List<GameObject> Read(List<Document> documents)
+        {
+            var created = new List<GameObject>();
+            foreach (Document document in documents.Where(document => document.Class == 1))
+            {
+                var gameObject = new GameObject(document.Values["m_Name"]);
+                _objects[document.Id] = gameObject;
+                created.Add(gameObject);
+                foreach (string component in document.Lists["m_Component"])
+                {
+                    long id = long.Parse(FileId.Match(component).Groups[1].Value, CultureInfo.InvariantCulture);
+                    Document own = documents.Single(candidate => candidate.Id == id);
+                    _objects[id] = own.Class == 4 ? gameObject.transform : gameObject.Attach(TypeOf(own));
+                }
+            }
+            foreach (Document document in documents)
+            {
+                if (document.Class == 4)
+                {
+                    var transform = (Transform)_objects[document.Id];
+                    transform.position = (Vector3)Value(typeof(Vector3), document.Values["m_LocalPosition"], null);
+                }
+                if (document.Class == 114)
+                {
+                    SetFields(_objects[document.Id], document);
+                }
+            }
+            return created;
+        }
+
+        private Type TypeOf(Document document)
+        {
+            switch (document.Class)
+            {
+                case 20:
+                    return typeof(Camera);
+                case 108:
+                    return typeof(Light);
+                case 114:
+                    string path = _paths[Guid.Match(document.Values["m_Script"]).Groups[1].Value];
+                    string name = Path.GetFileNameWithoutExtension(path);
+                    return _scripts.GetTypes().Single(type => type.Name == name);
+                default:
+                    throw new NotSupportedException("class " + document.Class);
+            }
+        }
+
+        private void SetFields(object target, Document document)
+        {
+            foreach (KeyValuePair<string, string> pair in document.Values)
+            {
+                // As in Unity, a name that the class does not have is passed over: finding it is the checker's work.
+                FieldInfo field = target.GetType().GetField(pair.Key,
+                    BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic);
+                if (field != null)
+                {
+                    field.SetValue(target, Value(field.FieldType, pair.Value, document.Lists[pair.Key]));
+                }
+            }
+        }
+
+        private object Value(Type type, string text, List<string> list)
+        {
+            if (type == typeof(bool))
+            {
+                return text == "1";
+            }
+            if (type == typeof(string))
+            {
+                return text;
+            }
+            if (type == typeof(string[]))
+            {
+                return list.ToArray();
+            }
+            if (type.IsEnum)
+            {
+                return Enum.ToObject(type, int.Parse(text, CultureInfo.InvariantCulture));
+            }
+            if (type == typeof(Vector3))
+            {
+                float[] parts = Regex.Matches(text, @"[xyz]: ([^,}]+)").Cast<Match>()
+                    .Select(match => float.Parse(match.Groups[1].Value, CultureInfo.InvariantCulture)).ToArray();
+                return new Vector3(parts[0], parts[1], parts[2]);
+            }
+            if (typeof(UnityEngine.Object).IsAssignableFrom(type))
+            {
+                Match guid = Guid.Match(text);
+                return guid.Success ? Asset(_paths[guid.Groups[1].Value])
+                    : _objects[long.Parse(FileId.Match(text).Groups[1].Value, CultureInfo.InvariantCulture)];
+            }
+            return Convert.ChangeType(text, type, CultureInfo.InvariantCulture);
+        }
+
+        private static UnityEngine.Object Asset(string path)
+        {
+            if (!path.EndsWith(".mat", StringComparison.Ordinal))
+            {
+                throw new NotSupportedException(path);
+            }
+            return new Material(new Shader()) { name = Path.GetFileNameWithoutExtension(path) };
+        }
+    }
+}

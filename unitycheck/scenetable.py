@@ -1,0 +1,33 @@
+"""What each scene shows, as a table: which parameters, which changes to them, where the camera stands."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+# A wire that is steered by hand goes on until it is stopped: no displacement at the start, no end.
+STEERED = ("drive=hold", "displacement=0", "deltaThreshold=0", "maxSimulationSteps=1000000000")
+
+
+@dataclass(frozen=True)
+class Scene:
+    """One scene. target: point in the middle of the picture, units; distance: of the camera from it, units; yaw, pitch:
+    degrees; pace: in-game seconds a second; colouring: 0 plain, 1 stretch, 2 bending, 3 twist."""
+
+    name: str
+    parameters: str
+    overrides: tuple[str, ...] = ()
+    target: tuple[float, float, float] = (0.0, 0.0, 30.0)
+    distance: float = 420.0
+    yaw: float = -90.0
+    pitch: float = 15.0
+    pace: float = 1.0
+    colouring: int = 0
+    ranges: dict[str, float] = field(default_factory=dict)
+
+
+SCENES = (
+    Scene("Insertion", "params/default.json", STEERED, colouring=2),
+    Scene("Longitudinal", "params/longitudinal.json", pace=0.2, colouring=1),
+    Scene("Transversal", "params/transversal.json", pace=0.2, colouring=2),
+    Scene("CollisionWall", "params/collision.json", pace=0.2, colouring=2),
+)
