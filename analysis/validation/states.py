@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.interpolate import CubicHermiteSpline
 
 from analysis.logs import read_entries, read_log
 from analysis.runs import Run, read_run
@@ -61,6 +62,13 @@ def tip_motion(run: Run) -> tuple[np.ndarray, np.ndarray]:
     """Times in s, shape (k,), and places of the last sphere in m, shape (k, 3)."""
     log = read_log(run.folder)
     return log.time, _metres(run) * log.positions[:, 0]
+
+
+def tip_at(run: Run, time: np.ndarray) -> np.ndarray:
+    """Places of the last sphere at these times (s), m, shape (k, 3): cubics through the logged places and velocities."""
+    log = read_log(run.folder, velocities=True)
+    metres = _metres(run)
+    return CubicHermiteSpline(log.time, metres * log.positions[:, 0], metres * log.velocities[:, 0])(time)
 
 
 def solver_report(run: Run, name: str) -> float | np.ndarray:
