@@ -92,6 +92,12 @@ namespace Guidewire.Core
                 state.OrientationWeights[0] = 0.0;
                 drive = new TwistDrive(drive, parameters.TwistPerStep);
             }
+            if (parameters.Steering != null)
+            {
+                state.InverseMasses[0] = 0.0;
+                state.OrientationWeights[0] = 0.0;
+                drive = new SteeredDrive(parameters.Steering);
+            }
             IPositionPrediction prediction = parameters.Integrator == Integrator.Euler
                 ? (IPositionPrediction)new EulerPrediction(parameters.Damping, parameters.Gravity)
                 : new VerletPrediction(parameters.Damping, parameters.Gravity);

@@ -163,6 +163,9 @@ namespace Guidewire.Core
         /// <summary>A vessel's Euler angles in degrees, about z, then x, then y, as in Unity.</summary>
         public Vector3d Rotation { get; set; }
 
+        /// <summary>A hand that pushes and turns the wire as it goes, in place of the drive's motion, or null.</summary>
+        public Steering? Steering { get; set; }
+
         /// <summary>What keeps the wire together: gains (pbd) or a material (the others).</summary>
         public Solver Solver { get; set; } = Solver.Pbd;
 
