@@ -99,17 +99,22 @@ namespace Guidewire.Core
                 drive = new SteeredDrive(parameters.Steering);
             }
             IPositionPrediction prediction = parameters.Integrator == Integrator.Euler
+                    || parameters.Integrator == Integrator.EulerOrientationVerlet
                 ? (IPositionPrediction)new EulerPrediction(parameters.Damping, parameters.Gravity)
                 : new VerletPrediction(parameters.Damping, parameters.Gravity);
+            IOrientationPrediction orientationPrediction = parameters.Integrator == Integrator.OrientationVerlet
+                    || parameters.Integrator == Integrator.EulerOrientationVerlet
+                ? (IOrientationPrediction)new OrientationVerletPrediction(parameters.NumberRodElements)
+                : new OrientationEulerPrediction();
             IContactRule? rule = parameters.Walls.Length == 0 ? null
                 : parameters.ElementContact == ElementContact.Seed ? new SeedContactRule(state, parameters)
                 : (IContactRule)new ContactRule(state, parameters);
             var solver = new GaussSeidelSolver(state, parameters.ConstraintSolverSteps, parameters.StretchStiffness,
                 parameters.BendStiffness, parameters.SweepOrder, rule);
             ContactStep? contactStep = rule == null ? null
-                : new ContactStep(state, parameters, prediction, drive, solver, rule);
+                : new ContactStep(state, parameters, prediction, orientationPrediction, drive, solver, rule);
             ITimeStep step = (ITimeStep?)contactStep
-                ?? new PositionBasedStep(parameters.TimeStep, prediction, drive, solver);
+                ?? new PositionBasedStep(parameters.TimeStep, prediction, orientationPrediction, drive, solver);
             var stopRule = new StopRule(parameters.DeltaThreshold, parameters.SteadyStateHold,
                 parameters.MaxSimulationSteps, state);
             if (contactStep != null && parameters.Drive == Drive.Hold)
