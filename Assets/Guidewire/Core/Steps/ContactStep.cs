@@ -14,6 +14,7 @@ namespace Guidewire.Core
         private const double SmallestPart = 1.0 / 256.0;
         private readonly double _timeStep;
         private readonly IPositionPrediction _prediction;
+        private readonly IOrientationPrediction _orientationPrediction;
         private readonly IDriveMotion? _drive;
         private readonly IConstraintSolver _solver;
         private readonly IContactRule _rule;
@@ -29,14 +30,17 @@ namespace Guidewire.Core
         /// <param name="state">The wire.</param>
         /// <param name="parameters">dt, radius, walls.</param>
         /// <param name="prediction">How positions are predicted.</param>
+        /// <param name="orientationPrediction">How orientations are predicted.</param>
         /// <param name="drive">What moves sphere 0 each step, or null where nothing does.</param>
         /// <param name="solver">What corrects the prediction; its sweeps include the rule's.</param>
         /// <param name="rule">What contacts there are and what they do.</param>
         public ContactStep(RodState state, SimulationParameters parameters, IPositionPrediction prediction,
-            IDriveMotion? drive, IConstraintSolver solver, IContactRule rule)
+            IOrientationPrediction orientationPrediction, IDriveMotion? drive, IConstraintSolver solver,
+            IContactRule rule)
         {
             _timeStep = parameters.TimeStep;
             _prediction = prediction;
+            _orientationPrediction = orientationPrediction;
             _drive = drive;
             _solver = solver;
             _rule = rule;
@@ -65,7 +69,7 @@ namespace Guidewire.Core
         public void Advance(RodState state)
         {
             _prediction.Predict(state, _timeStep);
-            OrientationPrediction.Predict(state, _timeStep);
+            _orientationPrediction.Predict(state, _timeStep);
             _drive?.Move(state);
             Array.Copy(state.PredictedPositions, _target, _target.Length);
             Array.Copy(state.PredictedOrientations, _targetTurn, _targetTurn.Length);
