@@ -46,6 +46,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
     run.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], type=_assignment, dest="overrides",
                      help="a parameter laid over the file; may be given several times")
     run.add_argument("--out", type=Path, help="folder of the run (results/<name of FILE>)")
+    _add_runner(run)
     run.set_defaults(action=_run, packages=())
 
     sweep = commands.add_parser("sweep", help="a study's runs; what is done already is not run again")
@@ -53,6 +54,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
     sweep.add_argument("--jobs", type=_positive, default=os.cpu_count() or 1, metavar="N",
                        help="untimed runs at once (one per processor); timed ones always run alone")
     sweep.add_argument("--out", type=Path, default=Path("results"), help="folder above the study's (results)")
+    _add_runner(sweep)
     sweep.set_defaults(action=_sweep, packages=())
 
     figures = commands.add_parser("figures", help="the thesis's figures and ours, running what is missing")
@@ -139,14 +141,15 @@ def _test(arguments: argparse.Namespace) -> int:
 
 def _run(arguments: argparse.Namespace) -> int:
     out = arguments.out or Path("results") / arguments.file.stem
-    command = [*_build_runner(), "-parameters", str(arguments.file), "-out", str(out)]
+    command = [*_runner_of(arguments), "-parameters", str(arguments.file), "-out", str(out)]
     for key, value in arguments.overrides:
         command += [f"-{key}", value]
     return _hand_to(command)
 
 
 def _sweep(arguments: argparse.Namespace) -> int:
-    result = _run_study(arguments.study, _build_runner(), arguments.out, arguments.jobs)
+    command = _runner_of(arguments)
+    result = _run_study(arguments.study, command, arguments.out, arguments.jobs)
     print(f"runs: {os.path.relpath(result.folder)}")
     return FAILED if result.failures else 0
 
@@ -181,6 +184,24 @@ def _bench(_: argparse.Namespace) -> int:
 def _unity_check(arguments: argparse.Namespace) -> int:
     options = ["--write-metas"] if arguments.write_metas else []
     return _hand_to([sys.executable, "-m", "unitycheck", *options], cwd=ROOT)
+
+
+def _add_runner(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--runner", choices=("headless", "unity"), default="headless",
+                        help="what makes the runs: the console program (default), or Unity in batch mode")
+    parser.add_argument("--unity", metavar="PATH", help="Unity editor or player (or the environment's GUIDEWIRE_UNITY)")
+
+
+def _runner_of(arguments: argparse.Namespace) -> list[str]:
+    """The command that makes runs, as `--runner` says."""
+    if arguments.runner == "headless":
+        return _build_runner()
+    from experiments import unity_runner
+
+    unity = unity_runner.find(arguments.unity)
+    if unity.is_editor:
+        arguments.jobs = 1    # one editor a project folder: it locks it
+    return unity_runner.adapter(unity)
 
 
 def _build_runner() -> list[str]:

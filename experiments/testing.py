@@ -22,6 +22,7 @@ from experiments.runner import HEADLESS, dotnet
 
 RESULTS = ROOT / "results" / "tests"
 FULL_CAMPAIGNS = "GUIDEWIRE_ALL"
+DOTNET_SUITES = ("Guidewire.Core.Tests", "Guidewire.Core.Tests.NetStandard", "Guidewire.Unity.Tests")
 _SUITE_SECONDS = {False: 900, True: 6 * 3600}
 
 
@@ -79,7 +80,7 @@ def run_tests(full: bool) -> int:
 def suites(program: str) -> list[Suite]:
     """Every suite of the project, in the order in which they run."""
     return [
-        *(_dotnet_suite(program, name) for name in ("Guidewire.Core.Tests", "Guidewire.Core.Tests.NetStandard")),
+        *(_dotnet_suite(program, name) for name in DOTNET_SUITES),
         *(_pytest_suite(folder) for folder in ("experiments/tests", "analysis/tests", "unitycheck/tests")),
     ]
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 # A wire that is steered by hand goes on until it is stopped: no displacement at the start, no end.
 STEERED = ("drive=hold", "displacement=0", "deltaThreshold=0", "maxSimulationSteps=1000000000")
@@ -16,18 +16,20 @@ class Scene:
     name: str
     parameters: str
     overrides: tuple[str, ...] = ()
+    is_steered: bool = False
     target: tuple[float, float, float] = (0.0, 0.0, 30.0)
     distance: float = 420.0
     yaw: float = -90.0
     pitch: float = 15.0
     pace: float = 1.0
     colouring: int = 0
-    ranges: dict[str, float] = field(default_factory=dict)
 
 
 SCENES = (
-    Scene("Insertion", "params/default.json", STEERED, colouring=2),
+    Scene("Insertion", "params/insertion.json", STEERED, is_steered=True, target=(0.0, 45.0, 10.0), distance=500.0,
+          colouring=2),
     Scene("Longitudinal", "params/longitudinal.json", pace=0.2, colouring=1),
     Scene("Transversal", "params/transversal.json", pace=0.2, colouring=2),
-    Scene("CollisionWall", "params/collision.json", pace=0.2, colouring=2),
+    Scene("CollisionWall", "params/collision-wall.json", target=(0.0, 0.0, -90.0), distance=380.0, pace=0.2,
+          colouring=2),
 )

@@ -158,7 +158,7 @@ def _material_reference(name: str) -> dict[str, Any]:
 def scene_text(scene: Scene) -> str:
     """The whole .unity file of a scene."""
     upright = {"x": 0, "y": 0, "z": 0, "w": 1}
-    loop, wire, hud, camera = ({"fileID": number} for number in (302, 402, 304, 103))
+    loop, wire, contacts, hud, camera = ({"fileID": number} for number in (302, 402, 502, 304, 103))
     target = dict(zip("xyz", scene.target))
     parts = [document(class_id, number, name, keys)
              for number, (class_id, name, keys) in enumerate(_SETTINGS, start=1)]
@@ -174,16 +174,21 @@ def scene_text(scene: Scene) -> str:
         _game_object(300, "Simulation", [301, 302, 303, 304], "Untagged"),
         _transform(301, 300, upright, _ZERO),
         _script(302, 300, "Loop/SimulationLoop", {
-            "_parameterFile": scene.parameters, "_overrides": list(scene.overrides), "_pace": scene.pace}),
+            "_parameterFile": scene.parameters, "_overrides": list(scene.overrides), "_pace": scene.pace,
+            "_isSteered": scene.is_steered}),
         _script(303, 300, "Loop/KeyboardControl", {
-            "_loop": loop, "_wire": wire, "_hud": hud, "_camera": camera}),
+            "_loop": loop, "_wire": wire, "_contacts": contacts, "_hud": hud, "_camera": camera}),
         _script(304, 300, "Views/Hud", {"_loop": loop, "_wire": wire}),
         _game_object(400, "Wire", [401, 402], "Untagged"),
         _transform(401, 400, upright, _ZERO),
         _script(402, 400, "Views/WireView", {
-            "_loop": loop, "_material": _material_reference("Wire"), "_colouring": scene.colouring, **scene.ranges}),
+            "_loop": loop, "_material": _material_reference("Wire"), "_colouring": scene.colouring}),
+        _game_object(500, "Vessel", [501, 502, 503], "Untagged"),
+        _transform(501, 500, upright, _ZERO),
+        _script(502, 500, "Views/ContactView", {"_loop": loop, "_material": _material_reference("Wire")}),
+        _script(503, 500, "Views/VesselView", {"_loop": loop, "_material": _material_reference("Vessel")}),
         document(1660057539, ROOTS, "SceneRoots", {
-            "m_ObjectHideFlags": 0, "m_Roots": [{"fileID": number} for number in (101, 201, 301, 401)]}),
+            "m_ObjectHideFlags": 0, "m_Roots": [{"fileID": number} for number in (101, 201, 301, 401, 501)]}),
     ]
     return HEADER + "".join(parts)
 

@@ -12,8 +12,6 @@ namespace Guidewire.Editor
     /// menu. The parameter files go beside the program, where the scenes look for them.</summary>
     public static class PlayerBuild
     {
-        private const string Parameters = "params";
-
         /// <summary>Builds Build/Linux/Guidewire.x86_64; in batch mode it ends the editor with 0, or 70 where the build
         /// failed.</summary>
         [MenuItem("Guidewire/Build player for Linux")]
@@ -62,21 +60,14 @@ namespace Guidewire.Editor
             {
                 return false;
             }
-            CopyFolder(Parameters, Path.Combine(Path.GetDirectoryName(path)!, Parameters));
+            string folder = Path.GetDirectoryName(path)!;
+            foreach (string file in Directory.GetFiles("params", "*", SearchOption.AllDirectories))
+            {
+                string copy = Path.Combine(folder, file);
+                Directory.CreateDirectory(Path.GetDirectoryName(copy)!);
+                File.Copy(file, copy, true);
+            }
             return true;
-        }
-
-        private static void CopyFolder(string from, string to)
-        {
-            Directory.CreateDirectory(to);
-            foreach (string file in Directory.GetFiles(from))
-            {
-                File.Copy(file, Path.Combine(to, Path.GetFileName(file)), true);
-            }
-            foreach (string folder in Directory.GetDirectories(from))
-            {
-                CopyFolder(folder, Path.Combine(to, Path.GetFileName(folder)));
-            }
         }
     }
 }

@@ -69,6 +69,24 @@ namespace Guidewire.Io
             return line;
         }
 
+        /// <summary>Reads parameters that stand as KEY=VALUE, as in an Inspector's list.</summary>
+        /// <exception cref="ParameterException">An unknown key, a value that is missing or not allowed.</exception>
+        public static List<KeyValuePair<string, JToken>> ReadAssignments(IEnumerable<string> assignments)
+        {
+            var arguments = new List<string>();
+            foreach (string assignment in assignments)
+            {
+                int equals = assignment.IndexOf('=');
+                if (equals < 1)
+                {
+                    throw new ParameterException("'" + assignment + "' is not KEY=VALUE");
+                }
+                arguments.Add("-" + assignment.Substring(0, equals).Trim());
+                arguments.Add(assignment.Substring(equals + 1).Trim());
+            }
+            return Read(arguments, logFileIsOurs: false).Overrides;
+        }
+
         /// <summary>The help text of a program that takes these arguments.</summary>
         /// <param name="usage">The program's own usage lines.</param>
         public static string Help(string usage)

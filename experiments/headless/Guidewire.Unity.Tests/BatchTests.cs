@@ -111,7 +111,7 @@ namespace Guidewire.Unity.Tests
             string scene = Path.Combine(_folder, "scene");
             string console = Path.Combine(_folder, "console");
             Stage.Open("Assets/Guidewire/Scenes/Longitudinal.unity");
-            Stage.Loop.Choose(Parameters("default.json"), new[] { "maxSimulationSteps=60" }, scene);
+            Stage.Loop.Choose(Parameters("default.json"), new[] { "maxSimulationSteps=60" }, scene, false);
             Stage.Frames(400);
             Assert.That(Stage.Loop.Session!.Simulation.StepCount, Is.EqualTo(60));
             Engine.Unload();
@@ -127,7 +127,7 @@ namespace Guidewire.Unity.Tests
         {
             string scene = Path.Combine(_folder, "scene");
             Stage.OpenInsertion();
-            Stage.Loop.Choose(Parameters("default.json"), new[] { "displacement=0", "deltaThreshold=0" }, scene);
+            Stage.Loop.Choose(Parameters("default.json"), new[] { "displacement=0", "deltaThreshold=0" }, scene, true);
             Engine.Press(KeyCode.W);
             Stage.Frames(20);
             int steps = Stage.Loop.Session!.Simulation.StepCount;

@@ -29,6 +29,13 @@ namespace Guidewire.Unity.Tests
             return Stage.State.Positions[0].Z;
         }
 
+        /// <summary>Angle of the first element about its axis in rad.</summary>
+        private static double Turned()
+        {
+            Quaterniond q = Stage.State.Orientations[0];
+            return 2.0 * Math.Atan2(q.Z, q.W);
+        }
+
         [TestCase(KeyCode.W, 1)]
         [TestCase(KeyCode.UpArrow, 1)]
         [TestCase(KeyCode.S, -1)]
@@ -48,6 +55,19 @@ namespace Guidewire.Unity.Tests
             double after = Along();
             Stage.Frames(10);
             Assert.That(Along(), Is.EqualTo(after), "it is held where it was left");
+        }
+
+        [TestCase(KeyCode.D, 1)]
+        [TestCase(KeyCode.RightArrow, 1)]
+        [TestCase(KeyCode.A, -1)]
+        [TestCase(KeyCode.LeftArrow, -1)]
+        public void Turn_TurnsTheFirstElementAboutItsAxis(KeyCode key, int sign)
+        {
+            double time = Stage.Loop.Session!.Simulation.Time;
+            Engine.Press(key);
+            Stage.Frames(20);
+            double asked = sign * Math.PI * (Stage.Loop.Session!.Simulation.Time - time);
+            Assert.That(Turned(), Is.EqualTo(asked).Within(0.05 * Math.Abs(asked)), "180 degrees a second");
         }
 
         [Test]
@@ -127,10 +147,19 @@ namespace Guidewire.Unity.Tests
             // The third of element 0 lies along it: its far end is beyond the middle along d3.
             RodState state = Stage.State;
             Vector3 middle = (0.5 * (state.Positions[0] + state.Positions[1])).ToUnity();
-            Matrix4x4 place = Engine.Drawn[before + 2].Place;
+            Matrix4x4 place = Engine.Drawn[2].Place;
             Vector3 end = place.MultiplyPoint3x4(Vector3.forward) - middle;
             Assert.That(Vector3.Dot(end.normalized, state.Orientations[0].Director3.ToUnity()),
                 Is.EqualTo(1f).Within(1e-4f));
+        }
+
+        [Test]
+        public void F_SwitchesTheContacts()
+        {
+            ContactView contacts = Engine.Find<ContactView>();
+            bool before = contacts.IsShown;
+            Stage.Tap(KeyCode.F);
+            Assert.That(contacts.IsShown, Is.EqualTo(!before));
         }
 
         [Test]
@@ -165,10 +194,12 @@ namespace Guidewire.Unity.Tests
             Engine.Mouse(300f, 100f, 1, 0f);
             Stage.Frames(1);
             Assert.That(Vector3.Distance(camera.position, first), Is.GreaterThan(50f), "30 degrees");
-            Vector3 middle = camera.position + camera.rotation * Vector3.forward * 420f;
+            const float distance = 500f;    // the scene's
+            Vector3 middle = camera.position + camera.rotation * Vector3.forward * distance;
             Engine.Mouse(300f, 100f, -1, 3f);
             Stage.Frames(1);
-            Assert.That(Vector3.Distance(camera.position, middle), Is.EqualTo(420f * Mathf.Exp(-0.3f)).Within(0.1f));
+            float expected = distance * Mathf.Exp(-0.3f);
+            Assert.That(Vector3.Distance(camera.position, middle), Is.EqualTo(expected).Within(0.1f));
         }
 
         [TestCase("integrator", "euler")]

@@ -38,7 +38,7 @@ namespace Guidewire.Unity.Tests
 
         private static void AssertResetWorks()
         {
-            Stage.Loop.Choose("params/default.json", System.Array.Empty<string>(), "");
+            Stage.Loop.Choose("params/default.json", System.Array.Empty<string>(), "", false);
             Stage.Tap(KeyCode.R);
             Stage.Frames(20);
             Assert.That(Stage.Loop.Problem, Is.EqualTo(""));
@@ -49,7 +49,7 @@ namespace Guidewire.Unity.Tests
         [Test]
         public void MissingParameterFile()
         {
-            Stage.Loop.Choose("params/nowhere.json", System.Array.Empty<string>(), "");
+            Stage.Loop.Choose("params/nowhere.json", System.Array.Empty<string>(), "", false);
             AssertStopped("nowhere.json");
             Assert.That(Stage.Loop.Session, Is.Null);
             AssertResetWorks();
@@ -60,7 +60,7 @@ namespace Guidewire.Unity.Tests
         {
             string file = Path.Combine(TestContext.CurrentContext.WorkDirectory, "broken.json");
             File.WriteAllText(file, "{\"timeStep\": 0.01,}");
-            Stage.Loop.Choose(file, System.Array.Empty<string>(), "");
+            Stage.Loop.Choose(file, System.Array.Empty<string>(), "", false);
             AssertStopped("broken.json");
             AssertResetWorks();
         }
@@ -71,7 +71,7 @@ namespace Guidewire.Unity.Tests
         [TestCase("timeStep", "is not KEY=VALUE")]
         public void OverrideThatIsNotAllowed(string line, string words)
         {
-            Stage.Loop.Choose("params/default.json", new[] { line }, "");
+            Stage.Loop.Choose("params/default.json", new[] { line }, "", false);
             AssertStopped(words);
             AssertResetWorks();
         }
@@ -91,7 +91,7 @@ namespace Guidewire.Unity.Tests
         public void DivergedRun()
         {
             string[] beyond = { "stretchStiffness=2.1", "displacementDirection=[0,1,0]" };
-            Stage.Loop.Choose("params/default.json", beyond, "");
+            Stage.Loop.Choose("params/default.json", beyond, "", false);
             for (int k = 0; k < 2000 && Stage.Loop.Problem.Length == 0; k++)
             {
                 Stage.Frames(1);
@@ -106,7 +106,8 @@ namespace Guidewire.Unity.Tests
         {
             string file = Path.Combine(TestContext.CurrentContext.WorkDirectory, "a-file");
             File.WriteAllText(file, "");
-            Stage.Loop.Choose("params/default.json", System.Array.Empty<string>(), Path.Combine(file, "log"));
+            Stage.Loop.Choose("params/default.json", System.Array.Empty<string>(), Path.Combine(file, "log"),
+                false);
             AssertStopped("cannot be written");
             AssertResetWorks();
         }
@@ -114,7 +115,7 @@ namespace Guidewire.Unity.Tests
         [Test]
         public void ConvergedRun_IsSaidWithoutAnError()
         {
-            Stage.Loop.Choose("params/default.json", new[] { "maxSimulationSteps=3" }, "");
+            Stage.Loop.Choose("params/default.json", new[] { "maxSimulationSteps=3" }, "", false);
             Stage.Frames(30);
             Assert.That(Stage.Loop.Problem, Is.EqualTo(""));
             Stage.AssertLogged(LogType.Log, "finished");

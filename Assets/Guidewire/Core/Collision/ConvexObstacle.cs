@@ -25,6 +25,12 @@ namespace Guidewire.Core
             _radius = radius;
         }
 
+        /// <summary>Points whose hull, widened by the radius, is the body; units.</summary>
+        internal Vector3d[] Points => _points;
+
+        /// <summary>Units.</summary>
+        internal double Radius => _radius;
+
         /// <summary>A ball.</summary>
         public static ConvexObstacle Sphere(in Vector3d centre, double radius)
         {

@@ -44,6 +44,12 @@ namespace Guidewire.Core
         /// <summary>The hierarchy over the placed triangles.</summary>
         public Bvh Tree { get; }
 
+        /// <summary>Corners of triangle t, at 3 t to 3 t + 2, units.</summary>
+        public Vector3d[] Corners => _corners;
+
+        /// <summary>Unit normals of the triangles, into the lumen.</summary>
+        public Vector3d[] FaceNormals => _faceNormals;
+
         /// <summary>Moves everything to its new place.</summary>
         public void Place(in Placement placement)
         {

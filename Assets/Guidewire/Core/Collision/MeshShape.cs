@@ -31,6 +31,9 @@ namespace Guidewire.Core
         /// <summary>What was found in the mesh and repaired.</summary>
         public MeshReport Report => _mesh.Report;
 
+        /// <summary>The wall's triangles where they are.</summary>
+        internal MeshGeometry Wall => _wall;
+
         /// <summary>Moves, turns and scales the wall; its hierarchy is refitted, not built again.</summary>
         public void Place(in Placement placement)
         {

@@ -21,6 +21,12 @@ namespace Guidewire.Core
             _normal = Vector3d.Normalize(normal);
         }
 
+        /// <summary>A point of the plane, units.</summary>
+        internal Vector3d Point => _point;
+
+        /// <summary>Unit vector to the free side.</summary>
+        internal Vector3d Normal => _normal;
+
         /// <inheritdoc/>
         public override bool Nearest(
             in Vector3d a, in Vector3d b, double range, ref int hint, out SurfaceContact contact)

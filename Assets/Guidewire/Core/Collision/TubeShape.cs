@@ -61,6 +61,12 @@ namespace Guidewire.Core
             _resolution = 1e-12 * (length + widest);
         }
 
+        /// <summary>Knots of the centreline in units; an open end's last knot is far away.</summary>
+        internal Vector3d[] Knots => _knots;
+
+        /// <summary>Radius at each knot, units.</summary>
+        internal double[] Radii => _radii;
+
         /// <summary>d(x), positive in the lumen, and the wall's normal there.</summary>
         /// <remarks>On the centreline of a piece the normal has no direction and is 0.</remarks>
         public double Distance(in Vector3d x, out Vector3d normal)

@@ -16,11 +16,15 @@ namespace Guidewire.Io
         private readonly string _file;
         private readonly List<KeyValuePair<string, JToken>> _overrides;
         private ParameterHandler _handler;
+        private readonly Steering? _hand;
         private RunFolder? _results;
         private bool _isNoted;
 
-        private SimulationSession(string file, List<KeyValuePair<string, JToken>> overrides, ParameterHandler handler)
+        private SimulationSession(string file, List<KeyValuePair<string, JToken>> overrides, ParameterHandler handler,
+            bool isSteered)
         {
+            _hand = isSteered ? new Steering() : null;
+            handler.Values.Simulation.Steering = _hand;
             _file = file;
             _overrides = overrides;
             _handler = handler;
@@ -41,33 +45,38 @@ namespace Guidewire.Io
 
         /// <summary>A run at its start.</summary>
         /// <param name="file">Parameter file.</param>
-        /// <param name="overrides">Parameters that count instead of the file's.</param>
+        /// <param name="overrides">KEY=VALUE each: parameters that count instead of the file's.</param>
         /// <param name="logFolder">Folder that takes the results; empty for a run that is not logged.</param>
+        /// <param name="isSteered">Whether a hand holds the first element, in place of the drive.</param>
         /// <exception cref="ParameterException">The file, a value or the folder cannot be used.</exception>
-        public static SimulationSession Open(string file, IEnumerable<KeyValuePair<string, JToken>> overrides,
-            string logFolder)
+        public static SimulationSession Open(string file, IEnumerable<string> overrides,
+            string logFolder, bool isSteered)
         {
-            var given = new List<KeyValuePair<string, JToken>>(overrides);
+            List<KeyValuePair<string, JToken>> given = CommandLineHandler.ReadAssignments(overrides);
             ParameterHandler handler = ParameterHandler.Load(file, given);
-            var session = new SimulationSession(file, given, handler);
+            var session = new SimulationSession(file, given, handler, isSteered);
             if (logFolder.Length > 0)
             {
                 session._results = RunFolder.Open(handler, logFolder, null);
                 session._results.Begin(session.Simulation);
+                if (isSteered)
+                {
+                    session.Note("steered by hand");
+                }
             }
             return session;
         }
 
-        /// <summary>One step.</summary>
-        /// <param name="push">Motion of sphere 0 along the first element (thesis eq. 3.6) before it, in units; negative
-        /// values pull.</param>
-        /// <param name="turn">Turn of the first element about its axis before it, in rad.</param>
+        /// <summary>One step. A run that is not steered takes no notice of what is asked.</summary>
+        /// <param name="push">Motion of sphere 0 along the first element in it (thesis eq. 3.6), units; negative values
+        /// pull.</param>
+        /// <param name="turn">Turn of the first element about its axis in it, rad.</param>
         public void Step(double push, double turn)
         {
-            if (push != 0.0 || turn != 0.0)
+            if (_hand != null)
             {
-                Note("steered by hand");
-                Move(Simulation.State, push, turn);
+                _hand.Push = push;
+                _hand.Turn = turn;
             }
             long before = Stopwatch.GetTimestamp();
             if (_results != null)
@@ -96,6 +105,7 @@ namespace Guidewire.Io
             changed.RemoveAll(pair => pair.Key == key);
             changed.Add(new KeyValuePair<string, JToken>(key, value));
             ParameterHandler handler = ParameterHandler.Load(_file, changed);
+            handler.Values.Simulation.Steering = _hand;
             Simulation = Simulation.Continue(handler.Values.Simulation);
             Note("parameters changed by hand");
             _handler = handler;
@@ -117,18 +127,6 @@ namespace Guidewire.Io
             _results.Finish(Simulation);
             _results.Dispose();
             _results = null;
-        }
-
-        // A wire whose sphere 0 is not held cannot be steered.
-        private static void Move(RodState state, double push, double turn)
-        {
-            if (state.InverseMasses[0] != 0.0)
-            {
-                return;
-            }
-            Vector3d axis = Vector3d.Normalize(state.Positions[1] - state.Positions[0]);
-            state.Place(0, state.Positions[0] + push * axis);
-            state.Orientations[0] = Quaterniond.FromAxisAngle(axis, turn) * state.Orientations[0];
         }
 
         private void Note(string what)

@@ -13,6 +13,7 @@ namespace Guidewire.Runtime
 
         [SerializeField] private SimulationLoop _loop = null!;
         [SerializeField] private WireView _wire = null!;
+        [SerializeField] private ContactView _contacts = null!;
         [SerializeField] private Hud _hud = null!;
         [SerializeField] private OrbitCamera _camera = null!;
 
@@ -20,9 +21,15 @@ namespace Guidewire.Runtime
         {
             _loop.Push = Axis(KeyCode.W, KeyCode.UpArrow, KeyCode.S, KeyCode.DownArrow);
             _loop.Turn = Axis(KeyCode.D, KeyCode.RightArrow, KeyCode.A, KeyCode.LeftArrow);
-            if (Input.GetKeyDown(KeyCode.Space))
+            _loop.IsPaused ^= Input.GetKeyDown(KeyCode.Space);
+            _wire.ShowsSpheres ^= Input.GetKeyDown(KeyCode.B);
+            _wire.ShowsDirectors ^= Input.GetKeyDown(KeyCode.G);
+            _contacts.IsShown ^= Input.GetKeyDown(KeyCode.F);
+            _hud.ShowsHelp ^= Input.GetKeyDown(KeyCode.H);
+            _camera.FollowsTip ^= Input.GetKeyDown(KeyCode.T);
+            if (Input.GetKeyDown(KeyCode.C))
             {
-                _loop.IsPaused = !_loop.IsPaused;
+                _wire.NextColouring();
             }
             if (Input.GetKeyDown(KeyCode.N))
             {
@@ -32,26 +39,6 @@ namespace Guidewire.Runtime
             if (Input.GetKeyDown(KeyCode.R))
             {
                 _loop.Load();
-            }
-            if (Input.GetKeyDown(KeyCode.C))
-            {
-                _wire.NextColouring();
-            }
-            if (Input.GetKeyDown(KeyCode.B))
-            {
-                _wire.ShowsSpheres = !_wire.ShowsSpheres;
-            }
-            if (Input.GetKeyDown(KeyCode.G))
-            {
-                _wire.ShowsDirectors = !_wire.ShowsDirectors;
-            }
-            if (Input.GetKeyDown(KeyCode.H))
-            {
-                _hud.ShowsHelp = !_hud.ShowsHelp;
-            }
-            if (Input.GetKeyDown(KeyCode.T))
-            {
-                _camera.FollowsTip = !_camera.FollowsTip;
             }
         }
 

@@ -1,5 +1,4 @@
 using System;
-using System.Collections.Generic;
 using System.Diagnostics;
 using System.IO;
 using Guidewire.Core;
@@ -38,6 +37,9 @@ namespace Guidewire.Runtime
         [SerializeField, Range(1f, 100f)] private float _frameBudget = 12f;
 
         [Header("Steering")]
+        [Tooltip("Whether keys push and turn the wire, in place of the parameter file's drive.")]
+        [SerializeField] private bool _isSteered;
+
         [Tooltip("Speed of sphere 0 while a push or pull key is down, in units a second of in-game time.")]
         [SerializeField, Range(0f, 500f)] private float _pushSpeed = 40f;
 
@@ -82,8 +84,10 @@ namespace Guidewire.Runtime
         /// <param name="parameterFile">Parameter file, from <see cref="Root"/>.</param>
         /// <param name="overrides">KEY=VALUE each.</param>
         /// <param name="logFolder">Folder of the results; empty for a run that is not logged.</param>
-        public void Choose(string parameterFile, string[] overrides, string logFolder)
+        /// <param name="isSteered">Whether keys steer the wire in place of the drive.</param>
+        public void Choose(string parameterFile, string[] overrides, string logFolder, bool isSteered)
         {
+            _isSteered = isSteered;
             _parameterFile = parameterFile;
             _overrides = overrides;
             _logFolder = logFolder;
@@ -100,7 +104,8 @@ namespace Guidewire.Runtime
             try
             {
                 string log = _logFolder.Length == 0 ? "" : Path.Combine(Root, _logFolder);
-                Session = SimulationSession.Open(Path.Combine(Root, _parameterFile), Overrides(), log);
+                Session = SimulationSession.Open(Path.Combine(Root, _parameterFile), _overrides, log,
+                    _isSteered);
                 _live.Read(Session.Parameters);
                 foreach (string warning in Session.Warnings)
                 {
@@ -251,22 +256,6 @@ namespace Guidewire.Runtime
             bool isExpected = error is ParameterException || error is ArgumentException;
             Problem = isExpected ? error.Message : "internal error: " + error.Message;
             Debug.LogError("guidewire: " + (isExpected ? error.Message : error.ToString()));
-        }
-
-        private List<KeyValuePair<string, JToken>> Overrides()
-        {
-            var arguments = new List<string>();
-            foreach (string line in _overrides)
-            {
-                int equals = line.IndexOf('=');
-                if (equals < 1)
-                {
-                    throw new ParameterException("Inspector: override '" + line + "' is not KEY=VALUE");
-                }
-                arguments.Add("-" + line.Substring(0, equals).Trim());
-                arguments.Add(line.Substring(equals + 1).Trim());
-            }
-            return CommandLineHandler.Read(arguments, logFileIsOurs: false).Overrides;
         }
     }
 }

@@ -23,7 +23,6 @@ namespace Guidewire.Runtime
 
         [SerializeField] private SimulationLoop _loop = null!;
         [SerializeField] private WireView _wire = null!;
-        [SerializeField] private bool _showsHelp = true;
 
         private readonly StringBuilder _builder = new StringBuilder(512);
         private readonly List<ParameterEntry> _switches = new List<ParameterEntry>();
@@ -32,11 +31,7 @@ namespace Guidewire.Runtime
         private int _lines;
 
         /// <summary>Whether the keys are listed.</summary>
-        public bool ShowsHelp
-        {
-            get => _showsHelp;
-            set => _showsHelp = value;
-        }
+        [field: SerializeField] public bool ShowsHelp { get; set; } = true;
 
         /// <summary>The text as it stands on the screen.</summary>
         public string Text { get; private set; } = "";
@@ -101,7 +96,7 @@ namespace Guidewire.Runtime
                 }
                 y += Line + 6f;
             }
-            if (_showsHelp)
+            if (ShowsHelp)
             {
                 GUI.Label(new Rect(16f, Screen.height - 8f * Line, 2f * Width, 8f * Line), KeyboardControl.Help);
             }
@@ -129,6 +124,14 @@ namespace Guidewire.Runtime
             if (simulation.Outcome != Outcome.Running)
             {
                 Append("{0}", simulation.Reason);
+            }
+            ContactRecord? contacts = simulation.Contacts;
+            if (contacts != null)
+            {
+                Append("walls push with {0:0.00e+0}, the hand with {1:0.00e+0} mass unit unit/s\u00b2",
+                    contacts.Total.Length, contacts.Reaction.Length);
+                Append("asked of sphere 0: {0:0.0} units, not given: {1:0.0}   passages {2}", contacts.DriveAsked,
+                    contacts.DriveShortfall, contacts.Passages);
             }
             if (_wire.Colouring != Colouring.Plain)
             {

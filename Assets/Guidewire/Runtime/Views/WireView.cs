@@ -23,8 +23,6 @@ namespace Guidewire.Runtime
         [Tooltip("Radius of the tube over sphereRadius.")]
         [SerializeField, Range(0.05f, 1f)] private float _thickness = 1f;
 
-        [SerializeField] private bool _showsSpheres;
-        [SerializeField] private bool _showsDirectors;
         [SerializeField] private Colouring _colouring = Colouring.Plain;
 
         [Tooltip("Stretch of the last colour, dimensionless.")]
@@ -45,18 +43,10 @@ namespace Guidewire.Runtime
         private int _generation;
 
         /// <summary>Whether the spheres are drawn.</summary>
-        public bool ShowsSpheres
-        {
-            get => _showsSpheres;
-            set => _showsSpheres = value;
-        }
+        [field: SerializeField] public bool ShowsSpheres { get; set; }
 
         /// <summary>Whether the directors are drawn: d1 red, d2 green, d3 blue.</summary>
-        public bool ShowsDirectors
-        {
-            get => _showsDirectors;
-            set => _showsDirectors = value;
-        }
+        [field: SerializeField] public bool ShowsDirectors { get; set; }
 
         /// <summary>What the colour shows.</summary>
         public Colouring Colouring => _colouring;
@@ -93,18 +83,18 @@ namespace Guidewire.Runtime
             {
                 _colours[i] = ColourMap.Place(Value(state, i), Range);
             }
-            if (_tube.Write(state, _showsSpheres ? 0.5f * radius : radius, _colours))
+            if (_tube.Write(state, ShowsSpheres ? 0.5f * radius : radius, _colours))
             {
                 _mesh.SetVertices(_tube.Vertices);
                 _mesh.SetNormals(_tube.Normals);
                 _mesh.SetUVs(0, _tube.Colours);
                 _mesh.RecalculateBounds();
             }
-            if (_showsSpheres)
+            if (ShowsSpheres)
             {
                 DrawSpheres(state, radius);
             }
-            if (_showsDirectors)
+            if (ShowsDirectors)
             {
                 DrawDirectors(state, radius);
             }

@@ -31,7 +31,7 @@ namespace Guidewire.Unity.Tests
 
         private Simulation Load(params string[] overrides)
         {
-            _loop.Choose("params/default.json", overrides, "");
+            _loop.Choose("params/default.json", overrides, "", false);
             _loop.Load();
             Assert.That(_loop.Problem, Is.EqualTo(""));
             return _loop.Session!.Simulation;

@@ -14,7 +14,7 @@ namespace Guidewire.Unity.Tests
         {
             var host = new GameObject("Simulation");
             SimulationLoop loop = host.AddComponent<SimulationLoop>();
-            loop.Choose("params/default.json", new[] { "constraintSolverSteps=10" }, "");
+            loop.Choose("params/default.json", new[] { "constraintSolverSteps=10" }, "", false);
             for (int frame = 0; frame < 30; frame++)
             {
                 yield return null;

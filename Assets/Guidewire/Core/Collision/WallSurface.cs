@@ -1,0 +1,162 @@
+using System;
+using System.Collections.Generic;
+
+namespace Guidewire.Core
+{
+    /// <summary>A wall as triangles, for pictures: what a mesh has, and flat patches, rings and balls for the shapes that
+    /// are given by numbers. Nothing here takes part in a step.</summary>
+    public sealed class WallSurface
+    {
+        private const int Sides = 32;
+        private readonly List<Vector3d> _vertices = new List<Vector3d>();
+        private readonly List<int> _triangles = new List<int>();
+
+        private WallSurface()
+        {
+        }
+
+        /// <summary>Corners in units.</summary>
+        public IReadOnlyList<Vector3d> Vertices => _vertices;
+
+        /// <summary>Three indices a triangle; seen from the lumen they run counter-clockwise in a right-handed frame.
+        /// </summary>
+        public IReadOnlyList<int> Triangles => _triangles;
+
+        /// <summary>The triangles of a wall.</summary>
+        /// <param name="shape">The wall.</param>
+        /// <param name="middle">Where the picture's middle is, units.</param>
+        /// <param name="reach">How far from there a wall without end is drawn, units.</param>
+        public static WallSurface Create(ContactShape shape, in Vector3d middle, double reach)
+        {
+            var surface = new WallSurface();
+            switch (shape)
+            {
+                case MeshShape mesh:
+                    surface.AddMesh(mesh.Wall);
+                    break;
+                case PlaneShape plane:
+                    surface.AddPlane(plane, middle, reach);
+                    break;
+                case TubeShape tube:
+                    surface.AddTube(tube, reach);
+                    break;
+                case ConvexObstacle obstacle:
+                    surface.AddObstacle(obstacle);
+                    break;
+                default:
+                    throw new ArgumentException("no picture of a " + shape.GetType().Name);
+            }
+            return surface;
+        }
+
+        private void AddMesh(MeshGeometry mesh)
+        {
+            var place = new Dictionary<Vector3d, int>();
+            for (int t = 0; t < mesh.FaceNormals.Length; t++)
+            {
+                Vector3d a = mesh.Corners[3 * t];
+                Vector3d b = mesh.Corners[3 * t + 1];
+                Vector3d c = mesh.Corners[3 * t + 2];
+                bool isTurned = Vector3d.Dot(Vector3d.Cross(b - a, c - a), mesh.FaceNormals[t]) < 0.0;
+                _triangles.Add(PlaceOf(place, a));
+                _triangles.Add(PlaceOf(place, isTurned ? c : b));
+                _triangles.Add(PlaceOf(place, isTurned ? b : c));
+            }
+        }
+
+        private int PlaceOf(Dictionary<Vector3d, int> known, in Vector3d corner)
+        {
+            if (!known.TryGetValue(corner, out int index))
+            {
+                index = _vertices.Count;
+                known.Add(corner, index);
+                _vertices.Add(corner);
+            }
+            return index;
+        }
+
+        private void AddPlane(PlaneShape plane, in Vector3d middle, double reach)
+        {
+            Vector3d n = plane.Normal;
+            Vector3d u = reach * Across(n);
+            Vector3d v = Vector3d.Cross(n, u);
+            Vector3d foot = middle - Vector3d.Dot(middle - plane.Point, n) * n;
+            _vertices.AddRange(new[] { foot - u - v, foot + u - v, foot + u + v, foot - u + v });
+            _triangles.AddRange(new[] { 0, 1, 2, 0, 2, 3 });
+        }
+
+        private void AddTube(TubeShape tube, double reach)
+        {
+            var knots = (Vector3d[])tube.Knots.Clone();
+            int last = knots.Length - 1;
+            knots[0] = Nearer(knots[0], knots[1], reach);
+            knots[last] = Nearer(knots[last], knots[last - 1], reach);
+            Vector3d side = Across(knots[1] - knots[0]);
+            for (int i = 0; i <= last; i++)
+            {
+                Vector3d before = Vector3d.Normalize(knots[Math.Max(i, 1)] - knots[Math.Max(i, 1) - 1]);
+                Vector3d after = Vector3d.Normalize(knots[Math.Min(i + 1, last)] - knots[Math.Min(i + 1, last) - 1]);
+                Vector3d tangent = Vector3d.Normalize(before + after);
+                side = Vector3d.Normalize(side - Vector3d.Dot(side, tangent) * tangent);
+                AddRing(knots[i], tube.Radii[i] * side, tube.Radii[i] * Vector3d.Cross(tangent, side));
+            }
+            AddStrips(last + 1);
+        }
+
+        // A wall's outside is drawn as seen from the wire, which is outside an obstacle. Every vertex is the body's
+        // farthest point in its direction, so a box keeps its corners and loses nothing but the order of its faces.
+        private void AddObstacle(ConvexObstacle obstacle)
+        {
+            int rows = Sides / 2;
+            for (int row = 0; row <= rows; row++)
+            {
+                double latitude = Math.PI * row / rows;
+                for (int k = 0; k < Sides; k++)
+                {
+                    double longitude = 2.0 * Math.PI * k / Sides;
+                    var direction = new Vector3d(Math.Sin(latitude) * Math.Cos(longitude),
+                        Math.Sin(latitude) * Math.Sin(longitude), Math.Cos(latitude));
+                    Vector3d farthest = obstacle.Points[0];
+                    foreach (Vector3d point in obstacle.Points)
+                    {
+                        farthest = Vector3d.Dot(point - farthest, direction) > 0.0 ? point : farthest;
+                    }
+                    _vertices.Add(farthest + obstacle.Radius * direction);
+                }
+            }
+            AddStrips(rows + 1);
+        }
+
+        private static Vector3d Nearer(in Vector3d far, in Vector3d from, double reach)
+        {
+            Vector3d way = far - from;
+            return way.Length > reach ? from + reach * Vector3d.Normalize(way) : far;
+        }
+
+        private static Vector3d Across(in Vector3d axis)
+        {
+            Vector3d other = Math.Abs(axis.X) < 0.9 * axis.Length ? Vector3d.UnitX : Vector3d.UnitY;
+            return Vector3d.Normalize(Vector3d.Cross(axis, other));
+        }
+
+        private void AddRing(in Vector3d centre, in Vector3d u, in Vector3d v)
+        {
+            for (int k = 0; k < Sides; k++)
+            {
+                double angle = 2.0 * Math.PI * k / Sides;
+                _vertices.Add(centre + Math.Cos(angle) * u + Math.Sin(angle) * v);
+            }
+        }
+
+        // Rings that run about their way as a right hand's fingers about its thumb, seen from within; or circles of
+        // latitude from pole to pole, seen from without.
+        private void AddStrips(int rings)
+        {
+            for (int a = 0; a < (rings - 1) * Sides; a++)
+            {
+                int b = a % Sides == Sides - 1 ? a + 1 - Sides : a + 1;
+                _triangles.AddRange(new[] { a, a + Sides, b, b, a + Sides, b + Sides });
+            }
+        }
+    }
+}

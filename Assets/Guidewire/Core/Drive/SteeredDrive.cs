@@ -1,0 +1,26 @@
+namespace Guidewire.Core
+{
+    /// <summary>Moves sphere 0 along the first element and turns that element about its axis, as a hand asks at the moment.
+    /// </summary>
+    /// <remarks>The hand holds the frame of element 0, also while it asks for nothing: its orientation has weight 0.
+    /// </remarks>
+    internal sealed class SteeredDrive : IDriveMotion
+    {
+        private readonly Steering _hand;
+
+        /// <param name="hand">What is asked.</param>
+        public SteeredDrive(Steering hand)
+        {
+            _hand = hand;
+        }
+
+        /// <inheritdoc/>
+        public void Move(RodState state)
+        {
+            Vector3d direction = Vector3d.Normalize(state.Positions[1] - state.Positions[0]);
+            state.PredictedPositions[0] = state.Positions[0] + _hand.Push * direction;
+            Quaterniond turn = Quaterniond.FromAxisAngle(Vector3d.UnitZ, _hand.Turn);
+            state.PredictedOrientations[0] = Quaterniond.Normalize(state.Orientations[0] * turn);
+        }
+    }
+}
