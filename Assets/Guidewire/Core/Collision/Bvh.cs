@@ -124,9 +124,9 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Fraction of the motion of segment a b during which it stays at least <paramref name="keep"/> from every
-        /// triangle, <see cref="ContactShape.NoImpact"/> for all of it, and the triangle that ends it (-1 for none).
-        /// </summary>
+        /// <summary>Fraction of the motion of segment a b during which it stays at least <paramref name="keep"/> from
+        /// every triangle, <see cref="ContactShape.NoImpact"/> for all of it, and the triangle that ends it (-1 for
+        /// none). </summary>
         public double Sweep(
             in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep, out int triangle)
         {

@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>A box of the hierarchy, with the slab between two planes across the mean normal of its triangles: a patch of
-    /// wall is nearly flat, so the slab is thinner than any box or ball around it.</summary>
+    /// <summary>A box of the hierarchy, with the slab between two planes across the mean normal of its triangles: a
+    /// patch of wall is nearly flat, so the slab is thinner than any box or ball around it.</summary>
     internal struct BvhNode
     {
         /// <summary>Middle of the box.</summary>

@@ -3,10 +3,11 @@ using System;
 namespace Guidewire.Core
 {
     /// <summary>Contact of spheres and, unless switched off, of rod elements by the lever rule.</summary>
-    /// <remarks>One search an element tells whether anything is in reach. Only then the two spheres are asked, and where the
-    /// element touches with an end, the sphere's own contact stands for it and, where spheres leave gaps, the element's middle
-    /// half is asked: a long element in a bend lies against the outer wall with its ends and against the inner wall between. Where a
-    /// motion is long enough to have met the wall on its way, the swept test gives the place where it did.</remarks>
+    /// <remarks>One search an element tells whether anything is in reach. Only then the two spheres are asked, and
+    /// where the element touches with an end, the sphere's own contact stands for it and, where spheres leave gaps,
+    /// the element's middle half is asked: a long element in a bend lies against the outer wall with its ends and
+    /// against the inner wall between. Where a motion is long enough to have met the wall on its way, the swept test
+    /// gives the place where it did.</remarks>
     internal sealed class ContactRule : IContactRule
     {
         private const int ContactsPerSphere = 8;

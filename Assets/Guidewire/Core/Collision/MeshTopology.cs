@@ -4,8 +4,9 @@ using System.Collections.Generic;
 namespace Guidewire.Core
 {
     /// <summary>Makes one oriented surface of a file's triangles: equal vertices become one, collapsed and repeated
-    /// triangles go, neighbours are turned the same way round, open rims are found. What has no single answer is refused:
-    /// an edge of three triangles, a surface of one side only, several surfaces, a hole that nobody named.</summary>
+    /// triangles go, neighbours are turned the same way round, open rims are found. What has no single answer is
+    /// refused: an edge of three triangles, a surface of one side only, several surfaces, a hole that nobody
+    /// named.</summary>
     internal sealed class MeshTopology
     {
         private readonly Dictionary<(int, int), EdgeUse> _edges = new Dictionary<(int, int), EdgeUse>();

@@ -54,9 +54,9 @@ namespace Guidewire.Core
             Feature = feature;
         }
 
-        /// <summary>False when the node is farther than the best so far, by its box against the segment's box, by its slab or
-        /// by its ball against the segment. The bound is the larger squared distance of the first two, the order that of the
-        /// centre.</summary>
+        /// <summary>False when the node is farther than the best so far, by its box against the segment's box, by its
+        /// slab or by its ball against the segment. The bound is the larger squared distance of the first two, the
+        /// order that of the centre.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public bool MayHold(in BvhNode node, out double bound, out double order)
         {

@@ -4,7 +4,8 @@ using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
 {
-    /// <summary>What contact does to a wire: pushes straight, by the lever rule, with the force that loads it.</summary>
+    /// <summary>What contact does to a wire: pushes straight, by the lever rule, with the force that loads
+    /// it.</summary>
     [TestFixture]
     internal sealed class ContactTests
     {
@@ -88,8 +89,8 @@ namespace Guidewire.Core.Tests
         [Test]
         public void ContactForces_OfAWireAtRestOnAPlane_AddUpToItsWeight()
         {
-            // The last steps' mean: one-sided contacts let go and catch again, a jitter of some 1e-6 units, and the mean
-            // differs from the weight by the change of momentum over that time only.
+            // The last steps' mean: one-sided contacts let go and catch again, a jitter of some 1e-6 units, and the
+            // mean differs from the weight by the change of momentum over that time only.
             const int Steps = 2000;
             SimulationParameters p = LyingWire(Drive.Force);
             p.Damping = 0.1;
