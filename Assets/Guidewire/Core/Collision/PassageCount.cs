@@ -2,9 +2,10 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Counts points of the wire that are inside before a step and outside after it, ten an element (s = 0, 0.1, ...
-    /// 0.9) and the last sphere. Leaving through an open rim is no passage.</summary>
-    /// <remarks>Only an element whose straight way meets a wall is asked: a way that meets none changes no side.</remarks>
+    /// <summary>Counts points of the wire that are inside before a step and outside after it, ten an element (s = 0,
+    /// 0.1, ... 0.9) and the last sphere. Leaving through an open rim is no passage.</summary>
+    /// <remarks>Only an element whose straight way meets a wall is asked: a way that meets none changes no
+    /// side.</remarks>
     internal sealed class PassageCount
     {
         private const int SamplesPerElement = 10;
