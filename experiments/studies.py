@@ -1,10 +1,13 @@
 """What is run: each study is a scene, one parameter and its values. Running them is experiments/sweep.py.
 
-The longitudinal studies of the thesis (Figures 4.5 to 4.9) start from its Table 4.1 and change one parameter each.
+The longitudinal studies of the thesis (Figures 4.5 to 4.9) start from its Table 4.1 and change one parameter each, and
+so do the transversal ones (Figures 4.10 to 4.14), where the first sphere is displaced across the wire instead and all
+runs last for the same in-game time.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -23,6 +26,10 @@ class Study:
     values : its values, ascending, in the unit of the key.
     common : overrides of every run.
     repeats : number of timed repeats of each run, made with no other run beside them.
+    variants : name to further overrides; every value is run once with each. Empty: once, with none.
+    duration : in-game time of every run in s; None: the scene's number of steps. The step size must then stand in
+        `common`, a variant or the values.
+    least_steps : steps that a run of `duration` makes at least, so that runs can be compared step by step too.
     """
 
     name: str
@@ -32,6 +39,9 @@ class Study:
     values: tuple[float, ...] = ()
     common: Mapping[str, Any] = field(default_factory=dict)
     repeats: int = 5
+    variants: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    duration: float | None = None
+    least_steps: int = 0
 
     def runs(self) -> list[StudyRun]:
         """Every run: first one per value whose log is analysed, then the timed repeats.
@@ -39,18 +49,30 @@ class Study:
         The repeats go through all values before the next repeat, so that a machine that slows down for a while
         slows every value's repeats alike.
         """
-        points = [("default", None)] if self.parameter is None else [
-            (f"{self.parameter}={value:g}", value) for value in self.values
-        ]
         return [
-            StudyRun(key, value, self._overrides(value, repeat), repeat)
+            StudyRun(key, value, self._overrides(variant, value, repeat), repeat)
             for repeat in (None, *range(1, self.repeats + 1))
-            for key, value in points
+            for key, variant, value in self._points()
         ]
 
-    def _overrides(self, value: float | None, repeat: int | None) -> dict[str, Any]:
+    def _points(self) -> list[tuple[str, str | None, float | None]]:
+        """Key, variant and value of every run."""
+        values = [None] if self.parameter is None else list(self.values)
+        points = []
+        for variant in self.variants or [None]:
+            for value in values:
+                parts = [variant, None if value is None else f"{self.parameter}={value:g}"]
+                points.append((",".join(part for part in parts if part) or "default", variant, value))
+        return points
+
+    def _overrides(self, variant: str | None, value: float | None, repeat: int | None) -> dict[str, Any]:
         varied = {} if self.parameter is None else {self.parameter: value}
-        return {**self.common, **varied, **({} if repeat is None else _TIMED)}
+        chosen = {} if variant is None else self.variants[variant]
+        overrides = {**self.common, **chosen, **varied}
+        if self.duration is not None:
+            steps = max(math.ceil(self.duration / overrides["timeStep"] - _ROUNDING), self.least_steps)
+            overrides["maxSimulationSteps"] = steps
+        return {**overrides, **({} if repeat is None else _TIMED)}
 
 
 @dataclass(frozen=True)
@@ -77,7 +99,32 @@ class StudyRun:
 
 
 _TABLE_4_1 = "params/default.json"
+_ROUNDING = 1e-6  # of a step: 0.3/0.1 is three steps
 _TIMED = {"logSpheres": "last"}  # a timed run's log is read for its times only
+
+_DURATION = 1.0  # s, in-game, of every transversal run; 100 steps of Table 4.1
+_TRANSVERSAL = {"displacementDirection": [0, 1, 0], "deltaThreshold": 0, "timeStep": 0.01}
+_REFERENCE = {"constraintSolverSteps": 2000, "numberRodElements": 60, "timeStep": 2e-4}
+
+
+def _decades(first: int, last: int, per_decade: int) -> list[int]:
+    """Whole numbers from 10^first to 10^last, spaced as evenly as they can be on a logarithmic axis."""
+    count = (last - first) * per_decade
+    return sorted({round(10.0 ** (first + k / per_decade)) for k in range(count + 1)})
+
+
+# Fine enough to tell a peak from a resonance. A time step is a whole part of a second, so that all runs end together.
+_FINE_SOLVER_STEPS = tuple(range(100, 1001, 10))
+_FINE_TIME_STEPS = tuple(sorted({1.0 / k for k in (*_decades(1, 3, 40), *_decades(3, 4, 10))}))
+_FINE_MASSES = tuple(float(f"{10.0 ** (k / 40 - 3):.4g}") for k in range(121))
+
+
+def _perturbation(name: str, title: str, parameter: str, values: tuple[float, ...]) -> Study:
+    return Study(
+        f"transversal-{name}", f"transversal displacement: {title}", _TABLE_4_1, parameter, values, _TRANSVERSAL,
+        repeats=0, duration=_DURATION, least_steps=100,
+    )
+
 
 STUDIES: dict[str, Study] = {
     study.name: study
@@ -100,5 +147,19 @@ STUDIES: dict[str, Study] = {
             "total-mass", "total mass M", _TABLE_4_1, "totalMass",
             (1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2, 1e-1, 2e-1, 5e-1, 1.0),
         ),
+        Study(
+            "transversal-reference", "transversal displacement: the reference run and two coarser ones", _TABLE_4_1,
+            common={**_TRANSVERSAL, **_REFERENCE}, repeats=0, duration=_DURATION,
+            variants={
+                "reference": {},
+                "half-solver-steps": {"constraintSolverSteps": 1000},
+                "half-elements": {"numberRodElements": 30},
+            },
+        ),
+        _perturbation("solver-steps", "constraint solver steps m", "constraintSolverSteps", _FINE_SOLVER_STEPS),
+        _perturbation("time-step", "time step size dt", "timeStep", _FINE_TIME_STEPS),
+        _perturbation("rod-elements", "rod elements n", "numberRodElements", tuple(range(5, 61))),
+        _perturbation("total-mass", "total mass M", "totalMass", _FINE_MASSES),
+        _perturbation("displacement", "displacement of the first sphere", "displacement", (1, 2, 5, *range(10, 101, 10))),
     )
 }

@@ -9,7 +9,8 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from analysis.figures import default_run
+from analysis.comparisons import read_comparison, read_reference
+from analysis.figures import default_run, perturbations
 from analysis.figures.sweeps import VIEWS, draw_sweep
 from analysis.tables import read_table
 
@@ -30,7 +31,8 @@ class FigureSpec:
         Names of the studies whose runs it is drawn from.
     draw : callable
         From a mapping of study name to study folder to the figure and its caption. Raises analysis.logs.LogError
-        where a file cannot be read and analysis.relaxation.RelaxationError where nothing relaxes.
+        where a file cannot be read or no run lasts as long as its reference, and analysis.relaxation.RelaxationError
+        where nothing relaxes.
     """
 
     id: str
@@ -56,6 +58,21 @@ def _study_spec(number: str, title: str, study: str) -> FigureSpec:
     return FigureSpec(number, title, (study,), partial(_draw_study, number, study))
 
 
+def _draw_reference(study: str, studies: Mapping[str, Path]) -> Drawn:
+    return perturbations.draw_reference(read_reference(studies[study]))
+
+
+def _draw_perturbation(number: str, study: str, reference: str, studies: Mapping[str, Path]) -> Drawn:
+    view = perturbations.VIEWS[number]
+    table = read_comparison(studies[study], studies[reference], view.key, view.proportional)
+    return perturbations.draw_perturbation(view, table)
+
+
+def _perturbation_spec(number: str, scene: str, study: str, title: str) -> FigureSpec:
+    reference, name = f"{scene}-reference", f"{scene}-{study}"
+    return FigureSpec(number, title, (reference, name), partial(_draw_perturbation, number, name, reference))
+
+
 FIGURES: dict[str, FigureSpec] = {
     spec.id: spec
     for spec in (
@@ -71,5 +88,12 @@ FIGURES: dict[str, FigureSpec] = {
         _study_spec("4.7", "convergence against the displacement", "displacement"),
         _study_spec("4.8", "convergence against the time step size", "time-step"),
         _study_spec("4.9", "convergence against the total mass", "total-mass"),
+        FigureSpec("4.10", "reference run of the transversal displacement", ("transversal-reference",),
+                   partial(_draw_reference, "transversal-reference")),
+        _perturbation_spec("4.11", "transversal", "solver-steps", "transversal against the constraint solver steps"),
+        _perturbation_spec("4.12", "transversal", "time-step", "transversal against the time step size"),
+        _perturbation_spec("4.13", "transversal", "rod-elements", "transversal against the number of rod elements"),
+        _perturbation_spec("4.14", "transversal", "total-mass", "transversal against the total mass"),
+        _perturbation_spec("4.14b", "transversal", "displacement", "transversal against the displacement"),
     )
 }

@@ -8,8 +8,10 @@ D = w_j + w_{j+1} + 4 l^2 each iteration moves z_j by +g w_j l G/D and z_{j+1} b
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Protocol
 
 import numpy as np
 
@@ -144,8 +146,19 @@ def small(**changed: float) -> Chain:
     return Chain(**{"constraint_solver_steps": 100, "elements": 10, **changed})  # type: ignore[arg-type]
 
 
-def write_study(folder: Path, name: str, key: str | None, chains: list[Chain], repeats: int = 3) -> Path:
-    """Writes a study folder: each chain's run and timed repeats of it, of 2, 3, 4 ... ms a step, and study.json."""
+class WrittenRun(Protocol):
+    """What a study is made of."""
+
+    @property
+    def parameters(self) -> dict:
+        """parameters.json of this run."""
+
+    def write(self, folder: Path, milliseconds_per_step: float = 2.0) -> Path:
+        """Writes a run folder."""
+
+
+def write_study(folder: Path, name: str, key: str | None, chains: Sequence[WrittenRun], repeats: int = 3) -> Path:
+    """Writes a study folder: each run and timed repeats of it, of 2, 3, 4 ... ms a step, and study.json."""
     rows = []
     for chain in chains:
         label = name if key is None else f"{key}={chain.parameters[key]}"

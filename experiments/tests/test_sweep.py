@@ -43,7 +43,25 @@ def test_every_thesis_sweep_holds_the_default_value():
 @pytest.mark.parametrize("study", STUDIES.values(), ids=STUDIES)
 def test_no_two_runs_share_a_folder(study):
     folders = [run.folder for run in study.runs()]
-    assert len(set(folders)) == len(folders) == max(1, len(study.values)) * (1 + study.repeats)
+    assert len(set(folders)) == len(folders) == (
+        max(1, len(study.variants)) * max(1, len(study.values)) * (1 + study.repeats)
+    )
+
+
+def test_each_variant_takes_every_value_and_a_duration_sets_the_steps():
+    study = Study("both", "", "params/default.json", "timeStep", (0.1, 0.3), common={"displacement": 1}, repeats=0,
+                  variants={"many": {"displacement": 2}, "few": {}}, duration=0.9, least_steps=5)
+    assert [(run.key, dict(run.overrides)) for run in study.runs()] == [
+        ("many,timeStep=0.1", {"displacement": 2, "timeStep": 0.1, "maxSimulationSteps": 9}),
+        ("many,timeStep=0.3", {"displacement": 2, "timeStep": 0.3, "maxSimulationSteps": 5}),
+        ("few,timeStep=0.1", {"displacement": 1, "timeStep": 0.1, "maxSimulationSteps": 9}),
+        ("few,timeStep=0.3", {"displacement": 1, "timeStep": 0.3, "maxSimulationSteps": 5}),
+    ]
+
+
+def test_variants_without_a_parameter_are_runs_of_their_own_name():
+    study = Study("alone", "", "params/default.json", repeats=0, variants={"a": {}, "b": {"displacement": 3}})
+    assert [(run.key, run.value, run.folder) for run in study.runs()] == [("a", None, "a"), ("b", None, "b")]
 
 
 def test_study_json_lists_every_run_with_its_folder_and_outcome(fake, tmp_path):

@@ -60,6 +60,10 @@ namespace Guidewire.Core
                 throw new ArgumentException(complaint);
             }
             RodState state = StartOf(parameters);
+            if (parameters.Solver != Solver.Pbd)
+            {
+                return CreateMaterial(parameters, state);
+            }
             Vector3d origin = state.Positions[0];
             Vector3d direction = Vector3d.Normalize(parameters.DisplacementDirection);
             IDriveMotion? drive = null;
@@ -127,6 +131,32 @@ namespace Guidewire.Core
                 state.Load(parameters.Start);
             }
             return state;
+        }
+
+        /// <summary>What the solver says of itself, for a run with a material; null with gains.</summary>
+        public SolverReport? CompleteReport()
+        {
+            var reporting = _step as IReportingStep;
+            reporting?.CompleteReport();
+            return reporting?.Report;
+        }
+
+        private static Simulation CreateMaterial(SimulationParameters parameters, RodState state)
+        {
+            ITimeStep step = MaterialSetup.Create(parameters, state, out string? failure);
+            var stopRule = new StopRule(parameters.DeltaThreshold, parameters.SteadyStateHold,
+                parameters.MaxSimulationSteps, state);
+            var simulation = new Simulation(state, step, stopRule, parameters.TimeStep);
+            if (failure != null)
+            {
+                simulation.End(Outcome.Failed, failure);
+            }
+            else if (parameters.MaxSimulationSteps == 0
+                && parameters.Material.InitialState == InitialState.Equilibrium)
+            {
+                simulation.End(Outcome.Converged, "the wire is at rest");
+            }
+            return simulation;
         }
 
         /// <summary>One step. Does nothing once the run has ended.</summary>

@@ -24,6 +24,27 @@ namespace Guidewire.Core
 
         /// <summary>Thesis eqs. 2.5 and 2.6 with the new velocity in the second.</summary>
         Euler,
+
+        /// <summary>Positions and orientations by Verlet's formula.</summary>
+        OrientationVerlet,
+
+        /// <summary>Positions by Euler, orientations by Verlet's formula.</summary>
+        EulerOrientationVerlet,
+
+        /// <summary>Direct solver, order 1.</summary>
+        ImplicitEuler,
+
+        /// <summary>Direct solver, two-step, order 2.</summary>
+        Bdf2,
+
+        /// <summary>Direct solver, L-stable Runge-Kutta with 2 stages, order 2.</summary>
+        Sdirk2,
+
+        /// <summary>Direct solver, L-stable Runge-Kutta with 3 stages, order 3.</summary>
+        Sdirk3,
+
+        /// <summary>Direct solver, L-stable Runge-Kutta with 5 stages, order 4.</summary>
+        Sdirk4,
     }
 
     /// <summary>The order in which one Gauss-Seidel sweep visits the rod elements.</summary>
@@ -144,6 +165,12 @@ namespace Guidewire.Core
 
         /// <summary>A hand that pushes and turns the wire as it goes, in place of the drive's motion, or null.</summary>
         public Steering? Steering { get; set; }
+
+        /// <summary>What keeps the wire together: gains (pbd) or a material (the others).</summary>
+        public Solver Solver { get; set; } = Solver.Pbd;
+
+        /// <summary>The material, for every solver but pbd.</summary>
+        public MaterialParameters Material { get; } = new MaterialParameters();
 
         /// <summary>A start other than the straight wire along z at rest, or null.</summary>
         public RodStart? Start { get; set; }

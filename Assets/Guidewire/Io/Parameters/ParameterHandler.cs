@@ -117,6 +117,7 @@ namespace Guidewire.Io
             {
                 simulation.DisplacementPerStep = simulation.Displacement;
             }
+            MaterialRules.Apply(Values, _given);
             if (Values.StartFile.Length > 0)
             {
                 simulation.Start = ReadStart(simulation.NumberRodElements);
@@ -181,6 +182,10 @@ namespace Guidewire.Io
             {
                 AddWarning("{0}: rodElementLength = {1} is not guidewireLength / numberRodElements = {2}, which counts",
                     length.Source, (double)length.Value, l);
+            }
+            if (simulation.Solver != Solver.Pbd)
+            {
+                return;
             }
             if (simulation.StretchStiffness >= 2.0)
             {

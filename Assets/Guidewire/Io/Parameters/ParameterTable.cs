@@ -23,10 +23,11 @@ namespace Guidewire.Io
         }
 
         /// <summary>The keys in the order of the help text.</summary>
-        public static IReadOnlyList<ParameterEntry> Entries { get; } = new ParameterEntry[]
+        public static IReadOnlyList<ParameterEntry> Entries { get; } = Join(new ParameterEntry[]
         {
+            MaterialEntries.Solver,
             new IntegerEntry("constraintSolverSteps", "iterations a step", 0, 1_000_000,
-                "m, Gauss-Seidel iterations; more of them make a stiffer wire",
+                "m, Gauss-Seidel iterations; with gains, more of them make a stiffer wire; with xpbd 1 a substep if not given",
                 p => p.Simulation.ConstraintSolverSteps, (p, v) => p.Simulation.ConstraintSolverSteps = v),
             new NumberEntry("timeStep", "s", NumberRange.Positive, "dt",
                 p => p.Simulation.TimeStep, (p, v) => p.Simulation.TimeStep = v),
@@ -62,11 +63,13 @@ namespace Guidewire.Io
                 "motion of sphere 0 with drive \"displace\" or \"push\"",
                 p => p.Simulation.DisplacementPerStep, (p, v) => p.Simulation.DisplacementPerStep = v),
             new NumberEntry("twistPerStep", "radians a step", NumberRange.Any,
-                "turn of element 0 about its own axis; where it is not 0 the element's frame is held",
+                "turn of element 0 about its own axis, with a material of its clamp; with gains, where it is not 0 the"
+                + " element's frame is held",
                 p => p.Simulation.TwistPerStep, (p, v) => p.Simulation.TwistPerStep = v),
-            new VectorEntry("externalForce", "mass unit * unit/s^2", true, "force on sphere 0 with drive \"force\"",
+            new VectorEntry("externalForce", "mass unit * unit/s^2; with a material N", true,
+                "force on sphere 0 with drive \"force\"",
                 p => p.Simulation.ExternalForce, (p, v) => p.Simulation.ExternalForce = v),
-            new VectorEntry("gravity", "unit/s^2", true, "acceleration of every free sphere",
+            new VectorEntry("gravity", "unit/s^2; with a material m/s^2", true, "acceleration of every free sphere",
                 p => p.Simulation.Gravity, (p, v) => p.Simulation.Gravity = v),
             new NumberEntry("damping", "", NumberRange.Between(0.0, 1.0), "share of its velocity that a sphere loses a step",
                 p => p.Simulation.Damping, (p, v) => p.Simulation.Damping = v),
@@ -123,7 +126,14 @@ namespace Guidewire.Io
                 + " displacement where displacementPerStep is not given",
                 p => p.Simulation.Drive == Drive.Hold,
                 (p, v) => p.Simulation.Drive = v ? Drive.Hold : Drive.Displace),
-        };
+        }, MaterialEntries.Material);
+
+        private static ParameterEntry[] Join(IReadOnlyList<ParameterEntry> first, IReadOnlyList<ParameterEntry> second)
+        {
+            var all = new List<ParameterEntry>(first);
+            all.AddRange(second);
+            return all.ToArray();
+        }
 
         /// <summary>The entry of a key, or null.</summary>
         public static ParameterEntry? Find(string key)

@@ -60,7 +60,39 @@ namespace Guidewire.Io
                 ["parameterHash"] = notes.Count == 0 ? handler.Hash : null,
                 ["complete"] = true,
             };
+            SolverReport? report = simulation.CompleteReport();
+            json.Property("steadyStateStep")!.AddAfterSelf(new JProperty("stiffness", report == null ? "gains" : "material"));
+            if (report != null)
+            {
+                json.Property("stiffness")!.AddAfterSelf(new JProperty("solver", Solver(report)));
+            }
             return json.ToString(Formatting.Indented) + "\n";
+        }
+
+        private static JObject Solver(SolverReport report)
+        {
+            return new JObject
+            {
+                ["method"] = report.Method,
+                ["factorisations"] = report.Factorisations,
+                ["keptSolutions"] = report.KeptSolutions,
+                ["searches"] = report.Searches,
+                ["equilibriumIterations"] = report.EquilibriumIterations,
+                ["equilibriumResidual"] = Finite(report.EquilibriumResidual),
+                ["smallestEigenvalue"] = Finite(report.SmallestEigenvalue),
+                ["largestError"] = Finite(report.LargestError),
+                ["stepsNotConverged"] = report.StepsNotConverged,
+                ["proximalForce"] = Vector(report.ProximalForce),
+                ["proximalMoment"] = Vector(report.ProximalMoment),
+                ["distalForce"] = Vector(report.DistalForce),
+                ["distalMoment"] = Vector(report.DistalMoment),
+                ["energy"] = Finite(report.Energy),
+            };
+        }
+
+        private static JArray Vector(in Vector3d v)
+        {
+            return new JArray(Finite(v.X), Finite(v.Y), Finite(v.Z));
         }
 
         /// <summary>The product's version.</summary>

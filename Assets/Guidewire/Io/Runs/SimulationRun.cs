@@ -50,7 +50,7 @@ namespace Guidewire.Io
             Simulation simulation = Simulation.Create(_handler.Values.Simulation);
             using RunFolder results = RunFolder.Open(_handler, _folder, _repeat);
             results.Begin(simulation);
-            if (_handler.Values.Simulation.MaxSimulationSteps == 0)
+            if (_handler.Values.Simulation.MaxSimulationSteps == 0 && simulation.Outcome == Outcome.Running)
             {
                 simulation.End(Outcome.Finished, "no steps were asked for");
             }

@@ -1,0 +1,122 @@
+using System.Runtime.CompilerServices;
+
+namespace Guidewire.Core
+{
+    /// <summary>Bending and twist: one joint between successive elements, one at each clamped end against the clamp's frame
+    /// (thesis, bend-twist constraint, as an energy; the law between angle and couple is the type argument).</summary>
+    internal sealed class BendTwistEnergy<TLaw> : BendTwistTerm
+        where TLaw : struct, IJointLaw
+    {
+        private readonly Joint[] _joint;  // 0: proximal clamp; k: between elements k-1 and k; n: distal clamp
+        private readonly bool _hasProximal;
+        private readonly bool _hasDistal;
+        private readonly TLaw _law;
+        private RodBlock _clampBlock;     // what falls on a clamp's frame, which does not move
+        private RodVector _clampVector;
+
+        /// <summary>The energy of these n+1 joints; the first and the last count only where that end is clamped.</summary>
+        public BendTwistEnergy(Joint[] joints, bool hasProximal, bool hasDistal)
+        {
+            _joint = joints;
+            _hasProximal = hasProximal;
+            _hasDistal = hasDistal;
+            _law = default;
+        }
+
+        /// <inheritdoc/>
+        public override double Value(RodShape shape)
+        {
+            int n = shape.ElementCount;
+            double sum = 0.0;
+            if (_hasProximal)
+            {
+                sum += _law.Value(_joint[0], shape.ProximalFrame.Conjugate * shape.Q[0]);
+            }
+            for (int k = 1; k < n; k++)
+            {
+                sum += _law.Value(_joint[k], shape.Q[k - 1].Conjugate * shape.Q[k]);
+            }
+            if (_hasDistal)
+            {
+                sum += _law.Value(_joint[n], shape.Q[n - 1].Conjugate * shape.DistalFrame);
+            }
+            return sum;
+        }
+
+        /// <inheritdoc/>
+        public override void AddGradient(RodShape shape, RodVector[] gradient, int from, int to)
+        {
+            int n = shape.ElementCount;
+            if (from == 0 && _hasProximal)
+            {
+                _law.AddGradient(_joint[0], shape.ProximalFrame.Conjugate * shape.Q[0], ref _clampVector,
+                    ref gradient[0]);
+            }
+            int end = to < n - 1 ? to : n - 1;
+            for (int j = from; j < end; j++)
+            {
+                _law.AddGradient(_joint[j + 1], Relative(shape, j), ref gradient[j], ref gradient[j + 1]);
+            }
+            if (to >= n && from < n && _hasDistal)
+            {
+                _law.AddGradient(_joint[n], shape.Q[n - 1].Conjugate * shape.DistalFrame, ref gradient[n - 1],
+                    ref _clampVector);
+            }
+        }
+
+        /// <inheritdoc/>
+        public override void AddBlocks(RodShape shape, RodBlock[] blocks, RodVector[] gradient, int from, int to)
+        {
+            int n = shape.ElementCount;
+            if (from == 0 && _hasProximal)
+            {
+                _clampBlock = default;
+                _law.AddBlocks(_joint[0], shape.ProximalFrame.Conjugate * shape.Q[0], ref _clampVector,
+                    ref gradient[0], ref _clampBlock, ref blocks[0]);
+            }
+            int end = to < n - 1 ? to : n - 1;
+            for (int j = from; j < end; j++)
+            {
+                _law.AddBlocks(_joint[j + 1], Relative(shape, j), ref gradient[j], ref gradient[j + 1],
+                    ref blocks[j], ref blocks[j + 1]);
+            }
+            if (to >= n && from < n && _hasDistal)
+            {
+                _clampBlock = default;
+                _law.AddBlocks(_joint[n], shape.Q[n - 1].Conjugate * shape.DistalFrame, ref gradient[n - 1],
+                    ref _clampVector, ref blocks[n - 1], ref _clampBlock);
+            }
+        }
+
+        /// <inheritdoc/>
+        public override Vector3d ProximalCouple(RodShape shape)
+        {
+            RodVector onFrame = default;
+            RodVector onElement = default;
+            if (_hasProximal)
+            {
+                _law.AddGradient(_joint[0], shape.ProximalFrame.Conjugate * shape.Q[0], ref onFrame, ref onElement);
+            }
+            return Quaterniond.Rotate(shape.ProximalFrame, new Vector3d(onFrame.T1, onFrame.T2, onFrame.T3));
+        }
+
+        /// <inheritdoc/>
+        public override Vector3d DistalCouple(RodShape shape)
+        {
+            RodVector onFrame = default;
+            RodVector onElement = default;
+            int n = shape.ElementCount;
+            if (_hasDistal)
+            {
+                _law.AddGradient(_joint[n], shape.Q[n - 1].Conjugate * shape.DistalFrame, ref onElement, ref onFrame);
+            }
+            return Quaterniond.Rotate(shape.DistalFrame, new Vector3d(onFrame.T1, onFrame.T2, onFrame.T3));
+        }
+
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        private static Quaterniond Relative(RodShape shape, int j)
+        {
+            return shape.Q[j].Conjugate * shape.Q[j + 1];
+        }
+    }
+}

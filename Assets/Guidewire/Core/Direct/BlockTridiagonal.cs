@@ -1,0 +1,282 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>The linear system of a rod: n+1 blocks over (x_i, theta_i), the last theta a place holder. Assembles the
+    /// terms, takes the supports out, factorises by LDL^T and solves, all in O(n).</summary>
+    /// <remarks>A long rod is assembled and eliminated piece by piece, so that a block is still in the cache when it is
+    /// eliminated. At a support the fixed direction's row and column become those of the unit matrix.</remarks>
+    internal sealed class BlockTridiagonal
+    {
+        private const int Piece = 32;  // blocks; 12 KB
+
+        private readonly RodBlock[] _block;
+        private readonly int _count;
+        private readonly double[] _weight;  // of theta_i in the metric, m
+        private readonly double _perLengthSquared;
+        private readonly bool _holdsStart;
+        private readonly DistalEnd _distalEnd;
+        private readonly Vector3d _slidingAxis;
+
+        /// <summary>A system for this rod between these supports.</summary>
+        public BlockTridiagonal(MaterialRod rod, RodSupports supports)
+        {
+            _count = rod.ElementCount + 1;
+            _block = new RodBlock[_count + 1];
+            _weight = new double[_count];
+            for (int j = 0; j < rod.ElementCount; j++)
+            {
+                _weight[j] += rod.Length[j];
+            }
+            _weight[_count - 1] = rod.Length[rod.ElementCount - 1];
+            _perLengthSquared = 1.0 / (rod.TotalLength * rod.TotalLength);
+            _holdsStart = supports.Proximal != ProximalEnd.Free;
+            _distalEnd = supports.Distal;
+            _slidingAxis = supports.SlidingAxis;
+        }
+
+        /// <summary>Number of vectors that a right-hand side must hold: one more than there are blocks.</summary>
+        public int VectorCount => _count + 1;
+
+        /// <summary>Assembles gradient and blocks of all terms, adds shift times the metric (l on theta, l/L^2 on x), and
+        /// factorises; with it goes the right-hand side -gradient.</summary>
+        /// <returns>The number of eigenvalues that are not positive: 0 when the energy is convex here.</returns>
+        public int Factorise(EnergyTerm[] terms, RodShape shape, RodVector[] gradient, RodVector[] y, double shift)
+        {
+            int last = _count - 1;
+            Array.Clear(y, 0, y.Length);
+            gradient[0] = default;
+            _block[0] = default;
+            int negative = 0;
+            int from = 0;
+            while (from < _count)
+            {
+                int to = from + Piece;
+                if (to >= last)
+                {
+                    to = _count;
+                }
+                Array.Clear(_block, from + 1, to - from);
+                Array.Clear(gradient, from + 1, to - from);
+                for (int k = 0; k < terms.Length; k++)
+                {
+                    terms[k].AddBlocks(shape, _block, gradient, from, to);
+                }
+                if (shift != 0.0)
+                {
+                    AddShift(shift, from, to);
+                }
+                if (from == 0)
+                {
+                    HoldStart();
+                }
+                if (to == _count)
+                {
+                    HoldEnd();
+                }
+                for (int i = from; i < to; i++)
+                {
+                    AddNegative(gradient, y, i);
+                    negative += BlockElimination.Eliminate(ref _block[i], ref _block[i + 1], ref y[i], ref y[i + 1]);
+                }
+                from = to;
+            }
+            return negative;
+        }
+
+        /// <summary>y := -gradient with the supports taken out; gradient itself keeps the reactions.</summary>
+        public void Gradient(EnergyTerm[] terms, RodShape shape, RodVector[] gradient, RodVector[] y)
+        {
+            Array.Clear(gradient, 0, gradient.Length);
+            for (int k = 0; k < terms.Length; k++)
+            {
+                terms[k].AddGradient(shape, gradient, 0, _count);
+            }
+            Array.Clear(y, 0, y.Length);
+            for (int i = 0; i < _count; i++)
+            {
+                AddNegative(gradient, y, i);
+            }
+        }
+
+        /// <summary>y := A^-1 y with the factorisation at hand.</summary>
+        public void Solve(RodVector[] y)
+        {
+            y[_count] = default;
+            for (int i = 0; i < _count; i++)
+            {
+                BlockElimination.Forward(_block[i], ref y[i], ref y[i + 1]);
+            }
+            Back(y);
+        }
+
+        /// <summary>The second half of <see cref="Solve"/>, after a <see cref="Factorise"/> that took y along.</summary>
+        public void Back(RodVector[] y)
+        {
+            y[_count] = default;
+            for (int i = _count - 1; i >= 0; i--)
+            {
+                BlockElimination.Backward(_block[i], ref y[i], y[i + 1]);
+            }
+        }
+
+        /// <summary>Takes the fixed directions out of a vector.</summary>
+        public void Project(RodVector[] v)
+        {
+            ProjectStart(ref v[0]);
+            ProjectEnd(ref v[_count - 1]);
+        }
+
+        /// <summary>a . b over all free directions, weighted by the metric: l on theta, l/L^2 on x.</summary>
+        public double MetricDot(RodVector[] a, RodVector[] b)
+        {
+            double sum = 0.0;
+            for (int i = 0; i < _count; i++)
+            {
+                double x = a[i].X1 * b[i].X1 + a[i].X2 * b[i].X2 + a[i].X3 * b[i].X3;
+                double t = a[i].T1 * b[i].T1 + a[i].T2 * b[i].T2 + a[i].T3 * b[i].T3;
+                sum += _weight[i] * (t + _perLengthSquared * x);
+            }
+            return sum;
+        }
+
+        /// <summary>v := metric times v.</summary>
+        public void ApplyMetric(RodVector[] v)
+        {
+            for (int i = 0; i < _count; i++)
+            {
+                double t = _weight[i];
+                double x = t * _perLengthSquared;
+                v[i].X1 *= x;
+                v[i].X2 *= x;
+                v[i].X3 *= x;
+                v[i].T1 *= t;
+                v[i].T2 *= t;
+                v[i].T3 *= t;
+            }
+        }
+
+        private void AddNegative(RodVector[] gradient, RodVector[] y, int i)
+        {
+            RodVector g = gradient[i];
+            if (i == 0)
+            {
+                ProjectStart(ref g);
+            }
+            if (i == _count - 1)
+            {
+                ProjectEnd(ref g);
+            }
+            ref RodVector v = ref y[i];
+            v.X1 -= g.X1;
+            v.X2 -= g.X2;
+            v.X3 -= g.X3;
+            v.T1 -= g.T1;
+            v.T2 -= g.T2;
+            v.T3 -= g.T3;
+        }
+
+        private void ProjectStart(ref RodVector v)
+        {
+            if (_holdsStart)
+            {
+                v.X1 = 0.0;
+                v.X2 = 0.0;
+                v.X3 = 0.0;
+            }
+        }
+
+        private void ProjectEnd(ref RodVector v)
+        {
+            v.T1 = 0.0;
+            v.T2 = 0.0;
+            v.T3 = 0.0;
+            if (_distalEnd == DistalEnd.Free)
+            {
+                return;
+            }
+            Vector3d a = _slidingAxis;
+            double along = _distalEnd == DistalEnd.Sliding ? a.X * v.X1 + a.Y * v.X2 + a.Z * v.X3 : 0.0;
+            v.X1 = along * a.X;
+            v.X2 = along * a.Y;
+            v.X3 = along * a.Z;
+        }
+
+        private void AddShift(double shift, int from, int to)
+        {
+            for (int i = from; i < to; i++)
+            {
+                double t = shift * _weight[i];
+                double x = t * _perLengthSquared;
+                ref RodBlock b = ref _block[i];
+                b.A11 += x;
+                b.A22 += x;
+                b.A33 += x;
+                b.C11 += t;
+                b.C22 += t;
+                b.C33 += t;
+            }
+        }
+
+        private void HoldStart()
+        {
+            if (!_holdsStart)
+            {
+                return;
+            }
+            ref RodBlock b = ref _block[0];
+            b.A11 = 1.0; b.A22 = 1.0; b.A33 = 1.0;
+            b.A21 = 0.0; b.A31 = 0.0; b.A32 = 0.0;
+            b.B11 = 0.0; b.B12 = 0.0; b.B13 = 0.0;
+            b.B21 = 0.0; b.B22 = 0.0; b.B23 = 0.0;
+            b.B31 = 0.0; b.B32 = 0.0; b.B33 = 0.0;
+            b.D11 = 0.0; b.D12 = 0.0; b.D13 = 0.0;
+            b.D21 = 0.0; b.D22 = 0.0; b.D23 = 0.0;
+            b.D31 = 0.0; b.D32 = 0.0; b.D33 = 0.0;
+        }
+
+        private void HoldEnd()
+        {
+            ref RodBlock b = ref _block[_count - 2];
+            ref RodBlock end = ref _block[_count - 1];
+            b.F11 = 0.0; b.F12 = 0.0; b.F13 = 0.0;
+            b.F21 = 0.0; b.F22 = 0.0; b.F23 = 0.0;
+            b.F31 = 0.0; b.F32 = 0.0; b.F33 = 0.0;
+            end.C11 = 1.0; end.C22 = 1.0; end.C33 = 1.0;
+            end.C21 = 0.0; end.C31 = 0.0; end.C32 = 0.0;
+            if (_distalEnd == DistalEnd.Free)
+            {
+                return;
+            }
+            // With P the projection on the axis along which the end may slide (0 if clamped): rows P D and P E of the
+            // element before, and P A P + 1 - P for the end itself.
+            Vector3d a = _distalEnd == DistalEnd.Sliding ? _slidingAxis : Vector3d.Zero;
+            double d1 = a.X * b.D11 + a.Y * b.D21 + a.Z * b.D31;
+            double d2 = a.X * b.D12 + a.Y * b.D22 + a.Z * b.D32;
+            double d3 = a.X * b.D13 + a.Y * b.D23 + a.Z * b.D33;
+            b.D11 = a.X * d1; b.D12 = a.X * d2; b.D13 = a.X * d3;
+            b.D21 = a.Y * d1; b.D22 = a.Y * d2; b.D23 = a.Y * d3;
+            b.D31 = a.Z * d1; b.D32 = a.Z * d2; b.D33 = a.Z * d3;
+            double e1 = a.X * b.E11 + a.Y * b.E21 + a.Z * b.E31;
+            double e2 = a.X * b.E12 + a.Y * b.E22 + a.Z * b.E32;
+            double e3 = a.X * b.E13 + a.Y * b.E23 + a.Z * b.E33;
+            b.E11 = a.X * e1; b.E12 = a.X * e2; b.E13 = a.X * e3;
+            b.E21 = a.Y * e1; b.E22 = a.Y * e2; b.E23 = a.Y * e3;
+            b.E31 = a.Z * e1; b.E32 = a.Z * e2; b.E33 = a.Z * e3;
+            double along = a.X * a.X * end.A11 + a.Y * a.Y * end.A22 + a.Z * a.Z * end.A33
+                + 2.0 * (a.X * a.Y * end.A21 + a.X * a.Z * end.A31 + a.Y * a.Z * end.A32) - 1.0;
+            end.A11 = 1.0 + along * a.X * a.X;
+            end.A22 = 1.0 + along * a.Y * a.Y;
+            end.A33 = 1.0 + along * a.Z * a.Z;
+            end.A21 = along * a.X * a.Y;
+            end.A31 = along * a.X * a.Z;
+            end.A32 = along * a.Y * a.Z;
+            if (_distalEnd == DistalEnd.Clamped)
+            {
+                end.A11 = 1.0;
+                end.A22 = 1.0;
+                end.A33 = 1.0;
+            }
+        }
+    }
+}

@@ -1,0 +1,28 @@
+namespace Guidewire.Core
+{
+    /// <summary>How a search for a rest shape ended.</summary>
+    internal struct EquilibriumResult
+    {
+        /// <summary>True only where the last Newton step was below the tolerance and the energy is convex.</summary>
+        public bool Converged;
+
+        /// <summary>Why not, in one line; empty when converged.</summary>
+        public string Reason;
+
+        /// <summary>Newton iterations, all stages together.</summary>
+        public int Iterations;
+
+        /// <summary>Factorisations, among them those that a shift had to repeat.</summary>
+        public int Factorisations;
+
+        /// <summary>Size of the last Newton step: radians, or displacement over L.</summary>
+        public double LastStep;
+
+        /// <summary>Largest unbalanced force over EI/L^2 + loads, or couple over that times L.</summary>
+        public double Residual;
+
+        /// <summary>Smallest eigenvalue of the second derivative against the metric (l on turns, l/L^2 on shifts), N: for
+        /// a straight clamped-free rod EI (pi/(2 L))^2, the distance to its Euler load.</summary>
+        public double SmallestEigenvalue;
+    }
+}

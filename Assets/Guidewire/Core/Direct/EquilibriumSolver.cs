@@ -1,0 +1,291 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>Finds a rest shape: a minimum of the sum of energy terms, by Newton's method.</summary>
+    /// <remarks>Each iteration factorises the true second derivative. Where it is not positive definite a multiple of the
+    /// metric is added until it is, so that the direction descends; the step is cut until the energy falls by a part of
+    /// what the slope promises. At a saddle (a straight rod under a thrust along its axis) the search leaves along the
+    /// direction of most negative curvature. Converged means: the second derivative as it is has positive pivots only,
+    /// and the full step is below the tolerance. Whatever else happens ends with a reason. A shape that may turn without
+    /// any change of energy (a buckled rod about its thrust) has an eigenvalue 0, which rounding makes one of either
+    /// sign: eigenvalues within rounding of 0, 8 eps n^2 EA and at most 1e-4 EI/L^2, count as not negative.</remarks>
+    internal sealed class EquilibriumSolver
+    {
+        private const double LargestTurn = 1.0;          // rad an iteration, of one element where forces act
+        private const double LargestRelativeTurn = 0.7;  // rad an iteration, between neighbours
+        private const double SufficientDecrease = 1e-4;
+        private const double SaddleStep = 1e-7;          // a shifted step this small means: no force left
+        private const int MostCuts = 40;
+        private const double Epsilon = 2.2e-16;
+        private const int PowerIterations = 40;
+
+        private readonly MaterialRod _rod;
+        private readonly RodSupports _supports;
+        private readonly EnergyTerm[] _terms;
+        private readonly BlockTridiagonal _system;
+        private readonly RodVector[] _gradient;
+        private readonly RodVector[] _direction;
+        private readonly RodVector[] _work;
+        private readonly RodShape _trial;
+        private readonly double _length;
+        private readonly double _bendForce;  // EI/L^2 of the stiffest element, N
+        private readonly double _rounding;   // of an eigenvalue, N
+
+        /// <summary>A solver for this rod, held so, under these terms.</summary>
+        public EquilibriumSolver(MaterialRod rod, RodSupports supports, EnergyTerm[] terms)
+        {
+            _rod = rod;
+            _supports = supports;
+            _terms = terms;
+            _system = new BlockTridiagonal(rod, supports);
+            _gradient = new RodVector[_system.VectorCount];
+            _direction = new RodVector[_system.VectorCount];
+            _work = new RodVector[_system.VectorCount];
+            _trial = new RodShape(rod.ElementCount);
+            _length = rod.TotalLength;
+            foreach (double stiffness in rod.BendStiffness)
+            {
+                _bendForce = Math.Max(_bendForce, stiffness / (_length * _length));
+            }
+            double n = rod.ElementCount;
+            foreach (double stiffness in rod.StretchStiffness)
+            {
+                _rounding = Math.Max(_rounding, 8.0 * Epsilon * n * n * stiffness);
+            }
+            _rounding = Math.Min(_rounding, 1e-4 * _bendForce);
+        }
+
+        /// <summary>The gradient at the last shape: at a support, minus the reaction.</summary>
+        public RodVector[] LastGradient => _gradient;
+
+        /// <summary>Moves <paramref name="shape"/> to a rest shape near it.</summary>
+        /// <param name="tolerance">On the last Newton step, radians or displacement over L.</param>
+        /// <param name="mostIterations">After which the search gives up.</param>
+        /// <param name="judge">Whether the result states residual and smallest eigenvalue, which cost some solutions.</param>
+        public EquilibriumResult Solve(RodShape shape, double tolerance, int mostIterations, bool judge = true)
+        {
+            EquilibriumResult result = default;
+            result.Reason = string.Empty;
+            double shift = 0.25 * _bendForce;
+            while (result.Iterations < mostIterations)
+            {
+                result.Iterations++;
+                Anchor(shape);
+                bool convex = FindDirection(shape, ref shift, ref result);
+                double size = RodStep.Size(_direction, _rod.ElementCount, _length, out double relative);
+                result.LastStep = size;
+                if (!IsFinite(size))
+                {
+                    result.Reason = "the Newton step is not a finite number";
+                    return result;
+                }
+                if (!convex && size < SaddleStep)
+                {
+                    if (!LeaveSaddle(shape, shift))
+                    {
+                        result.Reason = "at a saddle of the energy, no direction leads down";
+                        return result;
+                    }
+                    continue;
+                }
+                bool done = convex && size <= tolerance;
+                double scale = Math.Min(1.0, Math.Min(LargestTurn / size, LargestRelativeTurn / relative));
+                if (done)
+                {
+                    RodStep.Apply(_rod, _supports, shape, _direction, 1.0, _trial);
+                }
+                else if (!Search(shape, scale, size))
+                {
+                    result.Reason = "the line search found no lower energy";
+                    return result;
+                }
+                shape.CopyFrom(_trial);
+                if (done)
+                {
+                    if (!judge)
+                    {
+                        result.Converged = true;
+                        result.Reason = string.Empty;
+                        return result;
+                    }
+                    return Finish(shape, result);
+                }
+            }
+            result.Reason = "not converged after " + mostIterations.ToString(
+                System.Globalization.CultureInfo.InvariantCulture) + " Newton iterations";
+            return result;
+        }
+
+        /// <summary>Sets the direction; true if the second derivative was positive definite as it is.</summary>
+        private bool FindDirection(RodShape shape, ref double shift, ref EquilibriumResult result)
+        {
+            result.Factorisations++;
+            if (_system.Factorise(_terms, shape, _gradient, _direction, 0.0) == 0)
+            {
+                _system.Back(_direction);
+                return true;
+            }
+            result.Factorisations++;
+            if (_system.Factorise(_terms, shape, _gradient, _direction, _rounding) == 0)
+            {
+                _system.Back(_direction);
+                return true;
+            }
+            shift *= 0.25;
+            do
+            {
+                shift *= 4.0;
+                result.Factorisations++;
+            }
+            while (_system.Factorise(_terms, shape, _gradient, _direction, shift) > 0 && IsFinite(shift));
+            _system.Back(_direction);
+            return false;
+        }
+
+        /// <summary>Cuts the step until the energy falls enough; the accepted shape is left in the trial.</summary>
+        private bool Search(RodShape shape, double scale, double size)
+        {
+            double slope = RodVectors.Dot(_gradient, _direction);
+            double start = Value(shape, out double magnitude);
+            double rounding = 1e-13 * magnitude;
+            if (-slope < 1e3 * rounding && size < 1e-2)
+            {
+                // The energy's own rounding hides the decrease: the step is Newton's, and small.
+                RodStep.Apply(_rod, _supports, shape, _direction, scale, _trial);
+                return true;
+            }
+            for (int cut = 0; cut < MostCuts; cut++)
+            {
+                RodStep.Apply(_rod, _supports, shape, _direction, scale, _trial);
+                double value = Value(_trial, out _);
+                if (value <= start + SufficientDecrease * scale * slope + rounding)
+                {
+                    return true;
+                }
+                scale *= 0.5;
+            }
+            return false;
+        }
+
+        /// <summary>Steps along the direction of most negative curvature, found by inverse iteration with the shifted
+        /// matrix at hand.</summary>
+        private bool LeaveSaddle(RodShape shape, double shift)
+        {
+            InverseIteration(out _);
+            Array.Copy(_work, _direction, _work.Length);
+            double size = RodStep.Size(_direction, _rod.ElementCount, _length, out _);
+            double sign = RodVectors.Dot(_gradient, _direction) > 0.0 ? -1.0 : 1.0;
+            double start = Value(shape, out double magnitude);
+            for (double turn = 0.3; turn > 1e-6; turn *= 0.5)
+            {
+                RodStep.Apply(_rod, _supports, shape, _direction, sign * turn / size, _trial);
+                if (Value(_trial, out _) < start - 1e-14 * magnitude)
+                {
+                    shape.CopyFrom(_trial);
+                    return true;
+                }
+            }
+            return false;
+        }
+
+        /// <summary>Leaves in the work vector the eigenvector of the matrix at hand whose eigenvalue is smallest.</summary>
+        private void InverseIteration(out double eigenvalue)
+        {
+            // A fixed start without symmetry, so that no mode of the rod is orthogonal to it.
+            for (int i = 0; i < _work.Length; i++)
+            {
+                double a = Math.Sin(12.9898 * i + 1.0);
+                _work[i] = new RodVector
+                {
+                    X1 = a * _length, X2 = (0.5 - a * a) * _length, X3 = 0.3 * a * _length,
+                    T1 = Math.Sin(78.233 * i), T2 = Math.Cos(37.719 * i), T3 = 0.7 + a,
+                };
+            }
+            _system.Project(_work);
+            _work[_work.Length - 1] = default;
+            double norm = Math.Sqrt(_system.MetricDot(_work, _work));
+            eigenvalue = 0.0;
+            for (int k = 0; k < PowerIterations; k++)
+            {
+                _system.ApplyMetric(_work);
+                _system.Solve(_work);
+                double next = Math.Sqrt(_system.MetricDot(_work, _work));
+                eigenvalue = norm / next;
+                RodVectors.Scale(_work, 1.0 / next);
+                norm = 1.0;
+            }
+        }
+
+        private EquilibriumResult Finish(RodShape shape, EquilibriumResult result)
+        {
+            Anchor(shape);
+            double shift = 0.0;
+            int negative = _system.Factorise(_terms, shape, _gradient, _direction, shift);
+            result.Factorisations++;
+            if (negative > 0)
+            {
+                shift = _rounding;
+                negative = _system.Factorise(_terms, shape, _gradient, _direction, shift);
+                result.Factorisations++;
+            }
+            double loads = _bendForce;
+            foreach (EnergyTerm term in _terms)
+            {
+                if (term is DeadLoads dead)
+                {
+                    foreach (Vector3d force in dead.Force)
+                    {
+                        loads += force.Length;
+                    }
+                }
+            }
+            _system.Gradient(_terms, shape, _gradient, _direction);
+            result.Residual = 0.0;
+            foreach (RodVector g in _direction)
+            {
+                double x = Math.Sqrt(g.X1 * g.X1 + g.X2 * g.X2 + g.X3 * g.X3);
+                double t = Math.Sqrt(g.T1 * g.T1 + g.T2 * g.T2 + g.T3 * g.T3);
+                result.Residual = Math.Max(result.Residual, Math.Max(x, t / _length) / loads);
+            }
+            if (negative == 0)
+            {
+                InverseIteration(out result.SmallestEigenvalue);
+                result.SmallestEigenvalue -= shift;
+                result.Converged = true;
+                result.Reason = string.Empty;
+            }
+            else
+            {
+                result.Reason = "the energy is not convex at the shape found";
+            }
+            return result;
+        }
+
+        private void Anchor(RodShape shape)
+        {
+            foreach (EnergyTerm term in _terms)
+            {
+                term.Anchor(shape);
+            }
+        }
+
+        private double Value(RodShape shape, out double magnitude)
+        {
+            double sum = 0.0;
+            magnitude = 0.0;
+            foreach (EnergyTerm term in _terms)
+            {
+                double value = term.Value(shape);
+                sum += value;
+                magnitude += Math.Abs(value);
+            }
+            return sum;
+        }
+
+        private static bool IsFinite(double value)
+        {
+            return !double.IsNaN(value) && !double.IsInfinity(value);
+        }
+    }
+}

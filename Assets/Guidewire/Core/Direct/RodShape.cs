@@ -1,0 +1,55 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>Where a rod is: positions x_0 .. x_n of its nodes in m, orientations q_0 .. q_(n-1) of its elements, and the
+    /// frames to which its two ends may be clamped.</summary>
+    internal sealed class RodShape
+    {
+        /// <summary>A rod of <paramref name="elementCount"/> elements, all at the origin and unturned.</summary>
+        public RodShape(int elementCount)
+        {
+            X = new Vector3d[elementCount + 1];
+            Q = new Quaterniond[elementCount];
+            Array.Fill(Q, Quaterniond.Identity);
+        }
+
+        /// <summary>Positions of the n+1 nodes, m.</summary>
+        public Vector3d[] X { get; }
+
+        /// <summary>Orientations of the n elements; d3 = q e3 q* points along the element.</summary>
+        public Quaterniond[] Q { get; }
+
+        /// <summary>The frame to which the proximal end is clamped, if it is.</summary>
+        public Quaterniond ProximalFrame { get; set; } = Quaterniond.Identity;
+
+        /// <summary>The frame to which the distal end is clamped, if it is.</summary>
+        public Quaterniond DistalFrame { get; set; } = Quaterniond.Identity;
+
+        /// <summary>n.</summary>
+        public int ElementCount => Q.Length;
+
+        /// <summary>Takes over another shape of the same n.</summary>
+        public void CopyFrom(RodShape other)
+        {
+            Array.Copy(other.X, X, X.Length);
+            Array.Copy(other.Q, Q, Q.Length);
+            ProximalFrame = other.ProximalFrame;
+            DistalFrame = other.DistalFrame;
+        }
+
+        /// <summary>A straight rod of elements of the given lengths along d3 of <paramref name="frame"/>.</summary>
+        public void SetStraight(in Vector3d start, in Quaterniond frame, double[] lengths)
+        {
+            Vector3d axis = frame.Director3;
+            X[0] = start;
+            for (int j = 0; j < Q.Length; j++)
+            {
+                Q[j] = frame;
+                X[j + 1] = X[j] + lengths[j] * axis;
+            }
+            ProximalFrame = frame;
+            DistalFrame = frame;
+        }
+    }
+}

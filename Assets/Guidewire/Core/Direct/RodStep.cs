@@ -1,0 +1,84 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>Moves a shape along a Newton direction so that strains, not positions, change linearly: q exp(a dtheta), the
+    /// element's chord p + a dp with dp the direction's own change of p, positions summed up from node 0.</summary>
+    /// <remarks>Moving positions along straight lines would stretch a turning element in second order, by EA times the
+    /// angle squared, and a line search would have to creep. To first order both are the same step. Where the distal
+    /// end is held, what the sum misses of its place, of second order too, is spread over the rod.</remarks>
+    internal static class RodStep
+    {
+        /// <summary>Sets <paramref name="to"/> to <paramref name="shape"/> moved by <paramref name="scale"/> times
+        /// <paramref name="direction"/>.</summary>
+        public static void Apply(MaterialRod rod, RodSupports supports, RodShape shape, RodVector[] direction,
+            double scale, RodShape to)
+        {
+            int n = rod.ElementCount;
+            to.ProximalFrame = shape.ProximalFrame;
+            to.DistalFrame = shape.DistalFrame;
+            RodVector d = direction[0];
+            Vector3d move = new Vector3d(scale * d.X1, scale * d.X2, scale * d.X3);
+            Vector3d x = shape.X[0] + move;
+            Vector3d old = shape.X[0];
+            to.X[0] = x;
+            for (int j = 0; j < n; j++)
+            {
+                Vector3d turn = new Vector3d(scale * d.T1, scale * d.T2, scale * d.T3);
+                d = direction[j + 1];
+                Vector3d nextMove = new Vector3d(scale * d.X1, scale * d.X2, scale * d.X3);
+                Vector3d nextOld = shape.X[j + 1];
+                Quaterniond q = shape.Q[j];
+                Quaterniond inverse = q.Conjugate;
+                Vector3d chord = Quaterniond.Rotate(inverse, nextOld - old);
+                Vector3d changed = chord + Quaterniond.Rotate(inverse, nextMove - move)
+                    + Vector3d.Cross(chord, turn);
+                q = q * RotationVector.Exp(turn);
+                q = (1.5 - 0.5 * q.LengthSquared) * q;
+                to.Q[j] = q;
+                x += Quaterniond.Rotate(q, changed);
+                to.X[j + 1] = x;
+                move = nextMove;
+                old = nextOld;
+            }
+            if (supports.Distal == DistalEnd.Free)
+            {
+                return;
+            }
+            Vector3d miss = old + move - x;
+            if (supports.Distal == DistalEnd.Sliding)
+            {
+                miss -= Vector3d.Dot(miss, supports.SlidingAxis) * supports.SlidingAxis;
+            }
+            for (int i = 1; i <= n; i++)
+            {
+                to.X[i] += ((double)i / n) * miss;
+            }
+        }
+
+        /// <summary>The size of a direction: the largest turn of an element in radians or shift of a node over L.</summary>
+        /// <param name="relative">The largest difference between the turns of two successive elements, radians.</param>
+        public static double Size(RodVector[] direction, int elementCount, double length, out double relative)
+        {
+            double turn = 0.0;
+            double shift = 0.0;
+            double difference = 0.0;
+            for (int j = 0; j <= elementCount; j++)
+            {
+                RodVector d = direction[j];
+                shift = Math.Max(shift, d.X1 * d.X1 + d.X2 * d.X2 + d.X3 * d.X3);
+                turn = Math.Max(turn, d.T1 * d.T1 + d.T2 * d.T2 + d.T3 * d.T3);
+                if (j > 0 && j < elementCount)
+                {
+                    RodVector e = direction[j - 1];
+                    double a = d.T1 - e.T1;
+                    double b = d.T2 - e.T2;
+                    double c = d.T3 - e.T3;
+                    difference = Math.Max(difference, a * a + b * b + c * c);
+                }
+            }
+            relative = Math.Sqrt(difference);
+            return Math.Max(Math.Sqrt(turn), Math.Sqrt(shift) / length);
+        }
+    }
+}

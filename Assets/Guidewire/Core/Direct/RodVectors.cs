@@ -1,0 +1,46 @@
+namespace Guidewire.Core
+{
+    /// <summary>Sums over whole vectors of a rod.</summary>
+    internal static class RodVectors
+    {
+        /// <summary>a . b.</summary>
+        public static double Dot(RodVector[] a, RodVector[] b)
+        {
+            double sum = 0.0;
+            for (int i = 0; i < a.Length; i++)
+            {
+                sum += a[i].X1 * b[i].X1 + a[i].X2 * b[i].X2 + a[i].X3 * b[i].X3
+                    + a[i].T1 * b[i].T1 + a[i].T2 * b[i].T2 + a[i].T3 * b[i].T3;
+            }
+            return sum;
+        }
+
+        /// <summary>to += scale v.</summary>
+        public static void AddScaled(RodVector[] to, double scale, RodVector[] v)
+        {
+            for (int i = 0; i < to.Length; i++)
+            {
+                to[i].X1 += scale * v[i].X1;
+                to[i].X2 += scale * v[i].X2;
+                to[i].X3 += scale * v[i].X3;
+                to[i].T1 += scale * v[i].T1;
+                to[i].T2 += scale * v[i].T2;
+                to[i].T3 += scale * v[i].T3;
+            }
+        }
+
+        /// <summary>v *= scale.</summary>
+        public static void Scale(RodVector[] v, double scale)
+        {
+            for (int i = 0; i < v.Length; i++)
+            {
+                v[i].X1 *= scale;
+                v[i].X2 *= scale;
+                v[i].X3 *= scale;
+                v[i].T1 *= scale;
+                v[i].T2 *= scale;
+                v[i].T3 *= scale;
+            }
+        }
+    }
+}

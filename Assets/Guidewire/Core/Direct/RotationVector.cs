@@ -1,0 +1,115 @@
+using System;
+using System.Runtime.CompilerServices;
+
+namespace Guidewire.Core
+{
+    /// <summary>Rotations as vectors: theta = angle times axis, q = exp(theta/2) as a quaternion, |theta| at most pi for
+    /// the inverse. Small angles go by series, because the closed forms are 0/0 there.</summary>
+    internal static class RotationVector
+    {
+        // Below |sin(angle/2)|^2 = 0.02 eight terms of asin(s)/s are exact to 1e-16.
+        private const double SmallSineSquared = 0.02;
+
+        // Below angle^2 = 0.09 six terms of the cotangent series are exact to 1e-16.
+        private const double SmallAngleSquared = 0.09;
+
+        /// <summary>The unit quaternion that turns by <paramref name="theta"/>.</summary>
+        public static Quaterniond Exp(in Vector3d theta)
+        {
+            double squared = theta.LengthSquared;
+            double scale;
+            double real;
+            if (squared < SmallAngleSquared)
+            {
+                // sin(a/2)/a and cos(a/2) in h = (a/2)^2.
+                double h = 0.25 * squared;
+                scale = 0.5 * (1.0 - h / 6.0 * (1.0 - h / 20.0 * (1.0 - h / 42.0 * (1.0 - h / 72.0
+                    * (1.0 - h / 110.0)))));
+                real = 1.0 - h / 2.0 * (1.0 - h / 12.0 * (1.0 - h / 30.0 * (1.0 - h / 56.0 * (1.0 - h / 90.0
+                    * (1.0 - h / 132.0)))));
+            }
+            else
+            {
+                double angle = Math.Sqrt(squared);
+                scale = Math.Sin(0.5 * angle) / angle;
+                real = Math.Cos(0.5 * angle);
+            }
+            return new Quaterniond(scale * theta.X, scale * theta.Y, scale * theta.Z, real);
+        }
+
+        /// <summary>The rotation vector of a unit quaternion, of length 0 to pi: q and -q are the same rotation.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public static Vector3d Log(in Quaterniond q)
+        {
+            double sineSquared = q.X * q.X + q.Y * q.Y + q.Z * q.Z;
+            double scale = sineSquared < SmallSineSquared
+                ? (q.W < 0.0 ? -SmallScale(sineSquared) : SmallScale(sineSquared))
+                : LargeScale(sineSquared, q.W);
+            return new Vector3d(scale * q.X, scale * q.Y, scale * q.Z);
+        }
+
+        /// <summary>c(a) = (1 - (a/2) cot(a/2))/a^2, for the inverse tangent map T = 1 + [theta]/2 + c [theta]^2.</summary>
+        public static double CotangentFactor(double angleSquared)
+        {
+            double a = angleSquared;
+            if (a < SmallAngleSquared)
+            {
+                return 1.0 / 12.0 + a * (1.0 / 720.0 + a * (1.0 / 30240.0 + a * (1.0 / 1209600.0
+                    + a * (1.0 / 47900160.0 + a * (691.0 / 1307674368000.0)))));
+            }
+            double half = 0.5 * Math.Sqrt(a);
+            return (1.0 - half / Math.Tan(half)) / a;
+        }
+
+        /// <summary>c'(a)/a, the derivative of <see cref="CotangentFactor"/> by the angle over the angle.</summary>
+        public static double CotangentSlope(double angleSquared, double cotangentFactor)
+        {
+            double a = angleSquared;
+            if (a < SmallAngleSquared)
+            {
+                return 1.0 / 360.0 + a * (1.0 / 7560.0 + a * (1.0 / 201600.0 + a * (1.0 / 5987520.0
+                    + a * (691.0 / 130767436800.0 + a / 6227020800.0))));
+            }
+            double half = 0.5 * Math.Sqrt(a);
+            double sine = Math.Sin(half);
+            double slope = 0.5 * (Math.Cos(half) / sine - half / (sine * sine));
+            return -slope / (2.0 * half * a) - 2.0 * cotangentFactor / a;
+        }
+
+        /// <summary>J(phi) u, the body's turn that belongs to the change u of the rotation vector phi:
+        /// J = 1 - (1 - cos a)/a^2 [phi] + (a - sin a)/a^3 [phi]^2.</summary>
+        public static Vector3d TangentMap(in Vector3d phi, in Vector3d u)
+        {
+            double a = phi.LengthSquared;
+            double first;
+            double second;
+            if (a < SmallAngleSquared)
+            {
+                first = 0.5 - a / 24.0 * (1.0 - a / 30.0 * (1.0 - a / 56.0 * (1.0 - a / 90.0 * (1.0 - a / 132.0))));
+                second = 1.0 / 6.0 - a / 120.0 * (1.0 - a / 42.0 * (1.0 - a / 72.0 * (1.0 - a / 110.0
+                    * (1.0 - a / 156.0))));
+            }
+            else
+            {
+                double angle = Math.Sqrt(a);
+                first = (1.0 - Math.Cos(angle)) / a;
+                second = (angle - Math.Sin(angle)) / (a * angle);
+            }
+            Vector3d cross = Vector3d.Cross(phi, u);
+            return u - first * cross + second * Vector3d.Cross(phi, cross);
+        }
+
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        private static double SmallScale(double s)
+        {
+            return 2.0 * (1.0 + s * (1.0 / 6.0 + s * (3.0 / 40.0 + s * (5.0 / 112.0 + s * (35.0 / 1152.0
+                + s * (63.0 / 2816.0 + s * (231.0 / 13312.0 + s * (143.0 / 10240.0 + s * (6435.0 / 557056.0)))))))));
+        }
+
+        private static double LargeScale(double sineSquared, double real)
+        {
+            double sine = Math.Sqrt(sineSquared);
+            return real < 0.0 ? -2.0 * Math.Atan2(sine, -real) / sine : 2.0 * Math.Atan2(sine, real) / sine;
+        }
+    }
+}

@@ -1,0 +1,113 @@
+using System.Runtime.CompilerServices;
+
+namespace Guidewire.Core
+{
+    /// <summary>Couple = K (theta - theta0) with theta the rotation vector of conj(q_a) q_b: linear in the angle up to pi,
+    /// so that a ring of equal elements closes exactly.</summary>
+    /// <remarks>With T = b 1 + c theta theta^T + [theta]/2, b = 1 - c a, a = |theta|^2 and c(a) the cotangent factor,
+    /// dtheta = T delta_b - T^T delta_a. The second derivatives are T^T K T and its like, plus the change of T under the
+    /// couple m = K (theta - theta0). Multiplied out with s = theta . m and w = m x theta,
+    ///   C_b = sigma 1 + sym(theta (zeta theta + alpha m + c w)^T) + k p p^T,      p = T^T e3, r = T e3,
+    ///   C_a = sigma 1 + sym(theta (zeta theta + alpha m - c w)^T) + k r r^T,      k = twist - bend stiffness,
+    ///   F  = -(sigma' 1 + theta y^T + z theta^T + [v] + k p r^T),
+    /// with the coefficients named below; the tests take them from differences of the energy.</remarks>
+    internal readonly struct RotationVectorLaw : IJointLaw
+    {
+        /// <inheritdoc/>
+        public double Value(in Joint joint, in Quaterniond relative)
+        {
+            Vector3d strain = RotationVector.Log(relative) - joint.Rest;
+            return 0.5 * (joint.Bend * (strain.X * strain.X + strain.Y * strain.Y) + joint.Twist * strain.Z * strain.Z);
+        }
+
+        /// <inheritdoc/>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public void AddGradient(in Joint joint, in Quaterniond relative, ref RodVector a, ref RodVector b)
+        {
+            Vector3d theta = RotationVector.Log(relative);
+            Vector3d strain = theta - joint.Rest;
+            Vector3d m = new Vector3d(joint.Bend * strain.X, joint.Bend * strain.Y, joint.Twist * strain.Z);
+            double square = theta.LengthSquared;
+            double c = RotationVector.CotangentFactor(square);
+            AddCouple(1.0 - c * square, c * Vector3d.Dot(theta, m), theta, m, Vector3d.Cross(m, theta), ref a, ref b);
+        }
+
+        /// <inheritdoc/>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public void AddBlocks(in Joint joint, in Quaterniond relative, ref RodVector a, ref RodVector b,
+            ref RodBlock blockA, ref RodBlock blockB)
+        {
+            Vector3d theta = RotationVector.Log(relative);
+            Vector3d strain = theta - joint.Rest;
+            double bend = joint.Bend;
+            double k = joint.Twist - bend;
+            Vector3d m = new Vector3d(bend * strain.X, bend * strain.Y, joint.Twist * strain.Z);
+            double square = theta.LengthSquared;
+            double c = RotationVector.CotangentFactor(square);
+            double slope = RotationVector.CotangentSlope(square, c);
+            double s = Vector3d.Dot(theta, m);
+            Vector3d w = Vector3d.Cross(m, theta);
+            double tb = 1.0 - c * square;
+            AddCouple(tb, c * s, theta, m, w, ref a, ref b);
+
+            double tt = theta.X;
+            double tu = theta.Y;
+            double tv = theta.Z;
+            Vector3d p = new Vector3d(c * tv * tt - 0.5 * tu, c * tv * tu + 0.5 * tt, tb + c * tv * tv);
+            Vector3d r = new Vector3d(c * tv * tt + 0.5 * tu, c * tv * tu - 0.5 * tt, tb + c * tv * tv);
+
+            double mixed = 2.0 * tb * c + c * c * square;
+            double beta = (2.0 * c * c + slope) * s;
+            double sigma = bend * (tb * tb + 0.25 * square) + s * (c * tb - 0.25);
+            double zeta = bend * (mixed - 0.25) + beta;
+            double alpha = 0.25 + c * tb - 2.0 * c - slope * square;
+            Vector3d even = zeta * theta + alpha * m;
+            Vector3d odd = c * w;
+            AddSymmetric(ref blockB, sigma, theta, even + odd, k, p);
+            AddSymmetric(ref blockA, sigma, theta, even - odd, k, r);
+
+            double sigmaMixed = bend * (tb * tb - 0.25 * square) + s * (0.25 + c * tb);
+            Vector3d y = (bend * (mixed + 0.25) + beta) * theta - (2.0 * c + slope * square) * m - 0.5 * odd;
+            Vector3d z = (c * tb - 0.25) * m + 0.5 * odd;
+            Vector3d v = (0.5 * tb) * m - (bend * tb + 0.5 * c * s) * theta;
+            double k1 = k * p.X;
+            double k2 = k * p.Y;
+            double k3 = k * p.Z;
+            blockA.F11 -= sigmaMixed + tt * y.X + z.X * tt + k1 * r.X;
+            blockA.F12 -= tt * y.Y + z.X * tu - v.Z + k1 * r.Y;
+            blockA.F13 -= tt * y.Z + z.X * tv + v.Y + k1 * r.Z;
+            blockA.F21 -= tu * y.X + z.Y * tt + v.Z + k2 * r.X;
+            blockA.F22 -= sigmaMixed + tu * y.Y + z.Y * tu + k2 * r.Y;
+            blockA.F23 -= tu * y.Z + z.Y * tv - v.X + k2 * r.Z;
+            blockA.F31 -= tv * y.X + z.Z * tt - v.Y + k3 * r.X;
+            blockA.F32 -= tv * y.Y + z.Z * tu + v.X + k3 * r.Y;
+            blockA.F33 -= sigmaMixed + tv * y.Z + z.Z * tv + k3 * r.Z;
+        }
+
+        /// <summary>T^T m on b and -T m on a.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        private static void AddCouple(double tb, double cs, in Vector3d theta, in Vector3d m, in Vector3d w,
+            ref RodVector a, ref RodVector b)
+        {
+            Vector3d even = tb * m + cs * theta;
+            b.T1 += even.X + 0.5 * w.X;
+            b.T2 += even.Y + 0.5 * w.Y;
+            b.T3 += even.Z + 0.5 * w.Z;
+            a.T1 -= even.X - 0.5 * w.X;
+            a.T2 -= even.Y - 0.5 * w.Y;
+            a.T3 -= even.Z - 0.5 * w.Z;
+        }
+
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        private static void AddSymmetric(ref RodBlock block, double sigma, in Vector3d theta, in Vector3d u, double k,
+            in Vector3d p)
+        {
+            block.C11 += sigma + theta.X * u.X + k * p.X * p.X;
+            block.C22 += sigma + theta.Y * u.Y + k * p.Y * p.Y;
+            block.C33 += sigma + theta.Z * u.Z + k * p.Z * p.Z;
+            block.C21 += 0.5 * (theta.X * u.Y + theta.Y * u.X) + k * p.X * p.Y;
+            block.C31 += 0.5 * (theta.X * u.Z + theta.Z * u.X) + k * p.X * p.Z;
+            block.C32 += 0.5 * (theta.Y * u.Z + theta.Z * u.Y) + k * p.Y * p.Z;
+        }
+    }
+}

@@ -1,0 +1,133 @@
+using System.Runtime.CompilerServices;
+
+namespace Guidewire.Core
+{
+    /// <summary>Stretch and shear of the elements: l/2 Gamma^T K Gamma with Gamma = p - e3, p = R^T (x_(j+1) - x_j)/l and
+    /// K = diag(GA, GA, EA) (thesis, stretch constraint, as an energy).</summary>
+    /// <remarks>With n = K Gamma along the element's axes and M = K [p] - [n], where [a] b = a x b:
+    ///   force on x_(j+1): R n;   couple on theta: l n x p;   d(force)/d(theta) = R M;   d(force)/dx = R K R^T/l;
+    ///   d(couple)/d(theta) = l ([p]^T K [p] + sym(n p^T) - (n . p) 1).
+    /// The third column of M is 0: a turn about the element's own axis leaves a straight element alone.</remarks>
+    internal sealed class StretchEnergy : EnergyTerm
+    {
+        private readonly double[] _length;   // m
+        private readonly double[] _shear;    // GA, N
+        private readonly double[] _stretch;  // EA, N
+
+        /// <summary>The energy of a rod with these elements.</summary>
+        public StretchEnergy(MaterialRod rod)
+        {
+            _length = rod.Length;
+            _shear = rod.ShearStiffness;
+            _stretch = rod.StretchStiffness;
+        }
+
+        /// <inheritdoc/>
+        public override double Value(RodShape shape)
+        {
+            double sum = 0.0;
+            for (int j = 0; j < _length.Length; j++)
+            {
+                Vector3d n = Stress(shape, j, out Vector3d p);
+                sum += 0.5 * _length[j] * (n.X * p.X + n.Y * p.Y + n.Z * (p.Z - 1.0));
+            }
+            return sum;
+        }
+
+        /// <summary>n = K Gamma of element j along its own axes, N, and p, the element's chord over its length.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public Vector3d Stress(RodShape shape, int j, out Vector3d p)
+        {
+            Vector3d d = (1.0 / _length[j]) * (shape.X[j + 1] - shape.X[j]);
+            p = Quaterniond.Rotate(shape.Q[j].Conjugate, d);
+            return new Vector3d(_shear[j] * p.X, _shear[j] * p.Y, _stretch[j] * (p.Z - 1.0));
+        }
+
+        /// <inheritdoc/>
+        public override void AddGradient(RodShape shape, RodVector[] gradient, int from, int to)
+        {
+            int end = to < _length.Length ? to : _length.Length;
+            for (int j = from; j < end; j++)
+            {
+                Vector3d n = Stress(shape, j, out Vector3d p);
+                Vector3d force = Quaterniond.Rotate(shape.Q[j], n);
+                AddForce(ref gradient[j], ref gradient[j + 1], force, n, p, _length[j]);
+            }
+        }
+
+        /// <inheritdoc/>
+        public override void AddBlocks(RodShape shape, RodBlock[] blocks, RodVector[] gradient, int from, int to)
+        {
+            int end = to < _length.Length ? to : _length.Length;
+            for (int j = from; j < end; j++)
+            {
+                double l = _length[j];
+                double shear = _shear[j];
+                double excess = _stretch[j] - shear;
+                Quaterniond q = shape.Q[j];
+                Vector3d d1 = q.Director1;
+                Vector3d d2 = q.Director2;
+                Vector3d d3 = q.Director3;
+                Vector3d d = (1.0 / l) * (shape.X[j + 1] - shape.X[j]);
+                Vector3d p = new Vector3d(Vector3d.Dot(d1, d), Vector3d.Dot(d2, d), Vector3d.Dot(d3, d));
+                Vector3d n = new Vector3d(shear * p.X, shear * p.Y, _stretch[j] * (p.Z - 1.0));
+                Vector3d force = n.X * d1 + n.Y * d2 + n.Z * d3;
+                AddForce(ref gradient[j], ref gradient[j + 1], force, n, p, l);
+
+                // (x, x): (GA 1 + (EA - GA) d3 d3^T)/l, with the opposite sign between the two nodes.
+                double k = excess / l;
+                double h11 = shear / l + k * d3.X * d3.X;
+                double h22 = shear / l + k * d3.Y * d3.Y;
+                double h33 = shear / l + k * d3.Z * d3.Z;
+                double h21 = k * d3.Y * d3.X;
+                double h31 = k * d3.Z * d3.X;
+                double h32 = k * d3.Z * d3.Y;
+                ref RodBlock block = ref blocks[j];
+                ref RodBlock next = ref blocks[j + 1];
+                block.A11 += h11; block.A21 += h21; block.A22 += h22;
+                block.A31 += h31; block.A32 += h32; block.A33 += h33;
+                next.A11 += h11; next.A21 += h21; next.A22 += h22;
+                next.A31 += h31; next.A32 += h32; next.A33 += h33;
+                block.D11 -= h11; block.D12 -= h21; block.D13 -= h31;
+                block.D21 -= h21; block.D22 -= h22; block.D23 -= h32;
+                block.D31 -= h31; block.D32 -= h32; block.D33 -= h33;
+
+                // (x+, theta) = R M, column by column: (a d2 - (EA - GA) p2 d3, -a d1 + (EA - GA) p1 d3, 0).
+                double a = shear * p.Z - n.Z;
+                Vector3d first = a * d2 - (excess * p.Y) * d3;
+                Vector3d second = (excess * p.X) * d3 - a * d1;
+                block.E11 += first.X; block.E21 += first.Y; block.E31 += first.Z;
+                block.E12 += second.X; block.E22 += second.Y; block.E32 += second.Z;
+                block.B11 -= first.X; block.B12 -= first.Y; block.B13 -= first.Z;
+                block.B21 -= second.X; block.B22 -= second.Y; block.B23 -= second.Z;
+
+                // (theta, theta): l (GA (|p|^2 1 - p p^T) + (EA - GA) r r^T + sym(n p^T) - (n . p) 1), r = (-p2, p1, 0).
+                double diagonal = l * (shear * p.LengthSquared - Vector3d.Dot(n, p));
+                double ls = l * shear;
+                double le = l * excess;
+                double lh = 0.5 * l;
+                block.C11 += diagonal - ls * p.X * p.X + le * p.Y * p.Y + l * n.X * p.X;
+                block.C22 += diagonal - ls * p.Y * p.Y + le * p.X * p.X + l * n.Y * p.Y;
+                block.C33 += diagonal - ls * p.Z * p.Z + l * n.Z * p.Z;
+                block.C21 += lh * (n.X * p.Y + n.Y * p.X) - (ls + le) * p.X * p.Y;
+                block.C31 += lh * (n.X * p.Z + n.Z * p.X) - ls * p.X * p.Z;
+                block.C32 += lh * (n.Y * p.Z + n.Z * p.Y) - ls * p.Y * p.Z;
+            }
+        }
+
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        private static void AddForce(ref RodVector node, ref RodVector next, in Vector3d force, in Vector3d n,
+            in Vector3d p, double l)
+        {
+            node.X1 -= force.X;
+            node.X2 -= force.Y;
+            node.X3 -= force.Z;
+            next.X1 += force.X;
+            next.X2 += force.Y;
+            next.X3 += force.Z;
+            node.T1 += l * (n.Y * p.Z - n.Z * p.Y);
+            node.T2 += l * (n.Z * p.X - n.X * p.Z);
+            node.T3 += l * (n.X * p.Y - n.Y * p.X);
+        }
+    }
+}

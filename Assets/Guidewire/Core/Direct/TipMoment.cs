@@ -1,0 +1,46 @@
+namespace Guidewire.Core
+{
+    /// <summary>A couple on the last element that turns with it: constant along the element's own axes.</summary>
+    /// <remarks>In a plane, and about the tip's own axis in a pure twist, it has the potential -m times the angle. In space it
+    /// has none: the work on a closed path of frames is not 0. It then enters by its work since the anchor,
+    /// -m . log(conj(q_anchor) q), whose second derivative at the anchor is 0; the part of the tangent that no energy
+    /// carries, [m]/2 on the last element, the solver adds on its own.</remarks>
+    internal sealed class TipMoment : EnergyTerm
+    {
+        private Quaterniond _anchor = Quaterniond.Identity;
+
+        /// <summary>m along the axes of the last element, N m.</summary>
+        public Vector3d Moment { get; set; }
+
+        /// <inheritdoc/>
+        public override void Anchor(RodShape shape)
+        {
+            _anchor = shape.Q[shape.ElementCount - 1];
+        }
+
+        /// <inheritdoc/>
+        public override double Value(RodShape shape)
+        {
+            Quaterniond turned = _anchor.Conjugate * shape.Q[shape.ElementCount - 1];
+            return -Vector3d.Dot(Moment, RotationVector.Log(turned));
+        }
+
+        /// <inheritdoc/>
+        public override void AddGradient(RodShape shape, RodVector[] gradient, int from, int to)
+        {
+            int last = shape.ElementCount - 1;
+            if (from <= last && last < to)
+            {
+                gradient[last].T1 -= Moment.X;
+                gradient[last].T2 -= Moment.Y;
+                gradient[last].T3 -= Moment.Z;
+            }
+        }
+
+        /// <inheritdoc/>
+        public override void AddBlocks(RodShape shape, RodBlock[] blocks, RodVector[] gradient, int from, int to)
+        {
+            AddGradient(shape, gradient, from, to);
+        }
+    }
+}

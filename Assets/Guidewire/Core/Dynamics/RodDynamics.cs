@@ -1,0 +1,374 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>The motion of a material rod by implicit schemes: each stage's positions and orientations minimise inertia
+    /// plus energies, by Newton's method in O(n).</summary>
+    /// <remarks>Positions and velocities obey x' = v, M v' = f; orientations are q = q_start exp(phi) within a step, with
+    /// phi' = J(phi)^-1 w and I w' = couple - w x I w along the element's axes. A Runge-Kutta scheme acts on x, v, phi
+    /// and w alike, so its order holds for large turns too. BDF2 begins with a step of implicit Euler.</remarks>
+    internal sealed class RodDynamics
+    {
+        private const double LargestFrameTurn = 0.5;  // radians a stage; more is taken in parts
+
+        private readonly MaterialRod _rod;
+        private readonly RodSupports _supports;
+        private readonly RodStatics _statics;
+        private readonly RodSchedule _schedule;
+        private readonly InertiaEnergy _inertia;
+        private readonly StageSolver _solver;
+        private readonly RungeKuttaScheme? _scheme;  // null: BDF2
+        private readonly Vector3d[] _startPositions;
+        private readonly Vector3d[] _velocityHistory;
+        private readonly Vector3d[][] _velocity;      // by stage: x'
+        private readonly Vector3d[][] _acceleration;  // v'
+        private readonly Vector3d[][] _turnRate;      // phi'
+        private readonly Vector3d[][] _spinRate;      // w'
+        private readonly Vector3d[] _oldPositions;    // BDF2: one step ago
+        private readonly Vector3d[] _oldVelocities;
+        private readonly Quaterniond[] _oldOrientations;
+        private readonly Vector3d[] _oldSpins;
+        private readonly int _last;                   // index of the stage that ends a step
+        private readonly double _tolerance;
+        private readonly int _mostIterations;
+        private bool _hasHistory;
+        private double _proximalTurn;
+        private double _distalTurn;
+
+        /// <summary>A rod at rest in this shape.</summary>
+        /// <param name="statics">The rod's energies and loads.</param>
+        /// <param name="shape">Where it starts; the rod moves it from then on.</param>
+        /// <param name="scheme">A Runge-Kutta scheme, or null for BDF2.</param>
+        /// <param name="tolerance">On each stage's error: radians, or displacement over L.</param>
+        /// <param name="mostIterations">Newton iterations of a stage.</param>
+        public RodDynamics(MaterialRod rod, RodSupports supports, RodStatics statics, RodSchedule schedule,
+            RodShape shape, RungeKuttaScheme? scheme, double tolerance, int mostIterations)
+        {
+            int n = rod.ElementCount;
+            _rod = rod;
+            _supports = supports;
+            _statics = statics;
+            _schedule = schedule;
+            _scheme = scheme;
+            _tolerance = tolerance;
+            _mostIterations = mostIterations;
+            Shape = shape;
+            Velocities = new Vector3d[n + 1];
+            Spins = new Vector3d[n];
+            _inertia = new InertiaEnergy(rod, supports.Mass);
+            _solver = new StageSolver(rod, supports, statics.DynamicTerms(_inertia));
+            _startPositions = new Vector3d[n + 1];
+            _velocityHistory = new Vector3d[n + 1];
+            int stages = scheme == null ? 1 : scheme.StageCount;
+            _last = stages - 1;
+            _velocity = Arrays(stages, n + 1);
+            _acceleration = Arrays(stages, n + 1);
+            _turnRate = Arrays(stages, n);
+            _spinRate = Arrays(stages, n);
+            _oldPositions = new Vector3d[scheme == null ? n + 1 : 0];
+            _oldVelocities = new Vector3d[scheme == null ? n + 1 : 0];
+            _oldOrientations = new Quaterniond[scheme == null ? n : 0];
+            _oldSpins = new Vector3d[scheme == null ? n : 0];
+        }
+
+        /// <summary>Takes over the velocities of the start.</summary>
+        /// <param name="isTurned">Whether the clamps' frames have already made their turn of time 0.</param>
+        public void Begin(Vector3d[] velocities, Vector3d[] spins, bool isTurned)
+        {
+            Array.Copy(velocities, Velocities, Velocities.Length);
+            Array.Copy(spins, Spins, Spins.Length);
+            _distalTurn = isTurned ? _schedule.DistalTurnAt(0.0) : 0.0;
+        }
+
+        /// <summary>Positions and orientations.</summary>
+        public RodShape Shape { get; }
+
+        /// <summary>v of the nodes, m/s.</summary>
+        public Vector3d[] Velocities { get; }
+
+        /// <summary>w of the elements along their own axes, rad/s.</summary>
+        public Vector3d[] Spins { get; }
+
+        /// <summary>s.</summary>
+        public double Time { get; private set; }
+
+        /// <summary>Counts of what was solved.</summary>
+        public StageSolver Solver => _solver;
+
+        /// <summary>Whether <see cref="MeanReaction"/> and <see cref="MeanLoad"/> are kept; they cost a gradient a stage.
+        /// </summary>
+        public bool TracksReactions { get; set; }
+
+        /// <summary>Force that the supports exert on node 0, N, the mean over the last step by the scheme's weights: the
+        /// first element's stress, less the node's own share of weight and inertia.</summary>
+        public Vector3d MeanReaction { get; private set; }
+
+        /// <summary>Force that the supports exert on the last node, N, the mean over the last step.</summary>
+        public Vector3d MeanDistalReaction { get; private set; }
+
+        /// <summary>Sum of the dead loads, N, the mean over the last step.</summary>
+        public Vector3d MeanLoad { get; private set; }
+
+        /// <summary>Linear momentum, kg m/s.</summary>
+        public Vector3d Momentum => _inertia.Momentum(Velocities);
+
+        /// <summary>Elastic plus kinetic energy less the work of the loads, J.</summary>
+        public double Energy => _inertia.KineticEnergy(Velocities, Spins) + _statics.Stretch.Value(Shape)
+            + _statics.Bending.Value(Shape) + _statics.Loads.Value(Shape);
+
+        /// <summary>Force of the supports on a node as the rod is now, N.</summary>
+        public Vector3d ReactionAt(int node)
+        {
+            _schedule.SetLoads(_rod, _supports.Mass, _statics.Loads, Time);
+            RodVector g = Time > 0.0 ? _solver.Reactions(Shape)[node] : _solver.StaticReactions(Shape, _inertia)[node];
+            return new Vector3d(g.X1, g.X2, g.X3);
+        }
+
+        /// <summary>One step.</summary>
+        /// <param name="dt">s.</param>
+        /// <returns>Null, or why a stage has no solution; the shape is then not to be used.</returns>
+        public string? Step(double dt)
+        {
+            Array.Copy(Shape.X, _startPositions, _startPositions.Length);
+            Array.Copy(Shape.Q, _inertia.Start, Shape.Q.Length);
+            MeanReaction = Vector3d.Zero;
+            MeanDistalReaction = Vector3d.Zero;
+            MeanLoad = Vector3d.Zero;
+            string? failure = _scheme == null ? StepByBdf2(dt) : StepByRungeKutta(_scheme, dt);
+            Time += dt;
+            return failure;
+        }
+
+        private string? StepByRungeKutta(RungeKuttaScheme scheme, double dt)
+        {
+            double h = scheme.Diagonal * dt;
+            _inertia.StageLength = h;
+            double[] final = scheme.Rows[_last];
+            for (int s = 0; s <= _last; s++)
+            {
+                double[] row = scheme.Rows[s];
+                for (int i = 0; i < _startPositions.Length; i++)
+                {
+                    Vector3d x = _startPositions[i];
+                    Vector3d v = Velocities[i];
+                    for (int k = 0; k < s; k++)
+                    {
+                        double weight = dt * row[k];
+                        x += weight * _velocity[k][i];
+                        v += weight * _acceleration[k][i];
+                    }
+                    _velocityHistory[i] = v;
+                    _inertia.FreePositions[i] = x + h * v;
+                }
+                for (int j = 0; j < Spins.Length; j++)
+                {
+                    Vector3d turn = Vector3d.Zero;
+                    Vector3d spin = Spins[j];
+                    for (int k = 0; k < s; k++)
+                    {
+                        double weight = dt * row[k];
+                        turn += weight * _turnRate[k][j];
+                        spin += weight * _spinRate[k][j];
+                    }
+                    _inertia.TurnHistory[j] = turn;
+                    _inertia.SpinHistory[j] = spin;
+                }
+                int before = s > 0 ? s - 1 : _last;
+                string? failure = SolveStage(Time + scheme.Times[s] * dt, h, s, before, final[s]);
+                if (failure != null)
+                {
+                    return failure;
+                }
+            }
+            Accept(h);
+            return null;
+        }
+
+        private string? StepByBdf2(double dt)
+        {
+            double h = _hasHistory ? 2.0 / 3.0 * dt : dt;
+            _inertia.StageLength = h;
+            for (int i = 0; i < _startPositions.Length; i++)
+            {
+                Vector3d x = _startPositions[i];
+                Vector3d v = Velocities[i];
+                if (_hasHistory)
+                {
+                    x = (4.0 / 3.0) * x - (1.0 / 3.0) * _oldPositions[i];
+                    v = (4.0 / 3.0) * v - (1.0 / 3.0) * _oldVelocities[i];
+                }
+                _velocityHistory[i] = v;
+                _inertia.FreePositions[i] = x + h * v;
+                _oldPositions[i] = _startPositions[i];
+                _oldVelocities[i] = Velocities[i];
+            }
+            for (int j = 0; j < Spins.Length; j++)
+            {
+                Vector3d turn = Vector3d.Zero;
+                Vector3d spin = Spins[j];
+                if (_hasHistory)
+                {
+                    turn = (-1.0 / 3.0) * RotationVector.Log(_inertia.Start[j].Conjugate * _oldOrientations[j]);
+                    spin = (4.0 / 3.0) * spin - (1.0 / 3.0) * _oldSpins[j];
+                }
+                _inertia.TurnHistory[j] = turn;
+                _inertia.SpinHistory[j] = spin;
+                _oldOrientations[j] = _inertia.Start[j];
+                _oldSpins[j] = Spins[j];
+            }
+            string? failure = SolveStage(Time + dt, h, 0, 0, 1.0);
+            if (failure == null)
+            {
+                Accept(h);
+                _hasHistory = true;
+            }
+            return failure;
+        }
+
+        /// <summary>Places the supports, predicts with the acceleration of the stage before, solves, and takes the stage's
+        /// derivatives.</summary>
+        private string? SolveStage(double time, double h, int stage, int before, double weight)
+        {
+            _schedule.SetLoads(_rod, _supports.Mass, _statics.Loads, time);
+            string? failure = TurnFrames(time);
+            if (failure != null)
+            {
+                return failure;
+            }
+            Predict(h, before);
+            PlaceEnds(time);
+            failure = _solver.Solve(Shape, _tolerance, _mostIterations);
+            if (failure != null)
+            {
+                return failure;
+            }
+            double perStage = 1.0 / h;
+            for (int i = 0; i < _startPositions.Length; i++)
+            {
+                Vector3d a = (perStage * perStage) * (Shape.X[i] - _inertia.FreePositions[i]);
+                _acceleration[stage][i] = a;
+                _velocity[stage][i] = _velocityHistory[i] + h * a;
+            }
+            for (int j = 0; j < Spins.Length; j++)
+            {
+                Vector3d spin = _inertia.Spin(Shape.Q[j], j, out Vector3d turn);
+                _turnRate[stage][j] = perStage * (turn - _inertia.TurnHistory[j]);
+                _spinRate[stage][j] = perStage * (spin - _inertia.SpinHistory[j]);
+            }
+            if (TracksReactions)
+            {
+                Track(weight);
+            }
+            return null;
+        }
+
+        private void Predict(double h, int before)
+        {
+            RodVector[] direction = _solver.Prediction;
+            Array.Clear(direction, 0, direction.Length);
+            for (int i = 0; i < _startPositions.Length; i++)
+            {
+                Vector3d d = _inertia.FreePositions[i] + (h * h) * _acceleration[before][i] - Shape.X[i];
+                direction[i].X1 = d.X;
+                direction[i].X2 = d.Y;
+                direction[i].X3 = d.Z;
+            }
+            for (int j = 0; j < Spins.Length; j++)
+            {
+                Vector3d turn = RotationVector.Log(_inertia.Start[j].Conjugate * Shape.Q[j]);
+                Vector3d d = RotationVector.TangentMap(turn, _inertia.TurnHistory[j]
+                    + h * (_inertia.SpinHistory[j] + h * _spinRate[before][j]) - turn);
+                direction[j].T1 = d.X;
+                direction[j].T2 = d.Y;
+                direction[j].T3 = d.Z;
+            }
+        }
+
+        private void PlaceEnds(double time)
+        {
+            RodVector[] direction = _solver.Prediction;
+            if (_supports.Proximal != ProximalEnd.Free)
+            {
+                Vector3d d = _schedule.ProximalPositionAt(time) - Shape.X[0];
+                direction[0].X1 = d.X;
+                direction[0].X2 = d.Y;
+                direction[0].X3 = d.Z;
+            }
+            if (_supports.Distal == DistalEnd.Free)
+            {
+                return;
+            }
+            int last = _startPositions.Length - 1;
+            Vector3d e = _schedule.DistalPositionAt(time) - Shape.X[last];
+            if (_supports.Distal == DistalEnd.Sliding)
+            {
+                Vector3d axis = _supports.SlidingAxis;
+                Vector3d free = new Vector3d(direction[last].X1, direction[last].X2, direction[last].X3);
+                e += Vector3d.Dot(free - e, axis) * axis;
+            }
+            direction[last].X1 = e.X;
+            direction[last].X2 = e.Y;
+            direction[last].X3 = e.Z;
+        }
+
+        /// <summary>Turns the clamps' frames; a large turn in parts, each solved on its own, so that the rod winds up as it
+        /// would under a fast turn and not by the shorter way.</summary>
+        private string? TurnFrames(double time)
+        {
+            double proximal = _schedule.ProximalTurnAt(time) - _proximalTurn;
+            double distal = _schedule.DistalTurnAt(time) - _distalTurn;
+            if (proximal == 0.0 && distal == 0.0)
+            {
+                return null;
+            }
+            int parts = 1 + (int)(Math.Max(Math.Abs(proximal), Math.Abs(distal)) / LargestFrameTurn);
+            for (int k = 1; k <= parts; k++)
+            {
+                double share = (double)k / parts;
+                _schedule.TurnFrames(Shape, _proximalTurn + share * proximal, _distalTurn + share * distal);
+                if (k < parts)
+                {
+                    string? failure = _solver.Search(Shape, _tolerance, _mostIterations);
+                    if (failure != null)
+                    {
+                        return failure;
+                    }
+                }
+            }
+            _proximalTurn += proximal;
+            _distalTurn += distal;
+            return null;
+        }
+
+        private void Accept(double h)
+        {
+            Array.Copy(_velocity[_last], Velocities, Velocities.Length);
+            for (int j = 0; j < Spins.Length; j++)
+            {
+                Spins[j] = _inertia.SpinHistory[j] + h * _spinRate[_last][j];
+            }
+        }
+
+        private void Track(double weight)
+        {
+            RodVector[] gradient = _solver.Reactions(Shape);
+            int last = _startPositions.Length - 1;
+            MeanReaction += weight * new Vector3d(gradient[0].X1, gradient[0].X2, gradient[0].X3);
+            MeanDistalReaction += weight * new Vector3d(gradient[last].X1, gradient[last].X2, gradient[last].X3);
+            foreach (Vector3d force in _statics.Loads.Force)
+            {
+                MeanLoad += weight * force;
+            }
+        }
+
+        private static Vector3d[][] Arrays(int count, int length)
+        {
+            var arrays = new Vector3d[count][];
+            for (int s = 0; s < count; s++)
+            {
+                arrays[s] = new Vector3d[length];
+            }
+            return arrays;
+        }
+    }
+}

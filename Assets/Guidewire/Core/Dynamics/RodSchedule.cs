@@ -1,0 +1,98 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>What is prescribed in time: loads, and the motion of held ends.</summary>
+    internal sealed class RodSchedule
+    {
+        /// <summary>m/s^2.</summary>
+        public Vector3d Gravity { get; set; }
+
+        /// <summary>Force on the last node, N, until <see cref="TipForceReleaseTime"/>.</summary>
+        public Vector3d TipForce { get; set; }
+
+        /// <summary>s; the force acts at times up to and including this one.</summary>
+        public double TipForceReleaseTime { get; set; } = double.PositiveInfinity;
+
+        /// <summary>Force on a sliding distal end along the axis of its frame, N; a pull is positive.</summary>
+        public double AxialForce { get; set; }
+
+        /// <summary>Force on node 0 where it is free, N.</summary>
+        public Vector3d ProximalForce { get; set; }
+
+        /// <summary>Place of node 0 at <see cref="ProximalTime"/>, m.</summary>
+        public Vector3d ProximalPosition { get; set; }
+
+        /// <summary>Its velocity, m/s.</summary>
+        public Vector3d ProximalVelocity { get; set; }
+
+        /// <summary>The time, s, at which node 0 is at its place.</summary>
+        public double ProximalTime { get; set; }
+
+        /// <summary>The proximal clamp's frame at time 0.</summary>
+        public Quaterniond ProximalFrame { get; set; } = Quaterniond.Identity;
+
+        /// <summary>Its turning about its own d3, rad/s.</summary>
+        public double ProximalTwistRate { get; set; }
+
+        /// <summary>Place of the last node before its displacement, m.</summary>
+        public Vector3d DistalPosition { get; set; }
+
+        /// <summary>The distal clamp's frame before it turns.</summary>
+        public Quaterniond DistalFrame { get; set; } = Quaterniond.Identity;
+
+        /// <summary>How far the last node is displaced along the frame's d3 in the end, m.</summary>
+        public double DistalDisplacement { get; set; }
+
+        /// <summary>How far the distal frame turns about its own d3 in the end, radians; more than one turn counts.
+        /// </summary>
+        public double DistalRotation { get; set; }
+
+        /// <summary>Time over which displacement and rotation of the distal end grow evenly, s; 0: at once.</summary>
+        public double DistalRampTime { get; set; }
+
+        /// <summary>Sets the forces of this time.</summary>
+        public void SetLoads(MaterialRod rod, MassRule rule, DeadLoads loads, double time)
+        {
+            Vector3d axial = AxialForce * DistalFrame.Director3;
+            loads.Set(rod, rule, Gravity, time <= TipForceReleaseTime ? TipForce + axial : axial);
+            loads.Force[0] += ProximalForce;
+        }
+
+        /// <summary>Node 0 at this time, m.</summary>
+        public Vector3d ProximalPositionAt(double time)
+        {
+            return ProximalPosition + (time - ProximalTime) * ProximalVelocity;
+        }
+
+        /// <summary>Turn of the proximal frame at this time, radians.</summary>
+        public double ProximalTurnAt(double time)
+        {
+            return ProximalTwistRate * time;
+        }
+
+        /// <summary>The last node at this time, m.</summary>
+        public Vector3d DistalPositionAt(double time)
+        {
+            return DistalPosition + (Ramp(time) * DistalDisplacement) * DistalFrame.Director3;
+        }
+
+        /// <summary>Turn of the distal frame at this time, radians.</summary>
+        public double DistalTurnAt(double time)
+        {
+            return Ramp(time) * DistalRotation;
+        }
+
+        /// <summary>Sets both frames of a shape, turned by these angles.</summary>
+        public void TurnFrames(RodShape shape, double proximal, double distal)
+        {
+            shape.ProximalFrame = ProximalFrame * Quaterniond.FromAxisAngle(Vector3d.UnitZ, proximal);
+            shape.DistalFrame = DistalFrame * Quaterniond.FromAxisAngle(Vector3d.UnitZ, distal);
+        }
+
+        private double Ramp(double time)
+        {
+            return DistalRampTime > 0.0 ? Math.Min(1.0, Math.Max(0.0, time / DistalRampTime)) : 1.0;
+        }
+    }
+}

@@ -1,0 +1,82 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>Builds the step of a run with a material, once, from its parameters.</summary>
+    internal static class MaterialSetup
+    {
+        // A search for a rest shape starts far away and may take more than a stage of a motion.
+        private const int EquilibriumFactor = 10;
+
+        /// <summary>Sets the state to the start and returns the step.</summary>
+        /// <param name="failure">Why there is no start, or null.</param>
+        public static ITimeStep Create(SimulationParameters parameters, RodState state, out string? failure)
+        {
+            var scene = new MaterialScene(parameters);
+            MaterialParameters material = parameters.Material;
+            var statics = new RodStatics(scene.Rod, scene.Supports);
+            statics.Moment.Moment = material.TipMoment;
+            var report = new SolverReport();
+            failure = null;
+            if (material.InitialState == InitialState.Equilibrium)
+            {
+                failure = RestShape.Find(scene, statics, scene.Shape, Math.Min(material.SolverTolerance, 1e-9),
+                    EquilibriumFactor * material.MaxNewtonIterations, report);
+            }
+            else if (scene.Supports.Proximal != ProximalEnd.Free)
+            {
+                scene.Shape.X[0] = scene.Schedule.ProximalPosition;
+            }
+            if (scene.Supports.Proximal != ProximalEnd.Free)
+            {
+                state.InverseMasses[0] = 0.0;
+            }
+            // Both the current and the previous state are the start.
+            scene.Write(state, scene.Shape, scene.Velocities, scene.Spins);
+            scene.Write(state, scene.Shape, scene.Velocities, scene.Spins);
+            return CreateStep(parameters, scene, statics, report);
+        }
+
+        private static ITimeStep CreateStep(SimulationParameters parameters, MaterialScene scene, RodStatics statics,
+            SolverReport report)
+        {
+            MaterialParameters material = parameters.Material;
+            var drive = new MaterialDrive(parameters, scene.Schedule);
+            switch (parameters.Solver)
+            {
+                case Solver.Direct:
+                    var dynamics = new RodDynamics(scene.Rod, scene.Supports, statics, scene.Schedule, scene.Shape,
+                        Scheme(parameters.Integrator), material.SolverTolerance, material.MaxNewtonIterations);
+                    dynamics.Begin(scene.Velocities, scene.Spins, material.InitialState == InitialState.Equilibrium);
+                    return new DirectStep(scene, statics, dynamics, drive, parameters.TimeStep, parameters.Damping,
+                        report);
+                case Solver.Xpbd:
+                    return new CompliantStep(scene, drive, parameters, parameters.ConstraintSolverSteps, report);
+                case Solver.Explicit:
+                    return new ExplicitStep(scene, statics, drive, parameters, report);
+                default:
+                    throw new ArgumentException("unknown solver " + parameters.Solver);
+            }
+        }
+
+        /// <summary>The scheme of an integrator of the direct solver; null for BDF2.</summary>
+        public static RungeKuttaScheme? Scheme(Integrator integrator)
+        {
+            switch (integrator)
+            {
+                case Integrator.ImplicitEuler:
+                    return RungeKuttaScheme.ImplicitEuler();
+                case Integrator.Bdf2:
+                    return null;
+                case Integrator.Sdirk2:
+                    return RungeKuttaScheme.Sdirk2();
+                case Integrator.Sdirk3:
+                    return RungeKuttaScheme.Sdirk3();
+                case Integrator.Sdirk4:
+                    return RungeKuttaScheme.Sdirk4();
+                default:
+                    throw new ArgumentException("the direct solver has no integrator " + integrator);
+            }
+        }
+    }
+}

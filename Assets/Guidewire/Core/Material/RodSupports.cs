@@ -1,0 +1,30 @@
+namespace Guidewire.Core
+{
+    /// <summary>How a material rod is held and discretised: its two ends, and the rules for clamps, mass and bending.</summary>
+    internal sealed class RodSupports
+    {
+        /// <summary>The proximal end; default clamped.</summary>
+        public ProximalEnd Proximal { get; set; } = ProximalEnd.Clamped;
+
+        /// <summary>The distal end; default free.</summary>
+        public DistalEnd Distal { get; set; } = DistalEnd.Free;
+
+        /// <summary>The unit vector along which a sliding distal end may move.</summary>
+        public Vector3d SlidingAxis { get; set; } = Vector3d.UnitZ;
+
+        /// <summary>Weights at the clamps; default fourth order.</summary>
+        public ClampRule Clamp { get; set; } = ClampRule.FourthOrder;
+
+        /// <summary>The mass matrix; default consistent.</summary>
+        public MassRule Mass { get; set; } = MassRule.Consistent;
+
+        /// <summary>The law of a joint; default rotation vector.</summary>
+        public BendLaw Bend { get; set; } = BendLaw.RotationVector;
+
+        /// <summary>True where a frame holds the first element by a spring.</summary>
+        public bool HasProximalJoint => Proximal == ProximalEnd.Clamped;
+
+        /// <summary>True where a frame holds the last element by a spring.</summary>
+        public bool HasDistalJoint => Distal != DistalEnd.Free;
+    }
+}

@@ -1,0 +1,15 @@
+namespace Guidewire.Core
+{
+    /// <summary>The shape from which a run with a material sets out.</summary>
+    public enum StartShape
+    {
+        /// <summary>Along z.</summary>
+        Straight,
+
+        /// <summary>A closed circle through sphere 0 in the y-z plane; both ends have one place and one frame.</summary>
+        Ring,
+
+        /// <summary>A helix about the z axis.</summary>
+        Helix,
+    }
+}

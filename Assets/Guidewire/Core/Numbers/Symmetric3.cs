@@ -1,0 +1,63 @@
+using System.Runtime.CompilerServices;
+
+namespace Guidewire.Core
+{
+    /// <summary>A symmetric 3x3 matrix by its lower triangle.</summary>
+    internal readonly struct Symmetric3
+    {
+        private readonly double _11;
+        private readonly double _21;
+        private readonly double _22;
+        private readonly double _31;
+        private readonly double _32;
+        private readonly double _33;
+
+        /// <summary>The matrix of these entries.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public Symmetric3(double a11, double a21, double a22, double a31, double a32, double a33)
+        {
+            _11 = a11;
+            _21 = a21;
+            _22 = a22;
+            _31 = a31;
+            _32 = a32;
+            _33 = a33;
+        }
+
+        /// <summary>The sum of w_k c_k c_k^T over three vectors, plus a diagonal.</summary>
+        public static Symmetric3 FromColumns(in Vector3d c1, double w1, in Vector3d c2, double w2, in Vector3d c3,
+            double w3, in Vector3d diagonal)
+        {
+            return new Symmetric3(
+                w1 * c1.X * c1.X + w2 * c2.X * c2.X + w3 * c3.X * c3.X + diagonal.X,
+                w1 * c1.X * c1.Y + w2 * c2.X * c2.Y + w3 * c3.X * c3.Y,
+                w1 * c1.Y * c1.Y + w2 * c2.Y * c2.Y + w3 * c3.Y * c3.Y + diagonal.Y,
+                w1 * c1.X * c1.Z + w2 * c2.X * c2.Z + w3 * c3.X * c3.Z,
+                w1 * c1.Y * c1.Z + w2 * c2.Y * c2.Z + w3 * c3.Y * c3.Z,
+                w1 * c1.Z * c1.Z + w2 * c2.Z * c2.Z + w3 * c3.Z * c3.Z + diagonal.Z);
+        }
+
+        /// <summary>Sum of two matrices.</summary>
+        public static Symmetric3 operator +(in Symmetric3 a, in Symmetric3 b)
+        {
+            return new Symmetric3(a._11 + b._11, a._21 + b._21, a._22 + b._22, a._31 + b._31, a._32 + b._32,
+                a._33 + b._33);
+        }
+
+        /// <summary>The solution u of A u = b, by cofactors; A must not be singular.</summary>
+        public Vector3d Solve(in Vector3d b)
+        {
+            double c11 = _22 * _33 - _32 * _32;
+            double c21 = _31 * _32 - _21 * _33;
+            double c31 = _21 * _32 - _22 * _31;
+            double c22 = _11 * _33 - _31 * _31;
+            double c32 = _21 * _31 - _11 * _32;
+            double c33 = _11 * _22 - _21 * _21;
+            double scale = 1.0 / (_11 * c11 + _21 * c21 + _31 * c31);
+            return scale * new Vector3d(
+                c11 * b.X + c21 * b.Y + c31 * b.Z,
+                c21 * b.X + c22 * b.Y + c32 * b.Z,
+                c31 * b.X + c32 * b.Y + c33 * b.Z);
+        }
+    }
+}

@@ -1,0 +1,50 @@
+namespace Guidewire.Core
+{
+    /// <summary>What a solver for a material says of itself at the end of a run. A number that does not apply is NaN.
+    /// </summary>
+    public sealed class SolverReport
+    {
+        /// <summary>How the method stands to the loads and the rule of convergence, in one line.</summary>
+        public string Method { get; internal set; } = "";
+
+        /// <summary>Factorisations of the whole rod.</summary>
+        public long Factorisations { get; internal set; }
+
+        /// <summary>Solutions with a factorisation that was kept.</summary>
+        public long KeptSolutions { get; internal set; }
+
+        /// <summary>Stages that needed the slower search for a minimum.</summary>
+        public long Searches { get; internal set; }
+
+        /// <summary>Newton iterations that the rest shape took.</summary>
+        public int EquilibriumIterations { get; internal set; }
+
+        /// <summary>Largest unbalanced force of the rest shape over EI/L^2 + loads.</summary>
+        public double EquilibriumResidual { get; internal set; } = double.NaN;
+
+        /// <summary>Smallest eigenvalue of the rest shape's second derivative against l on turns and l/L^2 on shifts, N.
+        /// </summary>
+        public double SmallestEigenvalue { get; internal set; } = double.NaN;
+
+        /// <summary>Largest error that a step left, by the solver's own measure.</summary>
+        public double LargestError { get; internal set; } = double.NaN;
+
+        /// <summary>Steps whose error was above the tolerance.</summary>
+        public long StepsNotConverged { get; internal set; }
+
+        /// <summary>Force of the proximal support on the wire at the end, N.</summary>
+        public Vector3d ProximalForce { get; internal set; }
+
+        /// <summary>Couple of the proximal clamp on the wire at the end, N m, along the world's axes.</summary>
+        public Vector3d ProximalMoment { get; internal set; }
+
+        /// <summary>Force of the distal support on the wire at the end, N.</summary>
+        public Vector3d DistalForce { get; internal set; }
+
+        /// <summary>Couple of the distal clamp on the wire at the end, N m, along the world's axes.</summary>
+        public Vector3d DistalMoment { get; internal set; }
+
+        /// <summary>Energy stored in the wire and its motion, less the work of dead loads, J.</summary>
+        public double Energy { get; internal set; } = double.NaN;
+    }
+}

@@ -1,0 +1,137 @@
+using System;
+using System.Collections.Generic;
+using Guidewire.Core;
+using Newtonsoft.Json;
+using Newtonsoft.Json.Linq;
+
+namespace Guidewire.Io
+{
+    /// <summary>What a run with a material asks of its parameters together. A run has gains or a material: what the user sets
+    /// on the command line must belong to the one it has; what a scene's file holds of the other is passed over.</summary>
+    internal static class MaterialRules
+    {
+        private static readonly string[] WallKeys = { "vessel", "obstacles" };
+        private static readonly string[] GainKeys = { "stretchStiffness", "bendStiffness", "totalMass" };
+
+        /// <summary>Sets the defaults that depend on the solver, and checks what belongs together.</summary>
+        /// <param name="values">The parameters; integrator and displacement may change where they were not given.</param>
+        /// <param name="given">Key, value and source of all that was given.</param>
+        public static void Apply(RunParameters values, Dictionary<string, (JToken Value, string Source)> given)
+        {
+            SimulationParameters simulation = values.Simulation;
+            bool gains = simulation.Solver == Solver.Pbd;
+            foreach (ParameterEntry entry in MaterialEntries.Material)
+            {
+                if (gains)
+                {
+                    Forbid(given, entry.Key, "solver xpbd, direct or explicit: pbd takes gains, not a material");
+                }
+            }
+            if (!gains)
+            {
+                foreach (string key in GainKeys)
+                {
+                    Forbid(given, key, "solver pbd: this run has a material, not gains");
+                }
+                if (!given.ContainsKey("displacement"))
+                {
+                    simulation.Displacement = 0.0;
+                }
+                if (!given.ContainsKey("constraintSolverSteps"))
+                {
+                    simulation.ConstraintSolverSteps = 1;
+                }
+            }
+            ChooseIntegrator(simulation, given);
+            if (!gains)
+            {
+                CheckTogether(simulation, given);
+            }
+        }
+
+        private static void ChooseIntegrator(SimulationParameters simulation,
+            Dictionary<string, (JToken Value, string Source)> given)
+        {
+            bool direct = simulation.Solver == Solver.Direct;
+            bool implicitScheme = simulation.Integrator >= Integrator.ImplicitEuler;
+            if (direct == implicitScheme || simulation.Solver == Solver.Xpbd || simulation.Solver == Solver.Explicit)
+            {
+                return;
+            }
+            if (given.TryGetValue("integrator", out var integrator))
+            {
+                throw new ParameterException(integrator.Source, "integrator",
+                    integrator.Value.ToString(Formatting.None), direct
+                    ? "one of \"implicitEuler\", \"bdf2\", \"sdirk2\", \"sdirk3\", \"sdirk4\" with solver \"direct\""
+                    : "one of \"verlet\", \"euler\", \"orientationVerlet\", \"eulerOrientationVerlet\" with solver \"pbd\"");
+            }
+            simulation.Integrator = Integrator.Sdirk3;
+        }
+
+        private static void CheckTogether(SimulationParameters simulation,
+            Dictionary<string, (JToken Value, string Source)> given)
+        {
+            MaterialParameters material = simulation.Material;
+            bool freeStart = simulation.Drive == Drive.Force || material.ProximalEnd == ProximalEnd.Free;
+            bool clamped = material.ProximalEnd == ProximalEnd.Clamped && !freeStart;
+            foreach (string key in WallKeys)
+            {
+                if (given.TryGetValue(key, out var wall) && wall.Value.HasValues)
+                {
+                    throw new ParameterException(wall.Source, key, wall.Value.ToString(Formatting.None),
+                        "solver pbd: a wire with a material meets no walls");
+                }
+            }
+            if (simulation.TwistPerStep != 0.0 && !clamped)
+            {
+                Refuse(given, "twistPerStep", "proximalEnd \"clamped\" in a run with a material");
+            }
+            if (material.InitialState == InitialState.Equilibrium && !clamped && material.DistalEnd == DistalEnd.Free)
+            {
+                Refuse(given, "initialState", "a clamped end: a wire that turns freely has no single rest shape");
+            }
+            if (simulation.Solver == Solver.Xpbd && material.TipMoment != Vector3d.Zero)
+            {
+                Refuse(given, "tipMoment", "solver direct or explicit: xpbd has no couples");
+            }
+            if (simulation.Solver != Solver.Direct && material.DistalEnd == DistalEnd.Sliding)
+            {
+                Refuse(given, "distalEnd", "solver direct: the others cannot slide");
+            }
+            if (simulation.Solver == Solver.Xpbd && material.BendLaw == BendLaw.Darboux)
+            {
+                Refuse(given, "bendLaw", "solver direct or explicit: xpbd has the rotation vector only");
+            }
+            if (material.StartShape == StartShape.Helix && 2.0 * Math.PI * Math.Abs(material.StartTurns)
+                * material.StartRadius >= simulation.GuidewireLength)
+            {
+                Refuse(given, "startTurns", "a helix shorter than guidewireLength: 2 pi startTurns startRadius is more");
+            }
+            if (simulation.Drive == Drive.Hold || simulation.Drive == Drive.Force)
+            {
+                return;
+            }
+            if (freeStart)
+            {
+                Refuse(given, "proximalEnd", "\"held\" or \"clamped\" with a drive that moves sphere 0");
+            }
+        }
+
+        private static void Forbid(Dictionary<string, (JToken Value, string Source)> given, string key, string needed)
+        {
+            if (given.TryGetValue(key, out var value) && value.Source == CommandLineHandler.Source)
+            {
+                throw new ParameterException(value.Source, key, value.Value.ToString(Formatting.None), needed);
+            }
+        }
+
+        private static void Refuse(Dictionary<string, (JToken Value, string Source)> given, string key, string needed)
+        {
+            if (given.TryGetValue(key, out var value))
+            {
+                throw new ParameterException(value.Source, key, value.Value.ToString(Formatting.None), needed);
+            }
+            throw new ParameterException("defaults: " + key + " needs " + needed);
+        }
+    }
+}

@@ -1,0 +1,163 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using Guidewire.Core;
+using Guidewire.Io;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>Wires of all kinds pushed hard into the vessel of the scenes: nothing passes its wall, and they
+    /// move.</summary>
+    [TestFixture]
+    internal sealed class RandomPushTests
+    {
+        private const double Asked = 200.0;
+
+        // z of the open rim: what a buckled wire pushes back out of it has passed no wall.
+        private const double Entrance = -320.0;
+
+        private sealed class Push
+        {
+            public Simulation Simulation;
+            public int Outside;
+            public double Reached;
+            public double Driven;
+            public string Words = "";
+
+            public Push(Simulation simulation)
+            {
+                Simulation = simulation;
+            }
+        }
+
+        [Test]
+        public void Wire_PassesNoWall_AndMoves_UnderRandomPushes()
+        {
+            int runs = RandomGeometry.Cases(1_000);
+            var reached = new List<double>();
+            var worst = new List<string>();
+            long passages = 0;
+            int outside = 0;
+            for (int seed = 0; seed < runs; seed++)
+            {
+                Push push = Run(seed, ElementContact.Barycentric, 1.0);
+                passages += push.Simulation.Contacts!.Passages;
+                outside += push.Outside;
+                reached.Add(push.Reached);
+                if (push.Simulation.Contacts.Passages > 0 || push.Outside > 0 || push.Reached < 0.5)
+                {
+                    worst.Add(push.Words);
+                }
+            }
+            reached.Sort();
+            TestContext.WriteLine("median share of the motion asked for: " + reached[runs / 2]);
+            TestContext.WriteLine("lowest: " + reached[0] + "; below 0.9: " + reached.FindIndex(r => r >= 0.9));
+            foreach (string words in worst)
+            {
+                TestContext.WriteLine(words);
+            }
+            Assert.That(passages, Is.EqualTo(0));
+            Assert.That(outside, Is.EqualTo(0), "points of the wire outside after a step, asked apart from the count");
+            Assert.That(reached[runs / 2], Is.GreaterThanOrEqualTo(0.9));
+        }
+
+        [TestCase(ElementContact.None)]
+        [TestCase(ElementContact.Seed)]
+        public void Count_SeesTheWireOutside_WhereARuleLetsItPass(ElementContact rule)
+        {
+            // Long elements against the wall's inner bend, few sweeps: without element contact the wire cuts through.
+            long passages = 0;
+            int outside = 0;
+            for (int seed = 0; seed < 10; seed++)
+            {
+                Push push = Run(seed, rule, 1.0);
+                passages += push.Simulation.Contacts!.Passages;
+                outside += push.Outside;
+            }
+            TestContext.WriteLine(rule + ": " + passages + " passages, " + outside + " points outside");
+            Assert.That(outside > 0, Is.EqualTo(passages > 0));
+            Assert.That(passages, Is.GreaterThan(0));
+        }
+
+        private static Push Run(int seed, ElementContact rule, double speed)
+        {
+            var random = new RandomGeometry(seed);
+            var p = new SimulationParameters
+            {
+                NumberRodElements = 5 + random.Index(56),
+                ConstraintSolverSteps = 50 + random.Index(451),
+                StretchStiffness = random.Number(0.1, 1.5),
+                BendStiffness = Math.Pow(10.0, random.Number(-2.0, 0.3)),
+                Gravity = random.Number(0.0, 10.0) * random.Direction(),
+                SphereRadius = random.Number(1.0, 5.0),
+                CollisionStiffness = Math.Pow(10.0, random.Number(-3.0, 0.0)),
+                CollisionMargin = random.Number(0.0, 1.0),
+                Damping = random.Number(0.0, 0.3),
+                TimeStep = Math.Pow(10.0, random.Number(-4.0, -1.0)),
+                TotalMass = Math.Pow(10.0, random.Number(-3.0, 0.0)),
+                GuidewireOffset = -310.0,
+                Drive = Drive.Push,
+                ElementContact = rule,
+                DeltaThreshold = 0.0,
+                TwistPerStep = random.Index(2) == 0 ? 0.0 : random.Number(-0.5, 0.5),
+                Walls = new ContactShape[] { Vessel },
+            };
+            p.DisplacementPerStep = speed * random.Number(0.05, 20.0) * p.SphereRadius;
+            p.MaxSimulationSteps = (int)Math.Ceiling(Asked / p.DisplacementPerStep);
+            Simulation simulation = Simulation.Create(p);
+            var push = new Push(simulation);
+            var start = (Vector3d[])simulation.State.Positions.Clone();
+            Vector3d previous = simulation.State.Positions[0];
+            double way = 0.0;
+            while (simulation.Outcome == Outcome.Running)
+            {
+                simulation.Step();
+                way += Vector3d.Distance(previous, simulation.State.Positions[0]);
+                previous = simulation.State.Positions[0];
+                push.Outside += rule == ElementContact.Barycentric && simulation.StepCount % 7 != 0
+                    && simulation.Outcome == Outcome.Running ? 0 : PointsOutside(simulation.State);
+            }
+            push.Driven = 1.0 - simulation.Contacts!.DriveShortfall / simulation.Contacts.DriveAsked;
+            for (int i = 0; i < start.Length; i++)
+            {
+                push.Reached += Vector3d.Distance(start[i], simulation.State.Positions[i])
+                    / (simulation.Contacts.DriveAsked * start.Length);
+            }
+            push.Words = "seed " + seed + ": n " + p.NumberRodElements + ", m " + p.ConstraintSolverSteps + ", r "
+                + p.SphereRadius.ToString("F2") + ", kC " + p.CollisionStiffness.ToString("F4") + ", per step "
+                + p.DisplacementPerStep.ToString("F1") + ", " + simulation.Outcome + " after " + simulation.StepCount
+                + ", passages " + simulation.Contacts.Passages + ", outside " + push.Outside + ", reached "
+                + push.Reached.ToString("F3") + ", driven " + push.Driven.ToString("F3") + ", way " + way.ToString("F1") + ", deepest "
+                + simulation.Contacts.MaxPenetration.ToString("F2") + ", tip " + simulation.State.Positions[^1];
+            return push;
+        }
+
+        private static int PointsOutside(RodState state)
+        {
+            int count = 0;
+            for (int j = 0; j < state.ElementCount; j++)
+            {
+                for (int k = 0; k < 10; k++)
+                {
+                    Vector3d x = Vector3d.Lerp(state.Positions[j], state.Positions[j + 1], k / 10.0);
+                    count += x.Z < Entrance || Vessel.Contains(x) ? 0 : 1;
+                }
+            }
+            return count;
+        }
+
+        private static readonly MeshShape Vessel = new MeshShape(MeshFile.Read(
+            Path.Combine(Root(), "params", "meshes", "arch.obj"), 1.0, new[] { new Vector3d(0.0, 0.0, Entrance) }));
+
+        private static string Root()
+        {
+            string folder = TestContext.CurrentContext.TestDirectory;
+            while (!Directory.Exists(Path.Combine(folder, "ProjectSettings")))
+            {
+                folder = Path.GetDirectoryName(folder) ?? throw new DirectoryNotFoundException("no project around");
+            }
+            return folder;
+        }
+    }
+}

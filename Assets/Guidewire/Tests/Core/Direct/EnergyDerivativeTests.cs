@@ -1,0 +1,214 @@
+using System;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>Every energy against differences of its own value, and against what no energy of a rod may feel.</summary>
+    public sealed class EnergyDerivativeTests
+    {
+        private const int N = 4;
+
+        // Fourth-order central differences with this step: truncation 1e-12, rounding 1e-16/1e-3 = 1e-13.
+        private const double Step = 1e-3;
+        private const double GradientTolerance = 1e-9;
+        private const double HessianTolerance = 1e-8;
+
+        public static readonly string[] TermNames = { "stretch", "rotationVector", "darboux", "inertia", "plane" };
+
+        [Test]
+        public void Gradient_IsTheDifferenceOfTheEnergy([ValueSource(nameof(TermNames))] string name,
+            [Values(0.02, 0.9)] double angle)
+        {
+            EnergyTerm term = Create(name, angle, out RodShape shape);
+            RodVector[] gradient = Gradient(term, shape);
+            double[] exact = DenseMatrix.From(gradient, N + 1);
+            double worst = 0.0;
+            double largest = 0.0;
+            for (int i = 0; i < Unknowns; i++)
+            {
+                double difference = Difference(s => term.Value(Moved(shape, i, s)));
+                worst = Math.Max(worst, Math.Abs(difference - exact[i]));
+                largest = Math.Max(largest, Math.Abs(difference));
+            }
+            Assert.That(worst, Is.LessThan(GradientTolerance * largest), name);
+        }
+
+        [Test]
+        public void Blocks_AreTheDifferencesOfTheGradient([ValueSource(nameof(TermNames))] string name,
+            [Values(0.02, 0.9)] double angle)
+        {
+            // d(gradient_i)/du_k in coordinates u of exp at the shape: taken from the value, because the body-frame gradient
+            // at a turned shape is along turned axes.
+            EnergyTerm term = Create(name, angle, out RodShape shape);
+            var blocks = new RodBlock[N + 2];
+            term.AddBlocks(shape, blocks, new RodVector[N + 2], 0, N + 1);
+            double[,] exact = DenseMatrix.From(blocks, N + 1);
+            double worst = 0.0;
+            double largest = 0.0;
+            for (int i = 0; i < Unknowns; i++)
+            {
+                for (int k = 0; k <= i; k++)
+                {
+                    double difference = Difference(s => Difference(t => term.Value(Moved(shape, i, s, k, t))));
+                    worst = Math.Max(worst, Math.Abs(difference - exact[i, k]));
+                    largest = Math.Max(largest, Math.Abs(difference));
+                }
+            }
+            Assert.That(worst, Is.LessThan(HessianTolerance * largest), name);
+        }
+
+        [Test]
+        public void GradientAlone_IsThatOfTheBlocks([ValueSource(nameof(TermNames))] string name)
+        {
+            EnergyTerm term = Create(name, 0.7, out RodShape shape);
+            var gradient = new RodVector[N + 2];
+            term.AddBlocks(shape, new RodBlock[N + 2], gradient, 0, N + 1);
+            double[] withBlocks = DenseMatrix.From(gradient, N + 1);
+            double[] alone = DenseMatrix.From(Gradient(term, shape), N + 1);
+            for (int i = 0; i < alone.Length; i++)
+            {
+                Assert.That(alone[i], Is.EqualTo(withBlocks[i]).Within(1e-14 * (1.0 + Math.Abs(alone[i]))));
+            }
+        }
+
+        [TestCase("stretch")]
+        [TestCase("rotationVector")]
+        [TestCase("darboux")]
+        public void Energy_IsBlindToARigidMotion(string name)
+        {
+            EnergyTerm term = Create(name, 0.8, out RodShape shape);
+            RodShape moved = Rods.Copy(shape);
+            Quaterniond turn = Quaterniond.FromAxisAngle(Vector3d.Normalize(new Vector3d(0.3, -1.0, 2.0)), 2.3);
+            for (int i = 0; i <= N; i++)
+            {
+                moved.X[i] = Quaterniond.Rotate(turn, shape.X[i]) + new Vector3d(0.1, 0.2, -0.3);
+            }
+            for (int j = 0; j < N; j++)
+            {
+                moved.Q[j] = turn * shape.Q[j];
+            }
+            moved.ProximalFrame = turn * shape.ProximalFrame;
+            moved.DistalFrame = turn * shape.DistalFrame;
+            Assert.That(term.Value(moved), Is.EqualTo(term.Value(shape)).Within(1e-12 * term.Value(shape)));
+        }
+
+        [TestCase(1e-6)]
+        [TestCase(0.3)]
+        [TestCase(1.7)]
+        [TestCase(3.1)]
+        public void Joint_AnswersWithItsLaw(double angle)
+        {
+            // Closed forms: K angle for the rotation vector, K sin(angle) for the Darboux vector (2/l) Im(conj(q) q').
+            var joint = new Joint { Bend = 0.7, Twist = 0.4 };
+            for (int axis = 0; axis < 3; axis++)
+            {
+                Vector3d e = axis == 0 ? Vector3d.UnitX : axis == 1 ? Vector3d.UnitY : Vector3d.UnitZ;
+                double stiffness = axis == 2 ? joint.Twist : joint.Bend;
+                Quaterniond relative = Quaterniond.FromAxisAngle(e, angle);
+                RodVector a = default;
+                RodVector b = default;
+                default(RotationVectorLaw).AddGradient(joint, relative, ref a, ref b);
+                Assert.That(Along(b, e), Is.EqualTo(stiffness * angle).Within(1e-6 * stiffness * angle));
+                Assert.That(Along(a, e), Is.EqualTo(-stiffness * angle).Within(1e-6 * stiffness * angle));
+                b = default;
+                default(DarbouxLaw).AddGradient(joint, relative, ref a, ref b);
+                Assert.That(Along(b, e), Is.EqualTo(stiffness * Math.Sin(angle)).Within(1e-6 * stiffness * angle));
+            }
+        }
+
+        private const int Unknowns = 6 * N + 3;
+
+        private static double Along(in RodVector v, in Vector3d e)
+        {
+            return v.T1 * e.X + v.T2 * e.Y + v.T3 * e.Z;
+        }
+
+        private static EnergyTerm Create(string name, double angle, out RodShape shape)
+        {
+            // Stiffnesses of one size, so that an error in any block shows.
+            var rod = new MaterialRod(N);
+            for (int j = 0; j < N; j++)
+            {
+                rod.Length[j] = 0.5 + 0.1 * j;
+                rod.StretchStiffness[j] = 3.0 + j;
+                rod.ShearStiffness[j] = 1.3;
+                rod.BendStiffness[j] = 0.5;
+                rod.TwistStiffness[j] = 0.3;
+                rod.LineDensity[j] = 1.1;
+                rod.RotaryInertia[j] = 0.4;
+                rod.RestCurvature[j] = new Vector3d(0.2, -0.4, 0.3);
+            }
+            var supports = new RodSupports { Distal = DistalEnd.Clamped, Clamp = ClampRule.HalfElement };
+            shape = Rods.Random(rod, angle, 0.3, 5);
+            switch (name)
+            {
+                case "stretch":
+                    return new StretchEnergy(rod);
+                case "rotationVector":
+                    return new BendTwistEnergy<RotationVectorLaw>(rod.Joints(supports), true, true);
+                case "darboux":
+                    return new BendTwistEnergy<DarbouxLaw>(rod.Joints(supports), true, true);
+                case "plane":
+                    return Plane(rod, shape);
+                default:
+                    var inertia = new InertiaEnergy(rod, MassRule.Consistent) { StageLength = 0.8 };
+                    Array.Copy(shape.Q, inertia.Start, N);
+                    inertia.FreePositions[2] = new Vector3d(0.1, 0.2, 0.3);
+                    inertia.SpinHistory[1] = new Vector3d(0.4, -0.2, 0.1);
+                    inertia.Anchor(shape);
+                    return inertia;
+            }
+        }
+
+        /// <summary>The guide of a plane without its springs on turns, which have no value: no bending stiffness, no springs.
+        /// </summary>
+        private static PlaneGuide Plane(MaterialRod rod, RodShape shape)
+        {
+            var stiff = new MaterialRod(rod.ElementCount);
+            for (int j = 0; j < rod.ElementCount; j++)
+            {
+                stiff.Length[j] = rod.Length[j];
+                stiff.ShearStiffness[j] = rod.ShearStiffness[j];
+            }
+            return new PlaneGuide(stiff, Vector3d.Normalize(new Vector3d(1.0, 2.0, 2.0)), shape.X[0]);
+        }
+
+        private static RodVector[] Gradient(EnergyTerm term, RodShape shape)
+        {
+            var gradient = new RodVector[N + 2];
+            term.AddGradient(shape, gradient, 0, N + 1);
+            return gradient;
+        }
+
+        private static RodShape Moved(RodShape shape, int i, double s, int k = 0, double t = 0.0)
+        {
+            RodShape moved = Rods.Copy(shape);
+            var turn = new Vector3d[N];
+            Shift(moved, turn, i, s);
+            Shift(moved, turn, k, t);
+            for (int j = 0; j < N; j++)
+            {
+                moved.Q[j] = moved.Q[j] * RotationVector.Exp(turn[j]);
+            }
+            return moved;
+        }
+
+        private static void Shift(RodShape shape, Vector3d[] turn, int i, double s)
+        {
+            Vector3d e = i % 3 == 0 ? Vector3d.UnitX : i % 3 == 1 ? Vector3d.UnitY : Vector3d.UnitZ;
+            if (i % 6 < 3)
+            {
+                shape.X[i / 6] += s * e;
+            }
+            else
+            {
+                turn[i / 6] += s * e;
+            }
+        }
+
+        private static double Difference(Func<double, double> f)
+        {
+            return (8.0 * (f(Step) - f(-Step)) - (f(2.0 * Step) - f(-2.0 * Step))) / (12.0 * Step);
+        }
+    }
+}

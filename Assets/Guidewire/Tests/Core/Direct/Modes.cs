@@ -1,0 +1,137 @@
+using System;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>Modes of a rod in one plane by dense inverse iteration on K^-1 M, the modes found taken out.</summary>
+    internal sealed class Modes
+    {
+        private const int Iterations = 60;
+
+        private readonly double[,] _factor;  // of K
+        private readonly double[,] _mass;
+        private readonly int[] _unknowns;
+        private readonly int _order;
+
+        private Modes(double[,] stiffness, double[,] mass, int[] unknowns, int order)
+        {
+            _factor = DenseMatrix.Cholesky(DenseMatrix.Take(stiffness, unknowns));
+            _mass = DenseMatrix.Take(mass, unknowns);
+            _unknowns = unknowns;
+            _order = order;
+        }
+
+        /// <summary>The wire, straight, clamped and free, its bending in the y-z plane.</summary>
+        public static Modes Cantilever(int n, MassRule mass, ClampRule clamp)
+        {
+            return Of(Rods.Wire(n), new RodSupports { Mass = mass, Clamp = clamp });
+        }
+
+        /// <summary>A straight rod along z, clamped at node 0 and free: bending in the y-z plane.</summary>
+        public static Modes Of(MaterialRod rod, RodSupports supports)
+        {
+            int n = rod.ElementCount;
+            RodShape shape = Rods.Straight(rod);
+            var statics = new RodStatics(rod, supports);
+            var stiffness = new RodBlock[n + 2];
+            var gradient = new RodVector[n + 2];
+            statics.Stretch.AddBlocks(shape, stiffness, gradient, 0, n + 1);
+            statics.Bending.AddBlocks(shape, stiffness, gradient, 0, n + 1);
+            var inertia = new InertiaEnergy(rod, supports.Mass) { StageLength = 1.0 };
+            Array.Copy(shape.Q, inertia.Start, n);
+            var mass = new RodBlock[n + 2];
+            inertia.AddBlocks(shape, mass, gradient, 0, n + 1);
+            // y of nodes 1..n, turn about x of elements 0..n-1.
+            var unknowns = new int[2 * n];
+            for (int j = 0; j < n; j++)
+            {
+                unknowns[2 * j] = 6 * j + 3;
+                unknowns[2 * j + 1] = 6 * (j + 1) + 1;
+            }
+            return new Modes(DenseMatrix.From(stiffness, n + 1), DenseMatrix.From(mass, n + 1), unknowns, 6 * (n + 1));
+        }
+
+        /// <summary>The lowest frequencies, Hz.</summary>
+        public double[] Frequencies(int count)
+        {
+            var frequencies = new double[count];
+            for (int k = 0; k < count; k++)
+            {
+                frequencies[k] = Find(k + 1, out _) / (2.0 * Math.PI);
+            }
+            return frequencies;
+        }
+
+        /// <summary>The first mode as a direction whose largest entry is the tip's, 1; and its circular frequency.</summary>
+        public RodVector[] First(out double omega)
+        {
+            omega = Find(1, out double[] mode);
+            var whole = new double[_order];
+            double tip = mode[mode.Length - 1];
+            for (int i = 0; i < mode.Length; i++)
+            {
+                whole[_unknowns[i]] = mode[i] / tip;
+            }
+            return DenseMatrix.ToRod(whole);
+        }
+
+        private double Find(int number, out double[] mode)
+        {
+            int order = _unknowns.Length;
+            var found = new double[number][];
+            double omega = 0.0;
+            for (int m = 0; m < number; m++)
+            {
+                var v = new double[order];
+                for (int i = 0; i < order; i++)
+                {
+                    v[i] = Math.Sin(1.0 + i * (m + 1.7));
+                }
+                for (int k = 0; k < Iterations; k++)
+                {
+                    for (int f = 0; f < m; f++)
+                    {
+                        double share = Dot(found[f], Times(v));
+                        for (int i = 0; i < order; i++)
+                        {
+                            v[i] -= share * found[f][i];
+                        }
+                    }
+                    double norm = Math.Sqrt(Dot(v, Times(v)));
+                    for (int i = 0; i < order; i++)
+                    {
+                        v[i] /= norm;
+                    }
+                    found[m] = v;
+                    double[] next = DenseMatrix.Solve(_factor, Times(v));
+                    omega = 1.0 / Math.Sqrt(Dot(v, Times(next)));
+                    v = next;
+                }
+            }
+            mode = found[number - 1];
+            return omega;
+        }
+
+        private double[] Times(double[] v)
+        {
+            var result = new double[v.Length];
+            for (int i = 0; i < v.Length; i++)
+            {
+                for (int j = 0; j < v.Length; j++)
+                {
+                    result[i] += _mass[i, j] * v[j];
+                }
+            }
+            return result;
+        }
+
+        private static double Dot(double[] a, double[] b)
+        {
+            double sum = 0.0;
+            for (int i = 0; i < a.Length; i++)
+            {
+                sum += a[i] * b[i];
+            }
+            return sum;
+        }
+    }
+}

@@ -1,0 +1,297 @@
+using System;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>Motion against closed forms: modes, the exact chain, momentum.</summary>
+    public sealed class MotionTests
+    {
+        [TestCase(Integrator.ImplicitEuler, 1.0)]
+        [TestCase(Integrator.Bdf2, 2.0)]
+        [TestCase(Integrator.Sdirk2, 2.0)]
+        [TestCase(Integrator.Sdirk3, 3.0)]
+        [TestCase(Integrator.Sdirk4, 4.0)]
+        public void OneMode_MovesWithTheSchemesOrder(Integrator scheme, double order)
+        {
+            // First mode of the chain as start, amplitude 1e-4 L. After one period the tip's y - i v/omega is that of the
+            // start times lambda^N; the error of log(lambda) per unit time is the scheme's own.
+            const int N = 10;
+            RodVector[] mode = Modes.Of(Rods.Wire(N), new RodSupports()).First(out double omega);
+            int[] steps = { 10, 20, 40, 80, 160 };
+            double sumX = 0.0;
+            double sumY = 0.0;
+            double sumXX = 0.0;
+            double sumXY = 0.0;
+            foreach (int count in steps)
+            {
+                double x = Math.Log(1.0 / count);
+                double y = Math.Log(ModeError(scheme, mode, omega, N, count));
+                sumX += x;
+                sumY += y;
+                sumXX += x * x;
+                sumXY += x * y;
+            }
+            double slope = (steps.Length * sumXY - sumX * sumY) / (steps.Length * sumXX - sumX * sumX);
+            Assert.That(slope, Is.EqualTo(order).Within(0.1));
+        }
+
+        [Test]
+        public void CantileverLetGo_FollowsTheModalSeries()
+        {
+            // k = 1e-3: deflection L/3000, where linear theory holds to 1e-6. y(t) = sum of modes of the clamped-free beam with
+            // the static tip-load shape as start.
+            const int N = 16;
+            const double K = 1e-3;
+            const double Step = 0.5e-3;
+            const int Steps = 400;
+            MaterialRod rod = Rods.Wire(N);
+            RodShape shape = Rods.AtRest(rod, new RodSupports(), Vector3d.Zero, new Vector3d(0.0, K * Rods.BendForce, 0.0),
+                Vector3d.Zero);
+            RodDynamics motion = Start(rod, new RodSupports(), new RodSchedule(), shape, Integrator.Sdirk4, 1e-10);
+            double square = 0.0;
+            double reference = 0.0;
+            for (int i = 1; i <= Steps; i++)
+            {
+                Assert.That(motion.Step(Step), Is.Null);
+                double exact = ModalTip(K, motion.Time);
+                square += (shape.X[N].Y - exact) * (shape.X[N].Y - exact);
+                reference += exact * exact;
+            }
+            Assert.That(Math.Sqrt(square / reference), Is.LessThan(3e-3));
+        }
+
+        [TestCase(Integrator.ImplicitEuler)]
+        [TestCase(Integrator.Sdirk2)]
+        [TestCase(Integrator.Sdirk3)]
+        [TestCase(Integrator.Sdirk4)]
+        public void ForcesAndReaction_ChangeTheMomentum(Integrator scheme)
+        {
+            // The reaction is the clamp's and the first element's own stress; nothing else acts but weight.
+            const int N = 12;
+            const double Step = 1e-3;
+            MaterialRod rod = Rods.Wire(N);
+            var schedule = new RodSchedule { Gravity = new Vector3d(1.0, -9.81, 2.0) };
+            RodShape shape = Rods.Straight(rod);
+            RodDynamics motion = Start(rod, new RodSupports(), schedule, shape, scheme, 1e-12);
+            motion.TracksReactions = true;
+            double worst = 0.0;
+            double peak = 0.0;
+            for (int i = 0; i < 100; i++)
+            {
+                Vector3d before = motion.Momentum;
+                Assert.That(motion.Step(Step), Is.Null);
+                Vector3d rate = (motion.Momentum - before) / Step;
+                worst = Math.Max(worst, (rate - motion.MeanReaction - motion.MeanLoad).Length);
+                peak = Math.Max(peak, Math.Max(motion.MeanReaction.Length, motion.MeanLoad.Length));
+            }
+            Assert.That(worst, Is.LessThan(1e-6 * peak));
+        }
+
+        [Test]
+        public void FreeRod_FliesOnItsParabola()
+        {
+            // Bent, spinning, free at both ends: the centre of mass falls as a point does. SDIRK3 is exact for a parabola.
+            const int N = 8;
+            const double Step = 2e-3;
+            MaterialRod rod = Rods.Wire(N);
+            RodShape shape = Rods.Random(rod, 0.05, 0.0, 3);
+            var schedule = new RodSchedule { Gravity = new Vector3d(0.0, -9.81, 0.0) };
+            var supports = new RodSupports { Proximal = ProximalEnd.Free };
+            RodDynamics motion = Start(rod, supports, schedule, shape, Integrator.Sdirk3, 1e-10);
+            double mass = Rods.Density * Rods.Area * Rods.Length;
+            Vector3d start = Centre(shape);
+            for (int i = 0; i < 50; i++)
+            {
+                Assert.That(motion.Step(Step), Is.Null);
+            }
+            double fall = 0.5 * 9.81 * motion.Time * motion.Time;
+            Vector3d centre = Centre(shape);
+            Assert.That(centre.Y - start.Y, Is.EqualTo(-fall).Within(1e-8));
+            Assert.That(centre.X - start.X, Is.EqualTo(0.0).Within(1e-8));
+            Assert.That(motion.Momentum.Y, Is.EqualTo(-mass * 9.81 * motion.Time).Within(1e-8 * mass));
+        }
+
+        [Test]
+        public void DisplacedBase_SendsTheExactChainsWave()
+        {
+            // n = 30 masses M/31 on springs EA/l, base displaced by 1 mm at once. With all masses equal the free end's chain
+            // has omega_k = 2 sqrt(K/m) sin(a_k/2), a_k = (2k - 1) pi/(2n + 1), modes sin(i a_k).
+            const int N = 30;
+            const double Shift = 1e-3;
+            const double Step = 2e-7;
+            const int Steps = 1000;
+            MaterialRod rod = Rods.Wire(N);
+            RodShape shape = Rods.Straight(rod);
+            shape.X[0] = new Vector3d(0.0, 0.0, Shift);
+            var schedule = new RodSchedule { ProximalPosition = shape.X[0] };
+            RodDynamics motion = Start(rod, new RodSupports { Mass = MassRule.Uniform }, schedule, shape,
+                Integrator.Sdirk4, 1e-12);
+            double worst = 0.0;
+            for (int i = 0; i < Steps; i++)
+            {
+                Assert.That(motion.Step(Step), Is.Null);
+                worst = Math.Max(worst, Math.Abs(shape.X[N].Z - Rods.Length - ChainTip(N, Shift, motion.Time)));
+            }
+            Assert.That(worst, Is.LessThan(1e-3 * Shift));
+        }
+
+        [Test]
+        public void TurnedScene_MovesTheSame()
+        {
+            const int N = 10;
+            Quaterniond turn = Quaterniond.FromAxisAngle(Vector3d.Normalize(new Vector3d(1.0, 0.4, -0.3)), 1.9);
+            var offset = new Vector3d(0.5, -0.2, 0.1);
+            RodShape[] shapes = new RodShape[2];
+            for (int k = 0; k < 2; k++)
+            {
+                Quaterniond r = k == 0 ? Quaterniond.Identity : turn;
+                MaterialRod rod = Rods.Wire(N);
+                var shape = new RodShape(N);
+                shape.SetStraight(k == 0 ? Vector3d.Zero : offset, r, rod.Length);
+                var schedule = new RodSchedule
+                {
+                    Gravity = Quaterniond.Rotate(r, new Vector3d(3.0, -9.81, 1.0)),
+                    ProximalPosition = shape.X[0],
+                    ProximalFrame = shape.ProximalFrame,
+                    DistalFrame = shape.DistalFrame,
+                };
+                RodDynamics motion = Start(rod, new RodSupports(), schedule, shape, Integrator.Sdirk3, 1e-11);
+                for (int i = 0; i < 50; i++)
+                {
+                    Assert.That(motion.Step(1e-3), Is.Null);
+                }
+                shapes[k] = shape;
+            }
+            for (int i = 0; i <= N; i++)
+            {
+                Vector3d expected = Quaterniond.Rotate(turn, shapes[0].X[i]) + offset;
+                Assert.That(Vector3d.Distance(shapes[1].X[i], expected), Is.LessThan(1e-9 * Rods.Length), "node " + i);
+            }
+        }
+
+        [Test]
+        public void SpinningElement_KeepsThirdOrder_ForLargeTurns()
+        {
+            double coarse = TopError(20);
+            double fine = TopError(40);
+            Assert.That(Math.Log(coarse / fine) / Math.Log(2.0), Is.EqualTo(3.0).Within(0.1));
+        }
+
+        internal static RodDynamics Start(MaterialRod rod, RodSupports supports, RodSchedule schedule, RodShape shape,
+            Integrator scheme, double tolerance)
+        {
+            var statics = new RodStatics(rod, supports);
+            return new RodDynamics(rod, supports, statics, schedule, shape, MaterialSetup.Scheme(scheme), tolerance, 100);
+        }
+
+        /// <summary>Error of orientation and angular velocity of one element that nothing holds: a symmetric top with
+        /// I = diag(1, 1, 2). Along its own axes (w1, w2) turns at w3; in space the top is turned by exp(t L/I1) after
+        /// a turn of -w3 t about its own axis, L its angular momentum.</summary>
+        private static double TopError(int steps)
+        {
+            const double Time = 0.05;
+            const double Spin = 40.0;
+            const double Tilt = 15.0;
+            var rod = new MaterialRod(1);
+            rod.Length[0] = 1.0;
+            rod.StretchStiffness[0] = 1e-9;
+            rod.ShearStiffness[0] = 1e-9;
+            rod.BendStiffness[0] = 1.0;
+            rod.TwistStiffness[0] = 1.0;
+            rod.LineDensity[0] = 1.0;
+            rod.RotaryInertia[0] = 1.0;
+            RodShape shape = Rods.Straight(rod);
+            var supports = new RodSupports { Proximal = ProximalEnd.Free };
+            RodDynamics motion = Start(rod, supports, new RodSchedule(), shape, Integrator.Sdirk3, 1e-13);
+            motion.Begin(new Vector3d[2], new[] { new Vector3d(Tilt, 0.0, Spin) }, false);
+            for (int i = 0; i < steps; i++)
+            {
+                Assert.That(motion.Step(Time / steps), Is.Null);
+            }
+            double angle = Spin * Time;
+            var spin = new Vector3d(Tilt * Math.Cos(angle), Tilt * Math.Sin(angle), Spin);
+            Quaterniond turned = RotationVector.Exp(Time * new Vector3d(Tilt, 0.0, 2.0 * Spin))
+                * Quaterniond.FromAxisAngle(Vector3d.UnitZ, -angle);
+            return Vector3d.Distance(motion.Spins[0], spin) / Spin
+                + RotationVector.Log(turned.Conjugate * shape.Q[0]).Length;
+        }
+
+        private static double ModeError(Integrator scheme, RodVector[] mode, double omega, int n, int steps)
+        {
+            const double Amplitude = 1e-4 * Rods.Length;
+            MaterialRod rod = Rods.Wire(n);
+            RodShape straight = Rods.Straight(rod);
+            RodShape shape = Rods.Straight(rod);
+            RodStep.Apply(rod, new RodSupports(), straight, mode, Amplitude, shape);
+            RodDynamics motion = Start(rod, new RodSupports(), new RodSchedule(), shape, scheme, 1e-12);
+            double step = 2.0 * Math.PI / omega / steps;
+            double startReal = shape.X[n].Y;
+            for (int i = 0; i < steps; i++)
+            {
+                Assert.That(motion.Step(step), Is.Null);
+            }
+            double real = shape.X[n].Y / startReal;
+            double imaginary = motion.Velocities[n].Y / (omega * startReal);
+            // After one period the exact factor is 1, so its logarithm is 0.
+            double growth = 0.5 * Math.Log(real * real + imaginary * imaginary);
+            double phase = Math.Atan2(imaginary, real);
+            return Math.Sqrt(growth * growth + phase * phase);
+        }
+
+        private static double ModalTip(double k, double time)
+        {
+            // Static shape k L (3 s^2 - s^3)/6 on s in [0, 1]; tip displacement sum a_j phi_j(1) cos(omega_j t) with
+            // a_j = (phi_j, y)/(phi_j, phi_j) and (phi_j, y) = k L phi_j(1)/(beta_j)^4 by parts, (phi, phi) = phi(1)^2/4.
+            double sum = 0.0;
+            double frequency = Math.Sqrt(Rods.BendStiffness / (Rods.Density * Rods.Area)) / (Rods.Length * Rods.Length);
+            for (int j = 1; j <= 12; j++)
+            {
+                double beta = Root(j);
+                sum += 4.0 * k * Rods.Length / Math.Pow(beta, 4) * Math.Cos(beta * beta * frequency * time);
+            }
+            return sum;
+        }
+
+        private static double Root(int mode)
+        {
+            double b = (mode - 0.5) * Math.PI;
+            for (int i = 0; i < 50; i++)
+            {
+                // cos(b) + 1/cosh(b) = 0 by Newton.
+                b += (Math.Cos(b) + 1.0 / Math.Cosh(b)) / (Math.Sin(b) + Math.Sinh(b) / (Math.Cosh(b) * Math.Cosh(b)));
+            }
+            return b;
+        }
+
+        private static double ChainTip(int n, double shift, double time)
+        {
+            double mass = Rods.Density * Rods.Area * Rods.Length / (n + 1);
+            double spring = Rods.Young * Rods.Area * n / Rods.Length;
+            double sum = 0.0;
+            for (int k = 1; k <= n; k++)
+            {
+                double a = (2.0 * k - 1.0) * Math.PI / (2.0 * n + 1.0);
+                double overlap = 0.0;
+                double square = 0.0;
+                for (int i = 1; i <= n; i++)
+                {
+                    overlap += Math.Sin(i * a);
+                    square += Math.Sin(i * a) * Math.Sin(i * a);
+                }
+                double omega = 2.0 * Math.Sqrt(spring / mass) * Math.Sin(0.5 * a);
+                sum += overlap / square * Math.Sin(n * a) * Math.Cos(omega * time);
+            }
+            return shift * (1.0 - sum);
+        }
+
+        private static Vector3d Centre(RodShape shape)
+        {
+            Vector3d sum = Vector3d.Zero;
+            for (int j = 0; j < shape.ElementCount; j++)
+            {
+                sum += 0.5 * (shape.X[j] + shape.X[j + 1]);
+            }
+            return sum / shape.ElementCount;
+        }
+    }
+}

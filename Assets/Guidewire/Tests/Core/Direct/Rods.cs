@@ -1,0 +1,81 @@
+using System;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>The material rods that tests share, and the numbers of the wire that most of them are about: L = 0.3 m,
+    /// r = 0.5 mm, E = 60 GPa, G = 23 GPa, rho = 6450 kg/m^3.</summary>
+    internal static class Rods
+    {
+        public const double Length = 0.3;
+        public const double Radius = 0.5e-3;
+        public const double Young = 60e9;
+        public const double Shear = 23e9;
+        public const double Density = 6450.0;
+        public const double Area = Math.PI * Radius * Radius;
+        public const double SecondMoment = 0.25 * Area * Radius * Radius;
+        public const double BendStiffness = Young * SecondMoment;
+        public const double TwistStiffness = 2.0 * Shear * SecondMoment;
+
+        /// <summary>EI/L^2, N: the force that k = F L^2/EI counts in.</summary>
+        public const double BendForce = BendStiffness / (Length * Length);
+
+        /// <summary>True where campaigns run in full (environment GUIDEWIRE_ALL=1).</summary>
+        public static bool InFull => Environment.GetEnvironmentVariable("GUIDEWIRE_ALL") == "1";
+
+        /// <summary>The wire in n elements.</summary>
+        public static MaterialRod Wire(int n)
+        {
+            return MaterialRod.Round(n, Length, Radius, Young, Shear, Density);
+        }
+
+        /// <summary>The wire, straight along z from the origin.</summary>
+        public static RodShape Straight(MaterialRod rod)
+        {
+            var shape = new RodShape(rod.ElementCount);
+            shape.SetStraight(Vector3d.Zero, Quaterniond.Identity, rod.Length);
+            return shape;
+        }
+
+        /// <summary>A shape bent, twisted and strained at random.</summary>
+        public static RodShape Random(MaterialRod rod, double angle, double strain, int seed)
+        {
+            var random = new System.Random(seed);
+            RodShape shape = Straight(rod);
+            Quaterniond frame = RotationVector.Exp(angle * Wires.Any(random));
+            shape.ProximalFrame = frame;
+            for (int j = 0; j < rod.ElementCount; j++)
+            {
+                frame = Quaterniond.Normalize(frame * RotationVector.Exp(angle * Wires.Any(random)));
+                shape.Q[j] = frame;
+                Vector3d chord = Vector3d.UnitZ + strain * Wires.Any(random);
+                shape.X[j + 1] = shape.X[j] + rod.Length[j] * Quaterniond.Rotate(frame, chord);
+            }
+            shape.DistalFrame = Quaterniond.Normalize(frame * RotationVector.Exp(angle * Wires.Any(random)));
+            return shape;
+        }
+
+        /// <summary>The rest shape under these loads, from the straight start; throws where there is none.</summary>
+        public static RodShape AtRest(MaterialRod rod, RodSupports supports, in Vector3d gravity, in Vector3d tipForce,
+            in Vector3d tipMoment)
+        {
+            RodShape shape = Straight(rod);
+            var statics = new RodStatics(rod, supports);
+            statics.Loads.Set(rod, supports.Mass, gravity, tipForce);
+            statics.Moment.Moment = tipMoment;
+            EquilibriumResult result = statics.Solve(shape, 1e-10, 500);
+            if (!result.Converged)
+            {
+                throw new InvalidOperationException(result.Reason);
+            }
+            return shape;
+        }
+
+        /// <summary>A copy of a shape.</summary>
+        public static RodShape Copy(RodShape shape)
+        {
+            var copy = new RodShape(shape.ElementCount);
+            copy.CopyFrom(shape);
+            return copy;
+        }
+    }
+}

@@ -1,0 +1,77 @@
+"""Wires whose motion is written down in closed form: what distances between runs are tested on.
+
+Sphere i at arc length s_i stands at y = size (1 - (s_i/L) (1 - cos(2 pi k/P))) after k steps, P steps to a swing, with x
+and z at rest; the swing of a run with more solver steps is shorter. Between two runs the distance at equal moments is
+therefore size (s_i/L) |cos - cos'|, and its mean over evenly spaced spheres half of that at the last one.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Wave:
+    """Parameters of a run of so many steps."""
+
+    steps: int = 100
+    constraint_solver_steps: int = 500
+    elements: int = 10
+    displacement: float = 10.0
+    time_step: float = 0.01
+    total_mass: float = 0.01
+    length: float = 300.0
+    offset: float = -120.0
+    direction: tuple[float, float, float] = (0.0, 1.0, 0.0)
+
+    @property
+    def arc_length(self) -> np.ndarray:
+        """Of each sphere, in units."""
+        return self.length * np.arange(self.elements + 1) / self.elements
+
+    def cosine(self, step: np.ndarray | float) -> np.ndarray:
+        """Phase after so many steps; P = 12,000 solver steps, so that it does not hang on the time step."""
+        return np.cos(2.0 * np.pi * np.asarray(step) * self.constraint_solver_steps / 12_000.0)
+
+    @property
+    def positions(self) -> np.ndarray:
+        """Shape (steps + 1, n + 1, 3), in units."""
+        positions = np.zeros((self.steps + 1, self.elements + 1, 3))
+        swing = 1.0 - self.cosine(np.arange(self.steps + 1))[:, None]
+        positions[..., 1] = self.displacement * (1.0 - self.arc_length / self.length * swing)
+        positions[..., 2] = self.offset + self.arc_length
+        return positions
+
+    @property
+    def parameters(self) -> dict:
+        """parameters.json of this run."""
+        return {
+            "constraintSolverSteps": self.constraint_solver_steps, "numberRodElements": self.elements,
+            "displacement": self.displacement, "displacementDirection": list(self.direction),
+            "timeStep": self.time_step, "totalMass": self.total_mass, "guidewireLength": self.length,
+            "guidewireOffset": self.offset, "sphereRadius": 5.0,
+        }
+
+    def write(self, folder: Path, milliseconds_per_step: float = 2.0) -> Path:
+        """Writes a run folder."""
+        folder.mkdir(parents=True)
+        entries = (
+            f'"{k}": ' + json.dumps({
+                "totalTime": k * self.time_step, "elapsedMilliseconds": k * milliseconds_per_step, "delta": 0.5,
+                "sphere": {
+                    str(i): dict(zip(("x", "y", "z", "vx", "vy", "vz"), (*sphere, 0.0, 0.0, 0.0)))
+                    for i, sphere in enumerate(wire)
+                },
+            })
+            for k, wire in enumerate(self.positions.tolist())
+        )
+        (folder / "positions.json").write_text("{\n" + ",\n".join(entries) + "\n}\n")
+        (folder / "parameters.json").write_text(json.dumps(self.parameters))
+        summary = {"outcome": "finished", "steps": self.steps, "averageStepTime": milliseconds_per_step,
+                   "computationTime": self.steps * milliseconds_per_step / 1000.0, "complete": True}
+        (folder / "summary.json").write_text(json.dumps(summary))
+        return folder
