@@ -62,6 +62,10 @@ namespace Guidewire.Core
             RodState state = StartOf(parameters);
             if (parameters.Solver != Solver.Pbd)
             {
+                if (parameters.Steering != null)
+                {
+                    throw new ArgumentException("solver: a hand steers wires with gains only, solver pbd");
+                }
                 return CreateMaterial(parameters, state);
             }
             Vector3d origin = state.Positions[0];
