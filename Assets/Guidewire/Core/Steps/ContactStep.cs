@@ -45,7 +45,7 @@ namespace Guidewire.Core
             _solver = solver;
             _rule = rule;
             _guard = new SweptGuard(parameters.Walls, rule, state.SphereCount, parameters.SphereRadius);
-            _passages = new PassageCount(parameters.Walls);
+            _passages = new PassageCount(parameters.Walls, parameters.SphereRadius);
             _longestPart = rule.GuardsSpheres
                 ? Math.Min(0.5 * state.ElementLength, parameters.SphereRadius) : double.PositiveInfinity;
             _target = new Vector3d[state.SphereCount];
