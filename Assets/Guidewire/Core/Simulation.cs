@@ -60,6 +60,10 @@ namespace Guidewire.Core
                 throw new ArgumentException(complaint);
             }
             RodState state = StartOf(parameters);
+            if (parameters.Steering != null && parameters.Solver != Solver.Pbd)
+            {
+                throw new ArgumentException("solver: a hand steers wires with gains only, solver pbd");
+            }
             string? failure = null;
             ITimeStep step = parameters.Solver == Solver.Pbd ? GainSetup.Create(parameters, state)
                 : MaterialSetup.Create(parameters, state, out failure);

@@ -9,7 +9,8 @@ namespace Guidewire.Core
     /// direction of most negative curvature. Converged means: the second derivative as it is has positive pivots only,
     /// and the full step is below the tolerance. Whatever else happens ends with a reason. A shape that may turn without
     /// any change of energy (a buckled rod about its thrust) has an eigenvalue 0, which rounding makes one of either
-    /// sign: eigenvalues within rounding of 0, 8 eps n^2 EA and at most 1e-4 EI/L^2, count as not negative.</remarks>
+    /// sign: eigenvalues above -1e-4 EI/L^2, 1/25,000 of the straight rod's own, count as not negative, and every
+    /// direction is found with 1e-6 EI/L^2 added.</remarks>
     internal sealed class EquilibriumSolver
     {
         private const double LargestTurn = 1.0;          // rad an iteration, of one element where forces act
@@ -17,7 +18,9 @@ namespace Guidewire.Core
         private const double SufficientDecrease = 1e-4;
         private const double SaddleStep = 1e-7;          // a shifted step this small means: no force left
         private const int MostCuts = 40;
-        private const double Epsilon = 2.2e-16;
+        private const double Neutral = 1.01e-4;          // of EI/L^2
+        private const double Regularisation = 1e-6;      // of EI/L^2, on every direction
+        private const int MostHalvings = 40;
         private const int PowerIterations = 40;
 
         private readonly MaterialRod _rod;
@@ -30,7 +33,7 @@ namespace Guidewire.Core
         private readonly RodShape _trial;
         private readonly double _length;
         private readonly double _bendForce;  // EI/L^2 of the stiffest element, N
-        private readonly double _rounding;   // of an eigenvalue, N
+        private readonly double _neutral;    // eigenvalues above its negative count as not negative, N
 
         /// <summary>A solver for this rod, held so, under these terms.</summary>
         public EquilibriumSolver(MaterialRod rod, RodSupports supports, EnergyTerm[] terms)
@@ -48,12 +51,7 @@ namespace Guidewire.Core
             {
                 _bendForce = Math.Max(_bendForce, stiffness / (_length * _length));
             }
-            double n = rod.ElementCount;
-            foreach (double stiffness in rod.StretchStiffness)
-            {
-                _rounding = Math.Max(_rounding, 8.0 * Epsilon * n * n * stiffness);
-            }
-            _rounding = Math.Min(_rounding, 1e-4 * _bendForce);
+            _neutral = Neutral * _bendForce;
         }
 
         /// <summary>The gradient at the last shape: at a support, minus the reaction.</summary>
@@ -89,7 +87,10 @@ namespace Guidewire.Core
                     }
                     continue;
                 }
-                bool done = convex && size <= tolerance;
+                // Along a direction that costs no energy rounding alone makes steps: there the energy they gain is asked.
+                double energyStep = Math.Sqrt(Math.Max(0.0, -RodVectors.Dot(_gradient, _direction))
+                    / (_bendForce * _length));
+                bool done = convex && (size <= tolerance || energyStep <= tolerance);
                 double scale = Math.Min(1.0, Math.Min(LargestTurn / size, LargestRelativeTurn / relative));
                 if (done)
                 {
@@ -117,28 +118,25 @@ namespace Guidewire.Core
             return result;
         }
 
-        /// <summary>Sets the direction; true if the second derivative was positive definite as it is.</summary>
+        /// <summary>Sets the direction; true if the second derivative has no eigenvalue that counts as negative.</summary>
         private bool FindDirection(RodShape shape, ref double shift, ref EquilibriumResult result)
         {
-            result.Factorisations++;
-            if (_system.Factorise(_terms, shape, _gradient, _direction, 0.0) == 0)
+            for (double small = Regularisation * _bendForce; small <= _neutral; small *= 10.0)
             {
-                _system.Back(_direction);
-                return true;
+                result.Factorisations++;
+                if (_system.Factorise(_terms, shape, _gradient, _direction, small) == 0)
+                {
+                    _system.Back(_direction);
+                    return true;
+                }
             }
+            shift = Math.Max(0.25 * shift, 2.0 * _neutral);
             result.Factorisations++;
-            if (_system.Factorise(_terms, shape, _gradient, _direction, _rounding) == 0)
-            {
-                _system.Back(_direction);
-                return true;
-            }
-            shift *= 0.25;
-            do
+            while (_system.Factorise(_terms, shape, _gradient, _direction, shift) > 0 && IsFinite(shift))
             {
                 shift *= 4.0;
                 result.Factorisations++;
             }
-            while (_system.Factorise(_terms, shape, _gradient, _direction, shift) > 0 && IsFinite(shift));
             _system.Back(_direction);
             return false;
         }
@@ -168,10 +166,20 @@ namespace Guidewire.Core
             return false;
         }
 
-        /// <summary>Steps along the direction of most negative curvature, found by inverse iteration with the shifted
-        /// matrix at hand.</summary>
+        /// <summary>Steps along the direction of most negative curvature, found by inverse iteration with a shift just above
+        /// the smallest eigenvalue's size.</summary>
         private bool LeaveSaddle(RodShape shape, double shift)
         {
+            double low = 0.0;
+            double high = shift;
+            for (int k = 0; k < MostHalvings && high > 1.02 * low; k++)
+            {
+                double middle = 0.5 * (low + high);
+                bool positive = _system.Factorise(_terms, shape, _gradient, _direction, middle) == 0;
+                low = positive ? low : middle;
+                high = positive ? middle : high;
+            }
+            _system.Factorise(_terms, shape, _gradient, _direction, high);
             InverseIteration(out _);
             Array.Copy(_work, _direction, _work.Length);
             double size = RodStep.Size(_direction, _rod.ElementCount, _length, out _);
@@ -225,7 +233,7 @@ namespace Guidewire.Core
             result.Factorisations++;
             if (negative > 0)
             {
-                shift = _rounding;
+                shift = _neutral;
                 negative = _system.Factorise(_terms, shape, _gradient, _direction, shift);
                 result.Factorisations++;
             }

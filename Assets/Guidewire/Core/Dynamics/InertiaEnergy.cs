@@ -10,11 +10,14 @@ namespace Guidewire.Core
     /// its work since the anchor, with I/h^2 as second derivative, which leaves out terms of order |phi| I/h^2.</remarks>
     internal sealed class InertiaEnergy : EnergyTerm
     {
+        private const double SurelyFirst = 4.0;  // radians squared: below it the shortest rotation vector is meant
+
         private readonly double[] _diagonal;  // of the mass matrix, kg, n+1
         private readonly double[] _coupling;  // between nodes i and i+1, kg, n
         private readonly double[] _rotary;    // rho I l, kg m^2, n
         private readonly Quaterniond[] _anchor;
         private readonly Vector3d[] _anchorCouple;
+        private readonly Vector3d[] _lastTurn;
 
         /// <summary>The inertia of a rod under one mass rule.</summary>
         public InertiaEnergy(MaterialRod rod, MassRule rule)
@@ -25,6 +28,7 @@ namespace Guidewire.Core
             _rotary = new double[n];
             _anchor = new Quaterniond[n];
             _anchorCouple = new Vector3d[n];
+            _lastTurn = new Vector3d[n];
             Start = new Quaterniond[n];
             FreePositions = new Vector3d[n + 1];
             TurnHistory = new Vector3d[n];
@@ -61,10 +65,33 @@ namespace Guidewire.Core
         /// <summary>w^, the angular velocity that earlier stages have contributed, rad/s.</summary>
         public Vector3d[] SpinHistory { get; }
 
+        /// <summary>A new step begins: turns count from these orientations.</summary>
+        public void BeginStep(Quaterniond[] orientations)
+        {
+            Array.Copy(orientations, Start, Start.Length);
+            Array.Clear(_lastTurn, 0, _lastTurn.Length);
+        }
+
+        /// <summary>phi of element j in this orientation: of all rotation vectors that lead there, the one nearest to the last
+        /// that was asked for in this step, so that more than half a turn a step is counted.</summary>
+        public Vector3d Turn(in Quaterniond orientation, int j)
+        {
+            Vector3d turn = RotationVector.Log(Start[j].Conjugate * orientation);
+            Vector3d last = _lastTurn[j];
+            if (last.LengthSquared > SurelyFirst && turn.LengthSquared > 0.0)
+            {
+                Vector3d axis = Vector3d.Normalize(turn);
+                double turns = Math.Round(Vector3d.Dot(last - turn, axis) / (2.0 * Math.PI));
+                turn += (2.0 * Math.PI * turns) * axis;
+            }
+            _lastTurn[j] = turn;
+            return turn;
+        }
+
         /// <summary>w of element j in this orientation, and phi.</summary>
         public Vector3d Spin(in Quaterniond orientation, int j, out Vector3d turn)
         {
-            turn = RotationVector.Log(Start[j].Conjugate * orientation);
+            turn = Turn(orientation, j);
             return (1.0 / StageLength) * RotationVector.TangentMap(turn, turn - TurnHistory[j]);
         }
 

@@ -10,6 +10,7 @@ namespace Guidewire.Core
     internal sealed class RodDynamics
     {
         private const double LargestFrameTurn = 0.5;  // radians a stage; more is taken in parts
+        private const double LargestPredictedTurn = 1.0;
 
         private readonly MaterialRod _rod;
         private readonly RodSupports _supports;
@@ -130,7 +131,7 @@ namespace Guidewire.Core
         public string? Step(double dt)
         {
             Array.Copy(Shape.X, _startPositions, _startPositions.Length);
-            Array.Copy(Shape.Q, _inertia.Start, Shape.Q.Length);
+            _inertia.BeginStep(Shape.Q);
             MeanReaction = Vector3d.Zero;
             MeanDistalReaction = Vector3d.Zero;
             MeanLoad = Vector3d.Zero;
@@ -230,12 +231,16 @@ namespace Guidewire.Core
         private string? SolveStage(double time, double h, int stage, int before, double weight)
         {
             _schedule.SetLoads(_rod, _supports.Mass, _statics.Loads, time);
-            string? failure = TurnFrames(time);
+            string? failure = TurnFrames(time, out bool inParts);
             if (failure != null)
             {
                 return failure;
             }
-            Predict(h, before);
+            // A prediction knows nothing of turns just wound up, and one of more than a radian leads to another winding.
+            if (Predict(h, before) > LargestPredictedTurn || inParts)
+            {
+                Array.Clear(_solver.Prediction, 0, _solver.Prediction.Length);
+            }
             PlaceEnds(time);
             failure = _solver.Solve(Shape, _tolerance, _mostIterations);
             if (failure != null)
@@ -262,8 +267,10 @@ namespace Guidewire.Core
             return null;
         }
 
-        private void Predict(double h, int before)
+        /// <summary>Sets the prediction; returns its largest turn.</summary>
+        private double Predict(double h, int before)
         {
+            double largest = 0.0;
             RodVector[] direction = _solver.Prediction;
             Array.Clear(direction, 0, direction.Length);
             for (int i = 0; i < _startPositions.Length; i++)
@@ -275,13 +282,15 @@ namespace Guidewire.Core
             }
             for (int j = 0; j < Spins.Length; j++)
             {
-                Vector3d turn = RotationVector.Log(_inertia.Start[j].Conjugate * Shape.Q[j]);
+                Vector3d turn = _inertia.Turn(Shape.Q[j], j);
                 Vector3d d = RotationVector.TangentMap(turn, _inertia.TurnHistory[j]
                     + h * (_inertia.SpinHistory[j] + h * _spinRate[before][j]) - turn);
                 direction[j].T1 = d.X;
                 direction[j].T2 = d.Y;
                 direction[j].T3 = d.Z;
+                largest = Math.Max(largest, d.LengthSquared);
             }
+            return Math.Sqrt(largest);
         }
 
         private void PlaceEnds(double time)
@@ -313,8 +322,9 @@ namespace Guidewire.Core
 
         /// <summary>Turns the clamps' frames; a large turn in parts, each solved on its own, so that the rod winds up as it
         /// would under a fast turn and not by the shorter way.</summary>
-        private string? TurnFrames(double time)
+        private string? TurnFrames(double time, out bool inParts)
         {
+            inParts = false;
             double proximal = _schedule.ProximalTurnAt(time) - _proximalTurn;
             double distal = _schedule.DistalTurnAt(time) - _distalTurn;
             if (proximal == 0.0 && distal == 0.0)
@@ -322,6 +332,7 @@ namespace Guidewire.Core
                 return null;
             }
             int parts = 1 + (int)(Math.Max(Math.Abs(proximal), Math.Abs(distal)) / LargestFrameTurn);
+            inParts = parts > 1;
             for (int k = 1; k <= parts; k++)
             {
                 double share = (double)k / parts;

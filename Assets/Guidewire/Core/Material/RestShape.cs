@@ -28,11 +28,16 @@ namespace Guidewire.Core
             int parts = 1 + (int)Math.Max(Math.Abs(turn) / LargestTurn, shift / LargestShift);
             for (int k = 1; k <= parts; k++)
             {
-                // Each part is spread over the rod as an even stretch; the solver does the rest.
+                // Each part is spread over the rod as an even stretch and an even twist; the solver does the rest.
                 for (int i = 0; i <= last; i++)
                 {
                     Vector3d a = clamped ? Vector3d.Lerp(startShift, endShift, (double)i / last) : startShift;
                     shape.X[i] += a / parts;
+                }
+                for (int j = 0; j < last; j++)
+                {
+                    double share = turn / parts * (j + 0.5) / last;
+                    shape.Q[j] = shape.Q[j] * Quaterniond.FromAxisAngle(Vector3d.UnitZ, share);
                 }
                 schedule.TurnFrames(shape, 0.0, turn * k / parts);
                 EquilibriumResult result = statics.Solve(shape, tolerance, mostIterations);

@@ -11,9 +11,16 @@ namespace Guidewire.Core
         {
             Vector3d origin = state.Positions[0];
             IDriveMotion? drive = CreateDrive(parameters, state);
-            IPositionPrediction prediction = parameters.Integrator == Integrator.Euler
+            bool euler = parameters.Integrator == Integrator.Euler
+                || parameters.Integrator == Integrator.EulerOrientationVerlet;
+            IPositionPrediction prediction = euler
                 ? (IPositionPrediction)new EulerPrediction(parameters.Damping, parameters.Gravity)
                 : new VerletPrediction(parameters.Damping, parameters.Gravity);
+            bool orientationVerlet = parameters.Integrator == Integrator.OrientationVerlet
+                || parameters.Integrator == Integrator.EulerOrientationVerlet;
+            IOrientationPrediction orientationPrediction = orientationVerlet
+                ? (IOrientationPrediction)new OrientationVerletPrediction(parameters.NumberRodElements)
+                : new OrientationEulerPrediction();
             IContactRule? rule = parameters.Walls.Length == 0 ? null
                 : parameters.ElementContact == ElementContact.Seed ? new SeedContactRule(state, parameters)
                 : (IContactRule)new ContactRule(state, parameters);
@@ -21,9 +28,9 @@ namespace Guidewire.Core
                 parameters.BendStiffness, parameters.SweepOrder, rule);
             if (rule == null)
             {
-                return new PositionBasedStep(parameters.TimeStep, prediction, drive, solver);
+                return new PositionBasedStep(parameters.TimeStep, prediction, orientationPrediction, drive, solver);
             }
-            var step = new ContactStep(state, parameters, prediction, drive, solver, rule);
+            var step = new ContactStep(state, parameters, prediction, orientationPrediction, drive, solver, rule);
             if (parameters.Drive == Drive.Hold)
             {
                 Vector3d asked = origin + parameters.Displacement * Direction(parameters);

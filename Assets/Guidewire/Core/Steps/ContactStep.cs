@@ -2,18 +2,19 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>One step of position-and-orientation-based dynamics between walls (thesis 2.1.3): prediction, the drive's
-    /// motion, collision detection, constraint solver with contacts, swept test, velocity update.</summary>
-    /// <remarks>A contact plane holds near the place where it was found. So a step whose drive moves farther than half an
-    /// element or a radius is done in parts, each with its own detection and solve; a part after which something would have
-    /// passed a wall is solved again against the places where it met it, then halved, and at the end shortened. What the
-    /// drive did not get is reported.</remarks>
+    /// <summary>One step of position-and-orientation-based dynamics between walls (thesis 2.1.3): prediction, the
+    /// drive's motion, collision detection, constraint solver with contacts, swept test, velocity update.</summary>
+    /// <remarks>A contact plane holds near the place where it was found. So a step whose drive moves farther than half
+    /// an element or a radius is done in parts, each with its own detection and solve; a part after which something
+    /// would have passed a wall is solved again against the places where it met it, then halved, and at the end
+    /// shortened. What the drive did not get is reported.</remarks>
     internal sealed class ContactStep : ITimeStep
     {
         private const int Resolves = 2;
         private const double SmallestPart = 1.0 / 256.0;
         private readonly double _timeStep;
         private readonly IPositionPrediction _prediction;
+        private readonly IOrientationPrediction _orientationPrediction;
         private readonly IDriveMotion? _drive;
         private readonly IConstraintSolver _solver;
         private readonly IContactRule _rule;
@@ -29,19 +30,22 @@ namespace Guidewire.Core
         /// <param name="state">The wire.</param>
         /// <param name="parameters">dt, radius, walls.</param>
         /// <param name="prediction">How positions are predicted.</param>
+        /// <param name="orientationPrediction">How orientations are predicted.</param>
         /// <param name="drive">What moves sphere 0 each step, or null where nothing does.</param>
         /// <param name="solver">What corrects the prediction; its sweeps include the rule's.</param>
         /// <param name="rule">What contacts there are and what they do.</param>
         public ContactStep(RodState state, SimulationParameters parameters, IPositionPrediction prediction,
-            IDriveMotion? drive, IConstraintSolver solver, IContactRule rule)
+            IOrientationPrediction orientationPrediction, IDriveMotion? drive, IConstraintSolver solver,
+            IContactRule rule)
         {
             _timeStep = parameters.TimeStep;
             _prediction = prediction;
+            _orientationPrediction = orientationPrediction;
             _drive = drive;
             _solver = solver;
             _rule = rule;
             _guard = new SweptGuard(parameters.Walls, rule, state.SphereCount, parameters.SphereRadius);
-            _passages = new PassageCount(parameters.Walls);
+            _passages = new PassageCount(parameters.Walls, parameters.SphereRadius);
             _longestPart = rule.GuardsSpheres
                 ? Math.Min(0.5 * state.ElementLength, parameters.SphereRadius) : double.PositiveInfinity;
             _target = new Vector3d[state.SphereCount];
@@ -65,7 +69,7 @@ namespace Guidewire.Core
         public void Advance(RodState state)
         {
             _prediction.Predict(state, _timeStep);
-            OrientationPrediction.Predict(state, _timeStep);
+            _orientationPrediction.Predict(state, _timeStep);
             _drive?.Move(state);
             Array.Copy(state.PredictedPositions, _target, _target.Length);
             Array.Copy(state.PredictedOrientations, _targetTurn, _targetTurn.Length);

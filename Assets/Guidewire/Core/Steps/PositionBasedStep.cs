@@ -6,18 +6,21 @@ namespace Guidewire.Core
     {
         private readonly double _timeStep;
         private readonly IPositionPrediction _prediction;
+        private readonly IOrientationPrediction _orientationPrediction;
         private readonly IDriveMotion? _drive;
         private readonly IConstraintSolver _solver;
 
         /// <param name="timeStep">dt in s.</param>
         /// <param name="prediction">How positions are predicted.</param>
+        /// <param name="orientationPrediction">How orientations are predicted.</param>
         /// <param name="drive">What moves sphere 0 each step, or null where nothing does.</param>
         /// <param name="solver">What corrects the prediction.</param>
-        public PositionBasedStep(double timeStep, IPositionPrediction prediction, IDriveMotion? drive,
-            IConstraintSolver solver)
+        public PositionBasedStep(double timeStep, IPositionPrediction prediction,
+            IOrientationPrediction orientationPrediction, IDriveMotion? drive, IConstraintSolver solver)
         {
             _timeStep = timeStep;
             _prediction = prediction;
+            _orientationPrediction = orientationPrediction;
             _drive = drive;
             _solver = solver;
         }
@@ -32,7 +35,7 @@ namespace Guidewire.Core
         public void Advance(RodState state)
         {
             _prediction.Predict(state, _timeStep);
-            OrientationPrediction.Predict(state, _timeStep);
+            _orientationPrediction.Predict(state, _timeStep);
             _drive?.Move(state);
             Vector3d predictedTip = state.PredictedPositions[state.ElementCount];
             _solver.Solve(state);

@@ -98,6 +98,11 @@ namespace Guidewire.Io
             {
                 Refuse(given, "distalEnd", "solver direct: the others cannot slide");
             }
+            if (simulation.Solver != Solver.Direct && Math.Abs(material.DistalRotation) > 1.0
+                && material.DistalRampTime == 0.0)
+            {
+                Refuse(given, "distalRotation", "solver direct, or a distalRampTime > 0: turned at once by more than 1 rad");
+            }
             if (simulation.Solver == Solver.Xpbd && material.BendLaw == BendLaw.Darboux)
             {
                 Refuse(given, "bendLaw", "solver direct or explicit: xpbd has the rotation vector only");

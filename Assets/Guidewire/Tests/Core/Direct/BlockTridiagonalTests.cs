@@ -87,7 +87,7 @@ namespace Guidewire.Core.Tests
             var inertia = new InertiaEnergy(rod, MassRule.Consistent) { StageLength = 2.0 };
             terms = new EnergyTerm[] { statics.Stretch, statics.Bending, statics.Loads, inertia };
             shape = Rods.Random(rod, angle, 0.1, 11);
-            Array.Copy(shape.Q, inertia.Start, N);
+            inertia.BeginStep(shape.Q);
         }
 
         private static double[,] Assembled(EnergyTerm[] terms, RodShape shape, MaterialRod rod, double shift)

@@ -152,7 +152,7 @@ namespace Guidewire.Core.Tests
                     return Plane(rod, shape);
                 default:
                     var inertia = new InertiaEnergy(rod, MassRule.Consistent) { StageLength = 0.8 };
-                    Array.Copy(shape.Q, inertia.Start, N);
+                    inertia.BeginStep(shape.Q);
                     inertia.FreePositions[2] = new Vector3d(0.1, 0.2, 0.3);
                     inertia.SpinHistory[1] = new Vector3d(0.4, -0.2, 0.1);
                     inertia.Anchor(shape);

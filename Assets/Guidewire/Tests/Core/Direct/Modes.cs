@@ -37,7 +37,7 @@ namespace Guidewire.Core.Tests
             statics.Stretch.AddBlocks(shape, stiffness, gradient, 0, n + 1);
             statics.Bending.AddBlocks(shape, stiffness, gradient, 0, n + 1);
             var inertia = new InertiaEnergy(rod, supports.Mass) { StageLength = 1.0 };
-            Array.Copy(shape.Q, inertia.Start, n);
+            inertia.BeginStep(shape.Q);
             var mass = new RodBlock[n + 2];
             inertia.AddBlocks(shape, mass, gradient, 0, n + 1);
             // y of nodes 1..n, turn about x of elements 0..n-1.

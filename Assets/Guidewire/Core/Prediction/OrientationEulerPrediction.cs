@@ -2,12 +2,10 @@ namespace Guidewire.Core
 {
     /// <summary>q = q_k + dt/2 q_k (0, omega), normalised, with omega in the element's own frame
     /// (Kugelstadt and Schoemer 2016, section 4). Orientations carry no torque of their own and no damping.</summary>
-    internal static class OrientationPrediction
+    internal sealed class OrientationEulerPrediction : IOrientationPrediction
     {
-        /// <summary>Writes <see cref="RodState.PredictedOrientations"/> from orientations and angular velocities.</summary>
-        /// <param name="state">The wire.</param>
-        /// <param name="timeStep">dt in s.</param>
-        public static void Predict(RodState state, double timeStep)
+        /// <inheritdoc/>
+        public void Predict(RodState state, double timeStep)
         {
             for (int j = 0; j < state.ElementCount; j++)
             {

@@ -1,0 +1,228 @@
+using System;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>Runs with a material through <see cref="Simulation"/>: units, solvers against each other, ends that are turned,
+    /// and how a run fails.</summary>
+    public sealed class MaterialRunTests
+    {
+        [Test]
+        public void Units_AreThoseOfTheScene()
+        {
+            // The same wire told in millimetres and in metres.
+            SimulationParameters millimetres = Cantilever(12, Solver.Direct, Integrator.Sdirk3, 1e-3, 40);
+            SimulationParameters metres = Cantilever(12, Solver.Direct, Integrator.Sdirk3, 1e-3, 40);
+            metres.GuidewireLength = Rods.Length;
+            metres.Material.MetresPerUnit = 1.0;
+            RodState a = Wires.Run(millimetres).State;
+            RodState b = Wires.Run(metres).State;
+            for (int i = 0; i <= 12; i++)
+            {
+                Assert.That(Vector3d.Distance(1e-3 * a.Positions[i], b.Positions[i]), Is.LessThan(1e-12));
+                Assert.That(Vector3d.Distance(1e-3 * a.Velocities[i], b.Velocities[i]), Is.LessThan(1e-9));
+            }
+        }
+
+        [Test]
+        public void RestShapeWithoutTime_IsAllThatIsComputed()
+        {
+            SimulationParameters parameters = Cantilever(30, Solver.Direct, Integrator.Sdirk3, 1e-3, 0);
+            parameters.Gravity = Vector3d.Zero;
+            parameters.Material.TipForce = new Vector3d(0.0, Rods.BendForce, 0.0);
+            parameters.Material.InitialState = InitialState.Equilibrium;
+            Simulation run = Simulation.Create(parameters);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Converged));
+            Assert.That(run.State.Positions[30].Y, Is.EqualTo(300.0 * 0.301720774).Within(0.3));
+            SolverReport report = run.CompleteReport()!;
+            // The clamp carries the load, and the couple F times the tip's distance along z.
+            Assert.That(report.ProximalForce.Y, Is.EqualTo(-Rods.BendForce).Within(1e-6 * Rods.BendForce));
+            double couple = Rods.BendForce * 1e-3 * run.State.Positions[30].Z;
+            Assert.That(Math.Abs(report.ProximalMoment.X), Is.EqualTo(couple).Within(1e-3 * couple));
+            Assert.That(report.SmallestEigenvalue, Is.GreaterThan(0.0));
+        }
+
+        [Test]
+        public void ExplicitAndDirect_MoveTheSame()
+        {
+            // Both on lumped masses, so both discretise the same chain; 2 ms from the straight start under gravity.
+            SimulationParameters direct = Cantilever(8, Solver.Direct, Integrator.Sdirk4, 5e-5, 40);
+            direct.Material.MassRule = MassRule.Lumped;
+            direct.Material.SolverTolerance = 1e-12;
+            SimulationParameters other = Cantilever(8, Solver.Explicit, Integrator.Sdirk4, 5e-5, 40);
+            other.Material.MassRule = MassRule.Lumped;
+            other.Material.Substeps = 400;
+            double fall = 0.5 * 9810.0 * 0.002 * 0.002;
+            Assert.That(Wires.Distance(Wires.Run(direct).State, Wires.Run(other).State), Is.LessThan(1e-3 * fall));
+        }
+
+        [Test]
+        public void CompliantSolver_WhereItHasConverged_IsImplicitEuler()
+        {
+            SimulationParameters direct = Cantilever(6, Solver.Direct, Integrator.ImplicitEuler, 2e-6, 100);
+            direct.Material.MassRule = MassRule.Lumped;
+            direct.Material.SolverTolerance = 1e-12;
+            SimulationParameters other = Cantilever(6, Solver.Xpbd, Integrator.ImplicitEuler, 2e-6, 100);
+            other.Material.MassRule = MassRule.Lumped;
+            other.ConstraintSolverSteps = 60;
+            Simulation run = Wires.Run(other);
+            Assert.That(run.CompleteReport()!.StepsNotConverged, Is.Zero);
+            double fall = 0.5 * 9810.0 * 2e-4 * 2e-4;
+            Assert.That(Wires.Distance(Wires.Run(direct).State, run.State), Is.LessThan(1e-3 * fall));
+        }
+
+        [Test]
+        public void CompliantSolver_SaysWhenItHasNotConverged()
+        {
+            SimulationParameters parameters = Cantilever(30, Solver.Xpbd, Integrator.ImplicitEuler, 1e-3, 5);
+            parameters.ConstraintSolverSteps = 5;
+            Assert.That(Wires.Run(parameters).CompleteReport()!.StepsNotConverged, Is.EqualTo(5));
+        }
+
+        [TestCase(0.05)]
+        [TestCase(0.01)]
+        public void LongStepsUnderGravity_ComeToRestInTheSag(double step)
+        {
+            SimulationParameters parameters = Cantilever(30, Solver.Direct, Integrator.ImplicitEuler, step, 400);
+            Simulation run = Wires.Run(parameters);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Assert.That(run.State.Positions[30].Y, Is.EqualTo(-17.0399963).Within(0.9));
+        }
+
+        [TestCase(Integrator.Bdf2)]
+        [TestCase(Integrator.Sdirk2)]
+        [TestCase(Integrator.Sdirk3)]
+        [TestCase(Integrator.Sdirk4)]
+        public void LongSteps_EndOrSayWhy(Integrator scheme)
+        {
+            // 50 ms is five periods of the third mode a step, and the load 100 times the wire's weight.
+            SimulationParameters parameters = Cantilever(20, Solver.Direct, scheme, 0.05, 60);
+            parameters.Gravity = new Vector3d(300.0, -700.0, 400.0);
+            Simulation run = Wires.Run(parameters);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished).Or.EqualTo(Outcome.Failed));
+            Assert.That(run.Reason, Is.Not.Empty);
+            for (int i = 0; i <= 20; i++)
+            {
+                Assert.That(run.State.Positions[i].IsFinite, Is.True);
+                Assert.That(run.State.Positions[i].Length, Is.LessThan(303.0));
+            }
+        }
+
+        [Test]
+        public void TooFewIterations_FailTheRun()
+        {
+            SimulationParameters parameters = Cantilever(30, Solver.Direct, Integrator.Sdirk3, 1e-3, 10);
+            parameters.Material.InitialState = InitialState.Equilibrium;
+            parameters.Material.TipForce = new Vector3d(0.0, 100.0 * Rods.BendForce, 0.0);
+            parameters.Material.MaxNewtonIterations = 1;
+            parameters.Material.SolverTolerance = 1e-12;
+            parameters.Gravity = new Vector3d(0.0, 5000.0, 0.0);
+            Simulation run = Simulation.Create(parameters);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Failed));
+            Assert.That(run.Reason, Does.Contain("no rest shape"));
+            run.Step();
+            Assert.That(run.StepCount, Is.Zero);
+        }
+
+        [TestCase(0.0)]
+        [TestCase(0.05)]
+        public void EndTurnedByManyTurns_WindsTheWireUp(double ramp)
+        {
+            // 2.5 turns at once or ramped: the frames' turns from clamp to clamp add up to all of it.
+            SimulationParameters parameters = Cantilever(40, Solver.Direct, Integrator.ImplicitEuler, 5e-3, 40);
+            parameters.Gravity = Vector3d.Zero;
+            parameters.Material.DistalEnd = DistalEnd.Clamped;
+            parameters.Material.DistalRotation = 5.0 * Math.PI;
+            parameters.Material.DistalRampTime = ramp;
+            // Stiff in bending against twist, so that it stays straight: Greenhill's moment is 8.99 EI/L, here 15.7 GJ/L.
+            parameters.Material.ShearModulus = 0.2 * Rods.Young;
+            Simulation run = Wires.Run(parameters);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            double turn = 0.0;
+            for (int j = 1; j < 40; j++)
+            {
+                turn += RotationVector.Log(run.State.Orientations[j - 1].Conjugate * run.State.Orientations[j]).Z;
+            }
+            // The two clamps' springs stand for 3/8 of an element each.
+            Assert.That(turn, Is.EqualTo(5.0 * Math.PI * (40.0 - 0.75) / 40.0).Within(0.05));
+        }
+
+        [Test]
+        public void TwistedAndShortened_TheWireLocalisesIntoAHelix()
+        {
+            // Infinite rod: M/(2 sqrt(B T)) = 0.914778 and a largest angle of 47.65 degrees with the axis, for B = 1.345,
+            // C = 0.789, L = 100, ends 3 closer, 27 turns.
+            const double B = 1.345;
+            const double C = 0.789;
+            const double Radius = 0.1;
+            const int N = 200;
+            SimulationParameters parameters = Cantilever(N, Solver.Direct, Integrator.Sdirk3, 1e-3, 0);
+            MaterialParameters material = parameters.Material;
+            parameters.Gravity = Vector3d.Zero;
+            parameters.GuidewireLength = 100.0;
+            material.MetresPerUnit = 1.0;
+            material.WireRadius = Radius;
+            material.YoungsModulus = B * 4.0 / (Math.PI * Math.Pow(Radius, 4));
+            material.ShearModulus = C * 2.0 / (Math.PI * Math.Pow(Radius, 4));
+            material.Density = 1.0;
+            material.DistalEnd = DistalEnd.Clamped;
+            material.DistalDisplacement = -3.0;
+            material.DistalRotation = 27.0 * 2.0 * Math.PI;
+            material.InitialState = InitialState.Equilibrium;
+            Simulation run = Simulation.Create(parameters);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Converged), run.Reason);
+            double angle = 0.0;
+            foreach (Quaterniond q in run.State.Orientations)
+            {
+                angle = Math.Max(angle, Math.Acos(q.Director3.Z) * 180.0 / Math.PI);
+            }
+            SolverReport report = run.CompleteReport()!;
+            double ratio = report.DistalMoment.Z / (2.0 * Math.Sqrt(B * report.DistalForce.Z));
+            Assert.That(angle, Is.EqualTo(47.65).Within(0.05 * 47.65));
+            Assert.That(ratio, Is.EqualTo(0.914778).Within(0.05 * 0.914778));
+        }
+
+        [TestCase(Solver.Direct, Integrator.Sdirk3)]
+        [TestCase(Solver.Direct, Integrator.Bdf2)]
+        [TestCase(Solver.Xpbd, Integrator.Sdirk3)]
+        [TestCase(Solver.Explicit, Integrator.Sdirk3)]
+        public void Step_AllocatesNothing(Solver solver, Integrator scheme)
+        {
+            SimulationParameters parameters = Cantilever(20, solver, scheme, 1e-5, 1000);
+            parameters.Material.Substeps = 50;
+            Simulation run = Simulation.Create(parameters);
+            for (int i = 0; i < 100; i++)
+            {
+                run.Step();
+            }
+            long before = GC.GetAllocatedBytesForCurrentThread();
+            for (int i = 0; i < 100; i++)
+            {
+                run.Step();
+            }
+            Assert.That(GC.GetAllocatedBytesForCurrentThread() - before, Is.Zero);
+            Assert.That(run.StepCount, Is.EqualTo(200));
+        }
+
+        /// <summary>The wire, clamped at one end, under gravity, in millimetres.</summary>
+        private static SimulationParameters Cantilever(int n, Solver solver, Integrator scheme, double step, int steps)
+        {
+            var parameters = new SimulationParameters
+            {
+                Solver = solver,
+                Integrator = scheme,
+                NumberRodElements = n,
+                GuidewireLength = 1e3 * Rods.Length,
+                GuidewireOffset = 0.0,
+                Displacement = 0.0,
+                TimeStep = step,
+                MaxSimulationSteps = steps,
+                ConstraintSolverSteps = 1,
+                DeltaThreshold = 0.0,
+                Gravity = new Vector3d(0.0, -9.81, 0.0),
+            };
+            parameters.Material.ProximalEnd = ProximalEnd.Clamped;
+            return parameters;
+        }
+    }
+}
