@@ -19,6 +19,9 @@ from analysis.validation.check import Check, Finding, Result, replay
 ROWS: tuple[Check, ...] = (
     *clamp.CHECKS, *statics.CHECKS, *stability.CHECKS, *dynamics.CHECKS, *independence.CHECKS,
 )
+_QUICK = ("clamp-compliance", "couple-tension-0", "couple-tension-10", "localised-helix", "force-balance",
+          "order-in-time", "elements-and-tolerance", "time-step")
+FAST = (*statics.FAST, *(check for check in ROWS if check.id in _QUICK))  # what the tests run
 COLUMNS = ("section", "check", "what", "solver", "value", "reference", "unit", "error", "error in", "gate", "passed",
            "cost")
 _LIMITS = (1e-9, 1e2)  # of the overview's axis, error over gate
@@ -95,6 +98,17 @@ def as_markdown(report: Report) -> str:
     return "\n".join(lines)
 
 
+def write_report(report: Report, folder: Path) -> Path:
+    """Writes validation.md, validation.csv and a picture of every check; returns the first."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for check, finding in report.findings.items():
+        draw_finding(finding).savefig(folder / picture_name(check))
+    (folder / "validation.csv").write_text(as_csv(report), encoding="utf-8")
+    table = folder / "validation.md"
+    table.write_text(as_markdown(report), encoding="utf-8")
+    return table
+
+
 def picture_name(check: Check) -> str:
     """File of a check's picture beside the report."""
     return f"{check.id}.png"
@@ -103,7 +117,7 @@ def picture_name(check: Check) -> str:
 @styled
 def draw_finding(finding: Finding) -> Figure:
     """A check's picture with its caption."""
-    figure = new_figure(8.0, 4.2)
+    figure = new_figure(finding.width, 4.2)
     finding.draw(figure)
     add_caption(figure, finding.caption)
     return figure
