@@ -133,6 +133,22 @@ def read_log(
     return columns.finish(step, entry, entries.warning)
 
 
+def read_entries(path: Path) -> Iterator[tuple[int, dict]]:
+    """Every whole entry of a log, or of a run folder's log, as (step, entry), for what `read_log` does not keep.
+
+    Raises
+    ------
+    LogError
+        The file is missing, is not a log or holds no whole step.
+    """
+    source = find_log(path)
+    step = -1
+    for step, entry in _Entries(source):
+        yield step, entry
+    if step < 0:
+        raise LogError(f"{source}: holds no whole step")
+
+
 class _Entries:
     """Yields (step, entry) of a log; afterwards ``warning`` says whether its end was missing."""
 

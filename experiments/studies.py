@@ -1,8 +1,8 @@
 """What is run: each study is a scene, one parameter and its values. Running them is experiments/sweep.py.
 
 The longitudinal studies of the thesis (Figures 4.5 to 4.9) start from its Table 4.1 and change one parameter each, and
-so do the transversal ones (Figures 4.10 to 4.14), where the first sphere is displaced across the wire instead and all
-runs last for the same in-game time.
+so do the transversal ones (Figures 4.10 to 4.14), where the first sphere is displaced across the wire instead, and the
+collision ones (Figures 4.15 to 4.18), where the wire stands before a wall; all their runs last for the same in-game time.
 """
 
 from __future__ import annotations
@@ -102,9 +102,19 @@ _TABLE_4_1 = "params/default.json"
 _ROUNDING = 1e-6  # of a step: 0.3/0.1 is three steps
 _TIMED = {"logSpheres": "last"}  # a timed run's log is read for its times only
 
-_DURATION = 1.0  # s, in-game, of every transversal run; 100 steps of Table 4.1
-_TRANSVERSAL = {"displacementDirection": [0, 1, 0], "deltaThreshold": 0, "timeStep": 0.01}
+_DURATION = 1.0  # s, in-game, of every run of these; 100 steps of Table 4.1
 _REFERENCE = {"constraintSolverSteps": 2000, "numberRodElements": 60, "timeStep": 2e-4}
+
+# Two plates along the wire's first two thirds: without them the wire turns away from the wall about its held end, whose
+# frame is free, and goes round for ever; between them it comes to rest against the wall.
+_CHANNEL = [{"shape": "box", "centre": [0, side * 16, -215], "halfSize": [50, 10, 115]} for side in (1, -1)]
+_PERTURBATIONS: dict[str, tuple[str, dict[str, Any]]] = {
+    "transversal": (_TABLE_4_1, {"displacementDirection": [0, 1, 0], "deltaThreshold": 0, "timeStep": 0.01}),
+    "collision": ("params/collision-wall.json", {
+        "drive": "hold", "displacement": 10, "guidewireOffset": -306, "timeStep": 0.01, "collisionStiffness": 1e-4,
+        "obstacles": _CHANNEL,
+    }),
+}
 
 
 def _decades(first: int, last: int, per_decade: int) -> list[int]:
@@ -115,14 +125,32 @@ def _decades(first: int, last: int, per_decade: int) -> list[int]:
 
 # Fine enough to tell a peak from a resonance. A time step is a whole part of a second, so that all runs end together.
 _FINE_SOLVER_STEPS = tuple(range(100, 1001, 10))
-_FINE_TIME_STEPS = tuple(sorted({1.0 / k for k in (*_decades(1, 3, 40), *_decades(3, 4, 10))}))
+_FINE_TIME_STEPS = tuple(sorted({1.0 / k for k in (*_decades(1, 3, 40), *_decades(3, 4, 5))}))
 _FINE_MASSES = tuple(float(f"{10.0 ** (k / 40 - 3):.4g}") for k in range(121))
 
 
-def _perturbation(name: str, title: str, parameter: str, values: tuple[float, ...]) -> Study:
+def _perturbation(
+    scene: str, name: str, title: str, parameter: str | None = None, values: tuple[float, ...] = (), **options: Any
+) -> Study:
+    file, common = _PERTURBATIONS[scene]
     return Study(
-        f"transversal-{name}", f"transversal displacement: {title}", _TABLE_4_1, parameter, values, _TRANSVERSAL,
-        repeats=0, duration=_DURATION, least_steps=100,
+        f"{scene}-{name}", f"{scene} perturbation: {title}", file, parameter, values,
+        {**common, **options.pop("common", {})}, repeats=0, duration=_DURATION, least_steps=100, **options,
+    )
+
+
+def _perturbations(scene: str) -> tuple[Study, ...]:
+    """A scene's reference and the four sweeps that the thesis compares with it."""
+    return (
+        _perturbation(scene, "reference", "the reference run and two coarser ones", common=_REFERENCE, variants={
+            "reference": {},
+            "half-solver-steps": {"constraintSolverSteps": 1000},
+            "half-elements": {"numberRodElements": 30},
+        }),
+        _perturbation(scene, "solver-steps", "constraint solver steps m", "constraintSolverSteps", _FINE_SOLVER_STEPS),
+        _perturbation(scene, "time-step", "time step size dt", "timeStep", _FINE_TIME_STEPS),
+        _perturbation(scene, "rod-elements", "rod elements n", "numberRodElements", tuple(range(5, 61))),
+        _perturbation(scene, "total-mass", "total mass M", "totalMass", _FINE_MASSES),
     )
 
 
@@ -147,19 +175,9 @@ STUDIES: dict[str, Study] = {
             "total-mass", "total mass M", _TABLE_4_1, "totalMass",
             (1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2, 1e-1, 2e-1, 5e-1, 1.0),
         ),
-        Study(
-            "transversal-reference", "transversal displacement: the reference run and two coarser ones", _TABLE_4_1,
-            common={**_TRANSVERSAL, **_REFERENCE}, repeats=0, duration=_DURATION,
-            variants={
-                "reference": {},
-                "half-solver-steps": {"constraintSolverSteps": 1000},
-                "half-elements": {"numberRodElements": 30},
-            },
-        ),
-        _perturbation("solver-steps", "constraint solver steps m", "constraintSolverSteps", _FINE_SOLVER_STEPS),
-        _perturbation("time-step", "time step size dt", "timeStep", _FINE_TIME_STEPS),
-        _perturbation("rod-elements", "rod elements n", "numberRodElements", tuple(range(5, 61))),
-        _perturbation("total-mass", "total mass M", "totalMass", _FINE_MASSES),
-        _perturbation("displacement", "displacement of the first sphere", "displacement", (1, 2, 5, *range(10, 101, 10))),
+        *_perturbations("transversal"),
+        _perturbation("transversal", "displacement", "displacement of the first sphere", "displacement",
+                      (1, 2, 5, *range(10, 101, 10))),
+        *_perturbations("collision"),
     )
 }

@@ -18,18 +18,19 @@ TABLE = "study.json"
 
 @dataclass(frozen=True)
 class SweepResult:
-    """A study's folder and what became of its runs, by folder of the run relative to the study's."""
+    """A study's folder and what became of its runs, by folder of the run relative to the study's.
+
+    `results` are the outcomes that count as a result: a diverged run has one.
+    """
 
     folder: Path
     answers: dict[str, Answer]
+    results: tuple[str, ...] = ("converged", "finished", "diverged")
 
     @property
     def failures(self) -> list[Answer]:
-        """Runs that have no result. A diverged run has one, and is none of these."""
-        return [answer for answer in self.answers.values() if answer.outcome not in _RESULTS]
-
-
-_RESULTS = ("converged", "finished", "diverged")
+        """Runs that have no result."""
+        return [answer for answer in self.answers.values() if answer.outcome not in self.results]
 
 
 def run_study(

@@ -26,7 +26,7 @@ class Scene:
 
 
 SCENES = (
-    Scene("Insertion", "params/insertion.json", STEERED, is_steered=True, target=(0.0, 45.0, 10.0), distance=500.0,
+    Scene("Insertion", "params/insertion.json", STEERED, is_steered=True, target=(0.0, 45.0, -20.0), distance=430.0,
           colouring=2),
     Scene("Longitudinal", "params/longitudinal.json", pace=0.2, colouring=1),
     Scene("Transversal", "params/transversal.json", pace=0.2, colouring=2),

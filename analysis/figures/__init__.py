@@ -95,5 +95,9 @@ FIGURES: dict[str, FigureSpec] = {
         _perturbation_spec("4.13", "transversal", "rod-elements", "transversal against the number of rod elements"),
         _perturbation_spec("4.14", "transversal", "total-mass", "transversal against the total mass"),
         _perturbation_spec("4.14b", "transversal", "displacement", "transversal against the displacement"),
+        _perturbation_spec("4.15", "collision", "solver-steps", "collision against the constraint solver steps"),
+        _perturbation_spec("4.16", "collision", "time-step", "collision against the time step size"),
+        _perturbation_spec("4.17", "collision", "rod-elements", "collision against the number of rod elements"),
+        _perturbation_spec("4.18", "collision", "total-mass", "collision against the total mass"),
     )
 }

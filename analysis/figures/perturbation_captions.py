@@ -9,12 +9,17 @@ from collections.abc import Callable
 
 import numpy as np
 from scipy.signal import find_peaks
+from scipy.stats import spearmanr
 
 from analysis.comparisons import ComparisonTable, WireRun
+from analysis.distances import distances
 from analysis.figures.wording import number, percent, relative_spread, span
 
-_PROMINENCE = 0.01  # of the range of a curve: lower maxima are not told
+_PROMINENCE = 0.03  # of the range of a curve: lower maxima are not told
+_CLEAR = 0.9  # rank correlation from which on a curve is said to grow or fall
 _SAME = 1e-9  # relative spread up to which values that should be one number are one
+_SMALL_TIME_STEP = 1e-3  # s, up to which the thesis sees nearly no distance in the collision
+_HEAVY = 0.5  # units of mass, beyond which the thesis sees the distance fall
 _LINEAR = 0.05  # of the displacement: wires that far apart at most are called proportional
 
 
@@ -62,12 +67,12 @@ def _rotation(reference: WireRun) -> str:
 
 def perturbation_caption(figure: str, table: ComparisonTable, proportional: bool = False) -> str:
     """Caption of one of Figures 4.11 to 4.18."""
-    scene, symbol = _SCENES[figure], _SYMBOLS[table.key]
+    scene = _SCENES[figure].format(push=table.reference.run.number("displacement"))
+    symbol = _SYMBOLS[table.key]
     x, mean = table.column("value"), table.column("mean_distance")
     sentences = [
         f"Figure {figure}. {scene}, {symbol} = {x.min():g} to {x.max():g}{_UNITS[table.key]} ({x.size} runs, else Table "
-        f"4.1), against the reference run ({describe(table.reference)}), which is no limit: grey is the same against other "
-        f"references.",
+        f"4.1{_BETWEEN if figure in _PLATES else ''}), against the reference run ({describe(table.reference)}). {_other_references(table)}",
         f"(a, b) At the end the wires are {span([row.end_distance.mean() for row in table.rows])} units from the "
         f"reference on average over their spheres.",
         f"(c) Over the run the mean distance is {number(mean.min())} units at {symbol} = {x[mean.argmin()]:.4g} to "
@@ -75,6 +80,17 @@ def perturbation_caption(figure: str, table: ComparisonTable, proportional: bool
     ]
     sentences += _CLAIMS[figure](table)
     return " ".join(sentence for sentence in sentences if sentence) + _left_out(table)
+
+
+def _other_references(table: ComparisonTable) -> str:
+    """How far the reference is from the runs that differ from it in one parameter: what its own choice is worth."""
+    if not table.others:
+        return ""
+    told = " and ".join(
+        f"{number(distances(other.motion, table.reference.motion).mean, 2)} units from {describe(other)}"
+        for other in table.others
+    )
+    return f"The reference is itself, on average over the run, {told} (grey in (c)): it is no limit."
 
 
 def describe(wire: WireRun) -> str:
@@ -91,11 +107,11 @@ _SYMBOLS = {"constraintSolverSteps": "m", "timeStep": "Δt", "numberRodElements"
 _UNITS = {"constraintSolverSteps": "", "timeStep": " s", "numberRodElements": "", "totalMass": " units of mass",
           "displacement": " units"}
 _SCENES = {f"4.{k}": "Transversal displacement" for k in ("11", "12", "13", "14", "14b")}
-_SCENES |= {f"4.{k}": "Push against a wall" for k in ("15", "16", "17", "18", "18b")}
+_SCENES |= {f"4.{k}": "Push of {push:g} units against a wall" for k in ("15", "16", "17", "18")}
 
 
 def maxima(x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Where a curve has local maxima that stand out by a hundredth of its range, as values of x."""
+    """Where a curve has local maxima that stand out by _PROMINENCE of its range, as values of x."""
     if y.size < 3 or np.ptp(y) == 0.0:
         return np.array([])
     return x[find_peaks(y, prominence=_PROMINENCE * np.ptp(y))[0]]
@@ -159,10 +175,14 @@ def _equal_steps(table: ComparisonTable) -> str:
     )
 
 
+def _trend(x: np.ndarray, y: np.ndarray) -> float:
+    """Rank correlation of y with x: 1 where y only grows, -1 where it only falls."""
+    return float(spearmanr(x, y)[0]) if x.size > 2 and np.ptp(y) > 0.0 else 0.0
+
+
 def _falls(table: ComparisonTable) -> bool:
-    """Whether the mean distance falls from the first value to the last and on most of the way."""
-    mean = table.column("mean_distance")
-    return bool(mean[-1] < mean[0] and np.count_nonzero(np.diff(mean) < 0.0) >= 0.75 * (mean.size - 1))
+    """Whether the mean distance falls with the parameter, but for ripples."""
+    return _trend(table.column("value"), table.column("mean_distance")) < -_CLEAR
 
 
 def _transversal_steps(table: ComparisonTable) -> list[str]:
@@ -239,12 +259,98 @@ def _proportional(table: ComparisonTable) -> list[str]:
     ]
 
 
+def _collision_steps(table: ComparisonTable) -> list[str]:
+    mean, x = table.column("mean_distance"), table.column("value")
+    verdict = (
+        f"As the thesis says, the distance falls with more solver steps, by {percent(1.0 - mean[-1] / mean[0])} from the "
+        f"first run to the last." if _falls(table) else
+        f"The thesis says that it falls with more solver steps; it goes from {number(mean[0])} units at m = {x[0]:g} to "
+        f"{number(mean[-1])} at m = {x[-1]:g}, with local maxima at m = {_told(maxima(x, mean))}."
+    )
+    return [verdict, _equal_steps(table), _sunk(table)]
+
+
+def _collision_time_step(table: ComparisonTable) -> list[str]:
+    mean, x = table.column("mean_distance"), table.column("value")
+    small = mean[x <= _SMALL_TIME_STEP]
+    if small.size == 0:
+        return [_equal_steps(table), _sunk(table)]
+    share = small.max() / mean.max()
+    verdict = (
+        f"As the thesis says, it is nearly zero up to Δt = {_SMALL_TIME_STEP:g} s: at most {percent(share)} of its largest "
+        f"value." if share < 0.05 else
+        f"The thesis has it nearly zero up to Δt = {_SMALL_TIME_STEP:g} s; it is {span(small)} units there, up to "
+        f"{percent(share)} of its largest value."
+    )
+    top = int(mean.argmax())
+    if _trend(x[: top + 1], mean[: top + 1]) < _CLEAR:
+        growth = "It does not simply grow with Δt."
+    elif top + 1 == x.size:
+        growth = "It grows with Δt, as the thesis says."
+    else:
+        growth = f"It grows with Δt, as the thesis says, but only up to Δt = {x[top]:.3g} s."
+    for k, other in enumerate(table.others):
+        nearest = min(row.other_distances[k] for row in table.rows)
+        if nearest < 0.05 * mean.min():
+            growth += f" Against {describe(other)}, of as many elements, it does go down to {number(nearest, 2)} units."
+    return [verdict, growth, _equal_steps(table), _sunk(table)]
+
+
+def _collision_elements(table: ComparisonTable) -> list[str]:
+    mean, x = table.column("mean_distance"), table.column("value")
+    verdict = (
+        f"As the thesis says, it falls with more elements, by {percent(1.0 - mean[-1] / mean[0])} from the first run to "
+        f"the last." if _falls(table) else
+        f"The thesis sees a decreasing trend; it goes from {number(mean[0])} units at n = {x[0]:g} to {number(mean[-1])} at "
+        f"n = {x[-1]:g}."
+    )
+    return [verdict, *_resonance(table, x_low(table), x_high(table), "some kind of resonance"), _equal_steps(table),
+            _sunk(table)]
+
+
+def _collision_mass(table: ComparisonTable) -> list[str]:
+    mean, x = table.column("mean_distance"), table.column("value")
+    light, heavy = mean[x <= _HEAVY], mean[x >= _HEAVY]
+    rising = _trend(x[x <= _HEAVY], light) > _CLEAR
+    falling = heavy.size > 2 and heavy[-1] < heavy[0]
+    own = (
+        f"The thesis has it grow with M and fall beyond M = {_HEAVY:g}. Here it "
+        f"{'grows' if rising else 'does not simply grow'} up to there (from {number(light[0])} to {number(light[-1])} "
+        f"units)"
+    )
+    if heavy.size > 2:
+        own += f" and {'falls' if falling else 'does not fall'} beyond (to {number(heavy[-1])})"
+    return [own + ".", *_resonance(table, x_low(table), x_high(table), "oscillations with M"), _equal_steps(table),
+            _sunk(table)]
+
+
+def _sunk(table: ComparisonTable) -> str:
+    """How far the wire sinks into the wall, which the gain of the contact and the number of sweeps decide."""
+    deepest = max(row.run.measured("maxPenetration") for row in table.rows)
+    passed = sum(row.run.measured("passages") for row in table.rows)
+    radius = table.reference.run.number("sphereRadius")
+    passages = "no point of the wire passes it" if passed == 0 else f"{passed:,} points of the wire pass it"
+    return (
+        f"With k_C = {table.reference.run.number('collisionStiffness'):g} the wall is soft: the wire sinks in by up to "
+        f"{number(deepest)} of r = {radius:g} units; {passages}."
+    )
+
+
+_PLATES = ("4.15", "4.16", "4.17", "4.18")
+_BETWEEN = (
+    "; the first two thirds of the wire lie between two plates, because a wire that is held at one point only turns away "
+    "from the wall and round for ever"
+)
 _CLAIMS: dict[str, Callable[[ComparisonTable], list[str]]] = {
     "4.11": _transversal_steps,
     "4.12": _transversal_time_step,
     "4.13": _transversal_elements,
     "4.14": _transversal_mass,
     "4.14b": _proportional,
+    "4.15": _collision_steps,
+    "4.16": _collision_time_step,
+    "4.17": _collision_elements,
+    "4.18": _collision_mass,
 }
 
 

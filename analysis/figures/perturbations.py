@@ -52,19 +52,17 @@ class PerturbationView:
 
 VIEWS = {
     view.figure: view
-    for scene, direction in (("transversal", "y"), ("collision", "z"))
-    for first in (11 if scene == "transversal" else 15,)
+    for first in (11, 15)
     for view in (
         PerturbationView(f"4.{first}", "constraintSolverSteps", "constraint solver steps $m$"),
         PerturbationView(f"4.{first + 1}", "timeStep", r"time step size $\Delta t$ (s)", logarithmic=True),
         PerturbationView(f"4.{first + 2}", "numberRodElements", "number of rod elements $n$"),
         PerturbationView(f"4.{first + 3}", "totalMass", "total mass $M$ (units of mass)", logarithmic=True),
-        PerturbationView(
-            f"4.{first + 3}b", "displacement", rf"displacement $\Delta {direction}_0$ (units)", logarithmic=True,
-            proportional=True,
-        ),
     )
 }
+VIEWS["4.14b"] = PerturbationView(
+    "4.14b", "displacement", r"displacement $\Delta y_0$ (units)", logarithmic=True, proportional=True
+)
 
 
 @styled

@@ -60,70 +60,29 @@ namespace Guidewire.Core
                 throw new ArgumentException(complaint);
             }
             RodState state = StartOf(parameters);
-            if (parameters.Solver != Solver.Pbd)
+            if (parameters.Steering != null && parameters.Solver != Solver.Pbd)
             {
-                return CreateMaterial(parameters, state);
+                throw new ArgumentException("solver: a hand steers wires with gains only, solver pbd");
             }
-            Vector3d origin = state.Positions[0];
-            Vector3d direction = Vector3d.Normalize(parameters.DisplacementDirection);
-            IDriveMotion? drive = null;
-            switch (parameters.Drive)
-            {
-                case Drive.Hold:
-                    state.InverseMasses[0] = 0.0;
-                    state.Place(0, WireStart.Displaced(parameters, state, origin + parameters.Displacement * direction));
-                    break;
-                case Drive.Displace:
-                    state.InverseMasses[0] = 0.0;
-                    drive = new FixedAxisDrive(direction, parameters.DisplacementPerStep);
-                    break;
-                case Drive.Push:
-                    state.InverseMasses[0] = 0.0;
-                    drive = new PushDrive(parameters.DisplacementPerStep);
-                    break;
-                case Drive.Force:
-                    state.Forces[0] = parameters.ExternalForce;
-                    break;
-                default:
-                    throw new ArgumentException("unknown drive " + parameters.Drive);
-            }
-            if (parameters.TwistPerStep != 0.0)
-            {
-                state.OrientationWeights[0] = 0.0;
-                drive = new TwistDrive(drive, parameters.TwistPerStep);
-            }
-            if (parameters.Steering != null)
-            {
-                state.InverseMasses[0] = 0.0;
-                state.OrientationWeights[0] = 0.0;
-                drive = new SteeredDrive(parameters.Steering);
-            }
-            IPositionPrediction prediction = parameters.Integrator == Integrator.Euler
-                    || parameters.Integrator == Integrator.EulerOrientationVerlet
-                ? (IPositionPrediction)new EulerPrediction(parameters.Damping, parameters.Gravity)
-                : new VerletPrediction(parameters.Damping, parameters.Gravity);
-            IOrientationPrediction orientationPrediction = parameters.Integrator == Integrator.OrientationVerlet
-                    || parameters.Integrator == Integrator.EulerOrientationVerlet
-                ? (IOrientationPrediction)new OrientationVerletPrediction(parameters.NumberRodElements)
-                : new OrientationEulerPrediction();
-            IContactRule? rule = parameters.Walls.Length == 0 ? null
-                : parameters.ElementContact == ElementContact.Seed ? new SeedContactRule(state, parameters)
-                : (IContactRule)new ContactRule(state, parameters);
-            var solver = new GaussSeidelSolver(state, parameters.ConstraintSolverSteps, parameters.StretchStiffness,
-                parameters.BendStiffness, parameters.SweepOrder, rule);
-            ContactStep? contactStep = rule == null ? null
-                : new ContactStep(state, parameters, prediction, orientationPrediction, drive, solver, rule);
-            ITimeStep step = (ITimeStep?)contactStep
-                ?? new PositionBasedStep(parameters.TimeStep, prediction, orientationPrediction, drive, solver);
+            string? failure = null;
+            ITimeStep step = parameters.Solver == Solver.Pbd ? GainSetup.Create(parameters, state)
+                : MaterialSetup.Create(parameters, state, out failure);
             var stopRule = new StopRule(parameters.DeltaThreshold, parameters.SteadyStateHold,
                 parameters.MaxSimulationSteps, state);
-            if (contactStep != null && parameters.Drive == Drive.Hold)
+            var simulation = new Simulation(state, step, stopRule, parameters.TimeStep)
             {
-                contactStep.Record.DriveAsked = Math.Abs(parameters.Displacement);
-                contactStep.Record.DriveShortfall =
-                    Vector3d.Distance(state.Positions[0], origin + parameters.Displacement * direction);
+                Contacts = (step as ContactStep)?.Record,
+            };
+            if (failure != null)
+            {
+                simulation.End(Outcome.Failed, failure);
             }
-            return new Simulation(state, step, stopRule, parameters.TimeStep) { Contacts = contactStep?.Record };
+            else if (parameters.Solver != Solver.Pbd && parameters.MaxSimulationSteps == 0
+                && parameters.Material.InitialState == InitialState.Equilibrium)
+            {
+                simulation.End(Outcome.Converged, "the wire is at rest");
+            }
+            return simulation;
         }
 
         /// <summary>The wire as the parameters start it, before any displacement.</summary>
@@ -144,24 +103,6 @@ namespace Guidewire.Core
             var reporting = _step as IReportingStep;
             reporting?.CompleteReport();
             return reporting?.Report;
-        }
-
-        private static Simulation CreateMaterial(SimulationParameters parameters, RodState state)
-        {
-            ITimeStep step = MaterialSetup.Create(parameters, state, out string? failure);
-            var stopRule = new StopRule(parameters.DeltaThreshold, parameters.SteadyStateHold,
-                parameters.MaxSimulationSteps, state);
-            var simulation = new Simulation(state, step, stopRule, parameters.TimeStep);
-            if (failure != null)
-            {
-                simulation.End(Outcome.Failed, failure);
-            }
-            else if (parameters.MaxSimulationSteps == 0
-                && parameters.Material.InitialState == InitialState.Equilibrium)
-            {
-                simulation.End(Outcome.Converged, "the wire is at rest");
-            }
-            return simulation;
         }
 
         /// <summary>One step. Does nothing once the run has ended.</summary>

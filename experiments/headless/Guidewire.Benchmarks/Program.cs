@@ -16,7 +16,10 @@ namespace Guidewire.Benchmarks
     /// n = 30, all measured in this one process, because machines differ and are shared.</summary>
     internal static class Program
     {
-        private static readonly Type[] Families = { typeof(SweepBenchmark), typeof(RunBenchmark), typeof(LogBenchmark) };
+        private static readonly Type[] Families =
+        {
+            typeof(SweepBenchmark), typeof(RunBenchmark), typeof(LogBenchmark), typeof(DetectionBenchmark),
+        };
 
         private static int Main(string[] arguments)
         {

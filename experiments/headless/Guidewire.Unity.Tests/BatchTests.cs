@@ -169,6 +169,27 @@ namespace Guidewire.Unity.Tests
             Stage.AssertLogged(LogType.Error, "-guidewire is missing");
         }
 
+        [TestCase("3", 0)]
+        [TestCase("-3", 2)]
+        public void PlayerInBatchMode_RunsAndEndsWithTheExitCode(string steps, int code)
+        {
+            Application.isBatchMode = true;
+            Application.isEditor = false;
+            PlayerBatch.Run(Unity("-maxSimulationSteps", steps, "-out", Path.Combine(_folder, "run")));
+            Assert.That(Engine.ExitCode, Is.EqualTo(code));
+        }
+
+        [TestCase(false, false)]
+        [TestCase(true, true)]
+        public void PlayerWithAScreen_AndTheEditor_AreLeftAlone(bool isBatch, bool isEditor)
+        {
+            Application.isBatchMode = isBatch;
+            Application.isEditor = isEditor;
+            PlayerBatch.Run(Unity("-maxSimulationSteps", "3", "-out", Path.Combine(_folder, "run")));
+            Assert.That(Engine.ExitCode, Is.Null);
+            Assert.That(Directory.Exists(Path.Combine(_folder, "run")), Is.False);
+        }
+
         [Test]
         public void EditorEntry_AlwaysEndsTheEditor()
         {

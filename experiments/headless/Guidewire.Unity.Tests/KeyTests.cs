@@ -194,12 +194,41 @@ namespace Guidewire.Unity.Tests
             Engine.Mouse(300f, 100f, 1, 0f);
             Stage.Frames(1);
             Assert.That(Vector3.Distance(camera.position, first), Is.GreaterThan(50f), "30 degrees");
-            const float distance = 500f;    // the scene's
+            const float distance = 430f;    // the scene's
             Vector3 middle = camera.position + camera.rotation * Vector3.forward * distance;
             Engine.Mouse(300f, 100f, -1, 3f);
             Stage.Frames(1);
             float expected = distance * Mathf.Exp(-0.3f);
             Assert.That(Vector3.Distance(camera.position, middle), Is.EqualTo(expected).Within(0.1f));
+        }
+
+        [Test]
+        public void Button_ChangesNothing_WhereThereIsNoOtherChoice()
+        {
+            Stage.Tap(KeyCode.Space);
+            Engine.Click = "solver";
+            Stage.Frames(1);
+            Assert.That((string?)Stage.Loop.Session!.Get("solver"), Is.EqualTo("pbd"), "a hand steers gains only");
+            Assert.That(Stage.Loop.Problem, Is.EqualTo(""));
+        }
+
+        [Test]
+        public void Button_SwitchesTheSolverOfAWireWithAMaterial()
+        {
+            string file = System.IO.Path.Combine(TestContext.CurrentContext.WorkDirectory, "material.json");
+            System.IO.File.WriteAllText(file, "{\"solver\": \"direct\", \"numberRodElements\": 12, \"timeStep\": 0.001, "
+                + "\"gravity\": [0, -9.81, 0], \"deltaThreshold\": 0, \"maxSimulationSteps\": 100000}");
+            Stage.Loop.Choose(file, Array.Empty<string>(), "", false);
+            Stage.Tap(KeyCode.R);
+            Stage.Frames(10);
+            Assert.That(Stage.Loop.Problem, Is.EqualTo(""));
+            int steps = Stage.Loop.Session!.Simulation.StepCount;
+            Vector3d tip = Stage.State.Positions[12];
+            Engine.Click = "solver";
+            Stage.Tap(KeyCode.Space);
+            Assert.That((string?)Stage.Loop.Session.Get("solver"), Is.EqualTo("explicit"));
+            Assert.That(Stage.Loop.Session.Simulation.StepCount, Is.GreaterThanOrEqualTo(steps));
+            Assert.That(Vector3d.Distance(Stage.State.Positions[12], tip), Is.LessThan(1.0));
         }
 
         [TestCase("integrator", "euler")]

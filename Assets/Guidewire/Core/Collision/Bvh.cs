@@ -12,6 +12,9 @@ namespace Guidewire.Core
         private readonly int[] _order;
         private readonly int[] _slot;
         private readonly Vector3d[] _corners;
+        private readonly Vector3d[] _normals;  // sum of its triangles' area vectors, per node
+        private readonly int[] _from;          // first of its triangles, per node
+        private readonly int[] _count;         // number of its triangles, per node
 
         /// <summary>The tree over triangles 0 to corners.Length/3 - 1, three corners each, in units.</summary>
         public Bvh(Vector3d[] corners)
@@ -19,6 +22,9 @@ namespace Guidewire.Core
             _nodes = BvhBuilder.Build(corners, out _order);
             _corners = new Vector3d[corners.Length];
             _slot = new int[_order.Length];
+            _normals = new Vector3d[_nodes.Length];
+            _from = new int[_nodes.Length];
+            _count = new int[_nodes.Length];
             for (int k = 0; k < _order.Length; k++)
             {
                 _slot[_order[k]] = k;
@@ -41,11 +47,19 @@ namespace Guidewire.Core
                 if (node.Count > 0)
                 {
                     node.Enclose(_corners, 3 * node.First, 3 * node.Count);
+                    _from[i] = node.First;
+                    _count[i] = node.Count;
+                    _normals[i] = SumOfAreas(node.First, node.Count);
                 }
                 else
                 {
-                    node.Enclose(_nodes[node.First], _nodes[node.First + 1]);
+                    int left = node.First;
+                    node.Enclose(_nodes[left], _nodes[left + 1]);
+                    _from[i] = Math.Min(_from[left], _from[left + 1]);
+                    _count[i] = _count[left] + _count[left + 1];
+                    _normals[i] = _normals[left] + _normals[left + 1];
                 }
+                node.EncloseSlab(_normals[i], _corners, 3 * _from[i], 3 * _count[i]);
             }
         }
 
@@ -110,9 +124,9 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Fraction of the motion of segment a b during which it stays at least <paramref name="keep"/> from every
-        /// triangle, <see cref="ContactShape.NoImpact"/> for all of it, and the triangle that ends it (-1 for none).
-        /// </summary>
+        /// <summary>Fraction of the motion of segment a b during which it stays at least <paramref name="keep"/> from
+        /// every triangle, <see cref="ContactShape.NoImpact"/> for all of it, and the triangle that ends it (-1 for
+        /// none). </summary>
         public double Sweep(
             in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep, out int triangle)
         {
@@ -156,12 +170,27 @@ namespace Guidewire.Core
             return impact;
         }
 
+        private Vector3d SumOfAreas(int first, int count)
+        {
+            Vector3d sum = Vector3d.Zero;
+            for (int k = 3 * first; k < 3 * (first + count); k += 3)
+            {
+                sum += Vector3d.Cross(_corners[k + 1] - _corners[k], _corners[k + 2] - _corners[k]);
+            }
+            return sum;
+        }
+
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         private void TestTriangle(int slot, ref SegmentSearch search)
         {
-            double squared = ClosestPoints.SegmentTriangle(
-                search.A, search.B, _corners[3 * slot], _corners[3 * slot + 1], _corners[3 * slot + 2],
-                search.Squared, out double s, out Vector3d point, out int feature);
+            double s = 0.0;
+            double squared = search.IsPoint
+                ? ClosestPoints.PointTriangle(
+                    search.A, _corners[3 * slot], _corners[3 * slot + 1], _corners[3 * slot + 2],
+                    out Vector3d point, out int feature)
+                : ClosestPoints.SegmentTriangle(
+                    search.A, search.B, _corners[3 * slot], _corners[3 * slot + 1], _corners[3 * slot + 2],
+                    search.Squared, out s, out point, out feature);
             if (squared < search.Squared)
             {
                 search.Accept(squared, slot, s, point, feature);

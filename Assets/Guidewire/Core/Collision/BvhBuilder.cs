@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Builds the hierarchy from the top: each node is cut where the sum over both sides of (surface of the box)
-    /// times (number of triangles), an estimate of the cost of a search (surface area heuristic), is least among
+    /// <summary>Builds the hierarchy from the top: each node is cut where the sum over both sides of (surface of the
+    /// box) times (number of triangles), an estimate of the cost of a search (surface area heuristic), is least among
     /// <see cref="Bins"/> - 1 planes across its longest edge.</summary>
     internal sealed class BvhBuilder
     {
@@ -92,8 +92,8 @@ namespace Guidewire.Core
             double width = Component(size, axis);
             int cut = width > 0.0 ? Partition(first, count, axis, from, width) : first;
 
-            // Halves do where no plane divides them (all middles equal) and where a lopsided cut would let the tree grow
-            // deeper than log(count)/log(4/3), for which the stack of a search is sized.
+            // Halves do where no plane divides them (all middles equal) and where a lopsided cut would let the tree
+            // grow deeper than log(count)/log(4/3), for which the stack of a search is sized.
             int least = count / 4;
             return cut > first + least && cut < first + count - least ? cut : SplitHalf(first, count, axis);
         }

@@ -2,7 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>A box of the hierarchy, 64 bytes: one line of the processor's cache.</summary>
+    /// <summary>A box of the hierarchy, with the slab between two planes across the mean normal of its triangles: a
+    /// patch of wall is nearly flat, so the slab is thinner than any box or ball around it.</summary>
     internal struct BvhNode
     {
         /// <summary>Middle of the box.</summary>
@@ -13,6 +14,15 @@ namespace Guidewire.Core
 
         /// <summary>Distance of the box's corners from its centre.</summary>
         public double Radius;
+
+        /// <summary>Mean normal of the triangles, 0 where they have none.</summary>
+        public Vector3d Normal;
+
+        /// <summary>Least Normal.x over the triangles.</summary>
+        public double Low;
+
+        /// <summary>Largest Normal.x over the triangles.</summary>
+        public double High;
 
         /// <summary>First triangle of a leaf; else the first of two children, which stand side by side.</summary>
         public int First;
@@ -47,6 +57,23 @@ namespace Guidewire.Core
         {
             var border = new Vector3d(distance, distance, distance);
             Set(Min(Min(a0, b0), Min(a1, b1)) - border, Max(Max(a0, b0), Max(a1, b1)) + border);
+        }
+
+        /// <summary>Makes the slab hold <paramref name="count"/> points.</summary>
+        public void EncloseSlab(in Vector3d normal, Vector3d[] points, int first, int count)
+        {
+            Normal = Vector3d.Normalize(normal);
+            Low = double.PositiveInfinity;
+            High = double.NegativeInfinity;
+            for (int k = first; k < first + count; k++)
+            {
+                double height = Vector3d.Dot(Normal, points[k]);
+                Low = Math.Min(Low, height);
+                High = Math.Max(High, height);
+            }
+            double border = 1e-15 * (Centre.Length + Extent.Length);
+            Low -= border;
+            High += border;
         }
 
         /// <summary>True where two boxes share a point.</summary>

@@ -5,9 +5,9 @@ namespace Guidewire.Core
 {
     /// <summary>Exact closest points between points, segments and triangles (cases after Ericson, Real-Time Collision
     /// Detection, chapter 5). A segment's parameter runs from 0 at its first end to 1 at its second.</summary>
-    /// <remarks>The answer is the smallest of candidates that cover all cases. A needle's normal has few digits left, so
-    /// there every candidate is made as a point of the triangle, its distance measured to that point: what rounding can
-    /// spoil is which candidate is tried, and where that is in doubt two of them agree.</remarks>
+    /// <remarks>The answer is the smallest of candidates that cover all cases. A needle's normal has few digits left,
+    /// so there every candidate is made as a point of the triangle, its distance measured to that point: what rounding
+    /// can spoil is which candidate is tried, and where that is in doubt two of them agree.</remarks>
     internal static class ClosestPoints
     {
         /// <summary>Feature of a triangle on which a closest point lies: inside it.</summary>
@@ -22,7 +22,8 @@ namespace Guidewire.Core
         // Squared ratio of a triangle's height to its length below which it is a needle.
         private const double Needle = 1e-8;
 
-        /// <summary>Parameter in [0, 1] of the point of segment a b nearest to p; 0 for a segment of no length.</summary>
+        /// <summary>Parameter in [0, 1] of the point of segment a b nearest to p; 0 for a segment of no
+        /// length.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static double PointSegment(in Vector3d p, in Vector3d a, in Vector3d b)
         {
@@ -122,8 +123,9 @@ namespace Guidewire.Core
             return best;
         }
 
-        /// <summary>Closest points of segment a b (parameter s) and triangle v0 v1 v2; the squared distance is returned,
-        /// 0 where they cross. Above <paramref name="limit"/> squared the answer may be any larger number.</summary>
+        /// <summary>Closest points of segment a b (parameter s) and triangle v0 v1 v2; the squared distance is
+        /// returned, 0 where they cross. Above <paramref name="limit"/> squared the answer may be any larger
+        /// number.</summary>
         public static double SegmentTriangle(
             in Vector3d a, in Vector3d b, in Vector3d v0, in Vector3d v1, in Vector3d v2, double limit,
             out double s, out Vector3d point, out int feature)

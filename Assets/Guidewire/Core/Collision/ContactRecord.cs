@@ -20,8 +20,9 @@ namespace Guidewire.Core
         /// <summary>Their sum.</summary>
         public Vector3d Total { get; private set; }
 
-        /// <summary>Force of the held or driven first sphere on the rest of the wire in the last step, mass unit * unit/s^2:
-        /// what constraints gave the free spheres less what walls gave them. 0 where the first sphere is free.</summary>
+        /// <summary>Force of the held or driven first sphere on the rest of the wire in the last step, mass unit *
+        /// unit/s^2: what constraints gave the free spheres less what walls gave them. 0 where the first sphere is
+        /// free.</summary>
         public Vector3d Reaction { get; private set; }
 
         /// <summary>Points of the wire, ten an element, that were inside before a step and outside after it.</summary>
@@ -30,7 +31,8 @@ namespace Guidewire.Core
         /// <summary>Largest depth by which the wire's surface reached into a wall after a step, units.</summary>
         public double MaxPenetration { get; internal set; }
 
-        /// <summary>What the drive asked of sphere 0 and the walls did not let it go, units, summed over the run.</summary>
+        /// <summary>What the drive asked of sphere 0 and the walls did not let it go, units, summed over the
+        /// run.</summary>
         public double DriveShortfall { get; internal set; }
 
         /// <summary>The way that the drive asked of sphere 0, units, summed over the run.</summary>

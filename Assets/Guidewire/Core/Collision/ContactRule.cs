@@ -3,10 +3,11 @@ using System;
 namespace Guidewire.Core
 {
     /// <summary>Contact of spheres and, unless switched off, of rod elements by the lever rule.</summary>
-    /// <remarks>One search an element tells whether anything is in reach. Only then the two spheres are asked, and where the
-    /// element touches with an end, the sphere's own contact stands for it and the element's middle half is asked, because
-    /// a long element in a bend lies against the outer wall with its ends and against the inner wall between them. Where a
-    /// motion is long enough to have met the wall on its way, the swept test gives the place where it did.</remarks>
+    /// <remarks>One search an element tells whether anything is in reach. Only then the two spheres are asked, and
+    /// where the element touches with an end, the sphere's own contact stands for it and, where spheres leave gaps,
+    /// the element's middle half is asked: a long element in a bend lies against the outer wall with its ends and
+    /// against the inner wall between. Where a motion is long enough to have met the wall on its way, the swept test
+    /// gives the place where it did.</remarks>
     internal sealed class ContactRule : IContactRule
     {
         private const int ContactsPerSphere = 8;
@@ -25,6 +26,8 @@ namespace Guidewire.Core
         private readonly int[] _elementHint;
         private readonly int[] _sphereHint;
         private readonly double[] _distance;
+        private readonly bool[] _isKnown;
+        private readonly bool _leavesGaps;
 
         /// <param name="state">The wire, with its final masses.</param>
         /// <param name="parameters">Radius, margin, gain, and whether elements touch.</param>
@@ -51,6 +54,8 @@ namespace Guidewire.Core
             Array.Fill(_elementHint, -1);
             Array.Fill(_sphereHint, -1);
             _distance = new double[state.ElementCount];
+            _isKnown = new bool[state.SphereCount];
+            _leavesGaps = state.ElementLength > 2.0 * _radius;
         }
 
         /// <inheritdoc/>
@@ -71,6 +76,7 @@ namespace Guidewire.Core
             for (int w = 0; w < _walls.Length; w++)
             {
                 bool previousNear = false;
+                Array.Clear(_isKnown, 0, _isKnown.Length);
                 for (int j = 0; j < n; j++)
                 {
                     bool near = DetectElement(w, j, from, to);
@@ -141,6 +147,16 @@ namespace Guidewire.Core
             double distance = near ? Math.Abs(contact.Distance) : _range;
             _distance[j] = Math.Min(_distance[j], distance - motion);
             bool mayHaveMet = distance <= motion + _clearance;
+            if (near && !mayHaveMet && (contact.Position == 0.0 || contact.Position == 1.0))
+            {
+                // The place nearest to the element is nearest to the sphere at its end, too.
+                int end = contact.Position == 0.0 ? j : j + 1;
+                if (!_isKnown[end])
+                {
+                    _isKnown[end] = true;
+                    _spheres.Add(end, contact, _reach, _gain);
+                }
+            }
             if (_elements == null || !(near || mayHaveMet))
             {
                 return near || mayHaveMet;
@@ -161,7 +177,10 @@ namespace Guidewire.Core
                 _elements.Add(j, contact, _reach, _gain);
                 return true;
             }
-            DetectMiddle(wall, j, to, hint);
+            if (_leavesGaps)
+            {
+                DetectMiddle(wall, j, to, hint);
+            }
             return true;
         }
 
@@ -179,6 +198,10 @@ namespace Guidewire.Core
 
         private void DetectSphere(int w, int i, Vector3d[] from, Vector3d[] to)
         {
+            if (_isKnown[i])
+            {
+                return;
+            }
             ref int hint = ref _sphereHint[w * from.Length + i];
             ContactShape wall = _walls[w];
             double motion = Vector3d.Distance(from[i], to[i]);

@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Distance of a segment from the convex hull of some points (Gilbert, Johnson and Keerthi 1988): the point
-    /// of their Minkowski difference nearest to the origin, found on a simplex that moves towards it.</summary>
+    /// <summary>Distance of a segment from the convex hull of some points (Gilbert, Johnson and Keerthi 1988): the
+    /// point of their Minkowski difference nearest to the origin, found on a simplex that moves towards it.</summary>
     /// <remarks>Keeps scratch memory: one object serves one thread. Sizes: the answer is within 1e-12 of the largest
     /// offset between the two.</remarks>
     internal sealed class Gjk

@@ -15,7 +15,8 @@ namespace Guidewire.Core
         /// <param name="to">Where the prediction takes them.</param>
         void Detect(Vector3d[] from, Vector3d[] to);
 
-        /// <summary>Holds sphere or element (its first sphere) j off the place where the swept test met the wall.</summary>
+        /// <summary>Holds sphere or element (its first sphere) j off the place where the swept test met the
+        /// wall.</summary>
         void AddImpact(int j, bool isElement, in SurfaceContact contact);
 
         /// <summary>Lower bound of the distance of element j from the wall at <c>from</c>, as the last detection saw

@@ -4,10 +4,11 @@ namespace Guidewire.Core
 {
     /// <summary>A vessel given by triangles. Distance and normal are those of the surface itself, also at its edges and
     /// corners.</summary>
-    /// <remarks>On which side of the wall a point lies follows from the nearest feature: the sign of (x - c).n, with n the
-    /// triangle's normal, the sum of both at an edge, the sum weighted by angle at a corner (Baerentzen and Aanaes 2005).
-    /// The normal is then (x - c)/|x - c|, turned into the lumen. A rim's edge has no second side: there the wall is only
-    /// repelling, and on which side a point lies is asked of the surface closed by a fan over each rim.</remarks>
+    /// <remarks>On which side of the wall a point lies follows from the nearest feature: the sign of (x - c).n, with n
+    /// the triangle's normal, the sum of both at an edge, the sum weighted by angle at a corner (Baerentzen and Aanaes
+    /// 2005). The normal is then (x - c)/|x - c|, turned into the lumen. A rim's edge has no second side: there the
+    /// wall is only repelling, and on which side a point lies is asked of the surface closed by a fan over each
+    /// rim.</remarks>
     public sealed class MeshShape : ContactShape
     {
         private readonly TriangleMesh _mesh;

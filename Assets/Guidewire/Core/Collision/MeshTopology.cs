@@ -4,11 +4,12 @@ using System.Collections.Generic;
 namespace Guidewire.Core
 {
     /// <summary>Makes one oriented surface of a file's triangles: equal vertices become one, collapsed and repeated
-    /// triangles go, neighbours are turned the same way round, open rims are found. What has no single answer is refused:
-    /// an edge of three triangles, a surface of one side only, several surfaces, a hole that nobody named.</summary>
+    /// triangles go, neighbours are turned the same way round, open rims are found. What has no single answer is
+    /// refused: an edge of three triangles, a surface of one side only, several surfaces, a hole that nobody
+    /// named.</summary>
     internal sealed class MeshTopology
     {
-        private readonly Dictionary<long, EdgeUse> _edges = new Dictionary<long, EdgeUse>();
+        private readonly Dictionary<(int, int), EdgeUse> _edges = new Dictionary<(int, int), EdgeUse>();
 
         private MeshTopology(Vector3d[] vertices, int[] triangles)
         {
@@ -140,7 +141,7 @@ namespace Guidewire.Core
             {
                 for (int e = 0; e < 3; e++)
                 {
-                    long key = Key(t, e);
+                    (int, int) key = Key(t, e);
                     _edges.TryGetValue(key, out EdgeUse use);
                     crowded += use.Count == 2 ? 1 : 0;
                     _edges[key] = use.With(t + e);
@@ -253,11 +254,11 @@ namespace Guidewire.Core
             return least;
         }
 
-        private long Key(int triangle, int edge)
+        private (int, int) Key(int triangle, int edge)
         {
             int i = Triangles[triangle + edge];
             int j = Triangles[triangle + (edge + 1) % 3];
-            return ((long)Math.Min(i, j) << 32) | (uint)Math.Max(i, j);
+            return (Math.Min(i, j), Math.Max(i, j));
         }
 
         private void Turn(int triangle)

@@ -2,18 +2,23 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Counts points of the wire that are inside before a step and outside after it, ten an element (s = 0, 0.1, ...
-    /// 0.9) and the last sphere. Leaving through an open rim is no passage.</summary>
-    /// <remarks>Only an element whose straight way meets a wall is asked: a way that meets none changes no side.</remarks>
+    /// <summary>Counts points of the wire that are inside before a step and outside after it, ten an element (s = 0,
+    /// 0.1, ... 0.9) and the last sphere. Leaving through an open rim is no passage.</summary>
+    /// <remarks>Only an element whose straight way comes within the clearance of a wall is asked: another changes no
+    /// side. The clearance must not be 0, where the swept test may end behind the wall by rounding and see it
+    /// recede.</remarks>
     internal sealed class PassageCount
     {
         private const int SamplesPerElement = 10;
         private readonly ContactShape[] _walls;
+        private readonly double _clearance;
 
         /// <param name="walls">What may not be passed.</param>
-        public PassageCount(ContactShape[] walls)
+        /// <param name="radius">r in units.</param>
+        public PassageCount(ContactShape[] walls, double radius)
         {
             _walls = walls;
+            _clearance = SweptGuard.ClearanceFor(radius);
         }
 
         /// <summary>Passages so far.</summary>
@@ -36,7 +41,7 @@ namespace Guidewire.Core
                 }
                 foreach (ContactShape wall in _walls)
                 {
-                    if (wall.Sweep(from[j], from[j + 1], to[j], to[j + 1], 0.0, out _) < ContactShape.NoImpact)
+                    if (wall.Sweep(from[j], from[j + 1], to[j], to[j + 1], _clearance, out _) < ContactShape.NoImpact)
                     {
                         CountElement(wall, from, to, j, j + 1 == n ? SamplesPerElement + 1 : SamplesPerElement);
                     }
@@ -52,7 +57,7 @@ namespace Guidewire.Core
                 Vector3d before = Vector3d.Lerp(from[j], from[j + 1], s);
                 Vector3d after = Vector3d.Lerp(to[j], to[j + 1], s);
                 if (wall.Contains(before) && !wall.Contains(after)
-                    && wall.Sweep(before, before, after, after, 0.0, out _) < ContactShape.NoImpact)
+                    && wall.Sweep(before, before, after, after, _clearance, out _) < ContactShape.NoImpact)
                 {
                     Total++;
                 }

@@ -1,6 +1,7 @@
 namespace Guidewire.Core
 {
-    /// <summary>Where a vessel stands: x -> position + R (scale x), with the scale along the vessel's own axes.</summary>
+    /// <summary>Where a vessel stands: x -> position + R (scale x), with the scale along the vessel's own
+    /// axes.</summary>
     public readonly struct Placement
     {
         private readonly Quaterniond _orientation;

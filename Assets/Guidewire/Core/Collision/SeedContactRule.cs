@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Contact as published (thesis 3.1.2): at the predicted state, whatever is within a sphere's radius of the
-    /// wall touches; see <see cref="SeedContactConstraint"/>. Nothing keeps the wire from passing.</summary>
+    /// <summary>Contact as published (thesis 3.1.2): at the predicted state, whatever is within a sphere's radius of
+    /// the wall touches; see <see cref="SeedContactConstraint"/>. Nothing keeps the wire from passing.</summary>
     internal sealed class SeedContactRule : IContactRule
     {
         private const int ContactsPerSphere = 4;

@@ -40,6 +40,9 @@ namespace Guidewire.Core
             Feature = 0;
         }
 
+        /// <summary>True for a segment of no length: a sphere's centre.</summary>
+        public readonly bool IsPoint => _inverseLengthSquared == 0.0;
+
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public void Accept(double squared, int slot, double s, in Vector3d point, int feature)
         {
@@ -51,8 +54,9 @@ namespace Guidewire.Core
             Feature = feature;
         }
 
-        /// <summary>False when the node is farther than the best so far, by its box against the segment's box or by its
-        /// sphere against the segment. The bound is the boxes' squared distance, the order the centre's.</summary>
+        /// <summary>False when the node is farther than the best so far, by its box against the segment's box, by its
+        /// slab or by its ball against the segment. The bound is the larger squared distance of the first two, the
+        /// order that of the centre.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public bool MayHold(in BvhNode node, out double bound, out double order)
         {
@@ -60,6 +64,10 @@ namespace Guidewire.Core
             double gy = Math.Max(0.0, Math.Abs(_middle.Y - node.Centre.Y) - (node.Extent.Y + _half.Y));
             double gz = Math.Max(0.0, Math.Abs(_middle.Z - node.Centre.Z) - (node.Extent.Z + _half.Z));
             bound = gx * gx + gy * gy + gz * gz;
+            double ha = Vector3d.Dot(node.Normal, A);
+            double hb = Vector3d.Dot(node.Normal, B);
+            double slab = Math.Max(0.0, Math.Max(Math.Min(ha, hb) - node.High, node.Low - Math.Max(ha, hb)));
+            bound = Math.Max(bound, slab * slab);
             Vector3d offset = node.Centre - A;
             double t = Math.Min(1.0, Math.Max(0.0, Vector3d.Dot(offset, _along) * _inverseLengthSquared));
             order = (offset - t * _along).LengthSquared;

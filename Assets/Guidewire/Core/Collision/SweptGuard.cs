@@ -4,9 +4,9 @@ namespace Guidewire.Core
 {
     /// <summary>Keeps a motion of the wire from passing a wall: finds where it would, and shortens it as the last
     /// resort.</summary>
-    /// <remarks>The start of every motion is clear of the wall by induction: a motion is only accepted when the swept test
-    /// finds it clear, and the wire does not move at all where nothing else is. An element whose distance at the start is
-    /// known to exceed the way of its ends cannot meet the wall and is not swept.</remarks>
+    /// <remarks>The start of every motion is clear of the wall by induction: a motion is only accepted when the swept
+    /// test finds it clear, and the wire does not move at all where nothing else is. An element whose distance at the
+    /// start is known to exceed the way of its ends cannot meet the wall and is not swept.</remarks>
     internal sealed class SweptGuard
     {
         private const int LocalRounds = 8;
@@ -31,8 +31,8 @@ namespace Guidewire.Core
             _whole = new Vector3d[sphereCount];
         }
 
-        /// <summary>What the swept test keeps between core line and wall, units: enough to stay clear of rounding, too little
-        /// to be felt.</summary>
+        /// <summary>What the swept test keeps between core line and wall, units: enough to stay clear of rounding, too
+        /// little to be felt.</summary>
         public static double ClearanceFor(double radius)
         {
             return 1e-3 * radius;
@@ -59,8 +59,8 @@ namespace Guidewire.Core
             return found;
         }
 
-        /// <summary>Shortens the motion until no guarded part of the wire passes a wall: first of the spheres that would,
-        /// then of all alike.</summary>
+        /// <summary>Shortens the motion until no guarded part of the wire passes a wall: first of the spheres that
+        /// would, then of all alike.</summary>
         public void Shorten(Vector3d[] from, Vector3d[] to)
         {
             Array.Copy(to, _whole, to.Length);

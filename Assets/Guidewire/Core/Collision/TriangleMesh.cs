@@ -110,7 +110,8 @@ namespace Guidewire.Core
             double sum = 0.0;
             for (int t = 0; t < triangles.Length; t += 3)
             {
-                sum += Determinant(v[triangles[t]] - origin, v[triangles[t + 1]] - origin, v[triangles[t + 2]] - origin);
+                sum += Determinant(
+                    v[triangles[t]] - origin, v[triangles[t + 1]] - origin, v[triangles[t + 2]] - origin);
             }
             foreach (int[] rim in topology.Rims)
             {

@@ -55,7 +55,8 @@ namespace Guidewire.Core
             }
             if (openEnd)
             {
-                _knots[count + shift] = knots[count - 1] + far * Vector3d.Normalize(knots[count - 1] - knots[count - 2]);
+                _knots[count + shift] = knots[count - 1]
+                    + far * Vector3d.Normalize(knots[count - 1] - knots[count - 2]);
                 _radii[count + shift] = radii[count - 1];
             }
             _resolution = 1e-12 * (length + widest);
@@ -223,8 +224,8 @@ namespace Guidewire.Core
             return Math.Min(nearer, farther);
         }
 
-        // When the first end leaves piece i's lumen, less the distance to keep; the time itself when it is not in it. The
-        // piece's term is concave along each end's straight way, so it leaves once.
+        // When the first end leaves piece i's lumen, less the distance to keep; the time itself when it is not in it.
+        // The piece's term is concave along each end's straight way, so it leaves once.
         private double LeavesPiece(
             int i, in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double time, double keep)
         {

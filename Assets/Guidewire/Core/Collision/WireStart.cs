@@ -25,7 +25,8 @@ namespace Guidewire.Core
                         || !wall.Contains(state.Positions[j + 1]))
                     {
                         return string.Format(CultureInfo.InvariantCulture,
-                            "the wire starts outside: rod element {0} from {1} to {2} is not on the free side of the wall",
+                            "the wire starts outside: rod element {0} from {1} to {2} is not on the free side of the"
+                            + " wall",
                             j, state.Positions[j], state.Positions[j + 1]);
                     }
                 }

@@ -5,8 +5,8 @@ namespace Guidewire.Core
     /// <summary>Keeps the point at position s of a rod element at a distance from a wall. With weights a_j = 1 - s,
     /// a_{j+1} = s, contact point c and unit normal n: g = max(0, reach - (a_j p_j + a_{j+1} p_{j+1} - c).n),
     /// dp_i = gain w_i a_i g n/(w_j a_j^2 + w_{j+1} a_{j+1}^2), per iteration.</summary>
-    /// <remarks>The point then moves by gain g n, and the two spheres share the push by the lever rule: a force F at s is
-    /// (1 - s) F and s F on them. It never attracts and never pulls sideways.</remarks>
+    /// <remarks>The point then moves by gain g n, and the two spheres share the push by the lever rule: a force F at s
+    /// is (1 - s) F and s F on them. It never attracts and never pulls sideways.</remarks>
     internal sealed class ElementContactConstraint
     {
         private readonly double[] _inverseMasses;
@@ -80,8 +80,8 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Adds to each sphere the momentum over dt, in mass unit * unit, that its elements' contacts gave it; a
-        /// held sphere's share is what its holder took.</summary>
+        /// <summary>Adds to each sphere the momentum over dt, in mass unit * unit, that its elements' contacts gave
+        /// it; a held sphere's share is what its holder took.</summary>
         public void AddImpulses(Vector3d[] impulses)
         {
             for (int k = 0; k < Count; k++)
@@ -91,7 +91,8 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Largest reach - (x(s) - c).n over all contacts, units; negative when the wire is out of reach.</summary>
+        /// <summary>Largest reach - (x(s) - c).n over all contacts, units; negative when the wire is out of
+        /// reach.</summary>
         public double LargestGap(Vector3d[] x)
         {
             double largest = double.NegativeInfinity;

@@ -2,10 +2,11 @@ namespace Guidewire.Core
 {
     /// <summary>Contact as published (thesis 3.1.2): each sphere of a touching element is drawn to the point
     /// c + (r + margin) n_i, dp_i = k_C (c + (r + margin) n_i - p_i) per iteration.</summary>
-    /// <remarks>For a sphere's own contact n_i = n. For an element's, with d = x_{j+1} - x_j and t = (c - x_j).d/|d|^2, n_i
-    /// is the normal times 0.01 (1 - t) and 0.01 t for t below 0.5, and the two exchanged from 0.5 on (eq. 3.5 is not
-    /// dimensionless as printed; the factor makes a percentage of it). The rule attracts, drags sideways and puts the
-    /// larger weight on the farther sphere beyond the middle; it stands here to be compared with.</remarks>
+    /// <remarks>For a sphere's own contact n_i = n. For an element's, with d = x_{j+1} - x_j and t = (c -
+    /// x_j).d/|d|^2, n_i is the normal times 0.01 (1 - t) and 0.01 t for t below 0.5, and the two exchanged from 0.5
+    /// on (eq. 3.5 is not dimensionless as printed; the factor makes a percentage of it). The rule attracts, drags
+    /// sideways and puts the larger weight on the farther sphere beyond the middle; it stands here to be compared
+    /// with.</remarks>
     internal sealed class SeedContactConstraint
     {
         private const double WeightScale = 0.01;

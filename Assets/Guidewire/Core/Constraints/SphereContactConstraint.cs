@@ -3,10 +3,10 @@ using System;
 namespace Guidewire.Core
 {
     /// <summary>Keeps a sphere's centre p at a distance from a wall: with contact point c and unit normal n,
-    /// g = max(0, reach - (p - c).n), dp = gain g n, per iteration (thesis 3.1.2 for a sphere, without its drag along the
-    /// wall). It never attracts and never pulls sideways.</summary>
-    /// <remarks>reach is r + margin and the gain k_C in [0, 1], or a bare clearance with gain 1 where the swept test met
-    /// the wall. A sphere of inverse mass 0 is not moved.</remarks>
+    /// g = max(0, reach - (p - c).n), dp = gain g n, per iteration (thesis 3.1.2 for a sphere, without its drag along
+    /// the wall). It never attracts and never pulls sideways.</summary>
+    /// <remarks>reach is r + margin and the gain k_C in [0, 1], or a bare clearance with gain 1 where the swept test
+    /// met the wall. A sphere of inverse mass 0 is not moved.</remarks>
     internal sealed class SphereContactConstraint
     {
         private readonly double[] _inverseMasses;
@@ -70,7 +70,8 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Adds to each sphere the momentum over dt, dp/w, in mass unit * unit, that its contacts gave it.</summary>
+        /// <summary>Adds to each sphere the momentum over dt, dp/w, in mass unit * unit, that its contacts gave
+        /// it.</summary>
         public void AddImpulses(Vector3d[] impulses)
         {
             for (int k = 0; k < Count; k++)
@@ -79,8 +80,8 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Largest reach - (p - c).n over all contacts, units: how far the wire lies within its reach of the wall;
-        /// negative when nothing does.</summary>
+        /// <summary>Largest reach - (p - c).n over all contacts, units: how far the wire lies within its reach of the
+        /// wall; negative when nothing does.</summary>
         public double LargestGap(Vector3d[] x)
         {
             double largest = double.NegativeInfinity;

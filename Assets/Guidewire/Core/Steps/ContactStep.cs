@@ -2,12 +2,12 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>One step of position-and-orientation-based dynamics between walls (thesis 2.1.3): prediction, the drive's
-    /// motion, collision detection, constraint solver with contacts, swept test, velocity update.</summary>
-    /// <remarks>A contact plane holds near the place where it was found. So a step whose drive moves farther than half an
-    /// element or a radius is done in parts, each with its own detection and solve; a part after which something would have
-    /// passed a wall is solved again against the places where it met it, then halved, and at the end shortened. What the
-    /// drive did not get is reported.</remarks>
+    /// <summary>One step of position-and-orientation-based dynamics between walls (thesis 2.1.3): prediction, the
+    /// drive's motion, collision detection, constraint solver with contacts, swept test, velocity update.</summary>
+    /// <remarks>A contact plane holds near the place where it was found. So a step whose drive moves farther than half
+    /// an element or a radius is done in parts, each with its own detection and solve; a part after which something
+    /// would have passed a wall is solved again against the places where it met it, then halved, and at the end
+    /// shortened. What the drive did not get is reported.</remarks>
     internal sealed class ContactStep : ITimeStep
     {
         private const int Resolves = 2;
@@ -45,7 +45,7 @@ namespace Guidewire.Core
             _solver = solver;
             _rule = rule;
             _guard = new SweptGuard(parameters.Walls, rule, state.SphereCount, parameters.SphereRadius);
-            _passages = new PassageCount(parameters.Walls);
+            _passages = new PassageCount(parameters.Walls, parameters.SphereRadius);
             _longestPart = rule.GuardsSpheres
                 ? Math.Min(0.5 * state.ElementLength, parameters.SphereRadius) : double.PositiveInfinity;
             _target = new Vector3d[state.SphereCount];

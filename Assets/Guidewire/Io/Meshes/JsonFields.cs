@@ -63,7 +63,8 @@ namespace Guidewire.Io
             {
                 return missing.Value;
             }
-            return value != null && NumberEntry.TryNumber(value, out double number) ? number : throw Wrong(name, "a number");
+            return value != null && NumberEntry.TryNumber(value, out double number)
+                ? number : throw Wrong(name, "a number");
         }
 
         /// <summary>A vector, or what counts where it is missing (null: it may not be).</summary>

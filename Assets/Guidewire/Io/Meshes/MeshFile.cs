@@ -57,7 +57,8 @@ namespace Guidewire.Io
             catch (IOException error)
             {
                 bool missing = error is FileNotFoundException || error is DirectoryNotFoundException;
-                throw new ParameterException(file + (missing ? ": no such file" : ": cannot be read: " + error.Message));
+                throw new ParameterException(
+                    file + (missing ? ": no such file" : ": cannot be read: " + error.Message));
             }
             catch (UnauthorizedAccessException)
             {

@@ -43,7 +43,8 @@ namespace Guidewire.Io
 
         private static string? ReadVertex(TextLines lines, List<Vector3d> vertices)
         {
-            if (!lines.TryNumber(1, out double x) || !lines.TryNumber(2, out double y) || !lines.TryNumber(3, out double z))
+            if (!lines.TryNumber(1, out double x) || !lines.TryNumber(2, out double y)
+                || !lines.TryNumber(3, out double z))
             {
                 return lines.Complain("three finite numbers behind v");
             }

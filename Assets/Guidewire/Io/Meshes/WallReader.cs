@@ -6,8 +6,8 @@ using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
-    /// <summary>Makes walls of the keys vessel and obstacles. A vessel is placed by position, scale and rotation; obstacles
-    /// stand where their numbers say.</summary>
+    /// <summary>Makes walls of the keys vessel and obstacles. A vessel is placed by position, scale and rotation;
+    /// obstacles stand where their numbers say.</summary>
     internal static class WallReader
     {
         private const double SceneMetresPerUnit = 1e-3;
@@ -22,7 +22,8 @@ namespace Guidewire.Io
             var walls = new List<ContactShape>();
             if (values.Vessel != null)
             {
-                walls.Add(Vessel(new JsonFields(vesselSource, "vessel", values.Vessel), values.Simulation, vesselSource));
+                var fields = new JsonFields(vesselSource, "vessel", values.Vessel);
+                walls.Add(Vessel(fields, values.Simulation, vesselSource));
             }
             int count = 0;
             foreach (JToken item in values.Obstacles ?? new JArray())
@@ -64,7 +65,8 @@ namespace Guidewire.Io
             Vector3d n = fields.Vector("normal", null);
             var stretched = new Vector3d(n.X / scene.Scale.X, n.Y / scene.Scale.Y, n.Z / scene.Scale.Z);
             Quaterniond turn = Placement.FromEulerDegrees(scene.Rotation);
-            return new PlaneShape(placement.Apply(fields.Vector("point", Vector3d.Zero)), Quaterniond.Rotate(turn, stretched));
+            return new PlaneShape(
+                placement.Apply(fields.Vector("point", Vector3d.Zero)), Quaterniond.Rotate(turn, stretched));
         }
 
         private static TubeShape Tube(JsonFields fields, SimulationParameters scene, in Placement placement)

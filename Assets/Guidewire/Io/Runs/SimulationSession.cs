@@ -113,6 +113,32 @@ namespace Guidewire.Io
             _overrides.AddRange(changed);
         }
 
+        /// <summary>Changes a parameter of a few words to the next one that this run can go on with.</summary>
+        /// <returns>False where there is none; nothing has changed then.</returns>
+        public bool Switch(string key)
+        {
+            IReadOnlyList<string> choices = ParameterTable.Find(key)!.Choices;
+            string now = (string?)Get(key) ?? "";
+            int place = 0;
+            while (place < choices.Count && choices[place] != now)
+            {
+                place++;
+            }
+            for (int k = 1; k < choices.Count; k++)
+            {
+                try
+                {
+                    Set(key, choices[(place + k) % choices.Count]);
+                    return true;
+                }
+                catch (Exception error) when (error is ParameterException || error is ArgumentException)
+                {
+                    continue;    // not with this wire: the next one
+                }
+            }
+            return false;
+        }
+
         /// <summary>Ends a run that goes on as interrupted, and its log with it.</summary>
         public void Dispose()
         {

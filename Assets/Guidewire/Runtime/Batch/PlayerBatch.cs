@@ -15,9 +15,15 @@ namespace Guidewire.Runtime
         [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.BeforeSceneLoad)]
         private static void Run()
         {
-            if (!Application.isEditor && IsAsked)
+            Run(Environment.GetCommandLineArgs());
+        }
+
+        /// <summary>Does the run that the process's arguments ask for, if they ask for one.</summary>
+        internal static void Run(string[] arguments)
+        {
+            if (!Application.isEditor && Application.isBatchMode && BatchRun.Own(arguments) != null)
             {
-                Application.Quit(BatchRun.Execute(Environment.GetCommandLineArgs()));
+                Application.Quit(BatchRun.Execute(arguments));
             }
         }
     }

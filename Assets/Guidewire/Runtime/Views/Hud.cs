@@ -3,7 +3,6 @@ using System.Globalization;
 using System.Text;
 using Guidewire.Core;
 using Guidewire.Io;
-using Newtonsoft.Json.Linq;
 using UnityEngine;
 
 namespace Guidewire.Runtime
@@ -91,8 +90,9 @@ namespace Guidewire.Runtime
             {
                 if (GUI.Button(new Rect(8f, y, 0.5f * Width, Line + 4f), _labels[i]) && _loop.Session != null)
                 {
-                    _loop.Set(_switches[i].Key, Next(_switches[i], _loop.Session));
+                    bool isSwitched = _loop.Session.Switch(_switches[i].Key);
                     Refresh();
+                    _labels[i] += isSwitched ? "" : " (only)";
                 }
                 y += Line + 6f;
             }
@@ -100,17 +100,6 @@ namespace Guidewire.Runtime
             {
                 GUI.Label(new Rect(16f, Screen.height - 8f * Line, 2f * Width, 8f * Line), KeyboardControl.Help);
             }
-        }
-
-        private static JToken Next(ParameterEntry entry, SimulationSession session)
-        {
-            string now = (string?)session.Get(entry.Key) ?? "";
-            int place = 0;
-            while (place < entry.Choices.Count && entry.Choices[place] != now)
-            {
-                place++;
-            }
-            return entry.Choices[(place + 1) % entry.Choices.Count];
         }
 
         private void Write(SimulationSession session)

@@ -4,8 +4,8 @@ using Guidewire.Core;
 
 namespace Guidewire.Core.Tests
 {
-    /// <summary>Distances by enumeration, written apart from the code they check: the smallest distance over all pairs of
-    /// features, each pair's by least squares on the plane or line through its corners.</summary>
+    /// <summary>Distances by enumeration, written apart from the code they check: the smallest distance over all pairs
+    /// of features, each pair's by least squares on the plane or line through its corners.</summary>
     internal static class BruteForce
     {
         /// <summary>Distance of two simplices of one to three corners.</summary>
@@ -123,7 +123,8 @@ namespace Guidewire.Core.Tests
             return sumF <= 1.0 && sumG <= 1.0 ? difference.Length : double.PositiveInfinity;
         }
 
-        // Modified Gram-Schmidt; null when the columns depend on one another: then a smaller feature holds a minimum too.
+        // Modified Gram-Schmidt; null when the columns depend on one another: then a smaller feature holds a minimum
+        // too.
         private static double[]? LeastSquares(List<Vector3d> columns, Vector3d right)
         {
             int n = columns.Count;

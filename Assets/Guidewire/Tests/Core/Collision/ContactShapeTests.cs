@@ -4,8 +4,8 @@ using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
 {
-    /// <summary>What holds for every shape: the normal is the gradient of the distance, the inside is where the distance is
-    /// positive, and a swept segment meets no wall before its time of impact.</summary>
+    /// <summary>What holds for every shape: the normal is the gradient of the distance, the inside is where the
+    /// distance is positive, and a swept segment meets no wall before its time of impact.</summary>
     [TestFixture]
     internal sealed class ContactShapeTests
     {

@@ -33,8 +33,8 @@ namespace Guidewire.Core.Tests
             return mesh;
         }
 
-        /// <summary>A closed sphere whose radius varies by <paramref name="bumps"/>: with dents, so that edges and corners
-        /// point both ways. 2 rings (rings - 1) 2 triangles.</summary>
+        /// <summary>A closed sphere whose radius varies by <paramref name="bumps"/>: with dents, so that edges and
+        /// corners point both ways. 2 rings (rings - 1) 2 triangles.</summary>
         public static TestMeshes Ball(int rings, double bumps)
         {
             var mesh = new TestMeshes();

@@ -83,6 +83,13 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void WireWithAMaterial_IsNotSteered()
+        {
+            var parameters = new SimulationParameters { Solver = Solver.Direct, Steering = _hand };
+            Assert.That(() => Simulation.Create(parameters), Throws.ArgumentException.With.Message.Contains("pbd"));
+        }
+
+        [Test]
         public void Steering_TakesTheDrivesPlace()
         {
             var parameters = new SimulationParameters

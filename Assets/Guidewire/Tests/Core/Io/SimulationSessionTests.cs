@@ -1,0 +1,122 @@
+using System;
+using System.IO;
+using Guidewire.Io;
+using Newtonsoft.Json.Linq;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    [TestFixture]
+    public sealed class SimulationSessionTests
+    {
+        private string _folder = "";
+        private string _file = "";
+
+        [SetUp]
+        public void Make()
+        {
+            _folder = Path.Combine(Path.GetTempPath(), "guidewire-" + Guid.NewGuid().ToString("N"));
+            Directory.CreateDirectory(_folder);
+            _file = Path.Combine(_folder, "wire.json");
+            File.WriteAllText(_file, "{\"constraintSolverSteps\": 20, \"deltaThreshold\": 0}");
+        }
+
+        [TearDown]
+        public void Clean()
+        {
+            Directory.Delete(_folder, true);
+        }
+
+        private SimulationSession Open(string log, bool isSteered, params string[] overrides)
+        {
+            return SimulationSession.Open(_file, overrides, log, isSteered);
+        }
+
+        private static JObject Summary(string folder)
+        {
+            return JObject.Parse(File.ReadAllText(Path.Combine(folder, "summary.json")));
+        }
+
+        [Test]
+        public void Set_ChangesOneValueAndKeepsTheOthers()
+        {
+            using SimulationSession session = Open("", false, "bendStiffness=0.3");
+            session.Step(0.0, 0.0);
+            session.Set("stretchStiffness", 0.2);
+            Assert.That(session.Parameters.StretchStiffness, Is.EqualTo(0.2));
+            Assert.That(session.Parameters.BendStiffness, Is.EqualTo(0.3), "the override");
+            Assert.That(session.Parameters.ConstraintSolverSteps, Is.EqualTo(20), "the file");
+            session.Set("damping", 0.1);
+            Assert.That(session.Parameters.StretchStiffness, Is.EqualTo(0.2), "the earlier change");
+            Assert.That(session.Simulation.StepCount, Is.EqualTo(1));
+        }
+
+        [Test]
+        public void Set_ThatIsRefused_ChangesNothing()
+        {
+            using SimulationSession session = Open("", false);
+            Simulation before = session.Simulation;
+            Assert.Throws<ParameterException>(() => session.Set("timeStep", 0.0));
+            Assert.That(session.Simulation, Is.SameAs(before));
+            Assert.That(session.Parameters.TimeStep, Is.EqualTo(0.01));
+        }
+
+        [Test]
+        public void Switch_GoesRoundTheChoicesThatFit()
+        {
+            using SimulationSession session = Open("", false);
+            Assert.That(session.Switch("sweepOrder"), Is.True);
+            Assert.That((string?)session.Get("sweepOrder"), Is.EqualTo("bilateral"));
+            Assert.That(session.Switch("sweepOrder"), Is.True);
+            Assert.That((string?)session.Get("sweepOrder"), Is.EqualTo("naive"));
+        }
+
+        [Test]
+        public void Switch_ChangesNothing_WhereNoChoiceFits()
+        {
+            using SimulationSession session = Open("", true);
+            Assert.That(session.Switch("solver"), Is.False);
+            Assert.That(session.Parameters.Solver, Is.EqualTo(Solver.Pbd));
+        }
+
+        [Test]
+        public void Log_OfASteeredRun_StandsForNoParameters()
+        {
+            string log = Path.Combine(_folder, "log");
+            using (SimulationSession session = Open(log, true))
+            {
+                session.Step(0.5, 0.0);
+            }
+            JObject summary = Summary(log);
+            Assert.That((string?)summary["outcome"], Is.EqualTo("interrupted"));
+            Assert.That(summary["parameterHash"]!.Type, Is.EqualTo(JTokenType.Null));
+            Assert.That((string?)summary["notes"]![0], Is.EqualTo("steered by hand from step 0 on"));
+        }
+
+        [Test]
+        public void Log_OfARunThatNobodyTouched_StandsForItsParameters()
+        {
+            string log = Path.Combine(_folder, "log");
+            using (SimulationSession session = Open(log, false, "maxSimulationSteps=3"))
+            {
+                for (int k = 0; k < 5; k++)
+                {
+                    session.Step(1.0, 1.0);
+                }
+            }
+            JObject summary = Summary(log);
+            Assert.That((string?)summary["outcome"], Is.EqualTo("finished"));
+            Assert.That((int)summary["steps"]!, Is.EqualTo(3));
+            Assert.That(((string?)summary["parameterHash"])!.Length, Is.EqualTo(64));
+            Assert.That(summary["notes"], Is.Empty);
+        }
+
+        [TestCase("timeStep")]
+        [TestCase("=3")]
+        [TestCase("timestep=0.01")]
+        public void Override_ThatCannotBeRead_IsRefused(string line)
+        {
+            Assert.Throws<ParameterException>(() => Open("", false, line));
+        }
+    }
+}

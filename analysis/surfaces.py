@@ -1,0 +1,163 @@
+"""Triangles of a wire and of a vessel's wall, from logged positions and parameter files.
+
+The wire's curve is the one that the Unity scene draws: a cubic through all spheres whose slope at sphere i is
+(x_{i+1} - x_{i-1})/2, with rings around it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+
+MESHES = Path(__file__).resolve().parent.parent / "params" / "meshes"
+
+
+class SurfaceError(Exception):
+    """A wall that cannot be drawn. The message is one line."""
+
+
+@dataclass(frozen=True)
+class Surface:
+    """v vertices and t triangles.
+
+    vertices : ndarray (v, 3), units.
+    triangles : ndarray of int (t, 3); seen from the side that they face they run counter-clockwise.
+    values : ndarray (v,), what a vertex's colour shows; 0 where it shows nothing.
+    """
+
+    vertices: np.ndarray
+    triangles: np.ndarray
+    values: np.ndarray
+
+
+def curvature(positions: np.ndarray) -> np.ndarray:
+    """Curvature at each sphere in 1/unit, shape (n+1,): the angle between neighbouring elements over their mean length.
+
+    positions : ndarray (n+1, 3), units. The two end spheres have none: 0.
+    """
+    elements = np.diff(positions, axis=0)
+    lengths = np.linalg.norm(elements, axis=1)
+    cosine = np.einsum("ij,ij->i", elements[:-1], elements[1:]) / (lengths[:-1] * lengths[1:])
+    angle = np.arccos(np.clip(cosine, -1.0, 1.0))
+    return np.concatenate([[0.0], angle / (0.5 * (lengths[:-1] + lengths[1:])), [0.0]])
+
+
+def tube(positions: np.ndarray, radius: float, per_element: int = 4, sides: int = 16) -> Surface:
+    """The surface of a wire with round ends, coloured by curvature.
+
+    Parameters
+    ----------
+    positions : ndarray (n+1, 3), units.
+    radius : units.
+    per_element : rings an element.
+    sides : corners of a ring.
+    """
+    slopes = np.gradient(positions, axis=0)
+    bend = curvature(positions)
+    last = len(positions) - 1
+    at = np.arange(last * per_element + 1) / per_element
+    j = np.minimum(at.astype(int), last - 1)
+    t = (at - j)[:, None]
+    s = 1.0 - t
+    a, b, ma, mb = positions[j], positions[j + 1], slopes[j], slopes[j + 1]
+    centres = s * s * (1 + 2 * t) * a + t * t * (3 - 2 * t) * b + t * s * s * ma - t * t * s * mb
+    tangents = 6 * t * s * (b - a) + s * (1 - 3 * t) * ma + t * (3 * t - 2) * mb
+    tangents /= np.linalg.norm(tangents, axis=1, keepdims=True)
+    values = np.interp(at, np.arange(last + 1), bend)
+    radii = np.full(len(at), radius)
+
+    angles = np.linspace(0.0, 0.5 * np.pi, 5)[1:]
+    first = centres[0] - radius * np.sin(angles[::-1])[:, None] * tangents[0]
+    end = centres[-1] + radius * np.sin(angles)[:, None] * tangents[-1]
+    caps = len(angles)
+    centres = np.concatenate([first, centres, end])
+    tangents = np.concatenate([np.repeat(tangents[:1], caps, 0), tangents, np.repeat(tangents[-1:], caps, 0)])
+    radii = np.concatenate([radius * np.cos(angles[::-1]), radii, radius * np.cos(angles)])
+    values = np.concatenate([np.zeros(caps), values, np.zeros(caps)])
+
+    normal = np.cross(tangents[0], [1.0, 0.0, 0.0] if abs(tangents[0][0]) < 0.9 else [0.0, 1.0, 0.0])
+    vertices = np.empty((len(centres), sides, 3))
+    turn = 2 * np.pi * np.arange(sides) / sides
+    for ring, (centre, tangent) in enumerate(zip(centres, tangents)):
+        normal = normal - (normal @ tangent) * tangent
+        normal /= np.linalg.norm(normal)
+        around = np.outer(np.cos(turn), normal) + np.outer(np.sin(turn), np.cross(tangent, normal))
+        vertices[ring] = centre + radii[ring] * around
+    return Surface(vertices.reshape(-1, 3), _strips(len(centres), sides, outward=True), np.repeat(values, sides))
+
+
+def wall(parameters: Mapping[str, Any], middle: np.ndarray, reach: float) -> Surface | None:
+    """The vessel that a run's parameters name, facing the lumen; None where there is none.
+
+    Parameters
+    ----------
+    parameters : a run's effective values; a mesh's file stands there as the run's own folder saw it.
+    middle : ndarray (3,), units: middle of the patch that is drawn of a plane.
+    reach : units: half the side of that patch.
+    """
+    vessel = parameters.get("vessel")
+    if not vessel:
+        return None
+    placed = any(parameters.get(key) not in (None, rest) for key, rest in
+                 (("position", [0, 0, 0]), ("rotation", [0, 0, 0]), ("scale", [1, 1, 1])))
+    if placed:
+        raise SurfaceError("a vessel that is moved, turned or scaled is not drawn")
+    if vessel["shape"] == "mesh":
+        return read_obj(_find(Path(vessel["file"])))
+    if vessel["shape"] == "plane":
+        return plane(np.asarray(vessel.get("point", (0, 0, 0)), float), np.asarray(vessel["normal"], float), middle,
+                     reach)
+    raise SurfaceError(f"a vessel of shape {vessel['shape']} is not drawn")
+
+
+def _find(file: Path) -> Path:
+    """A mesh where its name says, seen from here, or by its bare name among the repository's."""
+    own = MESHES / file.name
+    return own if not file.is_file() and own.is_file() else file
+
+
+def plane(point: np.ndarray, normal: np.ndarray, middle: np.ndarray, reach: float) -> Surface:
+    """A square patch of a plane, facing its normal, ruled into a grid so that its slant is seen."""
+    normal = normal / np.linalg.norm(normal)
+    u = np.cross(normal, [1.0, 0.0, 0.0] if abs(normal[0]) < 0.9 else [0.0, 1.0, 0.0])
+    u /= np.linalg.norm(u)
+    v = np.cross(normal, u)
+    foot = middle - ((middle - point) @ normal) * normal
+    steps = np.linspace(-reach, reach, 13)
+    vertices = foot + steps[:, None, None] * u + steps[None, :, None] * v
+    count = len(steps)
+    a = (np.arange(count - 1)[:, None] * count + np.arange(count - 1)).ravel()
+    triangles = np.concatenate([np.stack([a, a + count, a + count + 1], 1), np.stack([a, a + count + 1, a + 1], 1)])
+    return Surface(vertices.reshape(-1, 3), triangles, np.zeros(count * count))
+
+
+def read_obj(path: Path) -> Surface:
+    """The triangles of an OBJ file, turned so that they face inwards (their signed volume is negative)."""
+    vertices, triangles = [], []
+    try:
+        for line in path.read_text(encoding="utf-8").splitlines():
+            words = line.split()
+            if words[:1] == ["v"]:
+                vertices.append([float(word) for word in words[1:4]])
+            elif words[:1] == ["f"]:
+                corners = [int(word.split("/")[0]) - 1 for word in words[1:]]
+                triangles += [[corners[0], corners[k], corners[k + 1]] for k in range(1, len(corners) - 1)]
+    except (OSError, ValueError) as error:
+        raise SurfaceError(f"{path}: cannot be read: {error}") from error
+    points, faces = np.array(vertices), np.array(triangles)
+    a, b, c = (points[faces[:, k]] - points.mean(axis=0) for k in range(3))
+    if np.einsum("ij,ij->", a, np.cross(b, c)) > 0.0:
+        faces = faces[:, ::-1]
+    return Surface(points, faces, np.zeros(len(points)))
+
+
+def _strips(rings: int, sides: int, outward: bool) -> np.ndarray:
+    a = np.arange((rings - 1) * sides)
+    b = np.where(a % sides == sides - 1, a + 1 - sides, a + 1)
+    triangles = np.concatenate([np.stack([a, b, a + sides], 1), np.stack([b, b + sides, a + sides], 1)])
+    return triangles if outward else triangles[:, ::-1]

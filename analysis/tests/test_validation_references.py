@@ -1,0 +1,199 @@
+"""The references against numbers published elsewhere, other closed forms, and conservation laws."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from scipy.linalg import expm
+
+from analysis.validation import bar, beam, elastica, release, spatial, twisted
+from analysis.validation.wire import BASE, Wire
+
+HALF = np.linspace(0.0, 1.0, 11)
+
+
+def test_base_wire_has_the_stiffness_of_its_material() -> None:
+    assert BASE.bending == pytest.approx(2.945243e-3, rel=1e-6)
+    assert BASE.torsion == pytest.approx(2.258020e-3, rel=1e-6)
+    assert BASE.stretching == pytest.approx(47123.89, rel=1e-7)
+    assert BASE.line_density == pytest.approx(5.065818e-3, rel=1e-6)
+
+
+# Deflection and shortening of the tip over L: Mattiasson (1981), Table 1, and Bisshopp and Drucker (1945).
+@pytest.mark.parametrize(
+    "load, across, shortening",
+    [(1.0, 0.301720774, 0.0564332363), (2.0, 0.493457480, 0.160641721), (10.0, 0.810609025, 0.554995598)],
+)
+def test_tip_load_agrees_with_published_tables(load: float, across: float, shortening: float) -> None:
+    tip = elastica.tip_loaded(load, HALF).tip
+    assert tip == pytest.approx((1.0 - shortening, across), abs=2e-9)
+
+
+@pytest.mark.parametrize("load", [0.1, 1.0, 10.0, 100.0])
+def test_tip_load_agrees_with_elliptic_integrals(load: float) -> None:
+    assert elastica.tip_loaded(load, HALF).tip == pytest.approx(elastica.tip_by_elliptic_integrals(load), abs=1e-8)
+
+
+@pytest.mark.parametrize(
+    "radius, along, across", [(0.5e-3, 0.299446369, 0.0170399963), (0.2e-3, 0.281225454, 0.0975643958)]
+)
+def test_own_weight_agrees_with_an_independent_solution(radius: float, along: float, across: float) -> None:
+    wire = Wire(radius=radius)
+    load = wire.line_density * 9.81 * wire.length**3 / wire.bending
+    tip = wire.length * np.array(elastica.heavy(load, HALF).tip)
+    np.testing.assert_allclose(tip, [along, across], atol=1e-9)
+
+
+def test_small_own_weight_gives_the_beams_compliance() -> None:
+    assert elastica.heavy(1e-4, HALF).tip[1] / 1e-4 == pytest.approx(beam.own_weight_compliance(), rel=1e-6)
+    assert elastica.tip_loaded(1e-4, HALF).tip[1] / 1e-4 == pytest.approx(beam.tip_load_compliance(), rel=1e-6)
+
+
+def test_shape_keeps_its_length() -> None:
+    fine = np.linspace(0.0, 1.0, 4001)
+    shape = elastica.tip_loaded(10.0, fine)
+    assert np.sum(np.hypot(np.diff(shape.along), np.diff(shape.across))) == pytest.approx(1.0, abs=1e-6)
+
+
+def test_full_couple_closes_the_ring() -> None:
+    ring = elastica.arc(2.0 * math.pi, HALF)
+    assert ring.tip == pytest.approx((0.0, 0.0), abs=1e-15)
+    assert ring.across[5] == pytest.approx(1.0 / math.pi)
+
+
+def test_cantilever_has_its_tabulated_frequencies() -> None:
+    np.testing.assert_allclose(beam.mode_numbers(3), [1.875104069, 4.694091133, 7.854757438], rtol=1e-9)
+    np.testing.assert_allclose(beam.frequencies(BASE, 3), [4.7409366, 29.710943, 83.1915], rtol=1e-7)
+
+
+def test_thick_cantilever_becomes_a_thin_one() -> None:
+    """The difference falls as r^2, and a thick rod swings more slowly."""
+    thin, thick = Wire(radius=0.5e-3), Wire(radius=5e-3)
+    small = beam.thick_frequencies(thin, 3) / beam.frequencies(thin, 3) - 1.0
+    large = beam.thick_frequencies(thick, 3) / beam.frequencies(thick, 3) - 1.0
+    assert np.all(large < 0.0)
+    np.testing.assert_allclose(large / small, 100.0, rtol=0.02)
+
+
+@pytest.mark.parametrize("derivative", [1, 2, 3])
+def test_mode_shapes_have_their_derivatives(derivative: int) -> None:
+    for number in beam.mode_numbers(6):
+        step = 1e-5 / number
+        points = np.linspace(0.1, 0.9, 9)
+        central = (
+            beam.mode_shape(number, points + step, derivative - 1)
+            - beam.mode_shape(number, points - step, derivative - 1)
+        ) / (2.0 * step)
+        scale = number**derivative
+        np.testing.assert_allclose(beam.mode_shape(number, points, derivative) / scale, central / scale, atol=1e-8)
+
+
+def test_mode_shapes_are_clamped_and_free() -> None:
+    for number in beam.mode_numbers(12):
+        held = [beam.mode_shape(number, np.array(0.0), k) / number**k for k in (0, 1)]
+        free = [beam.mode_shape(number, np.array(1.0), k) / number**k for k in (2, 3)]
+        np.testing.assert_allclose(held + free, 0.0, atol=1e-9)
+        assert beam.mode_shape(number, np.array(1.0)) == pytest.approx(2.0)
+
+
+def test_hinged_chain_is_too_soft_by_its_sum() -> None:
+    n, arms = 30, np.arange(30) / 30.0
+    assert beam.hinged_chain_factor(n) == pytest.approx(3.0 * np.sum((1.0 - arms) ** 2) / n)
+
+
+# Greenhill (1883): tan(x) = x, and with tension from the beam equation, an independent solution.
+@pytest.mark.parametrize("tension, moment", [(0.0, 8.987), (1.0, 9.134), (10.0, 10.429)])
+def test_clamped_rod_has_its_critical_couple(tension: float, moment: float) -> None:
+    assert twisted.clamped_moment(tension) == pytest.approx(moment, abs=1e-3)
+
+
+def test_critical_couple_has_no_jump_at_zero_tension() -> None:
+    assert twisted.clamped_moment(1e-6) == pytest.approx(twisted.clamped_moment(0.0), rel=1e-6)
+
+
+def test_ring_leaves_its_plane_in_two_waves_first() -> None:
+    twists = [twisted.ring_twist(1.0, 1.0, mode) for mode in (2, 3, 4)]
+    assert twists[0] == pytest.approx(2.0 * math.pi * math.sqrt(3.0)) and twists == sorted(twists)
+
+
+def test_localised_helix_is_the_one_of_the_published_example() -> None:
+    helix = twisted.localised_helix(1.345, 0.789, 100.0, 3.0, 54.0 * math.pi)
+    assert helix.load == pytest.approx(0.914778, abs=1e-6)
+    assert math.degrees(helix.largest_angle) == pytest.approx(47.65, abs=0.005)
+
+
+def test_localised_helix_has_the_shortening_that_it_was_made_for() -> None:
+    helix = twisted.localised_helix(1.345, 0.789, 100.0, 3.0, 54.0 * math.pi)
+    s = np.linspace(-50.0, 50.0, 20001)
+    lost = 1.0 - np.cos(helix.angle(s))
+    assert np.sum(0.5 * (lost[1:] + lost[:-1]) * np.diff(s)) == pytest.approx(3.0, abs=1e-4)
+    assert np.max(helix.angle(s)) == pytest.approx(helix.largest_angle)
+
+
+def test_bar_chain_moves_as_its_matrix_exponential_says() -> None:
+    chain = bar.BarChain(5, 0.2, 3.0, 1e-3)
+    links = 2.0 * np.eye(5) - np.eye(5, k=1) - np.eye(5, k=-1)
+    links[-1, -1] = 1.0
+    matrix = np.block([[np.zeros((5, 5)), np.eye(5)], [-15.0 * links, np.zeros((5, 5))]])
+    start = np.concatenate([np.full(5, -1e-3), np.zeros(5)])
+    for time in (0.0, 0.3, 2.0):
+        moved = 1e-3 + (expm(time * matrix) @ start)[:5]
+        np.testing.assert_allclose([chain.motion(np.array(time), node) for node in range(1, 6)], moved, atol=1e-15)
+
+
+def test_long_bar_chain_has_the_frequency_of_the_bar() -> None:
+    n = 400
+    chain = bar.BarChain(n, BASE.line_density * BASE.length / (n + 1), BASE.stretching * n / BASE.length, 1e-3)
+    speed = math.sqrt(BASE.stretching / BASE.line_density)
+    assert chain.frequencies[0] == pytest.approx(0.5 * math.pi * speed / BASE.length, rel=1.0 / n)
+
+
+def test_release_keeps_its_energy() -> None:
+    """Kinetic and bending energy of a large swing, both by quadrature: the equations are those of this energy."""
+    system = release._Cantilever(6, 1e-4)
+    start = np.concatenate([system.rest(1.0), np.zeros(6)])
+    state, step = start.copy(), 2e-4
+    energy = system.energy(start)
+    for _ in range(100):  # Runge-Kutta, order 4
+        k1 = system.slope(0.0, state)
+        k2 = system.slope(0.0, state + 0.5 * step * k1)
+        k3 = system.slope(0.0, state + 0.5 * step * k2)
+        k4 = system.slope(0.0, state + step * k3)
+        state = state + step / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
+    assert np.max(np.abs(state - start)) > 0.05
+    assert system.energy(state) == pytest.approx(energy, rel=1e-8)
+
+
+def test_small_release_is_the_series_of_linear_modes() -> None:
+    """y(t) = sum over modes of k (phi(1)/b^2)^2 cos(2 pi f t), phi(1) = 2."""
+    load, modes, thin = 1e-3, 6, Wire(radius=1e-6)
+    motion = release.tip_motion(thin, load, 0.2 * thin.time_unit, 201, modes)
+    numbers, time = beam.mode_numbers(modes), motion.time / thin.time_unit
+    series = load * np.cos(np.multiply.outer(time, numbers**2)) @ (4.0 / numbers**4)
+    np.testing.assert_allclose(motion.across / thin.length, series, atol=1e-5 * load)
+
+
+def test_release_starts_at_the_elastica() -> None:
+    motion = release.tip_motion(BASE, 0.1, 1e-3, 2, modes=8)
+    tip = BASE.length * np.array(elastica.tip_loaded(0.1, HALF).tip)
+    np.testing.assert_allclose([motion.along[0], motion.across[0]], tip, atol=1e-4 * tip[1])
+
+
+def test_release_converges_with_the_number_of_modes() -> None:
+    motions = [release.tip_motion(BASE, 0.1, 0.02, 201, modes) for modes in (4, 6, 8)]
+    differences = [np.max(np.abs(a.across - b.across)) for a, b in zip(motions, motions[1:])]
+    assert differences[1] < 0.5 * differences[0] < 1e-4 * BASE.length
+
+
+# Bathe and Bolourchi (1979): a 45 degree bend of radius 100, unit square section, E = 1e7, nu = 0, J = 1/6.
+def test_curved_rod_agrees_with_the_published_bend() -> None:
+    rod = spatial.CurvedRod(25.0 * math.pi, 0.01, 1e7 / 12.0, 5e6 / 6.0, 1e7, 5e6)
+    x, y, z = rod.tip(np.array([600.0, 0.0, 0.0]))
+    np.testing.assert_allclose([-y, z, x], [15.685, 47.150, 53.475], atol=1e-3)
+
+
+def test_curved_rod_without_load_is_an_arc() -> None:
+    rod = spatial.CurvedRod(2.0, 0.5, 1.0, 1.0, 1e6, 1e6)
+    np.testing.assert_allclose(rod.tip(np.zeros(3)), [0.0, 2.0 * (math.cos(1.0) - 1.0), 2.0 * math.sin(1.0)], atol=1e-7)

@@ -1,0 +1,48 @@
+"""A chain of masses and springs whose first mass is displaced at once and then held, solved exactly."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import eigh_tridiagonal
+
+
+@dataclass(frozen=True)
+class BarChain:
+    """n springs k between n+1 equal masses m.
+
+    Attributes
+    ----------
+    elements : int
+        n.
+    mass, spring : float
+        m, kg, and k, N/m.
+    displacement : float
+        Of mass 0, m, from t = 0 on.
+    """
+
+    elements: int
+    mass: float
+    spring: float
+    displacement: float
+
+    def motion(self, time: np.ndarray, node: int) -> np.ndarray:
+        """Displacement of a mass at these times (s), m; same shape.
+
+        The distances from the new rest start at -displacement and swing in the chain's own modes.
+        """
+        squared, modes = self._modes()
+        amplitudes = modes[node - 1] * (modes.T @ np.full(self.elements, -self.displacement))
+        return self.displacement + np.cos(np.multiply.outer(time, np.sqrt(squared))) @ amplitudes
+
+    @property
+    def frequencies(self) -> np.ndarray:
+        """Angular frequencies, rad/s, shape (n,), ascending."""
+        return np.sqrt(self._modes()[0])
+
+    def _modes(self) -> tuple[np.ndarray, np.ndarray]:
+        diagonal = np.full(self.elements, 2.0)
+        diagonal[-1] = 1.0
+        squared, modes = eigh_tridiagonal(diagonal, np.full(self.elements - 1, -1.0))
+        return squared * self.spring / self.mass, modes

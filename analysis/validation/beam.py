@@ -1,0 +1,97 @@
+"""Small motions and deflections of a cantilever: modes, frequencies, compliances."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from scipy.linalg import expm
+from scipy.optimize import brentq
+
+from analysis.validation.wire import Wire
+
+
+def mode_numbers(count: int) -> np.ndarray:
+    """The first roots b = beta L of cos b cosh b = -1, shape (count,)."""
+
+    def condition(b: float) -> float:
+        return math.cos(b) + 1.0 / math.cosh(b)
+
+    return np.array([brentq(condition, k * math.pi, (k + 1) * math.pi, xtol=1e-14) for k in range(count)])
+
+
+def frequencies(wire: Wire, count: int) -> np.ndarray:
+    """Of a thin cantilever (Euler-Bernoulli), Hz, shape (count,)."""
+    return mode_numbers(count) ** 2 / (2.0 * math.pi * wire.time_unit)
+
+
+def thick_frequencies(wire: Wire, count: int) -> np.ndarray:
+    """With shear GA and the rotary inertia rho I (Timoshenko), Hz, shape (count,).
+
+    State (w, t, m, q) over s/L: deflection, turn of the section, couple, shear force, each in units of L, 1, EI/L and
+    EI/L^2. Held at 0; couple and force vanish at 1, which the exponential of the state's matrix has to allow.
+    """
+    slender = wire.second_moment / (wire.area * wire.length**2)  # I/(A L^2), also the rotary inertia's share
+    shear = wire.bending / (wire.shearing * wire.length**2)  # EI/(GA L^2)
+
+    def condition(b: float) -> float:
+        w2 = b**4
+        matrix = np.array([
+            [0.0, 1.0, 0.0, shear],
+            [0.0, 0.0, 1.0, 0.0],
+            [0.0, -slender * w2, 0.0, -1.0],
+            [-w2, 0.0, 0.0, 0.0],
+        ])
+        carried = expm(matrix)[2:, 2:]
+        return float(np.linalg.det(carried)) / math.cosh(b)
+
+    found = [brentq(condition, 0.98 * b, 1.002 * b, xtol=1e-13) for b in mode_numbers(count)]
+    return np.array(found) ** 2 / (2.0 * math.pi * wire.time_unit)
+
+
+def mode_shape(number: float, arc: np.ndarray, derivative: int = 0) -> np.ndarray:
+    """Mode of a thin cantilever, or a derivative of it by s/L, 2 at the free end.
+
+    Parameters
+    ----------
+    number : b, from `mode_numbers`.
+    arc : s/L, any shape.
+    derivative : 0 to 3.
+
+    Notes
+    -----
+    cosh bs - cos bs - c (sinh bs - sin bs), c = (cosh b + cos b)/(sinh b + sin b), with the growing exponential's
+    factor (1 - c)/2 taken from a form that does not cancel.
+    """
+    b, turn = number, 0.5 * math.pi * derivative
+    below = math.sinh(b) + math.sin(b)
+    c = (math.cosh(b) + math.cos(b)) / below
+    growing = 0.5 * (math.sin(b) - math.cos(b) - math.exp(-b)) / below
+    falling = 0.5 * (1.0 + c) * (-1.0) ** derivative
+    phase = b * arc + turn  # the n-th derivative of cos and sin adds n quarter turns
+    sign = 1.0 if b == 0.0 or _tip(b, c, growing, 0.5 * (1.0 + c)) > 0.0 else -1.0
+    value = growing * np.exp(b * arc) + falling * np.exp(-b * arc) - np.cos(phase) + c * np.sin(phase)
+    return sign * b**derivative * value
+
+
+def _tip(b: float, c: float, growing: float, falling: float) -> float:
+    return growing * math.exp(b) + falling * math.exp(-b) - math.cos(b) + c * math.sin(b)
+
+
+def own_weight_compliance() -> float:
+    """Tip deflection over w L^4/EI of a thin cantilever under a small weight w per length."""
+    return 1.0 / 8.0
+
+
+def tip_load_compliance() -> float:
+    """Tip deflection over F L^3/EI of a thin cantilever under a small force F at the tip."""
+    return 1.0 / 3.0
+
+
+def hinged_chain_factor(elements: int) -> float:
+    """Tip-load compliance of a chain whose first joint sits at the clamp, over that of the beam.
+
+    n joints of stiffness EI/l at s = 0, l, ..., L - l: sum of (L - s)^2 l/EI, over L^3/(3 EI).
+    """
+    n = elements
+    return n * (n + 1) * (2 * n + 1) / (2.0 * n**3)

@@ -1,0 +1,145 @@
+"""A check: which runs it needs, and what it finds in them.
+
+A check is written as one generator. It yields the cases that it needs, gets their run folders, may ask for more where
+what it needs depends on what it saw, and returns what it found:
+
+    def plan():
+        runs = yield [Case("n=30", {"numberRodElements": 30})]
+        ...
+        return Finding(...)
+
+Whoever makes the runs drives it once, and whoever draws them drives it again over the folders that are there (`replay`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from matplotlib.figure import Figure
+
+from analysis.runs import Run, read_run
+
+
+@dataclass(frozen=True)
+class Case:
+    """One run that a check asks for.
+
+    Attributes
+    ----------
+    key : str
+        Its name among the cases of the check, and its folder.
+    overrides : mapping of str to Any
+        Parameters laid over the scene.
+    repeats : int
+        Timed repeats, made with no other run beside them.
+    start : mapping of str to Any, or None
+        Positions, orientations and so on to start from, as a start file holds them.
+    """
+
+    key: str
+    overrides: Mapping[str, Any]
+    repeats: int = 0
+    start: Mapping[str, Any] | None = None
+
+    def repeat_folder(self, folder: Path, repeat: int) -> Path:
+        """Where timed repeat number ``repeat`` of a run in ``folder`` stands."""
+        return folder / f"repeat-{repeat}"
+
+
+@dataclass(frozen=True)
+class Result:
+    """One line of the table.
+
+    Attributes
+    ----------
+    what : str
+        What was measured, with the scene's numbers.
+    solver : str
+        Which solver, with what distinguishes it.
+    value, reference : float
+        In ``unit``; the reference is not a number where there is none.
+    error : float
+        As the check defines it.
+    gate : float or None
+        Largest error allowed; None where the number is only shown.
+    cost : float or None
+        Wall time in s, or in s per simulated second where there is a motion.
+    error_in : str
+        What the error is a part of, or its unit.
+    """
+
+    what: str
+    solver: str
+    value: float
+    reference: float
+    error: float
+    gate: float | None
+    unit: str = ""
+    cost: float | None = None
+    error_in: str = "relative"
+
+    @property
+    def passed(self) -> bool | None:
+        """None where there is no gate. An error that is not a number does not pass."""
+        return None if self.gate is None else bool(self.error <= self.gate)
+
+
+@dataclass(frozen=True)
+class Finding:
+    """What a check found: lines of the table, and its picture with a caption."""
+
+    results: tuple[Result, ...]
+    draw: Callable[[Figure], None]
+    caption: str
+
+
+Plan = Generator[Sequence[Case], Mapping[str, Run], Finding]
+
+
+@dataclass(frozen=True)
+class Check:
+    """One row of the validation.
+
+    Attributes
+    ----------
+    id : str
+        Folder of its runs and name of its picture.
+    section, title : str
+        For the report.
+    plan : callable
+        Makes the generator described above.
+    """
+
+    id: str
+    section: str
+    title: str
+    plan: Callable[[], Plan] = field(repr=False)
+
+
+def replay(check: Check, folder: Path) -> Finding:
+    """Drive a check over runs that were made before.
+
+    Parameters
+    ----------
+    check : the check.
+    folder : folder of all checks; this one's cases stand below its id.
+
+    Raises
+    ------
+    analysis.logs.LogError : a run is missing.
+    """
+    plan = check.plan()
+    try:
+        cases = next(plan)
+        while True:
+            cases = plan.send(read_cases(cases, folder / check.id))
+    except StopIteration as end:
+        return end.value
+
+
+def read_cases(cases: Sequence[Case], folder: Path) -> dict[str, Run]:
+    """Run folders of these cases, by key."""
+    return {case.key: read_run(folder / case.key, case.key, case.overrides) for case in cases}

@@ -1,0 +1,118 @@
+"""Rest shapes in a plane of a rod that bends and neither stretches nor shears (Euler's elastica).
+
+A clamp at s = 0 holds the rod along the first axis. With the angle t(s) against that axis, EI t'' = -q(s) cos t, where
+q(s) is the force across that the part beyond s carries; t(0) = 0, and t'(L) = 0 at a tip without a couple.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.integrate import solve_bvp
+from scipy.optimize import brentq
+from scipy.special import ellipe, ellipeinc, ellipk, ellipkinc
+
+_TOLERANCE = 1e-10  # relative residual of the boundary value problem
+_STEP = 4.0  # largest growth of the load between two problems, each the guess of the next
+
+
+@dataclass(frozen=True)
+class PlaneShape:
+    """A curve in a plane, in units of its length.
+
+    Attributes
+    ----------
+    arc : ndarray, shape (k,)
+        s/L, ascending from 0 to 1.
+    along, across : ndarray, shape (k,)
+        Coordinates over L along the clamp's axis and in the direction in which the load acts.
+    angle : ndarray, shape (k,)
+        Of the tangent against the clamp's axis, rad.
+    """
+
+    arc: np.ndarray
+    along: np.ndarray
+    across: np.ndarray
+    angle: np.ndarray
+
+    @property
+    def tip(self) -> tuple[float, float]:
+        """Coordinates of the free end over L, along and across."""
+        return float(self.along[-1]), float(self.across[-1])
+
+
+def tip_loaded(load: float, points: np.ndarray) -> PlaneShape:
+    """Under a dead force F across at the tip.
+
+    Parameters
+    ----------
+    load : k = F L^2/EI.
+    points : s/L at which the shape is wanted, ascending from 0 to 1.
+    """
+    return _solve(lambda s: np.ones_like(s), load, points)
+
+
+def heavy(load: float, points: np.ndarray) -> PlaneShape:
+    """Under its own weight w per length, across.
+
+    Parameters
+    ----------
+    load : w L^3/EI.
+    points : s/L, ascending from 0 to 1.
+    """
+    return _solve(lambda s: 1.0 - s, load, points)
+
+
+def arc(angle: float, points: np.ndarray) -> PlaneShape:
+    """Under a couple theta EI/L at the tip: a circular arc of this angle theta in rad; 2 pi is a closed ring."""
+    turned = angle * points
+    return PlaneShape(points, np.sin(turned) / angle, (1.0 - np.cos(turned)) / angle, turned)
+
+
+def tip_by_elliptic_integrals(load: float) -> tuple[float, float]:
+    """Tip over L, along and across, under k = F L^2/EI (Bisshopp and Drucker 1945), an independent way to `tip_loaded`.
+
+    With p^2 = (1 + sin t_tip)/2 and sin f = 1/(p sqrt 2): sqrt k = K(p) - F(f, p),
+    across = 1 - 2 (E(p) - E(f, p))/sqrt k and along = sqrt(2 sin t_tip/k).
+    """
+    root = np.sqrt(load)
+
+    def amplitude(p: float) -> float:
+        return float(np.arcsin(1.0 / (p * np.sqrt(2.0))))
+
+    low, high = np.sqrt(0.5) * (1.0 + 1e-15), 1.0 - 1e-15
+    p = brentq(lambda p: ellipk(p * p) - ellipkinc(amplitude(p), p * p) - root, low, high, xtol=1e-16)
+    across = 1.0 - 2.0 / root * (ellipe(p * p) - ellipeinc(amplitude(p), p * p))
+    return float(np.sqrt(2.0 * (2.0 * p * p - 1.0) / load)), float(across)
+
+
+def column_load() -> float:
+    """P L^2/EI at which a column, clamped below and free above, buckles: (pi/2)^2."""
+    return 0.25 * np.pi**2
+
+
+def _solve(carried: Callable[[np.ndarray], np.ndarray], load: float, points: np.ndarray) -> PlaneShape:
+    """The shape under `load` times `carried`, from an unloaded rod through growing loads."""
+    mesh = np.linspace(0.0, 1.0, 41)
+    guess = np.zeros((4, mesh.size))
+    guess[2] = mesh
+    current = min(load, 1.0)
+    while True:
+
+        def slope(s: np.ndarray, y: np.ndarray, q: float = current) -> np.ndarray:
+            return np.stack([y[1], -q * carried(s) * np.cos(y[0]), np.cos(y[0]), np.sin(y[0])])
+
+        def ends(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+            return np.array([a[0], a[2], a[3], b[1]])
+
+        solution = solve_bvp(slope, ends, mesh, guess, tol=_TOLERANCE, max_nodes=100_000)
+        if not solution.success:
+            raise ArithmeticError(f"elastica under the load {current}: {solution.message}")
+        if current == load:
+            break
+        mesh, guess = solution.x, solution.y
+        current = min(load, _STEP * current)
+    angle, _, along, across = solution.sol(points)
+    return PlaneShape(points, along, across, angle)

@@ -1,0 +1,81 @@
+"""What the pictures of several checks share."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+MARKERS = "osD^vPX*"
+
+
+def shapes(
+    references: Mapping[str, np.ndarray], measured: Mapping[str, np.ndarray], labels: tuple[str, str] = ("z/L", "-y/L")
+) -> Callable[[Figure], None]:
+    """Curves in a plane: references as lines, what was measured as points; arrays of shape (k, 2)."""
+
+    def draw(figure: Figure) -> None:
+        axes = figure.add_subplot()
+        for name, curve in references.items():
+            axes.plot(*curve.T, "-", color="0.6", linewidth=2.5, zorder=1, label=name)
+        for marker, (name, points) in zip(_cycle(len(measured)), measured.items()):
+            axes.plot(*points.T, marker, markersize=3.5, fillstyle="none", label=name)
+        axes.set_aspect("equal", adjustable="datalim")
+        axes.set_xlabel(labels[0])
+        axes.set_ylabel(labels[1])
+        outside_legend(axes)
+
+    return draw
+
+
+def orders(
+    x_label: str, y_label: str, series: Mapping[str, tuple[Sequence[float], Sequence[float]]],
+    slopes: Sequence[tuple[float, str]] = (), marked: tuple[float, str] | None = None,
+) -> Callable[[Figure], None]:
+    """Errors over what they fall with, on logarithmic axes, with lines of given slope for comparison.
+
+    Parameters
+    ----------
+    series : name to (x, error); errors that are 0 are left out.
+    slopes : (power of x, name) of lines to compare with, through the middle of the picture's first points.
+    marked : a level to mark, such as a gate, and its name.
+    """
+
+    def draw(figure: Figure) -> None:
+        axes = figure.add_subplot()
+        for marker, (name, (x, y)) in zip(_cycle(len(series)), series.items()):
+            shown = np.isfinite(y) & (np.asarray(y, dtype=float) > 0.0)
+            axes.plot(np.asarray(x)[shown], np.asarray(y)[shown], marker + "-", fillstyle="none", label=name)
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        low, high = axes.get_xlim()
+        bottom, top = axes.get_ylim()
+        for power, name in slopes:
+            x = np.array([low, high])
+            middle = np.sqrt(bottom * top) * (x / np.sqrt(low * high)) ** power
+            axes.plot(x, middle, ":", color="0.5", linewidth=1.0, label=name)
+        axes.set_ylim(bottom, top)
+        axes.set_xlim(low, high)
+        if marked is not None:
+            axes.axhline(marked[0], linestyle="--", color="0.3", linewidth=1.0, label=marked[1])
+        axes.set_xlabel(x_label)
+        axes.set_ylabel(y_label)
+        outside_legend(axes)
+
+    return draw
+
+
+def outside_legend(axes: Axes) -> None:
+    """A legend beside the axes, where it hides nothing."""
+    axes.legend(loc="center left", bbox_to_anchor=(1.02, 0.5))
+
+
+def slope(x: Sequence[float], y: Sequence[float]) -> float:
+    """Power of x with which y goes, by least squares of the logarithms."""
+    return float(np.polyfit(np.log(x), np.log(y), 1)[0])
+
+
+def _cycle(count: int) -> list[str]:
+    return [MARKERS[k % len(MARKERS)] for k in range(count)]

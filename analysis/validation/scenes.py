@@ -1,0 +1,107 @@
+"""Parameters of the runs that checks ask for, laid over the scene of the base wire."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from analysis.validation import beam
+from analysis.validation.wire import BASE, Wire
+
+UNIT = 1e-3  # m; one unit of length of the files
+SCENE = "params/cantilever.json"  # the base wire, clamped
+
+_SETTLED = 12.0  # a critically damped motion is over after this many 1/omega
+_SHARE = {"explicit": 0.75, "xpbd": 4.0}  # of the explicit solver's stable substep; three sweeps then nearly converge
+_SWEEPS = 3  # of xpbd in a substep
+_SUBSTEPS = 1000
+
+
+def wire_parameters(wire: Wire) -> dict[str, Any]:
+    """The keys of a wire."""
+    return {
+        "guidewireLength": wire.length / UNIT,
+        "wireRadius": wire.radius,
+        "youngsModulus": wire.youngs_modulus,
+        "shearModulus": wire.shear_modulus,
+        "density": wire.density,
+    }
+
+
+def at_rest(overrides: Mapping[str, Any]) -> dict[str, Any]:
+    """The rest shape, and nothing after it, by the direct solver."""
+    return {"initialState": "equilibrium", "maxSimulationSteps": 0, "logOrientations": True, **overrides}
+
+
+def settled(solver: str, wire: Wire, overrides: Mapping[str, Any], frequency: float | None = None) -> dict[str, Any]:
+    """A motion from the straight wire that is damped until it rests, for solvers that have no statics.
+
+    Parameters
+    ----------
+    solver : "explicit", "xpbd" or "direct" (implicit Euler).
+    wire : the rod.
+    overrides : loads and supports.
+    frequency : of the slowest motion, Hz; that of the cantilever where it is not given.
+    """
+    omega = 2.0 * math.pi * (beam.frequencies(wire, 1)[0] if frequency is None else frequency)
+    if solver == "direct":
+        step, method = 0.05 / omega, {"integrator": "implicitEuler"}
+    else:
+        step = min(_SUBSTEPS * _SHARE[solver] * stable_substep(wire), 0.05 / omega)
+        method = small_steps(solver, wire, step)
+    return {
+        "solver": solver,
+        "timeStep": step,
+        **method,
+        "damping": 2.0 * omega * step,  # critical
+        "maxSimulationSteps": math.ceil(_SETTLED / omega / step),
+        "logEvery": 1_000_000,
+        "logOrientations": True,
+        **overrides,
+    }
+
+
+def small_steps(solver: str, wire: Wire, step: float) -> dict[str, Any]:
+    """Substeps of a time step in s (and sweeps of each) of the explicit solver or of xpbd."""
+    method: dict[str, Any] = {"substeps": math.ceil(step / (_SHARE[solver] * stable_substep(wire)))}
+    if solver == "xpbd":
+        method["constraintSolverSteps"] = _SWEEPS
+    return method
+
+
+def stable_substep(wire: Wire) -> float:
+    """2/omega of an element turning against its shear, omega = sqrt(GA/(rho I)), s."""
+    return wire.radius / math.sqrt(wire.shear_modulus / wire.density)
+
+
+def mode_start(wire: Wire, elements: int, number: float, amplitude: float) -> dict[str, Any]:
+    """A start at rest in a mode of the cantilever.
+
+    Parameters
+    ----------
+    wire : the rod.
+    elements : n.
+    number : of the mode, from `beam.mode_numbers`.
+    amplitude : of the tip over L; small.
+    """
+    arc = np.linspace(0.0, 1.0, elements + 1)
+    across = 0.5 * amplitude * wire.length * beam.mode_shape(number, arc)
+    return plane_start(wire.length * arc, across)
+
+
+def plane_start(along: np.ndarray, across: np.ndarray) -> dict[str, Any]:
+    """A start at rest on a curve in the y-z plane, frames along the elements.
+
+    Parameters
+    ----------
+    along, across : ndarray, shape (n+1,)
+        Along z and against y, m.
+    """
+    angle = np.arctan2(np.diff(across), np.diff(along))
+    return {
+        "positions": [[0.0, -y / UNIT, z / UNIT] for z, y in zip(along, across)],
+        "orientations": [[math.sin(0.5 * a), 0.0, 0.0, math.cos(0.5 * a)] for a in angle],
+    }

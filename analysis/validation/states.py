@@ -1,0 +1,108 @@
+"""What runs with a material left behind, in SI units."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.interpolate import CubicHermiteSpline
+
+from analysis.logs import read_entries, read_log
+from analysis.runs import Run, read_run
+
+
+@dataclass(frozen=True)
+class State:
+    """A wire at one time.
+
+    Attributes
+    ----------
+    time : float
+        s.
+    positions : ndarray, shape (n+1, 3)
+        m.
+    velocities : ndarray, shape (n+1, 3)
+        m/s.
+    orientations : ndarray, shape (n, 4), or None
+        Unit quaternions x, y, z, w; None where the run did not log them.
+    """
+
+    time: float
+    positions: np.ndarray
+    velocities: np.ndarray
+    orientations: np.ndarray | None
+
+    @property
+    def directors(self) -> np.ndarray:
+        """Third directors d3 of the elements, shape (n, 3)."""
+        x, y, z, w = self.orientations.T
+        return np.stack([2.0 * (x * z + w * y), 2.0 * (y * z - w * x), w * w - x * x - y * y + z * z], axis=1)
+
+    @property
+    def twists(self) -> np.ndarray:
+        """Turn of each element about z from its start, rad, shape (n,), without jumps; for a straight wire along z."""
+        return np.unwrap(2.0 * np.arctan2(self.orientations[:, 2], self.orientations[:, 3]), period=2.0 * np.pi)
+
+
+def read_states(run: Run) -> list[State]:
+    """Every logged state of a run; the run must log all spheres."""
+    metres = _metres(run)
+    return [_state(entry, metres) for _, entry in read_entries(run.folder)]
+
+
+def last_state(run: Run) -> State:
+    """The state at the end of a run."""
+    entry = None
+    for _, entry in read_entries(run.folder):
+        pass
+    return _state(entry, _metres(run))
+
+
+def tip_motion(run: Run) -> tuple[np.ndarray, np.ndarray]:
+    """Times in s, shape (k,), and places of the last sphere in m, shape (k, 3)."""
+    log = read_log(run.folder)
+    return log.time, _metres(run) * log.positions[:, 0]
+
+
+def tip_at(run: Run, time: np.ndarray) -> np.ndarray:
+    """Places of the last sphere at these times (s), m, shape (k, 3): cubics through the logged places and velocities."""
+    log = read_log(run.folder, velocities=True)
+    metres = _metres(run)
+    return CubicHermiteSpline(log.time, metres * log.positions[:, 0], metres * log.velocities[:, 0])(time)
+
+
+def solver_report(run: Run, name: str) -> float | np.ndarray:
+    """What the solver said of itself at the end of a run: a number, or a vector of shape (3,)."""
+    value = run.summary["solver"][name]
+    if value is None:
+        return float("nan")
+    return np.array(value, dtype=float) if isinstance(value, list) else float(value)
+
+
+def wall_time(run: Run, repeats: int = 0) -> float:
+    """Wall time of all of a run in s, and of its steps where it has any: the median of the timed repeats if there are."""
+    runs = [read_run(run.folder / f"repeat-{k}") for k in range(1, repeats + 1)] or [run]
+    return float(np.median([r.measured("computationTime" if r.measured("steps") else "wallTime") for r in runs]))
+
+
+def wall_time_per_second(run: Run, repeats: int = 0) -> float:
+    """Wall time per simulated second."""
+    return wall_time(run, repeats) / run.measured("inGameTime")
+
+
+def _metres(run: Run) -> float:
+    return run.number("metresPerUnit")
+
+
+def _state(entry: dict, metres: float) -> State:
+    spheres = [entry["sphere"][str(i)] for i in range(len(entry["sphere"]))]
+    logged = entry.get("orientation")
+    frames = None
+    if logged is not None:
+        frames = np.array([[logged[str(j)][axis] for axis in "xyzw"] for j in range(len(logged))], dtype=float)
+    return State(
+        float(entry["totalTime"]),
+        metres * np.array([[s["x"], s["y"], s["z"]] for s in spheres], dtype=float),
+        metres * np.array([[s["vx"], s["vy"], s["vz"]] for s in spheres], dtype=float),
+        frames,
+    )
