@@ -7,10 +7,10 @@ namespace Guidewire.Core
     ///   U = B A^-1, C -= U B^T, V = D A^-1, E -= V B^T, A+ -= V D^T              (the position x),
     ///   G = E C^-1, A+ -= G E^T, H = F C^-1, B+ -= H E^T, C+ -= H F^T            (the rotation theta).</summary>
     /// <remarks>x of one node never meets theta of the next element but one, so the elimination fills nothing in: 234
-    /// multiplications a block against some 400 of a dense 6x6 sweep. A 3x3 block is inverted by cofactors (one division),
-    /// and its leading minors are at hand, whose signs count the negative eigenvalues (Sylvester's law of inertia).
-    /// The blocks are well conditioned (EA against GA; EI against GJ), which is what the explicit inverse asks for.
-    /// </remarks>
+    /// multiplications a block against some 400 of a dense 6x6 sweep. A 3x3 block is inverted by cofactors (one
+    /// division), and its leading minors are at hand, whose signs count the negative eigenvalues (Sylvester's law of
+    /// inertia). The blocks are well conditioned (EA against GA; EI against GJ), which is what the explicit inverse
+    /// asks for. </remarks>
     internal static class BlockElimination
     {
         /// <summary>Eliminates one block, with its right-hand side, from the block after it. The block is overwritten:

@@ -3,9 +3,10 @@ using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
-    /// <summary>Rotations as vectors: theta = angle times axis, q = exp(theta/2) as a quaternion, |theta| at most pi for
-    /// the inverse. Small angles go by series, because the closed forms are 0/0 there.</summary>
-    /// <remarks>Compiled in full at once: a short run would otherwise end before the runtime sees that they are hot.</remarks>
+    /// <summary>Rotations as vectors: theta = angle times axis, q = exp(theta/2) as a quaternion, |theta| at most pi
+    /// for the inverse. Small angles go by series, because the closed forms are 0/0 there.</summary>
+    /// <remarks>Compiled in full at once: a short run would otherwise end before the runtime sees that they are
+    /// hot.</remarks>
     internal static class RotationVector
     {
         // Below |sin(angle/2)|^2 = 0.02 eight terms of asin(s)/s are exact to 1e-16.
@@ -39,7 +40,8 @@ namespace Guidewire.Core
             return new Quaterniond(scale * theta.X, scale * theta.Y, scale * theta.Z, real);
         }
 
-        /// <summary>The rotation vector of a unit quaternion, of length 0 to pi: q and -q are the same rotation.</summary>
+        /// <summary>The rotation vector of a unit quaternion, of length 0 to pi: q and -q are the same
+        /// rotation.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Vector3d Log(in Quaterniond q)
         {
@@ -50,7 +52,8 @@ namespace Guidewire.Core
             return new Vector3d(scale * q.X, scale * q.Y, scale * q.Z);
         }
 
-        /// <summary>c(a) = (1 - (a/2) cot(a/2))/a^2, for the inverse tangent map T = 1 + [theta]/2 + c [theta]^2.</summary>
+        /// <summary>c(a) = (1 - (a/2) cot(a/2))/a^2, for the inverse tangent map T = 1 + [theta]/2 + c
+        /// [theta]^2.</summary>
         [MethodImpl(MethodImplOptions.AggressiveOptimization)]
         public static double CotangentFactor(double angleSquared)
         {

@@ -82,8 +82,8 @@ namespace Guidewire.Core
         /// <summary>Error that a solver may leave in a step: radians, or displacement over L.</summary>
         public double SolverTolerance { get; set; } = 1e-6;
 
-        /// <summary>Newton iterations after which the direct solver gives up a stage; a rest shape gets ten times as many.
-        /// </summary>
+        /// <summary>Newton iterations after which the direct solver gives up a stage; a rest shape gets ten times as
+        /// many. </summary>
         public int MaxNewtonIterations { get; set; } = 50;
     }
 }
