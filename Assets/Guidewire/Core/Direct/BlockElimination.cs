@@ -16,7 +16,7 @@ namespace Guidewire.Core
         /// <summary>Eliminates one block, with its right-hand side, from the block after it. The block is overwritten:
         /// A, B, C, D, E, F become A^-1, U, C^-1, V, G, H.</summary>
         /// <returns>The number of eigenvalues of A and C (as eliminated) that are not positive, 0 to 6.</returns>
-        [MethodImpl(MethodImplOptions.AggressiveOptimization)]
+        [MethodImpl(Compiled.AtOnce)]
         public static int Eliminate(ref RodBlock block, ref RodBlock next, ref RodVector y, ref RodVector nextY)
         {
             // Position block: A^-1, then what its elimination leaves on theta and on the next position.
@@ -184,7 +184,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>One block of y := D^-1 L^-1 y with a factorisation that is kept.</summary>
-        [MethodImpl(MethodImplOptions.AggressiveOptimization)]
+        [MethodImpl(Compiled.AtOnce)]
         public static void Forward(in RodBlock block, ref RodVector y, ref RodVector nextY)
         {
             double x1 = y.X1, x2 = y.X2, x3 = y.X3;
@@ -209,7 +209,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>One block of z := L^-T z, from the last block to the first.</summary>
-        [MethodImpl(MethodImplOptions.AggressiveOptimization)]
+        [MethodImpl(Compiled.AtOnce)]
         public static void Backward(in RodBlock block, ref RodVector z, in RodVector nextZ)
         {
             double x1 = nextZ.X1, x2 = nextZ.X2, x3 = nextZ.X3;

@@ -16,7 +16,7 @@ namespace Guidewire.Core
         private const double SmallAngleSquared = 0.09;
 
         /// <summary>The unit quaternion that turns by <paramref name="theta"/>.</summary>
-        [MethodImpl(MethodImplOptions.AggressiveOptimization)]
+        [MethodImpl(Compiled.AtOnce)]
         public static Quaterniond Exp(in Vector3d theta)
         {
             double squared = theta.LengthSquared;
@@ -54,7 +54,7 @@ namespace Guidewire.Core
 
         /// <summary>c(a) = (1 - (a/2) cot(a/2))/a^2, for the inverse tangent map T = 1 + [theta]/2 + c
         /// [theta]^2.</summary>
-        [MethodImpl(MethodImplOptions.AggressiveOptimization)]
+        [MethodImpl(Compiled.AtOnce)]
         public static double CotangentFactor(double angleSquared)
         {
             double a = angleSquared;
@@ -68,7 +68,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>c'(a)/a, the derivative of <see cref="CotangentFactor"/> by the angle over the angle.</summary>
-        [MethodImpl(MethodImplOptions.AggressiveOptimization)]
+        [MethodImpl(Compiled.AtOnce)]
         public static double CotangentSlope(double angleSquared, double cotangentFactor)
         {
             double a = angleSquared;
@@ -85,7 +85,7 @@ namespace Guidewire.Core
 
         /// <summary>J(phi) u, the body's turn that belongs to the change u of the rotation vector phi:
         /// J = 1 - (1 - cos a)/a^2 [phi] + (a - sin a)/a^3 [phi]^2.</summary>
-        [MethodImpl(MethodImplOptions.AggressiveOptimization)]
+        [MethodImpl(Compiled.AtOnce)]
         public static Vector3d TangentMap(in Vector3d phi, in Vector3d u)
         {
             double a = phi.LengthSquared;

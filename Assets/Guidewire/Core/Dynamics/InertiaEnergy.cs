@@ -76,7 +76,7 @@ namespace Guidewire.Core
 
         /// <summary>phi of element j in this orientation: of all rotation vectors that lead there, the one nearest to
         /// the last that was asked for in this step, so that more than half a turn a step is counted.</summary>
-        [MethodImpl(MethodImplOptions.AggressiveOptimization)]
+        [MethodImpl(Compiled.AtOnce)]
         public Vector3d Turn(in Quaterniond orientation, int j)
         {
             Vector3d turn = RotationVector.Log(Start[j].Conjugate * orientation);
@@ -92,7 +92,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>w of element j in this orientation, and phi.</summary>
-        [MethodImpl(MethodImplOptions.AggressiveOptimization)]
+        [MethodImpl(Compiled.AtOnce)]
         public Vector3d Spin(in Quaterniond orientation, int j, out Vector3d turn)
         {
             turn = Turn(orientation, j);
@@ -219,7 +219,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>I (w - w^)/h + w x I w.</summary>
-        [MethodImpl(MethodImplOptions.AggressiveOptimization)]
+        [MethodImpl(Compiled.AtOnce)]
         private Vector3d Couple(in Quaterniond orientation, int j)
         {
             Vector3d w = Spin(orientation, j, out _);
