@@ -154,6 +154,10 @@ def _perturbations(scene: str) -> tuple[Study, ...]:
     )
 
 
+_ELEMENT_CONTACTS = {rule: {"elementContact": rule} for rule in ("none", "barycentric", "seed")}
+_GAIN_ELEMENTS = (*range(5, 61, 5), 120)  # the last one is what the others are measured against
+
+
 STUDIES: dict[str, Study] = {
     study.name: study
     for study in (
@@ -179,5 +183,15 @@ STUDIES: dict[str, Study] = {
         _perturbation("transversal", "displacement", "displacement of the first sphere", "displacement",
                       (1, 2, 5, *range(10, 101, 10))),
         *_perturbations("collision"),
+        Study(
+            "wall-gain", "push against the wall: rod elements n and what touches the wall",
+            "params/collision-wall.json", "numberRodElements", _GAIN_ELEMENTS,
+            {"obstacles": _CHANNEL, "maxSimulationSteps": 100}, repeats=3, variants=_ELEMENT_CONTACTS,
+        ),
+        Study(
+            "vessel-gain", "insertion into the vessel: rod elements n and what touches the wall",
+            "params/insertion.json", "numberRodElements", _GAIN_ELEMENTS, {"maxSimulationSteps": 400}, repeats=3,
+            variants=_ELEMENT_CONTACTS,
+        ),
     )
 }

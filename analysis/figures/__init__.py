@@ -11,7 +11,9 @@ from matplotlib.figure import Figure
 
 from analysis.comparisons import read_comparison, read_reference
 from analysis.figures import default_run, perturbations
+from analysis.figures.gain import draw_gain
 from analysis.figures.sweeps import VIEWS, draw_sweep
+from analysis.gain import read_gain
 from analysis.tables import read_table
 
 Drawn = tuple[Figure, str]
@@ -73,6 +75,10 @@ def _perturbation_spec(number: str, scene: str, study: str, title: str) -> Figur
     return FigureSpec(number, title, (reference, name), partial(_draw_perturbation, number, name, reference))
 
 
+def _draw_gain(name: str, study: str, scene: str, studies: Mapping[str, Path]) -> Drawn:
+    return draw_gain(name, scene, read_gain(studies[study], count_again=5))
+
+
 FIGURES: dict[str, FigureSpec] = {
     spec.id: spec
     for spec in (
@@ -99,5 +105,9 @@ FIGURES: dict[str, FigureSpec] = {
         _perturbation_spec("4.16", "collision", "time-step", "collision against the time step size"),
         _perturbation_spec("4.17", "collision", "rod-elements", "collision against the number of rod elements"),
         _perturbation_spec("4.18", "collision", "total-mass", "collision against the total mass"),
+        FigureSpec("gain-wall", "long elements at a wall: error, cost, passages", ("wall-gain",), partial(
+            _draw_gain, "gain-wall", "wall-gain", "Push against a wall, the wire's first two thirds between two plates")),
+        FigureSpec("gain-vessel", "long elements in a vessel: error, cost, passages", ("vessel-gain",), partial(
+            _draw_gain, "gain-vessel", "vessel-gain", "Insertion into an arch with a branch, until the wire buckles")),
     )
 }
