@@ -107,6 +107,8 @@ def gain_caption(name: str, scene: str, table: GainTable) -> str:
         _passed("With element contact", elements, radius),
         _passed("With the rule as published", seed, radius) if seed else "",
         _again(table),
+        _flat(table),
+        _length(table),
     ]
     return " ".join(sentence for sentence in sentences if sentence)
 
@@ -137,7 +139,8 @@ def _passed(subject: str, rows: list[GainRow], radius: float) -> str:
     failed = [row for row in rows if row.passages > 0]
     if not failed:
         return f"{subject} no point of any wire passes the wall."
-    told = f"{subject} {sum(row.passages for row in failed):,} points pass it, at n = " + ", ".join(
+    count = sum(row.passages for row in failed)
+    told = f"{subject} {count:,} point{'s pass' if count > 1 else ' passes'} it, at n = " + ", ".join(
         str(row.elements) for row in failed
     )
     shortest = min(row.element_length for row in failed)
@@ -159,3 +162,27 @@ def _again(table: GainTable) -> str:
         f"{row.counted_again} instead of {row.passages} with {RULES[row.rule]} at n = {row.elements}" for row in wrong
     )
     return f"Counted again from {len(rows)} of the logs by winding numbers, the passages are {told}."
+
+
+def _flat(table: GainTable) -> str:
+    """Why a plane is no trial of sphere contact."""
+    vessel = table.reference.wire.run.value("vessel")
+    if not vessel or vessel["shape"] != "plane":
+        return ""
+    return (
+        "A plane is no trial of sphere contact: an element lies before it wherever both its spheres do. Only at an edge, "
+        "here the plates', can a long element pass between two spheres."
+    )
+
+
+def _length(table: GainTable) -> str:
+    """How much of its length the finest wire has lost: few solver steps leave a wire of many elements compressed."""
+    run, end = table.reference.wire.run, table.reference.wire.motion.positions[-1]
+    length = np.linalg.norm(np.diff(end, axis=0), axis=1).sum()
+    lost = 1.0 - length / run.number("guidewireLength")
+    if lost < 0.02:
+        return ""
+    return (
+        f"With m = {run.number('constraintSolverSteps'):g} the wire with n = {table.reference.elements} is compressed, by "
+        f"{percent(lost)} of its length at the end: much of (c) is this lag."
+    )

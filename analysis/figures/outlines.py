@@ -22,8 +22,11 @@ def draw_surroundings(axes: Axes, run: Run) -> None:
     analysis.surfaces.SurfaceError
         The vessel is of a kind that is not drawn.
     """
-    surface = wall(run.parameters, np.zeros(3), _PLANE)
-    if surface is not None:
+    vessel = run.parameters.get("vessel")
+    if vessel and vessel["shape"] == "tube":
+        for side in tube_sides(np.array(vessel["knots"], float), vessel["radius"]):
+            axes.plot(side[:, 2], side[:, 1], color=_COLOUR, linewidth=1.2)
+    elif (surface := wall(run.parameters, np.zeros(3), _PLANE)) is not None:
         axes.add_collection(LineCollection(section(surface), colors=_COLOUR, linewidths=1.2), autolim=False)
     for obstacle in run.parameters.get("obstacles") or []:
         if obstacle["shape"] == "box":
@@ -46,3 +49,15 @@ def section(surface: Surface) -> np.ndarray:
                 points.append((a + a[0] / (a[0] - b[0]) * (b - a))[[2, 1]])
         ends.append(points)
     return np.array(ends).reshape(-1, 2, 2)
+
+
+def tube_sides(knots: np.ndarray, radius: float) -> np.ndarray:
+    """Both sides of a tube in the y-z plane, shape (2, k, 3), in units: its knots moved across by the radius."""
+    directions = np.diff(knots, axis=0)
+    directions /= np.linalg.norm(directions, axis=1)[:, None]
+    # Where two pieces meet, along the bisector, so far that both sides keep their distance.
+    mean = np.concatenate([directions[:1], directions[:-1] + directions[1:], directions[-1:]])
+    mean /= np.linalg.norm(mean, axis=1)[:, None]
+    cosine = np.einsum("ki,ki->k", mean, np.concatenate([directions[:1], directions]))
+    across = np.stack([np.zeros(len(mean)), mean[:, 2], -mean[:, 1]], axis=1) * (radius / cosine)[:, None]
+    return np.stack([knots + across, knots - across])
