@@ -9,7 +9,6 @@ through a rim.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -22,7 +21,7 @@ _BLOCK = 4_000_000  # point-triangle pairs at a time
 
 
 class MeshError(Exception):
-    """A mesh that cannot be read or closed. The message is one line."""
+    """A mesh that cannot be closed. The message is one line."""
 
 
 @dataclass(frozen=True)
@@ -71,28 +70,6 @@ class Wall:
     def winding_numbers(self, points: np.ndarray) -> np.ndarray:
         """Turns of the closed wall around points (p, 3) in units, shape (p,); the sign is that of the triangles' sense."""
         return _Clusters(np.concatenate([self.triangles, self.fans])).winding_numbers(points)
-
-
-def read_obj(path: Path) -> Wall:
-    """The wall in an OBJ file of triangles.
-
-    Raises
-    ------
-    MeshError
-        It holds none, or they cannot be closed.
-    """
-    vertices, faces = [], []
-    for line in path.read_text(encoding="utf-8").splitlines():
-        words = line.split()
-        if words[:1] == ["v"]:
-            vertices.append([float(word) for word in words[1:4]])
-        elif words[:1] == ["f"]:
-            if len(words) != 4:
-                raise MeshError(f"{path}: a face that is no triangle")
-            faces.append([int(word.split("/")[0]) - 1 for word in words[1:]])
-    if not faces:
-        raise MeshError(f"{path}: holds no triangle")
-    return Wall.of(np.array(vertices), np.array(faces))
 
 
 def sample_wire(positions: np.ndarray) -> np.ndarray:

@@ -154,6 +154,39 @@ def _perturbations(scene: str) -> tuple[Study, ...]:
     )
 
 
+_ELEMENT_CONTACTS = {rule: {"elementContact": rule} for rule in ("none", "barycentric", "seed")}
+_GAIN_ELEMENTS = (*range(5, 61, 5), 120)  # the last one is what the others are measured against
+
+
+# One element, free at both ends and without inertia (damping 1), that reaches 1 unit too deep onto a small fixed sphere.
+_ONE_ELEMENT = {
+    "drive": "force", "damping": 1, "numberRodElements": 1, "guidewireLength": 60, "guidewireOffset": 0,
+    "constraintSolverSteps": 100, "collisionStiffness": 0.01, "deltaThreshold": 0, "maxSimulationSteps": 50,
+}
+_RESTS = {
+    f"{rule},s={k / 10:g}": {
+        "elementContact": rule,
+        "obstacles": [{"shape": "sphere", "centre": [0, -4.6, 6.0 * k], "radius": 0.6}],  # radius l/100; r = 5
+    }
+    for rule in ("barycentric", "seed") for k in range(11)
+}
+
+# A lumen that is straight up to z = 0 and then half a circle of radius 60, for a wire of a third of the usual length.
+_BEND = [
+    [0, 0, -200],
+    *([0, round(60 - 60 * math.cos(a), 6), round(60 * math.sin(a), 6)] for a in (k * math.pi / 18 for k in range(19))),
+    [0, 120, -150],
+]
+_SHORT_WIRE = {
+    "guidewireLength": 100, "numberRodElements": 20, "guidewireOffset": -105, "constraintSolverSteps": 100,
+    "collisionStiffness": 0.1, "damping": 0.1, "deltaThreshold": 0, "displacementPerStep": 0.5,
+}
+
+
+def _lumen(knots: list[list[float]]) -> dict[str, Any]:
+    return {"shape": "tube", "knots": knots, "radius": 8, "openStart": True, "openEnd": True}
+
+
 STUDIES: dict[str, Study] = {
     study.name: study
     for study in (
@@ -179,5 +212,36 @@ STUDIES: dict[str, Study] = {
         _perturbation("transversal", "displacement", "displacement of the first sphere", "displacement",
                       (1, 2, 5, *range(10, 101, 10))),
         *_perturbations("collision"),
+        Study(
+            "wall-gain", "push against the wall: rod elements n and what touches the wall",
+            "params/collision-wall.json", "numberRodElements", _GAIN_ELEMENTS,
+            {"obstacles": _CHANNEL, "maxSimulationSteps": 100}, repeats=3, variants=_ELEMENT_CONTACTS,
+        ),
+        Study(
+            "vessel-gain", "insertion into the vessel: rod elements n and what touches the wall",
+            "params/insertion.json", "numberRodElements", _GAIN_ELEMENTS, {"maxSimulationSteps": 400}, repeats=3,
+            variants=_ELEMENT_CONTACTS,
+        ),
+        Study("contact-rule", "one element on a small sphere at 11 positions", _TABLE_4_1, common=_ONE_ELEMENT,
+              repeats=0, variants=_RESTS),
+        Study(
+            "drives", "what moves the first sphere in a bent lumen", _TABLE_4_1, repeats=0,
+            common={**_SHORT_WIRE, "vessel": _lumen(_BEND), "maxSimulationSteps": 300},
+            variants={
+                "axis-published": {"drive": "displace", "elementContact": "seed"},
+                "axis": {"drive": "displace"},
+                "push": {"drive": "push"},
+                "force": {"drive": "force", "externalForce": [0, 0, 5]},
+            },
+        ),
+        Study(
+            "twist", "twisted while pushed, in a straight and in a bent lumen", _TABLE_4_1, repeats=0,
+            common={**_SHORT_WIRE, "drive": "push", "twistPerStep": 0.02, "logOrientations": True,
+                    "maxSimulationSteps": 400},
+            variants={
+                f"{name},constraintSolverSteps={m}": {"vessel": _lumen(knots), "constraintSolverSteps": m}
+                for name, knots in (("straight", [_BEND[0], [0, 0, 400]]), ("bent", _BEND)) for m in (20, 100, 500)
+            },
+        ),
     )
 }

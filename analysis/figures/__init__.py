@@ -11,7 +11,12 @@ from matplotlib.figure import Figure
 
 from analysis.comparisons import read_comparison, read_reference
 from analysis.figures import default_run, perturbations
+from analysis.figures.contact_rule import draw_contact_rule, read_rests
+from analysis.figures.control import draw_drives, draw_twist, read_drives, read_twists
+from analysis.figures.gain import draw_gain
+from analysis.figures.scenes import draw_scenes
 from analysis.figures.sweeps import VIEWS, draw_sweep
+from analysis.gain import read_gain
 from analysis.tables import read_table
 
 Drawn = tuple[Figure, str]
@@ -73,6 +78,18 @@ def _perturbation_spec(number: str, scene: str, study: str, title: str) -> Figur
     return FigureSpec(number, title, (reference, name), partial(_draw_perturbation, number, name, reference))
 
 
+def _draw_gain(name: str, study: str, scene: str, studies: Mapping[str, Path]) -> Drawn:
+    return draw_gain(name, scene, read_gain(studies[study], count_again=5))
+
+
+def _draw_scenes(studies: Mapping[str, Path]) -> Drawn:
+    return draw_scenes(read_gain(studies["wall-gain"]), read_gain(studies["vessel-gain"]))
+
+
+def _draw_rows(draw: Callable, read: Callable, study: str, studies: Mapping[str, Path]) -> Drawn:
+    return draw(read(studies[study]))
+
+
 FIGURES: dict[str, FigureSpec] = {
     spec.id: spec
     for spec in (
@@ -99,5 +116,16 @@ FIGURES: dict[str, FigureSpec] = {
         _perturbation_spec("4.16", "collision", "time-step", "collision against the time step size"),
         _perturbation_spec("4.17", "collision", "rod-elements", "collision against the number of rod elements"),
         _perturbation_spec("4.18", "collision", "total-mass", "collision against the total mass"),
+        FigureSpec("scenes", "the wall and the vessel", ("wall-gain", "vessel-gain"), _draw_scenes),
+        FigureSpec("gain-wall", "long elements at a wall: error, cost, passages", ("wall-gain",), partial(
+            _draw_gain, "gain-wall", "wall-gain", "Push against a wall, the wire's first two thirds between two plates")),
+        FigureSpec("gain-vessel", "long elements in a vessel: error, cost, passages", ("vessel-gain",), partial(
+            _draw_gain, "gain-vessel", "vessel-gain", "Insertion into an arch with a branch, until the wire buckles")),
+        FigureSpec("contact-rule", "the published contact rule beside the lever rule", ("contact-rule",),
+                   partial(_draw_rows, draw_contact_rule, read_rests, "contact-rule")),
+        FigureSpec("pulling", "what moves the first sphere in a bend", ("drives",),
+                   partial(_draw_rows, draw_drives, read_drives, "drives")),
+        FigureSpec("twist", "tip angle against base angle", ("twist",),
+                   partial(_draw_rows, draw_twist, read_twists, "twist")),
     )
 }

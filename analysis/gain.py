@@ -1,0 +1,115 @@
+"""One row for each number of elements and each rule of contact: error, step time and passages through the wall."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from analysis.comparisons import WireRun, read_wire
+from analysis.distances import distances
+from analysis.logs import LogError
+from analysis.passages import Wall, count_passages
+from analysis.runs import read_study
+from analysis.surfaces import read_obj
+from analysis.tables import Spread
+
+RULES = {"none": "spheres only", "barycentric": "spheres and elements", "seed": "as published"}
+
+
+@dataclass(frozen=True)
+class GainRow:
+    """What one run came to.
+
+    Attributes
+    ----------
+    rule : str
+        Its elementContact.
+    elements : int
+        n.
+    wire : WireRun
+        The run and its motion.
+    mean_distance : float or None
+        To the reference, over spheres and steps, in units; None where the run did not last as long.
+    passages : int
+        As the run counted them.
+    counted_again : int or None
+        By winding numbers; None where that was not done.
+    step_time : Spread or None
+        Median wall time of a step in each timed repeat, in ms.
+    """
+
+    rule: str
+    elements: int
+    wire: WireRun
+    mean_distance: float | None
+    passages: int
+    counted_again: int | None
+    step_time: Spread | None
+
+    @property
+    def element_length(self) -> float:
+        """l in units."""
+        return self.wire.run.number("guidewireLength") / self.elements
+
+
+@dataclass(frozen=True)
+class GainTable:
+    """Rows in ascending order of n, by rule; the reference is the finest run with element contact."""
+
+    rows: tuple[GainRow, ...]
+    reference: GainRow
+
+    def of(self, rule: str) -> list[GainRow]:
+        """Rows of a rule, without the finest run."""
+        return [row for row in self.rows if row.rule == rule and row.elements < self.reference.elements]
+
+
+def read_gain(folder: Path, count_again: int = 0) -> GainTable:
+    """Measures every run of a study that varies n and elementContact.
+
+    Parameters
+    ----------
+    folder : Path
+        The study's folder.
+    count_again : int
+        Count passages through a mesh by winding numbers too, for runs of at most so many elements.
+
+    Raises
+    ------
+    LogError
+        A file cannot be read, or the study has no finished run with element contact.
+    """
+    study = read_study(folder)
+    wires = [read_wire(run) for run in study.untimed]
+    whole = [
+        wire for wire in wires
+        if wire.run.value("elementContact") == "barycentric" and wire.run.outcome == "finished"
+    ]
+    if not whole:
+        raise LogError(f"{folder}: no run with element contact went to its end")
+    finest = max(whole, key=lambda wire: wire.run.number("numberRodElements"))
+    rows = []
+    for wire in wires:
+        elements = int(wire.run.number("numberRodElements"))
+        repeats = [repeat.measured("medianStepTime") for repeat in study.timed(wire.run.key)]
+        rows.append(GainRow(
+            rule=wire.run.value("elementContact"),
+            elements=elements,
+            wire=wire,
+            mean_distance=distances(wire.motion, finest.motion).mean if wire.end >= finest.end else None,
+            passages=int(wire.run.measured("passages")),
+            counted_again=_count_again(wire) if elements <= count_again else None,
+            step_time=Spread.of(repeats),
+        ))
+    rows.sort(key=lambda row: row.elements)
+    return GainTable(tuple(rows), next(row for row in rows if row.wire is finest))
+
+
+def _count_again(wire: WireRun) -> int | None:
+    vessel = wire.run.value("vessel")
+    if not vessel or vessel["shape"] != "mesh":
+        return None
+    surface = read_obj(Path(vessel["file"]))
+    return count_passages(Wall.of(surface.vertices, surface.triangles), wire.motion.positions)

@@ -1,0 +1,78 @@
+"""Twist along a wire from logged orientations: how much of the turn at the base arrives at the tip."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+
+import numpy as np
+
+from analysis.logs import LogError, find_log
+from analysis.runs import Run
+
+
+@dataclass(frozen=True)
+class Twist:
+    """Angles over a run, shape (k,) each.
+
+    Attributes
+    ----------
+    steps : ndarray of int64
+    base : ndarray
+        Turn of element 0 about its own axis since the start, as the drive asked, in radians.
+    tip : ndarray
+        The same of the last element: the base's and what each joint is twisted, in radians.
+    bend : ndarray
+        Sum of the joints' bending angles, in radians.
+    """
+
+    steps: np.ndarray
+    base: np.ndarray
+    tip: np.ndarray
+    bend: np.ndarray
+
+
+def joint_angles(orientations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Twist and bending of each joint, from conj(q_j) q_{j+1} = swing times twist about the element.
+
+    Parameters
+    ----------
+    orientations : ndarray, shape (..., n, 4)
+        Unit quaternions x, y, z, w; the element lies along the third axis of its frame.
+
+    Returns
+    -------
+    twist, bend : ndarray, shape (..., n - 1)
+        In radians; twist from -pi to pi, bend from 0 to pi.
+    """
+    ax, ay, az, aw = np.moveaxis(orientations[..., :-1, :] * [-1.0, -1.0, -1.0, 1.0], -1, 0)
+    bx, by, bz, bw = np.moveaxis(orientations[..., 1:, :], -1, 0)
+    x = aw * bx + ax * bw + ay * bz - az * by
+    y = aw * by - ax * bz + ay * bw + az * bx
+    z = aw * bz + ax * by - ay * bx + az * bw
+    w = aw * bw - ax * bx - ay * by - az * bz
+    twist = 2.0 * np.arctan2(z, w)
+    return (twist + np.pi) % (2.0 * np.pi) - np.pi, 2.0 * np.arctan2(np.hypot(x, y), np.hypot(z, w))
+
+
+def read_twist(run: Run) -> Twist:
+    """The angles of a run that logged its orientations.
+
+    Raises
+    ------
+    LogError
+        The log cannot be read or holds no orientations.
+    """
+    log = find_log(run.folder)
+    try:
+        entries = json.loads(log.read_text(encoding="utf-8"))
+        orientations = np.array([
+            [[entry["orientation"][str(j)][axis] for axis in "xyzw"] for j in range(len(entry["orientation"]))]
+            for entry in entries.values()
+        ])
+    except (ValueError, KeyError, OSError) as error:
+        raise LogError(f"{log}: no orientations can be read from it ({error})") from error
+    steps = np.array([int(step) for step in entries])
+    twist, bend = joint_angles(orientations)
+    base = steps * run.number("twistPerStep")
+    return Twist(steps, base, base + twist.sum(axis=-1), bend.sum(axis=-1))
