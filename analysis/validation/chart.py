@@ -213,11 +213,15 @@ def _chart() -> Plan:
 
     caption = (
         "Error against wall time per simulated second, one thread, median of "
-        f"{_REPEATS} timed runs (explicit and xpbd: of one). (a) The base wire under its own weight, critically damped to rest: relative error of the "
-        "tip's sag. (b) Let go from F L²/EI = 0.1: RMS error of the tip over 0.2 s; dashed: 0.3 %. (c) One end turned by 90° "
+        f"{_REPEATS} timed runs (explicit and xpbd: of one). (a) The base wire under its own weight, critically damped "
+        "to rest: relative error of the "
+        "tip's sag. (b) Let go from F L²/EI = 0.1: RMS error of the tip over 0.2 s; dashed: 0.3 %. (c) One end turned "
+        "by 90° "
         "between two clamps, damped to rest: worst error of the linear profile; pbd holds no second frame and is not "
-        "there. pbd's bendStiffness is tuned so that the wire of (a) sags as the material does at m = 500, n = 30, dt = 1 ms "
-        f"(stretchStiffness 1, totalMass 0.01): {number(gain, 4)}. The other pbd points have the same gains and another m, n "
+        "there. pbd's bendStiffness is tuned so that the wire of (a) sags as the material does at m = 500, n = 30, dt "
+        "= 1 ms "
+        f"(stretchStiffness 1, totalMass 0.01): {number(gain, 4)}. The other pbd points have the same gains and "
+        "another m, n "
         "or dt: " + _pbd_spread(points, results) + " The other solvers have the material itself; their points differ in n, "
         "time step, scheme, substeps and sweeps. " + _best(points, results)
     )

@@ -60,8 +60,10 @@ def _compliance() -> Plan:
             ))
             series[f"{load.replace('-', ' ')}, {rule}"] = (_COUNTS, errors)
     caption = (
-        "Error of the tip's deflection under small loads against the number of elements, for three rules for the joints at "
-        "the clamp. A joint of a whole element is the first-order error of a clamp that fixes sphere 0 and the frame of "
+        "Error of the tip's deflection under small loads against the number of elements, for three rules for the "
+        "joints at "
+        "the clamp. A joint of a whole element is the first-order error of a clamp that fixes sphere 0 and the frame "
+        "of "
         "element 0. Gregory's weights are exact for a tip load (not drawn: "
         f"{number(next(r.error for r in results if 'worst' in r.what), 1)}) and of fourth order for the own weight."
     )
@@ -115,8 +117,10 @@ def _frequencies() -> Plan:
                                       abs(order - 2.0), _GATE, "", None, "absolute"))
             series[f"mode {k + 1}, {rule}"] = (counts, np.abs(errors[:, k]))
     caption = (
-        "Error of the first three frequencies of the clamped wire against n: Gregory's weights with the consistent mass "
-        "(fourth order and more), the half-element clamp with lumped masses (second order). Each from a run that starts in "
+        "Error of the first three frequencies of the clamped wire against n: Gregory's weights with the consistent "
+        "mass "
+        "(fourth order and more), the half-element clamp with lumped masses (second order). Each from a run that "
+        "starts in "
         f"the mode, amplitude {_AMPLITUDE:g} L, {_PERIODS} periods, {_STEPS} steps of sdirk4 a period; reference: "
         "Timoshenko's beam, whose shear and rotary inertia the chain has too."
     )

@@ -194,7 +194,8 @@ def _bar() -> Plan:
         pictures.outside_legend(axes)
 
     caption = (
-        "The base of a bar, 30 springs and equal masses, is displaced by 1 mm at once: motion of the free end over 2 ms "
+        "The base of a bar, 30 springs and equal masses, is displaced by 1 mm at once: motion of the free end over 2 "
+        "ms "
         "against the chain's exact motion (all 30 modes). RMS error: "
         + "; ".join(f"{r.solver}: {percent(r.error)}" for r in results) + "."
     )
@@ -288,7 +289,8 @@ def _force_balance() -> Plan:
         pictures.outside_legend(axes)
 
     caption = (
-        "A straight clamped wire begins to fall: force of the clamp, taken from the wire's stress, and what the change of "
+        "A straight clamped wire begins to fall: force of the clamp, taken from the wire's stress, and what the change "
+        "of "
         f"momentum asks for. They differ by at most {number(worst, 1)} of the peak."
     )
     return Finding((result,), draw, caption)
@@ -337,7 +339,8 @@ def _order() -> Plan:
                               claimed, abs(measured - claimed), 0.1, "", None, "absolute"))
         series[scheme] = (_ORDER_STEPS, errors)
     caption = (
-        f"Half a period in the first mode, amplitude near 1e-4 L, n = {n}: RMS error of the mode against {_FINEST} steps of sdirk4 "
+        f"Half a period in the first mode, amplitude near 1e-4 L, n = {n}: RMS error of the mode against {_FINEST} "
+        "steps of sdirk4 "
         "a period. Orders from 80 to 160 steps: " + ", ".join(f"{r.solver[8:]} {number(r.value)}" for r in results)
         + ". explicit and xpbd need thousands of steps a period to be stable or to converge, and have no order here."
     )

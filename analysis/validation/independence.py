@@ -44,8 +44,10 @@ def _elements_and_tolerance() -> Plan:
         "rest shape over n": (counts, [abs(tip / exact - 1.0) for tip in tips.values()]),
     }
     caption = (
-        f"Deflection of the tip under F L²/EI = {_LOAD:g} against n, relative to the elastica. The motion of the cantilever "
-        f"let go, n = 12, changes by at most {percent(max(r.error for r in results[len(counts):]))} over solverTolerance = "
+        f"Deflection of the tip under F L²/EI = {_LOAD:g} against n, relative to the elastica. The motion of the "
+        "cantilever "
+        f"let go, n = 12, changes by at most {percent(max(r.error for r in results[len(counts):]))} over "
+        "solverTolerance = "
         "1e-8 (the default) to 1e-12."
     )
     draw = pictures.orders("number of elements n", "relative error of the deflection", series, [(-2.0, "order 2")],
@@ -71,7 +73,8 @@ def _time_step() -> Plan:
         results.append(Result(f"tip load F L²/EI = {_LOAD:g} at rest after a damped motion, dt = {1e3 * dt:g} ms",
                               "direct, sdirk3", tip, exact, abs(tip / exact - 1.0), GATE, "L"))
     caption = (
-        "Where a damped motion of the direct solver (default scheme) comes to rest under the same load, against the time "
+        "Where a damped motion of the direct solver (default scheme) comes to rest under the same load, against the "
+        "time "
         f"step: between {number(min(r.value for r in results), 6)} and {number(max(r.value for r in results), 6)} L."
     )
     draw = pictures.orders("time step (s)", "relative error of the deflection",
@@ -110,7 +113,8 @@ def _sweeps() -> Plan:
             ))
         series[f"substep x {factor}"] = (_SWEEPS, errors)
     caption = (
-        "xpbd: error of the tip's deflection after a damped motion against the number of sweeps m, at two lengths of the "
+        "xpbd: error of the tip's deflection after a damped motion against the number of sweeps m, at two lengths of "
+        "the "
         "substep. The gate holds where the run says that it has converged."
     )
     draw = pictures.orders("sweeps m of a substep", "relative error of the deflection", series, (), (GATE, "gate"))
@@ -162,7 +166,8 @@ def _gains() -> Plan:
         pictures.outside_legend(axes)
 
     caption = (
-        "With gains there is no such independence: the tip of the thesis's transversal run after 0.5 s for other m, n and "
+        "With gains there is no such independence: the tip of the thesis's transversal run after 0.5 s for other m, n "
+        "and "
         "dt than its own (500, 30, 0.01 s). More sweeps, more elements or smaller steps make another wire."
     )
     return Finding(tuple(results), draw, caption)

@@ -133,7 +133,8 @@ def _caption(results: list[Result], costs: Mapping[tuple[str, str], float]) -> s
     of = {(r.what.split(":")[0], r.solver[5:]): r.error for r in results}
     same = [problem for problem in _PROBLEMS if of[problem, "Euler, Euler"] < _ROUNDING]
     sentences = [
-        "Four ways to predict, \"positions, orientations\" each by Euler or Verlet, in the thesis's transversal run and for "
+        "Four ways to predict, \"positions, orientations\" each by Euler or Verlet, in the thesis's transversal run "
+        "and for "
         f"a wire whose elements start turned by 0 to 90°; {_STEPS} steps. Below: difference from {_REFERENCE}."
     ]
     if same:
@@ -152,7 +153,8 @@ def _caption(results: list[Result], costs: Mapping[tuple[str, str], float]) -> s
     sentences.append("Median time of a step, " + problem + ": " + ", ".join(
         f"{method} {number(1e3 * costs[problem, method], 3)} ms" for method in _METHODS) + ".")
     sentences.append(
-        "With gains there is no limit in the time step that one of them could be nearer to; the choice of m changes the "
+        "With gains there is no limit in the time step that one of them could be nearer to; the choice of m changes "
+        "the "
         "motion far more."
     )
     return " ".join(sentences)

@@ -112,7 +112,8 @@ def _couple(tension: float) -> Plan:
     result = Result(f"straight rod between clamps, T L²/EI = {tension:g}, n = {n}: critical couple", "direct", found,
                     exact, abs(found / exact - 1.0), GATE, "EI/L")
     caption = (
-        f"A straight rod between clamps, one turned, one sliding, under the tension T L²/EI = {tension:g}: how far its rest "
+        f"A straight rod between clamps, one turned, one sliding, under the tension T L²/EI = {tension:g}: how far its "
+        "rest "
         f"shape is off the axis. It stays straight up to M L/EI = {number(found, 5)}; Greenhill: {number(exact, 5)}."
     )
     draw = _branches("couple of the straight rod M L/EI (1)", "distance from the axis (L), or share of turns lost",
@@ -159,9 +160,12 @@ def _ring() -> Plan:
                 sum(wall_time(runs[case.key]) for case in cases),
             ))
     caption = (
-        "A wire that is straight at rest, closed to a ring, twisted and pushed out of its plane by 1e-4 L, after a damped "
-        "motion: how far it is out of the plane, or what share of its twist it lost by passing through itself. Both ends "
-        "are clamped to one frame by a half-element joint each, so every element is free to move with respect to it. It "
+        "A wire that is straight at rest, closed to a ring, twisted and pushed out of its plane by 1e-4 L, after a "
+        "damped "
+        "motion: how far it is out of the plane, or what share of its twist it lost by passing through itself. Both "
+        "ends "
+        "are clamped to one frame by a half-element joint each, so every element is free to move with respect to it. "
+        "It "
         "stays plane up to " + ", ".join(f"{number(r.value, 4)}" for r in results[:3])
         + " rad; Michell and Zajac: " + ", ".join(f"{number(r.reference, 4)}" for r in results[:3]) + " rad."
     )
@@ -249,7 +253,8 @@ def _column() -> Plan:
         ))
     caption = (
         f"A column under a thrust: how far its rest shape is off the axis. It stays straight up to P L²/EI = "
-        f"{number(found, 5)}; Euler: {number(exact, 5)}. explicit and xpbd, whose motion has no end near the limit, are "
+        f"{number(found, 5)}; Euler: {number(exact, 5)}. explicit and xpbd, whose motion has no end near the limit, "
+        "are "
         f"judged by the deflection under a small force across and half of Euler's load."
     )
     draw = _branches("thrust P L²/EI (1)", "largest distance from the axis (L)", {"rest shape": (found, seen)})
@@ -319,7 +324,8 @@ def _helix() -> Plan:
         pictures.outside_legend(axes)
 
     caption = (
-        "A rod between clamps, brought closer by 3 of 100 and then slowly turned by 27 turns (implicit Euler): angle of the elements against the axis, "
+        "A rod between clamps, brought closer by 3 of 100 and then slowly turned by 27 turns (implicit Euler): angle "
+        "of the elements against the axis, "
         f"over the closed form of an endless rod (largest angle {number(math.degrees(exact.largest_angle), 4)}°). "
         + " ".join(f"{r.what.split(', ')[-1]}: {number(r.value, 4)} ({percent(r.error)} off)." for r in results)
     )

@@ -137,9 +137,12 @@ def _end_moment() -> Plan:
         fine = elastica.arc(angle, _POINTS)
         references["arc" if not references else f"_{name}"] = np.stack([fine.along, fine.across], axis=1)
     caption = (
-        "End couples M L/EI = π/2, π and 2π, n = 30, rotation vector: nodes (points) on circular arcs (lines). The angles "
-        "are exact; the nodes are joined by straight elements, which are shorter than their arcs by (κ l)²/24. With the "
-        "fourth-order weights at the clamp, made for forces, the first two elements stand off by design and the tip with "
+        "End couples M L/EI = π/2, π and 2π, n = 30, rotation vector: nodes (points) on circular arcs (lines). The "
+        "angles "
+        "are exact; the nodes are joined by straight elements, which are shorter than their arcs by (κ l)²/24. With "
+        "the "
+        "fourth-order weights at the clamp, made for forces, the first two elements stand off by design and the tip "
+        "with "
         "them, by l² κ/12."
     )
     return Finding(tuple(results), pictures.shapes(references, drawn), caption)
@@ -227,9 +230,11 @@ def _torsion(solvers: Sequence[str] = ALL) -> Plan:
         pictures.outside_legend(axes)
 
     caption = (
-        "A straight wire between two clamps, one turned by 90°: turn of each element against the linear profile. Torque: "
+        "A straight wire between two clamps, one turned by 90°: turn of each element against the linear profile. "
+        "Torque: "
         + ", ".join(f"{r.solver} {number(r.value, 5)}" for r in results[1::2])
-        + f" N m, GJ φ/L = {number(torque, 5)} N m; direct: as the clamp states it, the others: from the profile's slope."
+        + f" N m, GJ φ/L = {number(torque, 5)} N m; direct: as the clamp states it, the others: from the profile's "
+          "slope."
     )
     return Finding(tuple(results), draw, caption)
 
@@ -259,9 +264,11 @@ def _spatial_bend(solvers: Sequence[str] = ALL) -> Plan:
     rest = np.stack([np.sin(start) / curvature, np.zeros_like(start)], axis=1)
     tip = results[0]
     caption = (
-        "The bend of Bathe and Bolourchi (1979), an arc of 45° and radius 100 of a unit square section, loaded at its tip "
+        "The bend of Bathe and Bolourchi (1979), an arc of 45° and radius 100 of a unit square section, loaded at its "
+        "tip "
         f"across its plane. Tip: {', '.join(number(float(v), 5) for v in last_state(runs['direct']).positions[-1])} "
-        f"(direct), {', '.join(number(float(v), 5) for v in exact)} (boundary value problem); off by {percent(tip.error)}."
+        f"(direct), {', '.join(number(float(v), 5) for v in exact)} (boundary value problem); off by "
+        f"{percent(tip.error)}."
     )
     draw = pictures.shapes({"without load": rest, "_tip": exact[[2, 0]][None]}, drawn, ("z (units)", "x (units)"))
     return Finding(tuple(results), draw, caption)
