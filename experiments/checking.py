@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from analysis.validation.check import Case, Check, Plan, read_cases
+from analysis.validation.scenes import SCENE
 from experiments.prepare import ROOT
 from experiments.runner import Answer, Request, run_all
 from experiments.sweep import SweepResult
@@ -21,7 +22,6 @@ _RESULTS = ("converged", "finished", "diverged", "failed")  # a solver that give
 def run_checks(
     name: str,
     checks: Sequence[Check],
-    scene: str,
     command: Sequence[str],
     out: Path,
     jobs: int,
@@ -33,7 +33,6 @@ def run_checks(
     ----------
     name : folder of the checks below `out`.
     checks : what to check.
-    scene : parameter file, relative to the repository.
     command : the runner.
     out : folder above.
     jobs : number of untimed runs at once.
@@ -56,7 +55,7 @@ def run_checks(
         progress(len(answers), asked, answer)
 
     while waiting:
-        untimed, timed = _requests(waiting, folder, ROOT / scene)
+        untimed, timed = _requests(waiting, folder, ROOT / SCENE)
         asked += len(untimed) + len(timed)
         run_all(command, untimed, jobs, note)
         if timed:

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tempfile
 import traceback
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -155,16 +156,18 @@ def _sweep(arguments: argparse.Namespace) -> int:
 
 
 def _figures(arguments: argparse.Namespace) -> int:
-    from analysis import figures
     from experiments import gallery
 
-    unknown = [name for name in arguments.ids if name not in figures.FIGURES]
+    known = gallery.SPECS
+    unknown = [name for name in arguments.ids if name not in known]
     if unknown:
-        raise PreparationError(f"there is no figure {unknown[0]}; there are {', '.join(figures.FIGURES)}")
-    ids = arguments.ids or list(figures.FIGURES)
-    needed = [name for name in STUDIES if any(name in figures.FIGURES[figure].studies for figure in ids)]
+        raise PreparationError(f"there is no figure {unknown[0]}; there are {', '.join(known)}")
+    ids = arguments.ids or list(known)
+    studies = {name for figure in ids for name in known[figure].studies}
     command = _build_runner()
-    results = {name: _run_study(name, command, arguments.out, arguments.jobs) for name in needed}
+    results = {name: _run_study(name, command, arguments.out, arguments.jobs) for name in STUDIES if name in studies}
+    results |= {name: _run_checks(name, command, arguments.out, arguments.jobs)
+                for name in gallery.CHECKED if name in studies}
     folders = {name: result.folder for name, result in results.items()}
     code = _tell(gallery.draw(ids, folders, arguments.out / "figures"))
     return FAILED if any(result.failures for result in results.values()) else code
@@ -210,7 +213,20 @@ def _build_runner() -> list[str]:
 
 
 def _run_study(name: str, command: list[str], out: Path, jobs: int) -> SweepResult:
-    """Run a study with one line of progress (several where stderr is no terminal), and say what failed."""
+    """Run a study and say what failed."""
+    return _tell_failures(name, run_study(STUDIES[name], command, out, jobs, _progress_of(name)))
+
+
+def _run_checks(name: str, command: list[str], out: Path, jobs: int) -> SweepResult:
+    """Make the runs that a list of checks asks for and say what failed."""
+    from experiments import checking, gallery
+
+    checks = gallery.CHECKED[name]
+    return _tell_failures(name, checking.run_checks(name, checks, command, out, jobs, _progress_of(name)))
+
+
+def _progress_of(name: str) -> Callable[[int, int, Answer], None]:
+    """One line of progress, several where stderr is no terminal."""
     same_line = sys.stderr.isatty()
 
     def progress(done: int, total: int, answer: Answer) -> None:
@@ -223,8 +239,11 @@ def _run_study(name: str, command: list[str], out: Path, jobs: int) -> SweepResu
         elif done == total or done % 10 == 0:
             print(f"{name}: {done}/{total} runs", file=sys.stderr, flush=True)
 
-    result = run_study(STUDIES[name], command, out, jobs, progress)
-    if same_line:
+    return progress
+
+
+def _tell_failures(name: str, result: SweepResult) -> SweepResult:
+    if sys.stderr.isatty():
         print(file=sys.stderr)
     for answer in result.failures:
         print(f"guidewire: {name}/{answer.name}: {answer.message}", file=sys.stderr)

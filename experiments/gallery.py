@@ -4,17 +4,45 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import matplotlib.pyplot as pyplot
+from matplotlib.figure import Figure
 
-from analysis.figures import FIGURES
+from analysis.figures import FIGURES, FigureSpec
 from analysis.logs import LogError, read_log
 from analysis.relaxation import RelaxationError
 from analysis.runs import read_run
 from analysis.tables import measure_relaxation
+from analysis.validation.chart import CHART
+from analysis.validation.check import Check, replay
+from analysis.validation.integrators import INTEGRATORS
+from analysis.validation.report import ROWS, draw_finding, draw_overview, read_report, write_report
 
 INDEX = "index.md"
+VALIDATION = "validation"
+
+
+def _draw_validation(folders: Mapping[str, Path]) -> tuple[Figure, str]:
+    return draw_overview(read_report(folders[VALIDATION]))
+
+
+def _draw_check(check: Check, folders: Mapping[str, Path]) -> tuple[Figure, str]:
+    finding = replay(check, folders[check.id])
+    return draw_finding(finding), finding.caption
+
+
+CHECKED: dict[str, tuple[Check, ...]] = {VALIDATION: ROWS, **{check.id: (check,) for check in (CHART, INTEGRATORS)}}
+
+SPECS: dict[str, FigureSpec] = {
+    **FIGURES,
+    VALIDATION: FigureSpec(VALIDATION, "validation of the material rod", (VALIDATION,), _draw_validation),
+    **{
+        check.id: FigureSpec(check.id, check.title, (check.id,), partial(_draw_check, check))
+        for check in (CHART, INTEGRATORS)
+    },
+}
 
 
 @dataclass(frozen=True)
@@ -30,7 +58,7 @@ def draw(ids: Sequence[str], folders: Mapping[str, Path], out: Path) -> Gallery:
 
     Parameters
     ----------
-    ids : keys of `analysis.figures.FIGURES`.
+    ids : keys of `SPECS`.
     folders : study name to its folder, for every study that these figures need.
     out : folder for `figure-<id>.png`, `figure-<id>.txt` (the caption) and index.md.
 
@@ -43,13 +71,15 @@ def draw(ids: Sequence[str], folders: Mapping[str, Path], out: Path) -> Gallery:
     problems = []
     for name in ids:
         try:
-            figure, caption = FIGURES[name].draw({study: folders[study] for study in FIGURES[name].studies})
+            figure, caption = SPECS[name].draw({study: folders[study] for study in SPECS[name].studies})
         except (LogError, RelaxationError) as error:
             problems.append(f"figure {name} cannot be drawn: {error}")
             continue
         figure.savefig(out / f"figure-{name}.png")
         pyplot.close(figure)
         (out / f"figure-{name}.txt").write_text(caption + "\n", encoding="utf-8")
+    if VALIDATION in ids and not any(f"figure {VALIDATION} " in problem for problem in problems):
+        write_report(read_report(folders[VALIDATION]), out / VALIDATION)
     index = out / INDEX
     index.write_text(_index(out), encoding="utf-8")
     return Gallery(index, tuple(problems))
@@ -71,7 +101,7 @@ def describe_default_run(study: Path) -> list[str]:
 
 def _index(out: Path) -> str:
     parts = ["# Figures\n"]
-    for name, spec in FIGURES.items():
+    for name, spec in SPECS.items():
         caption = out / f"figure-{name}.txt"
         if caption.exists():
             text = caption.read_text(encoding="utf-8").strip()

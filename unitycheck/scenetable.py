@@ -30,6 +30,6 @@ SCENES = (
           colouring=2),
     Scene("Longitudinal", "params/longitudinal.json", pace=0.2, colouring=1),
     Scene("Transversal", "params/transversal.json", pace=0.2, colouring=2),
-    Scene("CollisionWall", "params/collision-wall.json", target=(0.0, 0.0, -90.0), distance=380.0, pace=0.2,
+    Scene("CollisionWall", "params/collision-wall.json", target=(0.0, 0.0, -90.0), distance=380.0, pace=0.5,
           colouring=2),
 )

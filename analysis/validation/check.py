@@ -89,11 +89,12 @@ class Result:
 
 @dataclass(frozen=True)
 class Finding:
-    """What a check found: lines of the table, and its picture with a caption."""
+    """What a check found: lines of the table, and its picture with a caption; `width` in inches."""
 
     results: tuple[Result, ...]
     draw: Callable[[Figure], None]
     caption: str
+    width: float = 8.0
 
 
 Plan = Generator[Sequence[Case], Mapping[str, Run], Finding]

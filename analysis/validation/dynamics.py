@@ -218,7 +218,7 @@ def _energy() -> Plan:
     }
     methods: dict[str, dict[str, Any]] = {f"direct, {scheme}": {"integrator": scheme, "solverTolerance": 1e-11}
                                           for scheme in SCHEMES}
-    methods |= {solver: {"solver": solver, **scenes.small_steps(solver, _STURDY, step)}
+    methods |= {solver: {"solver": solver, **scenes.small_steps(solver, _STURDY, step, n)}
                 for solver in ("explicit", "xpbd")}
     start = scenes.mode_start(_STURDY, n, first, 1e-2)
     cases = [Case(_slug(name), {**common, **method}, start=start) for name, method in methods.items()]

@@ -12,11 +12,14 @@ from analysis.validation import beam
 from analysis.validation.wire import BASE, Wire
 
 UNIT = 1e-3  # m; one unit of length of the files
+ELEMENTS = 30  # n of the scene
 SCENE = "params/cantilever.json"  # the base wire, clamped
 
 _SETTLED = 12.0  # a critically damped motion is over after this many 1/omega
-_SHARE = {"explicit": 0.75, "xpbd": 4.0}  # of the explicit solver's stable substep; three sweeps then nearly converge
-_SWEEPS = 3  # of xpbd in a substep
+_EXPLICIT_SHARE = 0.75  # of the explicit solver's stable substep
+_SWEEPS = 3  # of xpbd in a substep; they nearly converge where it is at most
+_XPBD_SHEAR = 4.0  # of the explicit solver's stable substep, and
+_XPBD_AXIAL = 1.0 / 3.0  # of the time that sound takes along an element
 _SUBSTEPS = 1000
 
 
@@ -50,8 +53,8 @@ def settled(solver: str, wire: Wire, overrides: Mapping[str, Any], frequency: fl
     if solver == "direct":
         step, method = 0.05 / omega, {"integrator": "implicitEuler"}
     else:
-        step = min(_SUBSTEPS * _SHARE[solver] * stable_substep(wire), 0.05 / omega)
-        method = small_steps(solver, wire, step)
+        step = min(_SUBSTEPS * stable_substep(wire), 0.05 / omega)
+        method = small_steps(solver, wire, step, overrides.get("numberRodElements", ELEMENTS))
     return {
         "solver": solver,
         "timeStep": step,
@@ -64,12 +67,13 @@ def settled(solver: str, wire: Wire, overrides: Mapping[str, Any], frequency: fl
     }
 
 
-def small_steps(solver: str, wire: Wire, step: float) -> dict[str, Any]:
+def small_steps(solver: str, wire: Wire, step: float, elements: int = ELEMENTS) -> dict[str, Any]:
     """Substeps of a time step in s (and sweeps of each) of the explicit solver or of xpbd."""
-    method: dict[str, Any] = {"substeps": math.ceil(step / (_SHARE[solver] * stable_substep(wire)))}
-    if solver == "xpbd":
-        method["constraintSolverSteps"] = _SWEEPS
-    return method
+    if solver == "explicit":
+        return {"substeps": math.ceil(step / (_EXPLICIT_SHARE * stable_substep(wire)))}
+    axial = wire.length / elements / math.sqrt(wire.youngs_modulus / wire.density)
+    substep = min(_XPBD_SHEAR * stable_substep(wire), _XPBD_AXIAL * axial)
+    return {"substeps": math.ceil(step / substep), "constraintSolverSteps": _SWEEPS}
 
 
 def stable_substep(wire: Wire) -> float:

@@ -174,7 +174,7 @@ def _ring_run(solver: str, ratio: float, twist: float) -> dict[str, Any]:
     wire = dataclasses.replace(BASE, shear_modulus=0.5 * BASE.youngs_modulus / ratio)
     method = dict(_RING_METHOD[solver])
     if solver != "direct":
-        method |= scenes.small_steps(solver, wire, method["timeStep"])
+        method |= scenes.small_steps(solver, wire, method["timeStep"], _RING_ELEMENTS[solver])
     return {
         "solver": solver, "numberRodElements": _RING_ELEMENTS[solver], "startShape": "ring", "distalEnd": "clamped",
         "distalRotation": twist, "shearModulus": wire.shear_modulus, "clampRule": "halfElement",

@@ -18,6 +18,7 @@ from analysis.validation.states import last_state, solver_report, wall_time
 from analysis.validation.wire import BASE, Wire
 
 SECTION = "Statics"
+ALL = ("direct", "explicit", "xpbd")
 SHAPE_GATE = 3e-3  # of L
 ARC_GATE = 1e-3  # of L
 EXACT = 1e-9  # rad; what a search to 1e-9 may leave
@@ -25,17 +26,16 @@ _REPEATS = 5
 _GRAVITY = 9.81  # m/s^2
 
 def _solver_cases(
-    wire: Wire, loads: Mapping[str, Any], name: str = "", frequency: float | None = None,
-    solvers: Sequence[str] = ("direct", "explicit", "xpbd"),
+    wire: Wire, loads: Mapping[str, Any], frequency: float | None = None, solvers: Sequence[str] = ALL
 ) -> list[Case]:
     """The same rest shape by every solver: at once, and as the end of a damped motion."""
     cases = []
     for solver in solvers:
         common = {**scenes.wire_parameters(wire), **loads}
         if solver == "direct":
-            cases.append(Case(name + solver, scenes.at_rest(common), repeats=_REPEATS))
+            cases.append(Case(solver, scenes.at_rest(common), repeats=_REPEATS))
         else:
-            cases.append(Case(name + solver, scenes.settled(solver, wire, common, frequency)))
+            cases.append(Case(solver, scenes.settled(solver, wire, common, frequency)))
     return cases
 
 
@@ -44,9 +44,11 @@ def _plane(run: Run, wire: Wire) -> np.ndarray:
     return last_state(run).positions[:, [2, 1]] * np.array([1.0, -1.0]) / wire.length
 
 
-def _dead_load(title: str, wire: Wire, loads: Mapping[str, Any], reference: elastica.PlaneShape) -> Plan:
+def _dead_load(
+    title: str, wire: Wire, loads: Mapping[str, Any], reference: elastica.PlaneShape, solvers: Sequence[str]
+) -> Plan:
     """A shape in a plane, against the elastica at every node."""
-    cases = _solver_cases(wire, loads)
+    cases = _solver_cases(wire, loads, solvers=solvers)
     runs = yield cases
     exact = np.stack([reference.along, reference.across], axis=1)
     results, drawn = [], {}
@@ -68,19 +70,20 @@ def _dead_load(title: str, wire: Wire, loads: Mapping[str, Any], reference: elas
 _POINTS = np.linspace(0.0, 1.0, 301)
 
 
-def _tip_load(load: float) -> Plan:
+def _tip_load(load: float, solvers: Sequence[str] = ALL) -> Plan:
     force = load * BASE.bending / BASE.length**2
     return (yield from _dead_load(
-        f"tip load F L²/EI = {load:g}", BASE, {"tipForce": [0.0, -force, 0.0]}, elastica.tip_loaded(load, _POINTS)
+        f"tip load F L²/EI = {load:g}", BASE, {"tipForce": [0.0, -force, 0.0]}, elastica.tip_loaded(load, _POINTS),
+        solvers,
     ))
 
 
-def _own_weight(radius: float) -> Plan:
+def _own_weight(radius: float, solvers: Sequence[str] = ALL) -> Plan:
     wire = Wire(radius=radius)
     load = wire.line_density * _GRAVITY * wire.length**3 / wire.bending
     return (yield from _dead_load(
         f"own weight, r = {1e3 * radius:g} mm (w L³/EI = {number(load)})", wire, {"gravity": [0.0, -_GRAVITY, 0.0]},
-        elastica.heavy(load, _POINTS),
+        elastica.heavy(load, _POINTS), solvers,
     ))
 
 
@@ -182,11 +185,11 @@ def _darboux_couple() -> Plan:
     return Finding(tuple(results), draw, caption)
 
 
-def _torsion() -> Plan:
+def _torsion(solvers: Sequence[str] = ALL) -> Plan:
     turn = 0.5 * math.pi
     # The slowest motion: a standing wave of twist between two clamps.
     frequency = 0.5 / BASE.length * math.sqrt(BASE.shear_modulus / BASE.density)
-    cases = _solver_cases(BASE, {"distalEnd": "clamped", "distalRotation": turn}, frequency=frequency)
+    cases = _solver_cases(BASE, {"distalEnd": "clamped", "distalRotation": turn}, frequency, solvers)
     runs = yield cases
     torque = twisted.torsion_torque(BASE.torsion, BASE.length, turn)
     results, profiles = [], {}
@@ -229,7 +232,7 @@ def _torsion() -> Plan:
     return Finding(tuple(results), draw, caption)
 
 
-def _spatial_bend() -> Plan:
+def _spatial_bend(solvers: Sequence[str] = ALL) -> Plan:
     # A unit square of E = 1e7 and nu = 0: a round wire of r^2 = 1/3 and E = 3e7/pi has its EA, GA, EI and GJ.
     radius, length, curvature, force = math.sqrt(1.0 / 3.0), 25.0 * math.pi, 0.01, 600.0
     young = 3e7 / math.pi
@@ -238,7 +241,7 @@ def _spatial_bend() -> Plan:
     exact = rod.tip(np.array([force, 0.0, 0.0]))
     loads = {"metresPerUnit": 1.0, "guidewireLength": length, "restCurvature": [curvature, 0.0, 0.0],
              "tipForce": [force, 0.0, 0.0]}
-    cases = _solver_cases(wire, loads)
+    cases = _solver_cases(wire, loads, solvers=solvers)
     runs = yield cases
     results, drawn = [], {}
     for case in cases:
@@ -303,13 +306,20 @@ def _joint_law() -> Plan:
     return Finding(tuple(results), draw, caption)
 
 
+def _checks(solvers: Sequence[str]) -> tuple[Check, ...]:
+    return (
+        *(Check(f"tip-load-{k:g}", SECTION, f"tip load F L²/EI = {k:g}", partial(_tip_load, k, solvers))
+          for k in (0.1, 1, 2, 10, 100)),
+        *(Check(f"own-weight-{1e3 * r:g}", SECTION, f"own weight, r = {1e3 * r:g} mm", partial(_own_weight, r, solvers))
+          for r in (0.5e-3, 0.2e-3)),
+        Check("torsion", SECTION, "torsion", partial(_torsion, solvers)),
+        Check("spatial-bend", SECTION, "45° bend", partial(_spatial_bend, solvers)),
+    )
+
+
+_JOINT = Check("joint-law", SECTION, "one joint", _joint_law)
+_DARBOUX = Check("end-moment-darboux", SECTION, "end couples, Darboux law", _darboux_couple)
 CHECKS = (
-    Check("joint-law", SECTION, "one joint", _joint_law),
-    *(Check(f"tip-load-{k:g}", SECTION, f"tip load F L²/EI = {k:g}", partial(_tip_load, k)) for k in (0.1, 1, 2, 10, 100)),
-    *(Check(f"own-weight-{1e3 * r:g}", SECTION, f"own weight, r = {1e3 * r:g} mm", partial(_own_weight, r))
-      for r in (0.5e-3, 0.2e-3)),
-    Check("end-moment", SECTION, "end couples, rotation vector", _end_moment),
-    Check("end-moment-darboux", SECTION, "end couples, Darboux law", _darboux_couple),
-    Check("torsion", SECTION, "torsion", _torsion),
-    Check("spatial-bend", SECTION, "45° bend", _spatial_bend),
+    _JOINT, *_checks(ALL), Check("end-moment", SECTION, "end couples, rotation vector", _end_moment), _DARBOUX,
 )
+FAST = (_JOINT, *_checks(("direct",)), _DARBOUX)  # the direct solver's only, done in seconds

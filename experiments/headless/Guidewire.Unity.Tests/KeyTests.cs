@@ -216,8 +216,9 @@ namespace Guidewire.Unity.Tests
         public void Button_SwitchesTheSolverOfAWireWithAMaterial()
         {
             string file = System.IO.Path.Combine(TestContext.CurrentContext.WorkDirectory, "material.json");
-            System.IO.File.WriteAllText(file, "{\"solver\": \"direct\", \"numberRodElements\": 12, \"timeStep\": 0.001, "
-                + "\"gravity\": [0, -9.81, 0], \"deltaThreshold\": 0, \"maxSimulationSteps\": 100000}");
+            System.IO.File.WriteAllText(file, "{\"solver\": \"direct\", \"numberRodElements\": 12, "
+                + "\"timeStep\": 0.001, \"gravity\": [0, -9.81, 0], \"deltaThreshold\": 0, "
+                + "\"maxSimulationSteps\": 100000}");
             Stage.Loop.Choose(file, Array.Empty<string>(), "", false);
             Stage.Tap(KeyCode.R);
             Stage.Frames(10);

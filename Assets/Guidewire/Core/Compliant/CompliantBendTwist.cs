@@ -2,10 +2,11 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Bending and twist as constraints with compliance (Macklin 2016): C = theta - theta0 with theta the rotation
-    /// vector of conj(q_a) q_b, compliance (w l)/K with K = diag(EI, EI, GJ), the joints of the direct solver.</summary>
-    /// <remarks>With dtheta = T delta_b - T^T delta_a, dlambda solves (T J_b^-1 T^T + T^T J_a^-1 T + alpha/h^2) dlambda =
-    /// -C - alpha/h^2 lambda. A clamp's frame has J^-1 = 0.</remarks>
+    /// <summary>Bending and twist as constraints with compliance (Macklin 2016): C = theta - theta0 with theta the
+    /// rotation vector of conj(q_a) q_b, compliance (w l)/K with K = diag(EI, EI, GJ), the joints of the direct
+    /// solver.</summary>
+    /// <remarks>With dtheta = T delta_b - T^T delta_a, dlambda solves (T J_b^-1 T^T + T^T J_a^-1 T + alpha/h^2)
+    /// dlambda = -C - alpha/h^2 lambda. A clamp's frame has J^-1 = 0.</remarks>
     internal sealed class CompliantBendTwist
     {
         private readonly Joint[] _joint;

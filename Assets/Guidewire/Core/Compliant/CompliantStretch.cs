@@ -1,7 +1,8 @@
 namespace Guidewire.Core
 {
-    /// <summary>Stretch and shear as constraints with compliance (Macklin 2016): C = R^T (x_(j+1) - x_j)/l - e3 along the
-    /// element's axes, compliance (l K)^-1 with K = diag(GA, GA, EA), so that C^T (l K) C/2 is the energy.</summary>
+    /// <summary>Stretch and shear as constraints with compliance (Macklin 2016): C = R^T (x_(j+1) - x_j)/l - e3 along
+    /// the element's axes, compliance (l K)^-1 with K = diag(GA, GA, EA), so that C^T (l K) C/2 is the
+    /// energy.</summary>
     /// <remarks>dlambda solves (W + alpha/h^2) dlambda = -C - alpha/h^2 lambda with all three components at once, where
     /// W = (w_j + w_(j+1))/l^2 + [p] J^-1 [p]^T, p = C + e3, and J is the element's rotary inertia.</remarks>
     internal sealed class CompliantStretch

@@ -2,8 +2,9 @@ using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
-    /// <summary>Bending and twist: one joint between successive elements, one at each clamped end against the clamp's frame
-    /// (thesis, bend-twist constraint, as an energy; the law between angle and couple is the type argument).</summary>
+    /// <summary>Bending and twist: one joint between successive elements, one at each clamped end against the clamp's
+    /// frame (thesis, bend-twist constraint, as an energy; the law between angle and couple is the type
+    /// argument).</summary>
     internal sealed class BendTwistEnergy<TLaw> : BendTwistTerm
         where TLaw : struct, IJointLaw
     {
@@ -14,7 +15,8 @@ namespace Guidewire.Core
         private RodBlock _clampBlock;     // what falls on a clamp's frame, which does not move
         private RodVector _clampVector;
 
-        /// <summary>The energy of these n+1 joints; the first and the last count only where that end is clamped.</summary>
+        /// <summary>The energy of these n+1 joints; the first and the last count only where that end is
+        /// clamped.</summary>
         public BendTwistEnergy(Joint[] joints, bool hasProximal, bool hasDistal)
         {
             _joint = joints;

@@ -7,15 +7,16 @@ namespace Guidewire.Core
     ///   U = B A^-1, C -= U B^T, V = D A^-1, E -= V B^T, A+ -= V D^T              (the position x),
     ///   G = E C^-1, A+ -= G E^T, H = F C^-1, B+ -= H E^T, C+ -= H F^T            (the rotation theta).</summary>
     /// <remarks>x of one node never meets theta of the next element but one, so the elimination fills nothing in: 234
-    /// multiplications a block against some 400 of a dense 6x6 sweep. A 3x3 block is inverted by cofactors (one division),
-    /// and its leading minors are at hand, whose signs count the negative eigenvalues (Sylvester's law of inertia).
-    /// The blocks are well conditioned (EA against GA; EI against GJ), which is what the explicit inverse asks for.
-    /// </remarks>
+    /// multiplications a block against some 400 of a dense 6x6 sweep. A 3x3 block is inverted by cofactors (one
+    /// division), and its leading minors are at hand, whose signs count the negative eigenvalues (Sylvester's law of
+    /// inertia). The blocks are well conditioned (EA against GA; EI against GJ), which is what the explicit inverse
+    /// asks for. </remarks>
     internal static class BlockElimination
     {
         /// <summary>Eliminates one block, with its right-hand side, from the block after it. The block is overwritten:
         /// A, B, C, D, E, F become A^-1, U, C^-1, V, G, H.</summary>
         /// <returns>The number of eigenvalues of A and C (as eliminated) that are not positive, 0 to 6.</returns>
+        [MethodImpl(Compiled.AtOnce)]
         public static int Eliminate(ref RodBlock block, ref RodBlock next, ref RodVector y, ref RodVector nextY)
         {
             // Position block: A^-1, then what its elimination leaves on theta and on the next position.
@@ -183,6 +184,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>One block of y := D^-1 L^-1 y with a factorisation that is kept.</summary>
+        [MethodImpl(Compiled.AtOnce)]
         public static void Forward(in RodBlock block, ref RodVector y, ref RodVector nextY)
         {
             double x1 = y.X1, x2 = y.X2, x3 = y.X3;
@@ -207,6 +209,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>One block of z := L^-T z, from the last block to the first.</summary>
+        [MethodImpl(Compiled.AtOnce)]
         public static void Backward(in RodBlock block, ref RodVector z, in RodVector nextZ)
         {
             double x1 = nextZ.X1, x2 = nextZ.X2, x3 = nextZ.X3;

@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>The linear system of a rod: n+1 blocks over (x_i, theta_i), the last theta a place holder. Assembles the
-    /// terms, takes the supports out, factorises by LDL^T and solves, all in O(n).</summary>
+    /// <summary>The linear system of a rod: n+1 blocks over (x_i, theta_i), the last theta a place holder. Assembles
+    /// the terms, takes the supports out, factorises by LDL^T and solves, all in O(n).</summary>
     /// <remarks>A long rod is assembled and eliminated piece by piece, so that a block is still in the cache when it is
     /// eliminated. At a support the fixed direction's row and column become those of the unit matrix.</remarks>
     internal sealed class BlockTridiagonal
@@ -38,8 +38,8 @@ namespace Guidewire.Core
         /// <summary>Number of vectors that a right-hand side must hold: one more than there are blocks.</summary>
         public int VectorCount => _count + 1;
 
-        /// <summary>Assembles gradient and blocks of all terms, adds shift times the metric (l on theta, l/L^2 on x), and
-        /// factorises; with it goes the right-hand side -gradient.</summary>
+        /// <summary>Assembles gradient and blocks of all terms, adds shift times the metric (l on theta, l/L^2 on x),
+        /// and factorises; with it goes the right-hand side -gradient.</summary>
         /// <returns>The number of eigenvalues that are not positive: 0 when the energy is convex here.</returns>
         public int Factorise(EnergyTerm[] terms, RodShape shape, RodVector[] gradient, RodVector[] y, double shift)
         {
@@ -110,7 +110,8 @@ namespace Guidewire.Core
             Back(y);
         }
 
-        /// <summary>The second half of <see cref="Solve"/>, after a <see cref="Factorise"/> that took y along.</summary>
+        /// <summary>The second half of <see cref="Solve"/>, after a <see cref="Factorise"/> that took y
+        /// along.</summary>
         public void Back(RodVector[] y)
         {
             y[_count] = default;

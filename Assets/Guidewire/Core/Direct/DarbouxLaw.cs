@@ -1,10 +1,11 @@
 namespace Guidewire.Core
 {
-    /// <summary>Couple K sin(angle): the energy 1/2 K |2 v - theta0|^2 with v the imaginary part of conj(q_a) q_b, which is
-    /// the Darboux vector (2/l) v of Kugelstadt and Schoemer 2016 as an energy.</summary>
-    /// <remarks>Softer than the rotation vector by (kappa l)^2/6, and no couple above K has an equilibrium. With r = (v, w),
-    /// A = w 1 + [v] and m = K (2 v - theta0): couples A^T m on b and -A m on a; second derivatives A^T K A, A K A^T and
-    /// -A K A, less (m . v)/2 on the diagonal, and (m v^T + v m^T - (m . v) 1 + w [m])/2 between a and b.</remarks>
+    /// <summary>Couple K sin(angle): the energy 1/2 K |2 v - theta0|^2 with v the imaginary part of conj(q_a) q_b,
+    /// which is the Darboux vector (2/l) v of Kugelstadt and Schoemer 2016 as an energy.</summary>
+    /// <remarks>Softer than the rotation vector by (kappa l)^2/6, and no couple above K has an equilibrium. With r =
+    /// (v, w), A = w 1 + [v] and m = K (2 v - theta0): couples A^T m on b and -A m on a; second derivatives A^T K A, A
+    /// K A^T and -A K A, less (m . v)/2 on the diagonal, and (m v^T + v m^T - (m . v) 1 + w [m])/2 between a and
+    /// b.</remarks>
     internal readonly struct DarbouxLaw : IJointLaw
     {
         /// <inheritdoc/>

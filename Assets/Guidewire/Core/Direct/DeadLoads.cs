@@ -13,8 +13,8 @@ namespace Guidewire.Core
         /// <summary>Force on each node, N.</summary>
         public Vector3d[] Force { get; }
 
-        /// <summary>Sets the weight of the rod under gravity g (m/s^2), on each node what the mass rule gives it, and adds
-        /// the force at the tip (N).</summary>
+        /// <summary>Sets the weight of the rod under gravity g (m/s^2), on each node what the mass rule gives it, and
+        /// adds the force at the tip (N).</summary>
         public void Set(MaterialRod rod, MassRule rule, in Vector3d gravity, in Vector3d tipForce)
         {
             int n = rod.ElementCount;

@@ -21,8 +21,8 @@ namespace Guidewire.Core
         /// <summary>Largest unbalanced force over EI/L^2 + loads, or couple over that times L.</summary>
         public double Residual;
 
-        /// <summary>Smallest eigenvalue of the second derivative against the metric (l on turns, l/L^2 on shifts), N: for
-        /// a straight clamped-free rod EI (pi/(2 L))^2, the distance to its Euler load.</summary>
+        /// <summary>Smallest eigenvalue of the second derivative against the metric (l on turns, l/L^2 on shifts), N:
+        /// for a straight clamped-free rod EI (pi/(2 L))^2, the distance to its Euler load.</summary>
         public double SmallestEigenvalue;
     }
 }

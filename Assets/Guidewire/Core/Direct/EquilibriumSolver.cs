@@ -3,14 +3,14 @@ using System;
 namespace Guidewire.Core
 {
     /// <summary>Finds a rest shape: a minimum of the sum of energy terms, by Newton's method.</summary>
-    /// <remarks>Each iteration factorises the true second derivative. Where it is not positive definite a multiple of the
-    /// metric is added until it is, so that the direction descends; the step is cut until the energy falls by a part of
-    /// what the slope promises. At a saddle (a straight rod under a thrust along its axis) the search leaves along the
-    /// direction of most negative curvature. Converged means: the second derivative as it is has positive pivots only,
-    /// and the full step is below the tolerance. Whatever else happens ends with a reason. A shape that may turn without
-    /// any change of energy (a buckled rod about its thrust) has an eigenvalue 0, which rounding makes one of either
-    /// sign: eigenvalues above -1e-4 EI/L^2, 1/25,000 of the straight rod's own, count as not negative, and every
-    /// direction is found with 1e-6 EI/L^2 added.</remarks>
+    /// <remarks>Each iteration factorises the true second derivative. Where it is not positive definite a multiple of
+    /// the metric is added until it is, so that the direction descends; the step is cut until the energy falls by a
+    /// part of what the slope promises. At a saddle (a straight rod under a thrust along its axis) the search leaves
+    /// along the direction of most negative curvature. Converged means: the second derivative as it is has positive
+    /// pivots only, and the full step is below the tolerance. Whatever else happens ends with a reason. A shape that
+    /// may turn without any change of energy (a buckled rod about its thrust) has an eigenvalue 0, which rounding
+    /// makes one of either sign: eigenvalues above -1e-4 EI/L^2, 1/25,000 of the straight rod's own, count as not
+    /// negative, and every direction is found with 1e-6 EI/L^2 added.</remarks>
     internal sealed class EquilibriumSolver
     {
         private const double LargestTurn = 1.0;          // rad an iteration, of one element where forces act
@@ -60,7 +60,8 @@ namespace Guidewire.Core
         /// <summary>Moves <paramref name="shape"/> to a rest shape near it.</summary>
         /// <param name="tolerance">On the last Newton step, radians or displacement over L.</param>
         /// <param name="mostIterations">After which the search gives up.</param>
-        /// <param name="judge">Whether the result states residual and smallest eigenvalue, which cost some solutions.</param>
+        /// <param name="judge">Whether the result states residual and smallest eigenvalue, which cost some
+        /// solutions.</param>
         public EquilibriumResult Solve(RodShape shape, double tolerance, int mostIterations, bool judge = true)
         {
             EquilibriumResult result = default;
@@ -87,7 +88,8 @@ namespace Guidewire.Core
                     }
                     continue;
                 }
-                // Along a direction that costs no energy rounding alone makes steps: there the energy they gain is asked.
+                // Along a direction that costs no energy rounding alone makes steps: there the energy they gain is
+                // asked.
                 double energyStep = Math.Sqrt(Math.Max(0.0, -RodVectors.Dot(_gradient, _direction))
                     / (_bendForce * _length));
                 bool done = convex && (size <= tolerance || energyStep <= tolerance);
@@ -118,7 +120,8 @@ namespace Guidewire.Core
             return result;
         }
 
-        /// <summary>Sets the direction; true if the second derivative has no eigenvalue that counts as negative.</summary>
+        /// <summary>Sets the direction; true if the second derivative has no eigenvalue that counts as
+        /// negative.</summary>
         private bool FindDirection(RodShape shape, ref double shift, ref EquilibriumResult result)
         {
             for (double small = Regularisation * _bendForce; small <= _neutral; small *= 10.0)
@@ -166,8 +169,8 @@ namespace Guidewire.Core
             return false;
         }
 
-        /// <summary>Steps along the direction of most negative curvature, found by inverse iteration with a shift just above
-        /// the smallest eigenvalue's size.</summary>
+        /// <summary>Steps along the direction of most negative curvature, found by inverse iteration with a shift just
+        /// above the smallest eigenvalue's size.</summary>
         private bool LeaveSaddle(RodShape shape, double shift)
         {
             double low = 0.0;
@@ -197,7 +200,8 @@ namespace Guidewire.Core
             return false;
         }
 
-        /// <summary>Leaves in the work vector the eigenvector of the matrix at hand whose eigenvalue is smallest.</summary>
+        /// <summary>Leaves in the work vector the eigenvector of the matrix at hand whose eigenvalue is
+        /// smallest.</summary>
         private void InverseIteration(out double eigenvalue)
         {
             // A fixed start without symmetry, so that no mode of the rod is orthogonal to it.

@@ -2,12 +2,12 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Equilibria under a couple that turns with the tip and has no potential: follows them from the shape without
-    /// the couple to the full couple, by Newton's method on the residual.</summary>
-    /// <remarks>The tangent is the symmetric second derivative plus [m]/2 on the last element, put in exactly by three more
-    /// solutions (Woodbury). A step is accepted where the next Newton step, with the same tangent, is shorter (the natural
-    /// monotonicity test of Newton methods). The determinant of the tangent must stay positive along the way: where it
-    /// changes sign the rod would leave the branch, and the search ends with that reason.</remarks>
+    /// <summary>Equilibria under a couple that turns with the tip and has no potential: follows them from the shape
+    /// without the couple to the full couple, by Newton's method on the residual.</summary>
+    /// <remarks>The tangent is the symmetric second derivative plus [m]/2 on the last element, put in exactly by three
+    /// more solutions (Woodbury). A step is accepted where the next Newton step, with the same tangent, is shorter
+    /// (the natural monotonicity test of Newton methods). The determinant of the tangent must stay positive along the
+    /// way: where it changes sign the rod would leave the branch, and the search ends with that reason.</remarks>
     internal sealed class FollowerSolver
     {
         private const double LargestTurn = 1.0;      // rad an iteration

@@ -1,13 +1,14 @@
 namespace Guidewire.Core
 {
-    /// <summary>How a joint between two frames a and b answers to their relative rotation r = conj(q_a) q_b. Implemented by
-    /// structs and used as a type argument, so that the loops over joints pay for no call.</summary>
+    /// <summary>How a joint between two frames a and b answers to their relative rotation r = conj(q_a) q_b.
+    /// Implemented by structs and used as a type argument, so that the loops over joints pay for no call.</summary>
     internal interface IJointLaw
     {
         /// <summary>The energy, J.</summary>
         double Value(in Joint joint, in Quaterniond relative);
 
-        /// <summary>Adds the couples, N m, along the axes of a and of b (derivatives by their body-frame turns).</summary>
+        /// <summary>Adds the couples, N m, along the axes of a and of b (derivatives by their body-frame
+        /// turns).</summary>
         void AddGradient(in Joint joint, in Quaterniond relative, ref RodVector a, ref RodVector b);
 
         /// <summary>Adds couples and second derivatives: C of a and of b, F of a.</summary>

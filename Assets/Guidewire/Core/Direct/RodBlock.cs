@@ -2,8 +2,8 @@ using System.Runtime.InteropServices;
 
 namespace Guidewire.Core
 {
-    /// <summary>What one node and the element after it hold of a symmetric matrix over (x_0, theta_0, x_1, theta_1, ...):
-    /// 48 numbers, six lines of cache, each 3x3 block contiguous by rows.</summary>
+    /// <summary>What one node and the element after it hold of a symmetric matrix over (x_0, theta_0, x_1, theta_1,
+    /// ...): 48 numbers, six lines of cache, each 3x3 block contiguous by rows.</summary>
     /// <remarks>A = (x, x), B = (theta, x), C = (theta, theta), and against the next node
     /// D = (x+, x), E = (x+, theta), F = (theta+, theta). Row index first; of A and C the lower triangle. The pair
     /// (theta+, x) does not occur: a node's position acts on the elements at its two sides only.</remarks>

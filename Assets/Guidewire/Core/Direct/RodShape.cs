@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Where a rod is: positions x_0 .. x_n of its nodes in m, orientations q_0 .. q_(n-1) of its elements, and the
-    /// frames to which its two ends may be clamped.</summary>
+    /// <summary>Where a rod is: positions x_0 .. x_n of its nodes in m, orientations q_0 .. q_(n-1) of its elements,
+    /// and the frames to which its two ends may be clamped.</summary>
     internal sealed class RodShape
     {
         /// <summary>A rod of <paramref name="elementCount"/> elements, all at the origin and unturned.</summary>

@@ -2,9 +2,10 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>A material rod at rest: between its supports, under dead loads and a couple at the tip. Chooses the way to
-    /// the rest shape: minimisation where the loads have a potential (all but a couple in space), a minimisation kept
-    /// in the plane for a couple in a plane problem, else minimisation without the couple and continuation to it.</summary>
+    /// <summary>A material rod at rest: between its supports, under dead loads and a couple at the tip. Chooses the
+    /// way to the rest shape: minimisation where the loads have a potential (all but a couple in space), a
+    /// minimisation kept in the plane for a couple in a plane problem, else minimisation without the couple and
+    /// continuation to it.</summary>
     internal sealed class RodStatics
     {
         private const double PlaneTolerance = 1e-12;

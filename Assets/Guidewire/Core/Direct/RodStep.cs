@@ -2,8 +2,9 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Moves a shape along a Newton direction so that strains, not positions, change linearly: q exp(a dtheta), the
-    /// element's chord p + a dp with dp the direction's own change of p, positions summed up from node 0.</summary>
+    /// <summary>Moves a shape along a Newton direction so that strains, not positions, change linearly: q exp(a
+    /// dtheta), the element's chord p + a dp with dp the direction's own change of p, positions summed up from node
+    /// 0.</summary>
     /// <remarks>Moving positions along straight lines would stretch a turning element in second order, by EA times the
     /// angle squared, and a line search would have to creep. To first order both are the same step. Where the distal
     /// end is held, what the sum misses of its place, of second order too, is spread over the rod.</remarks>
@@ -56,7 +57,8 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>The size of a direction: the largest turn of an element in radians or shift of a node over L.</summary>
+        /// <summary>The size of a direction: the largest turn of an element in radians or shift of a node over
+        /// L.</summary>
         /// <param name="relative">The largest difference between the turns of two successive elements, radians.</param>
         public static double Size(RodVector[] direction, int elementCount, double length, out double relative)
         {

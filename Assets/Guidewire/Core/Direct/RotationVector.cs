@@ -3,8 +3,10 @@ using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
-    /// <summary>Rotations as vectors: theta = angle times axis, q = exp(theta/2) as a quaternion, |theta| at most pi for
-    /// the inverse. Small angles go by series, because the closed forms are 0/0 there.</summary>
+    /// <summary>Rotations as vectors: theta = angle times axis, q = exp(theta/2) as a quaternion, |theta| at most pi
+    /// for the inverse. Small angles go by series, because the closed forms are 0/0 there.</summary>
+    /// <remarks>Compiled in full at once: a short run would otherwise end before the runtime sees that they are
+    /// hot.</remarks>
     internal static class RotationVector
     {
         // Below |sin(angle/2)|^2 = 0.02 eight terms of asin(s)/s are exact to 1e-16.
@@ -14,6 +16,7 @@ namespace Guidewire.Core
         private const double SmallAngleSquared = 0.09;
 
         /// <summary>The unit quaternion that turns by <paramref name="theta"/>.</summary>
+        [MethodImpl(Compiled.AtOnce)]
         public static Quaterniond Exp(in Vector3d theta)
         {
             double squared = theta.LengthSquared;
@@ -37,7 +40,8 @@ namespace Guidewire.Core
             return new Quaterniond(scale * theta.X, scale * theta.Y, scale * theta.Z, real);
         }
 
-        /// <summary>The rotation vector of a unit quaternion, of length 0 to pi: q and -q are the same rotation.</summary>
+        /// <summary>The rotation vector of a unit quaternion, of length 0 to pi: q and -q are the same
+        /// rotation.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Vector3d Log(in Quaterniond q)
         {
@@ -48,7 +52,9 @@ namespace Guidewire.Core
             return new Vector3d(scale * q.X, scale * q.Y, scale * q.Z);
         }
 
-        /// <summary>c(a) = (1 - (a/2) cot(a/2))/a^2, for the inverse tangent map T = 1 + [theta]/2 + c [theta]^2.</summary>
+        /// <summary>c(a) = (1 - (a/2) cot(a/2))/a^2, for the inverse tangent map T = 1 + [theta]/2 + c
+        /// [theta]^2.</summary>
+        [MethodImpl(Compiled.AtOnce)]
         public static double CotangentFactor(double angleSquared)
         {
             double a = angleSquared;
@@ -62,6 +68,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>c'(a)/a, the derivative of <see cref="CotangentFactor"/> by the angle over the angle.</summary>
+        [MethodImpl(Compiled.AtOnce)]
         public static double CotangentSlope(double angleSquared, double cotangentFactor)
         {
             double a = angleSquared;
@@ -78,6 +85,7 @@ namespace Guidewire.Core
 
         /// <summary>J(phi) u, the body's turn that belongs to the change u of the rotation vector phi:
         /// J = 1 - (1 - cos a)/a^2 [phi] + (a - sin a)/a^3 [phi]^2.</summary>
+        [MethodImpl(Compiled.AtOnce)]
         public static Vector3d TangentMap(in Vector3d phi, in Vector3d u)
         {
             double a = phi.LengthSquared;

@@ -2,11 +2,11 @@ using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
-    /// <summary>Couple = K (theta - theta0) with theta the rotation vector of conj(q_a) q_b: linear in the angle up to pi,
-    /// so that a ring of equal elements closes exactly.</summary>
+    /// <summary>Couple = K (theta - theta0) with theta the rotation vector of conj(q_a) q_b: linear in the angle up to
+    /// pi, so that a ring of equal elements closes exactly.</summary>
     /// <remarks>With T = b 1 + c theta theta^T + [theta]/2, b = 1 - c a, a = |theta|^2 and c(a) the cotangent factor,
-    /// dtheta = T delta_b - T^T delta_a. The second derivatives are T^T K T and its like, plus the change of T under the
-    /// couple m = K (theta - theta0). Multiplied out with s = theta . m and w = m x theta,
+    /// dtheta = T delta_b - T^T delta_a. The second derivatives are T^T K T and its like, plus the change of T under
+    /// the couple m = K (theta - theta0). Multiplied out with s = theta . m and w = m x theta,
     ///   C_b = sigma 1 + sym(theta (zeta theta + alpha m + c w)^T) + k p p^T,      p = T^T e3, r = T e3,
     ///   C_a = sigma 1 + sym(theta (zeta theta + alpha m - c w)^T) + k r r^T,      k = twist - bend stiffness,
     ///   F  = -(sigma' 1 + theta y^T + z theta^T + [v] + k p r^T),

@@ -2,8 +2,8 @@ using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
-    /// <summary>Stretch and shear of the elements: l/2 Gamma^T K Gamma with Gamma = p - e3, p = R^T (x_(j+1) - x_j)/l and
-    /// K = diag(GA, GA, EA) (thesis, stretch constraint, as an energy).</summary>
+    /// <summary>Stretch and shear of the elements: l/2 Gamma^T K Gamma with Gamma = p - e3, p = R^T (x_(j+1) - x_j)/l
+    /// and K = diag(GA, GA, EA) (thesis, stretch constraint, as an energy).</summary>
     /// <remarks>With n = K Gamma along the element's axes and M = K [p] - [n], where [a] b = a x b:
     ///   force on x_(j+1): R n;   couple on theta: l n x p;   d(force)/d(theta) = R M;   d(force)/dx = R K R^T/l;
     ///   d(couple)/d(theta) = l ([p]^T K [p] + sym(n p^T) - (n . p) 1).
@@ -34,7 +34,8 @@ namespace Guidewire.Core
             return sum;
         }
 
-        /// <summary>n = K Gamma of element j along its own axes, N, and p, the element's chord over its length.</summary>
+        /// <summary>n = K Gamma of element j along its own axes, N, and p, the element's chord over its
+        /// length.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public Vector3d Stress(RodShape shape, int j, out Vector3d p)
         {
@@ -101,7 +102,8 @@ namespace Guidewire.Core
                 block.B11 -= first.X; block.B12 -= first.Y; block.B13 -= first.Z;
                 block.B21 -= second.X; block.B22 -= second.Y; block.B23 -= second.Z;
 
-                // (theta, theta): l (GA (|p|^2 1 - p p^T) + (EA - GA) r r^T + sym(n p^T) - (n . p) 1), r = (-p2, p1, 0).
+                // (theta, theta): l (GA (|p|^2 1 - p p^T) + (EA - GA) r r^T + sym(n p^T) - (n . p) 1), r = (-p2, p1,
+                // 0).
                 double diagonal = l * (shear * p.LengthSquared - Vector3d.Dot(n, p));
                 double ls = l * shear;
                 double le = l * excess;

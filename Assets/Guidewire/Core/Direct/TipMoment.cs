@@ -1,8 +1,8 @@
 namespace Guidewire.Core
 {
     /// <summary>A couple on the last element that turns with it: constant along the element's own axes.</summary>
-    /// <remarks>In a plane, and about the tip's own axis in a pure twist, it has the potential -m times the angle. In space it
-    /// has none: the work on a closed path of frames is not 0. It then enters by its work since the anchor,
+    /// <remarks>In a plane, and about the tip's own axis in a pure twist, it has the potential -m times the angle. In
+    /// space it has none: the work on a closed path of frames is not 0. It then enters by its work since the anchor,
     /// -m . log(conj(q_anchor) q), whose second derivative at the anchor is 0; the part of the tangent that no energy
     /// carries, [m]/2 on the last element, the solver adds on its own.</remarks>
     internal sealed class TipMoment : EnergyTerm

@@ -1,6 +1,7 @@
 namespace Guidewire.Core
 {
-    /// <summary>Moves sphere 0 along the first element and turns that element about its axis, as a hand asks at the moment.
+    /// <summary>Moves sphere 0 along the first element and turns that element about its axis, as a hand asks at the
+    /// moment.
     /// </summary>
     /// <remarks>The hand holds the frame of element 0, also while it asks for nothing: its orientation has weight 0.
     /// </remarks>

@@ -3,8 +3,8 @@ namespace Guidewire.Core
     /// <summary>What a hand asks of the wire: set between two steps by whoever steers, read in the next.</summary>
     public sealed class Steering
     {
-        /// <summary>Motion of sphere 0 along the first element in the next step (thesis eq. 3.6), units; negative values
-        /// pull.</summary>
+        /// <summary>Motion of sphere 0 along the first element in the next step (thesis eq. 3.6), units; negative
+        /// values pull.</summary>
         public double Push { get; set; }
 
         /// <summary>Turn of element 0 about its own axis in the next step, rad.</summary>

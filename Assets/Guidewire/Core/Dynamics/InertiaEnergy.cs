@@ -1,13 +1,15 @@
 using System;
+using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
-    /// <summary>What one implicit stage of length h adds to the energy: 1/2 (x - x~)^T M (x - x~)/h^2 for the nodes and the
-    /// rotary inertia of the elements. With it the stage's motion is the energy's minimum.</summary>
-    /// <remarks>Nodes: a = (x - x~)/h^2 is the stage's acceleration, x~ = x^ + h v^. Elements: the turn since the step's start
-    /// is phi = log(conj(q_start) q); w = J(phi) (phi - phi^)/h is the angular velocity along the element's axes,
-    /// and I (w - w^)/h + w x I w is its couple, I = rho I l diag(1, 1, 2). This couple has no potential; it enters by
-    /// its work since the anchor, with I/h^2 as second derivative, which leaves out terms of order |phi| I/h^2.</remarks>
+    /// <summary>What one implicit stage of length h adds to the energy: 1/2 (x - x~)^T M (x - x~)/h^2 for the nodes
+    /// and the rotary inertia of the elements. With it the stage's motion is the energy's minimum.</summary>
+    /// <remarks>Nodes: a = (x - x~)/h^2 is the stage's acceleration, x~ = x^ + h v^. Elements: the turn since the
+    /// step's start is phi = log(conj(q_start) q); w = J(phi) (phi - phi^)/h is the angular velocity along the
+    /// element's axes, and I (w - w^)/h + w x I w is its couple, I = rho I l diag(1, 1, 2). This couple has no
+    /// potential; it enters by its work since the anchor, with I/h^2 as second derivative, which leaves out terms of
+    /// order |phi| I/h^2.</remarks>
     internal sealed class InertiaEnergy : EnergyTerm
     {
         private const double SurelyFirst = 4.0;  // radians squared: below it the shortest rotation vector is meant
@@ -72,8 +74,9 @@ namespace Guidewire.Core
             Array.Clear(_lastTurn, 0, _lastTurn.Length);
         }
 
-        /// <summary>phi of element j in this orientation: of all rotation vectors that lead there, the one nearest to the last
-        /// that was asked for in this step, so that more than half a turn a step is counted.</summary>
+        /// <summary>phi of element j in this orientation: of all rotation vectors that lead there, the one nearest to
+        /// the last that was asked for in this step, so that more than half a turn a step is counted.</summary>
+        [MethodImpl(Compiled.AtOnce)]
         public Vector3d Turn(in Quaterniond orientation, int j)
         {
             Vector3d turn = RotationVector.Log(Start[j].Conjugate * orientation);
@@ -89,6 +92,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>w of element j in this orientation, and phi.</summary>
+        [MethodImpl(Compiled.AtOnce)]
         public Vector3d Spin(in Quaterniond orientation, int j, out Vector3d turn)
         {
             turn = Turn(orientation, j);
@@ -215,6 +219,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>I (w - w^)/h + w x I w.</summary>
+        [MethodImpl(Compiled.AtOnce)]
         private Vector3d Couple(in Quaterniond orientation, int j)
         {
             Vector3d w = Spin(orientation, j, out _);

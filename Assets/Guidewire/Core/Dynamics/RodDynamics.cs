@@ -2,11 +2,11 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>The motion of a material rod by implicit schemes: each stage's positions and orientations minimise inertia
-    /// plus energies, by Newton's method in O(n).</summary>
-    /// <remarks>Positions and velocities obey x' = v, M v' = f; orientations are q = q_start exp(phi) within a step, with
-    /// phi' = J(phi)^-1 w and I w' = couple - w x I w along the element's axes. A Runge-Kutta scheme acts on x, v, phi
-    /// and w alike, so its order holds for large turns too. BDF2 begins with a step of implicit Euler.</remarks>
+    /// <summary>The motion of a material rod by implicit schemes: each stage's positions and orientations minimise
+    /// inertia plus energies, by Newton's method in O(n).</summary>
+    /// <remarks>Positions and velocities obey x' = v, M v' = f; orientations are q = q_start exp(phi) within a step,
+    /// with phi' = J(phi)^-1 w and I w' = couple - w x I w along the element's axes. A Runge-Kutta scheme acts on x,
+    /// v, phi and w alike, so its order holds for large turns too. BDF2 begins with a step of implicit Euler.</remarks>
     internal sealed class RodDynamics
     {
         private const double LargestFrameTurn = 0.5;  // radians a stage; more is taken in parts
@@ -96,12 +96,12 @@ namespace Guidewire.Core
         /// <summary>Counts of what was solved.</summary>
         public StageSolver Solver => _solver;
 
-        /// <summary>Whether <see cref="MeanReaction"/> and <see cref="MeanLoad"/> are kept; they cost a gradient a stage.
-        /// </summary>
+        /// <summary>Whether <see cref="MeanReaction"/> and <see cref="MeanLoad"/> are kept; they cost a gradient a
+        /// stage. </summary>
         public bool TracksReactions { get; set; }
 
-        /// <summary>Force that the supports exert on node 0, N, the mean over the last step by the scheme's weights: the
-        /// first element's stress, less the node's own share of weight and inertia.</summary>
+        /// <summary>Force that the supports exert on node 0, N, the mean over the last step by the scheme's weights:
+        /// the first element's stress, less the node's own share of weight and inertia.</summary>
         public Vector3d MeanReaction { get; private set; }
 
         /// <summary>Force that the supports exert on the last node, N, the mean over the last step.</summary>
@@ -226,8 +226,8 @@ namespace Guidewire.Core
             return failure;
         }
 
-        /// <summary>Places the supports, predicts with the acceleration of the stage before, solves, and takes the stage's
-        /// derivatives.</summary>
+        /// <summary>Places the supports, predicts with the acceleration of the stage before, solves, and takes the
+        /// stage's derivatives.</summary>
         private string? SolveStage(double time, double h, int stage, int before, double weight)
         {
             _schedule.SetLoads(_rod, _supports.Mass, _statics.Loads, time);
@@ -236,7 +236,8 @@ namespace Guidewire.Core
             {
                 return failure;
             }
-            // A prediction knows nothing of turns just wound up, and one of more than a radian leads to another winding.
+            // A prediction knows nothing of turns just wound up, and one of more than a radian leads to another
+            // winding.
             if (Predict(h, before) > LargestPredictedTurn || inParts)
             {
                 Array.Clear(_solver.Prediction, 0, _solver.Prediction.Length);
@@ -320,8 +321,8 @@ namespace Guidewire.Core
             direction[last].X3 = e.Z;
         }
 
-        /// <summary>Turns the clamps' frames; a large turn in parts, each solved on its own, so that the rod winds up as it
-        /// would under a fast turn and not by the shorter way.</summary>
+        /// <summary>Turns the clamps' frames; a large turn in parts, each solved on its own, so that the rod winds up
+        /// as it would under a fast turn and not by the shorter way.</summary>
         private string? TurnFrames(double time, out bool inParts)
         {
             inParts = false;

@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>The coefficients of a diagonally implicit Runge-Kutta scheme, all L-stable and stiffly accurate: the last
-    /// stage is the end of the step, so what is stiff (stretch, shear) is at rest there.</summary>
+    /// <summary>The coefficients of a diagonally implicit Runge-Kutta scheme, all L-stable and stiffly accurate: the
+    /// last stage is the end of the step, so what is stiff (stretch, shear) is at rest there.</summary>
     internal sealed class RungeKuttaScheme
     {
         private RungeKuttaScheme(double[][] rows)

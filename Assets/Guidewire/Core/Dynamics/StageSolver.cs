@@ -2,12 +2,12 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Solves one implicit stage from a prediction: Newton's method with a factorisation that is kept as long as it
-    /// contracts, and where it does not, the slower search that minimises the stage's energy.</summary>
-    /// <remarks>After a step d1 the next correction d2 is computed with the same factorisation. Its length over that of d1
-    /// is the contraction c; the error left is about c/(1-c) |d2| and has to be below the tolerance. From the same two
-    /// comes Newton's own constant, |d2|/|d1|^2: a stage for whose first step it promises an error below the tolerance
-    /// takes no second one, but for every 16th, which looks whether the promise still holds.</remarks>
+    /// <summary>Solves one implicit stage from a prediction: Newton's method with a factorisation that is kept as long
+    /// as it contracts, and where it does not, the slower search that minimises the stage's energy.</summary>
+    /// <remarks>After a step d1 the next correction d2 is computed with the same factorisation. Its length over that
+    /// of d1 is the contraction c; the error left is about c/(1-c) |d2| and has to be below the tolerance. From the
+    /// same two comes Newton's own constant, |d2|/|d1|^2: a stage for whose first step it promises an error below the
+    /// tolerance takes no second one, but for every 16th, which looks whether the promise still holds.</remarks>
     internal sealed class StageSolver
     {
         private const double WorstContraction = 0.3;
@@ -56,7 +56,8 @@ namespace Guidewire.Core
         /// <summary>Room for a prediction, as a direction from the shape at hand.</summary>
         public RodVector[] Prediction => _direction;
 
-        /// <summary>Solves the stage; the shape's supports are in place, <see cref="Prediction"/> leads to the guess.</summary>
+        /// <summary>Solves the stage; the shape's supports are in place, <see cref="Prediction"/> leads to the
+        /// guess.</summary>
         /// <param name="shape">In: the last shape. Out: the stage's.</param>
         /// <param name="tolerance">On the error left: radians, or displacement over L.</param>
         /// <param name="mostIterations">Of the slower search.</param>

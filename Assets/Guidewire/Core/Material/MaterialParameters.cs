@@ -80,10 +80,10 @@ namespace Guidewire.Core
         public int Substeps { get; set; } = 1;
 
         /// <summary>Error that a solver may leave in a step: radians, or displacement over L.</summary>
-        public double SolverTolerance { get; set; } = 1e-8;
+        public double SolverTolerance { get; set; } = 1e-6;
 
-        /// <summary>Newton iterations after which the direct solver gives up a stage; a rest shape gets ten times as many.
-        /// </summary>
+        /// <summary>Newton iterations after which the direct solver gives up a stage; a rest shape gets ten times as
+        /// many. </summary>
         public int MaxNewtonIterations { get; set; } = 50;
     }
 }

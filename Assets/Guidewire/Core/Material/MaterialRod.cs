@@ -2,7 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>A rod as a material: stiffness, density and rest shape of each of its n elements, in SI units.</summary>
+    /// <summary>A rod as a material: stiffness, density and rest shape of each of its n elements, in SI
+    /// units.</summary>
     internal sealed class MaterialRod
     {
         // Gregory's end weights for the trapezoidal rule, fourth order.
@@ -81,7 +82,8 @@ namespace Guidewire.Core
             return rod;
         }
 
-        /// <summary>Makes element j a round wire of this radius and material; its length and rest curvature stay.</summary>
+        /// <summary>Makes element j a round wire of this radius and material; its length and rest curvature
+        /// stay.</summary>
         public void SetRound(int j, double radius, double youngsModulus, double shearModulus, double density)
         {
             double area = Math.PI * radius * radius;
@@ -94,10 +96,10 @@ namespace Guidewire.Core
             RotaryInertia[j] = density * second;
         }
 
-        /// <summary>The n+1 joints: 0 and n at the ends, k between elements k-1 and k. A joint stands for half of the element
-        /// on either side, times its weight; its compliance is the sum of theirs.</summary>
-        /// <remarks>Gregory's weights need three joints from each clamp of their own; a shorter rod takes the half element.
-        /// </remarks>
+        /// <summary>The n+1 joints: 0 and n at the ends, k between elements k-1 and k. A joint stands for half of the
+        /// element on either side, times its weight; its compliance is the sum of theirs.</summary>
+        /// <remarks>Gregory's weights need three joints from each clamp of their own; a shorter rod takes the half
+        /// element. </remarks>
         public Joint[] Joints(RodSupports supports)
         {
             int n = ElementCount;
@@ -128,7 +130,8 @@ namespace Guidewire.Core
             return joints;
         }
 
-        /// <summary>Weight of the joint that stands <paramref name="place"/> places from a clamp (0: the clamp's own).</summary>
+        /// <summary>Weight of the joint that stands <paramref name="place"/> places from a clamp (0: the clamp's
+        /// own).</summary>
         private static double Weight(ClampRule rule, int place)
         {
             switch (rule)

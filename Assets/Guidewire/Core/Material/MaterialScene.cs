@@ -80,7 +80,8 @@ namespace Guidewire.Core
         /// <summary>Displacement of sphere 0 at the start, m.</summary>
         public Vector3d Displacement { get; }
 
-        /// <summary>Writes positions and velocities in units, orientations and angular velocities into a state.</summary>
+        /// <summary>Writes positions and velocities in units, orientations and angular velocities into a
+        /// state.</summary>
         public void Write(RodState state, RodShape shape, Vector3d[] velocities, Vector3d[] spins)
         {
             double units = 1.0 / Metres;

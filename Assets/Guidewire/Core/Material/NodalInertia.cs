@@ -2,10 +2,12 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Inverse masses of nodes and inverse inertias of elements, for the methods that need them one by one.</summary>
+    /// <summary>Inverse masses of nodes and inverse inertias of elements, for the methods that need them one by
+    /// one.</summary>
     internal sealed class NodalInertia
     {
-        /// <summary>Half of each element's mass on either node, or the whole mass spread evenly; 0 for a held node.</summary>
+        /// <summary>Half of each element's mass on either node, or the whole mass spread evenly; 0 for a held
+        /// node.</summary>
         public NodalInertia(MaterialRod rod, RodSupports supports)
         {
             int n = rod.ElementCount;

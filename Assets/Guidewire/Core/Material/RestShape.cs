@@ -2,8 +2,9 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Brings a scene's rod to its rest shape at time 0. Displacements and turns of the ends are taken in parts, each
-    /// solved before the next, so that a rod turned by many turns is wound up and not turned the shorter way.</summary>
+    /// <summary>Brings a scene's rod to its rest shape at time 0. Displacements and turns of the ends are taken in
+    /// parts, each solved before the next, so that a rod turned by many turns is wound up and not turned the shorter
+    /// way.</summary>
     internal static class RestShape
     {
         private const double LargestTurn = 0.5;    // radians a part

@@ -1,6 +1,7 @@
 namespace Guidewire.Core
 {
-    /// <summary>How a material rod is held and discretised: its two ends, and the rules for clamps, mass and bending.</summary>
+    /// <summary>How a material rod is held and discretised: its two ends, and the rules for clamps, mass and
+    /// bending.</summary>
     internal sealed class RodSupports
     {
         /// <summary>The proximal end; default clamped.</summary>

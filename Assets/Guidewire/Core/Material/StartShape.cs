@@ -6,7 +6,8 @@ namespace Guidewire.Core
         /// <summary>Along z.</summary>
         Straight,
 
-        /// <summary>A closed circle through sphere 0 in the y-z plane; both ends have one place and one frame.</summary>
+        /// <summary>A closed circle through sphere 0 in the y-z plane; both ends have one place and one
+        /// frame.</summary>
         Ring,
 
         /// <summary>A helix about the z axis.</summary>

@@ -5,8 +5,8 @@ namespace Guidewire.Core
     /// <summary>Start shapes other than the straight wire.</summary>
     internal static class StartShapes
     {
-        /// <summary>A regular polygon through the start, closed, in the y-z plane, tangent to z at the start. Both clamps
-        /// have the frame of the start.</summary>
+        /// <summary>A regular polygon through the start, closed, in the y-z plane, tangent to z at the start. Both
+        /// clamps have the frame of the start.</summary>
         public static void Ring(RodShape shape, in Vector3d start, double[] lengths)
         {
             int n = shape.ElementCount;
@@ -23,8 +23,8 @@ namespace Guidewire.Core
             shape.DistalFrame = Quaterniond.Identity;
         }
 
-        /// <summary>A helix about the z axis through the start, of this radius (m) and number of turns; its frames follow
-        /// the tangent without turning about it. The clamps' frames look along z.</summary>
+        /// <summary>A helix about the z axis through the start, of this radius (m) and number of turns; its frames
+        /// follow the tangent without turning about it. The clamps' frames look along z.</summary>
         /// <exception cref="ArgumentException">The wire is too short for so many turns.</exception>
         public static void Helix(RodShape shape, in Vector3d start, double[] lengths, double radius, double turns)
         {

@@ -1,7 +1,7 @@
 namespace Guidewire.Core
 {
-    /// <summary>A piece of the wire whose material or rest shape differs: a soft, pre-bent tip. What is null is as in the
-    /// rest of the wire. An element belongs to it where its middle does.</summary>
+    /// <summary>A piece of the wire whose material or rest shape differs: a soft, pre-bent tip. What is null is as in
+    /// the rest of the wire. An element belongs to it where its middle does.</summary>
     public sealed class WireSection
     {
         /// <summary>Where it begins, units from the proximal end.</summary>

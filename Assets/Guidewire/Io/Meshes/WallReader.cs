@@ -113,7 +113,8 @@ namespace Guidewire.Io
         private static string Find(string file, string source)
         {
             string beside = Path.Combine(Path.GetDirectoryName(source) ?? "", file);
-            return file.Length > 0 && source != CommandLineHandler.Source && File.Exists(beside) ? beside : file;
+            return file.Length == 0 ? file
+                : Path.GetFullPath(source != CommandLineHandler.Source && File.Exists(beside) ? beside : file);
         }
 
         private static ConvexObstacle Obstacle(JsonFields fields)

@@ -4,8 +4,8 @@ using UnityEngine;
 
 namespace Guidewire.Runtime
 {
-    /// <summary>Shows where the wire touches a wall (balls) and the walls' force on each sphere (sticks). The longest stick
-    /// has a fixed length; what it stands for is the largest force of late.</summary>
+    /// <summary>Shows where the wire touches a wall (balls) and the walls' force on each sphere (sticks). The longest
+    /// stick has a fixed length; what it stands for is the largest force of late.</summary>
     public sealed class ContactView : MonoBehaviour
     {
         private const double Fading = 0.99;    // share of the largest force that is left a frame later
@@ -67,8 +67,9 @@ namespace Guidewire.Runtime
             {
                 int j = k % state.ElementCount;
                 ContactShape wall = parameters.Walls[k / state.ElementCount];
-                if (wall.Nearest(state.Positions[j], state.Positions[j + 1], range, ref _hints[k], out SurfaceContact contact)
-                    && contact.Distance <= range)
+                Vector3d a = state.Positions[j];
+                Vector3d b = state.Positions[j + 1];
+                if (wall.Nearest(a, b, range, ref _hints[k], out SurfaceContact contact))
                 {
                     Marks.DrawBall(_ball, contact.Point.ToUnity(), radius, _yellow);
                 }

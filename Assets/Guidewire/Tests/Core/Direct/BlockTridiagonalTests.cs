@@ -81,7 +81,8 @@ namespace Guidewire.Core.Tests
             out EnergyTerm[] terms, out RodShape shape)
         {
             rod = MaterialRod.Round(N, 1.0, 0.1, 300.0, 130.0, 2.0);
-            supports = new RodSupports { Distal = distal, SlidingAxis = Vector3d.Normalize(new Vector3d(1.0, 2.0, -1.0)) };
+            Vector3d axis = Vector3d.Normalize(new Vector3d(1.0, 2.0, -1.0));
+            supports = new RodSupports { Distal = distal, SlidingAxis = axis };
             var statics = new RodStatics(rod, supports);
             statics.Loads.Set(rod, MassRule.Consistent, new Vector3d(0.1, 0.2, 0.3), new Vector3d(0.0, 0.1, 0.0));
             var inertia = new InertiaEnergy(rod, MassRule.Consistent) { StageLength = 2.0 };

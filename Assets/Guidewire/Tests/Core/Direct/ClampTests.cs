@@ -3,11 +3,12 @@ using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
 {
-    /// <summary>The rod's stiffness between clamp and tip against beam theory: orders of convergence of the clamp's rules.
-    /// </summary>
+    /// <summary>The rod's stiffness between clamp and tip against beam theory: orders of convergence of the clamp's
+    /// rules. </summary>
     public sealed class ClampTests
     {
-        // Deflections of 1e-6 L: the geometry's own nonlinearity, (1e-6)^2, is out of sight; positions round at 1e-16 L.
+        // Deflections of 1e-6 L: the geometry's own nonlinearity, (1e-6)^2, is out of sight; positions round at 1e-16
+        // L.
         private const double Small = 1e-6;
         private const double Rounding = 2e-9;
 
@@ -69,8 +70,8 @@ namespace Guidewire.Core.Tests
             Assert.That(coarse / exact - 1.0, Is.EqualTo(-0.0084).Within(0.0002));
         }
 
-        /// <summary>Euler-Bernoulli, clamped and free: (beta L)^2 sqrt(EI/rhoA)/(2 pi L^2), beta L the roots of cos cosh = -1.
-        /// </summary>
+        /// <summary>Euler-Bernoulli, clamped and free: (beta L)^2 sqrt(EI/rhoA)/(2 pi L^2), beta L the roots of cos
+        /// cosh = -1. </summary>
         private static double BeamFrequency(int mode)
         {
             double[] roots = { 1.8751040687119611, 4.6940911329741745, 7.8547574382376126 };

@@ -3,7 +3,8 @@ using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
 {
-    /// <summary>Every energy against differences of its own value, and against what no energy of a rod may feel.</summary>
+    /// <summary>Every energy against differences of its own value, and against what no energy of a rod may
+    /// feel.</summary>
     public sealed class EnergyDerivativeTests
     {
         private const int N = 4;
@@ -37,8 +38,8 @@ namespace Guidewire.Core.Tests
         public void Blocks_AreTheDifferencesOfTheGradient([ValueSource(nameof(TermNames))] string name,
             [Values(0.02, 0.9)] double angle)
         {
-            // d(gradient_i)/du_k in coordinates u of exp at the shape: taken from the value, because the body-frame gradient
-            // at a turned shape is along turned axes.
+            // d(gradient_i)/du_k in coordinates u of exp at the shape: taken from the value, because the body-frame
+            // gradient at a turned shape is along turned axes.
             EnergyTerm term = Create(name, angle, out RodShape shape);
             var blocks = new RodBlock[N + 2];
             term.AddBlocks(shape, blocks, new RodVector[N + 2], 0, N + 1);
@@ -160,8 +161,8 @@ namespace Guidewire.Core.Tests
             }
         }
 
-        /// <summary>The guide of a plane without its springs on turns, which have no value: no bending stiffness, no springs.
-        /// </summary>
+        /// <summary>The guide of a plane without its springs on turns, which have no value: no bending stiffness, no
+        /// springs. </summary>
         private static PlaneGuide Plane(MaterialRod rod, RodShape shape)
         {
             var stiff = new MaterialRod(rod.ElementCount);

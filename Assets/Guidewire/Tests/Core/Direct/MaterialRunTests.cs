@@ -3,8 +3,8 @@ using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
 {
-    /// <summary>Runs with a material through <see cref="Simulation"/>: units, solvers against each other, ends that are turned,
-    /// and how a run fails.</summary>
+    /// <summary>Runs with a material through <see cref="Simulation"/>: units, solvers against each other, ends that
+    /// are turned, and how a run fails.</summary>
     public sealed class MaterialRunTests
     {
         [Test]
@@ -134,7 +134,8 @@ namespace Guidewire.Core.Tests
             parameters.Material.DistalEnd = DistalEnd.Clamped;
             parameters.Material.DistalRotation = 5.0 * Math.PI;
             parameters.Material.DistalRampTime = ramp;
-            // Stiff in bending against twist, so that it stays straight: Greenhill's moment is 8.99 EI/L, here 15.7 GJ/L.
+            // Stiff in bending against twist, so that it stays straight: Greenhill's moment is 8.99 EI/L, here 15.7
+            // GJ/L.
             parameters.Material.ShearModulus = 0.2 * Rods.Young;
             Simulation run = Wires.Run(parameters);
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
@@ -150,8 +151,8 @@ namespace Guidewire.Core.Tests
         [Test]
         public void TwistedAndShortened_TheWireLocalisesIntoAHelix()
         {
-            // Infinite rod: M/(2 sqrt(B T)) = 0.914778 and a largest angle of 47.65 degrees with the axis, for B = 1.345,
-            // C = 0.789, L = 100, ends 3 closer, 27 turns.
+            // Infinite rod: M/(2 sqrt(B T)) = 0.914778 and a largest angle of 47.65 degrees with the axis, for B =
+            // 1.345, C = 0.789, L = 100, ends 3 closer, 27 turns.
             const double B = 1.345;
             const double C = 0.789;
             const double Radius = 0.1;

@@ -61,7 +61,8 @@ namespace Guidewire.Core.Tests
             return frequencies;
         }
 
-        /// <summary>The first mode as a direction whose largest entry is the tip's, 1; and its circular frequency.</summary>
+        /// <summary>The first mode as a direction whose largest entry is the tip's, 1; and its circular
+        /// frequency.</summary>
         public RodVector[] First(out double omega)
         {
             omega = Find(1, out double[] mode);

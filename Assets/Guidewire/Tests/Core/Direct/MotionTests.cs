@@ -13,8 +13,8 @@ namespace Guidewire.Core.Tests
         [TestCase(Integrator.Sdirk4, 4.0)]
         public void OneMode_MovesWithTheSchemesOrder(Integrator scheme, double order)
         {
-            // First mode of the chain as start, amplitude 1e-4 L. After one period the tip's y - i v/omega is that of the
-            // start times lambda^N; the error of log(lambda) per unit time is the scheme's own.
+            // First mode of the chain as start, amplitude 1e-4 L. After one period the tip's y - i v/omega is that of
+            // the start times lambda^N; the error of log(lambda) per unit time is the scheme's own.
             const int N = 10;
             RodVector[] mode = Modes.Of(Rods.Wire(N), new RodSupports()).First(out double omega);
             int[] steps = { 10, 20, 40, 80, 160 };
@@ -38,15 +38,15 @@ namespace Guidewire.Core.Tests
         [Test]
         public void CantileverLetGo_FollowsTheModalSeries()
         {
-            // k = 1e-3: deflection L/3000, where linear theory holds to 1e-6. y(t) = sum of modes of the clamped-free beam with
-            // the static tip-load shape as start.
+            // k = 1e-3: deflection L/3000, where linear theory holds to 1e-6. y(t) = sum of modes of the clamped-free
+            // beam with the static tip-load shape as start.
             const int N = 16;
             const double K = 1e-3;
             const double Step = 0.5e-3;
             const int Steps = 400;
             MaterialRod rod = Rods.Wire(N);
-            RodShape shape = Rods.AtRest(rod, new RodSupports(), Vector3d.Zero, new Vector3d(0.0, K * Rods.BendForce, 0.0),
-                Vector3d.Zero);
+            RodShape shape = Rods.AtRest(rod, new RodSupports(), Vector3d.Zero,
+                new Vector3d(0.0, K * Rods.BendForce, 0.0), Vector3d.Zero);
             RodDynamics motion = Start(rod, new RodSupports(), new RodSchedule(), shape, Integrator.Sdirk4, 1e-10);
             double square = 0.0;
             double reference = 0.0;
@@ -90,7 +90,8 @@ namespace Guidewire.Core.Tests
         [Test]
         public void FreeRod_FliesOnItsParabola()
         {
-            // Bent, spinning, free at both ends: the centre of mass falls as a point does. SDIRK3 is exact for a parabola.
+            // Bent, spinning, free at both ends: the centre of mass falls as a point does. SDIRK3 is exact for a
+            // parabola.
             const int N = 8;
             const double Step = 2e-3;
             MaterialRod rod = Rods.Wire(N);
@@ -114,8 +115,8 @@ namespace Guidewire.Core.Tests
         [Test]
         public void DisplacedBase_SendsTheExactChainsWave()
         {
-            // n = 30 masses M/31 on springs EA/l, base displaced by 1 mm at once. With all masses equal the free end's chain
-            // has omega_k = 2 sqrt(K/m) sin(a_k/2), a_k = (2k - 1) pi/(2n + 1), modes sin(i a_k).
+            // n = 30 masses M/31 on springs EA/l, base displaced by 1 mm at once. With all masses equal the free end's
+            // chain has omega_k = 2 sqrt(K/m) sin(a_k/2), a_k = (2k - 1) pi/(2n + 1), modes sin(i a_k).
             const int N = 30;
             const double Shift = 1e-3;
             const double Step = 2e-7;
@@ -181,7 +182,8 @@ namespace Guidewire.Core.Tests
             Integrator scheme, double tolerance)
         {
             var statics = new RodStatics(rod, supports);
-            return new RodDynamics(rod, supports, statics, schedule, shape, MaterialSetup.Scheme(scheme), tolerance, 100);
+            return new RodDynamics(rod, supports, statics, schedule, shape, MaterialSetup.Scheme(scheme), tolerance,
+                100);
         }
 
         /// <summary>Error of orientation and angular velocity of one element that nothing holds: a symmetric top with
@@ -241,7 +243,8 @@ namespace Guidewire.Core.Tests
         private static double ModalTip(double k, double time)
         {
             // Static shape k L (3 s^2 - s^3)/6 on s in [0, 1]; tip displacement sum a_j phi_j(1) cos(omega_j t) with
-            // a_j = (phi_j, y)/(phi_j, phi_j) and (phi_j, y) = k L phi_j(1)/(beta_j)^4 by parts, (phi, phi) = phi(1)^2/4.
+            // a_j = (phi_j, y)/(phi_j, phi_j) and (phi_j, y) = k L phi_j(1)/(beta_j)^4 by parts, (phi, phi) =
+            // phi(1)^2/4.
             double sum = 0.0;
             double frequency = Math.Sqrt(Rods.BendStiffness / (Rods.Density * Rods.Area)) / (Rods.Length * Rods.Length);
             for (int j = 1; j <= 12; j++)

@@ -3,8 +3,8 @@ using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
 {
-    /// <summary>Rest shapes from the straight start under random loads, without a ramp: a seeded campaign of 1,000 cases, a
-    /// tenth of it by default.</summary>
+    /// <summary>Rest shapes from the straight start under random loads, without a ramp: a seeded campaign of 1,000
+    /// cases, a tenth of it by default.</summary>
     public sealed class RandomCaseTests
     {
         private const double LargestResidual = 1e-6;  // of EI/L^2 + load
@@ -43,8 +43,8 @@ namespace Guidewire.Core.Tests
         [Test]
         public void MomentThatTurnsWithTheTip_EndsInAHelixExactly()
         {
-            // Without a force, and with GJ = EI, every section carries the couple m along its own axes: the strain m/EI is
-            // even, so element j is turned by exp of (j + 1/2) l m/EI.
+            // Without a force, and with GJ = EI, every section carries the couple m along its own axes: the strain
+            // m/EI is even, so element j is turned by exp of (j + 1/2) l m/EI.
             int count = Rods.InFull ? 100 : 20;
             var random = new System.Random(3);
             for (int i = 0; i < count; i++)
@@ -69,8 +69,8 @@ namespace Guidewire.Core.Tests
         [Test]
         public void ForceAndMomentInSpace_EndAtRestOrFail()
         {
-            // The couple has no potential here, and its branch of equilibria may end: then the answer is a failure with a
-            // reason. What is called converged is in balance.
+            // The couple has no potential here, and its branch of equilibria may end: then the answer is a failure
+            // with a reason. What is called converged is in balance.
             int count = Rods.InFull ? 400 : 40;
             var random = new System.Random(4);
             int converged = 0;

@@ -8,8 +8,8 @@ namespace Guidewire.Core.Tests
     {
         private const double Gate = 3e-3;  // of L, along the whole shape
 
-        // Inextensible elastica under a dead tip load k = F L^2/EI, by shooting on theta'' = -k cos(theta) with ten digits:
-        // (w/L, u/L) of the tip.
+        // Inextensible elastica under a dead tip load k = F L^2/EI, by shooting on theta'' = -k cos(theta) with ten
+        // digits: (w/L, u/L) of the tip.
         [TestCase(1.0, 0.301720774, 0.0564332363)]
         [TestCase(2.0, 0.493457480, 0.160641721)]
         [TestCase(10.0, 0.810609025, 0.554995598)]
@@ -52,7 +52,8 @@ namespace Guidewire.Core.Tests
             Elastica(k, low, N * Steps, points, out _);
             for (int i = 0; i <= N; i++)
             {
-                Assert.That(Vector3d.Distance(shape.X[i] / Rods.Length, points[i * Steps]), Is.LessThan(Gate), "node " + i);
+                double miss = Vector3d.Distance(shape.X[i] / Rods.Length, points[i * Steps]);
+                Assert.That(miss, Is.LessThan(Gate), "node " + i);
             }
         }
 
@@ -75,8 +76,8 @@ namespace Guidewire.Core.Tests
         [TestCase(4.0)]
         public void EndMoment_BendsAnArc(double halfTurns)
         {
-            // theta = M L/EI; the couple turns the wire about -x, so it rises into +y. Half-element clamp: every angle is
-            // exact; the tip misses by the chords' (kappa l)^2/24.
+            // theta = M L/EI; the couple turns the wire about -x, so it rises into +y. Half-element clamp: every angle
+            // is exact; the tip misses by the chords' (kappa l)^2/24.
             const int N = 30;
             double theta = halfTurns * Math.PI;
             RodShape shape = Rods.AtRest(Rods.Wire(N), new RodSupports { Clamp = ClampRule.HalfElement }, Vector3d.Zero,
@@ -84,7 +85,8 @@ namespace Guidewire.Core.Tests
             for (int j = 0; j < N; j++)
             {
                 Quaterniond expected = Quaterniond.FromAxisAngle(-Vector3d.UnitX, theta * (j + 0.5) / N);
-                Assert.That(RotationVector.Log(expected.Conjugate * shape.Q[j]).Length, Is.LessThan(1e-9), "element " + j);
+                double miss = RotationVector.Log(expected.Conjugate * shape.Q[j]).Length;
+                Assert.That(miss, Is.LessThan(1e-9), "element " + j);
             }
             double chord = theta / N * (theta / N) / 24.0;
             Vector3d tip = Arc(theta, Rods.Length);
@@ -111,7 +113,8 @@ namespace Guidewire.Core.Tests
             // K sin(angle) carries no more than K = EI/l.
             const int N = 10;
             MaterialRod rod = Rods.Wire(N);
-            var statics = new RodStatics(rod, new RodSupports { Bend = BendLaw.Darboux, Clamp = ClampRule.HalfElement });
+            var statics = new RodStatics(rod,
+                new RodSupports { Bend = BendLaw.Darboux, Clamp = ClampRule.HalfElement });
             statics.Moment.Moment = new Vector3d(1.1 * Rods.BendStiffness * N / Rods.Length, 0.0, 0.0);
             EquilibriumResult result = statics.Solve(Rods.Straight(rod), 1e-10, 300);
             Assert.That(result.Converged, Is.False);
@@ -143,8 +146,8 @@ namespace Guidewire.Core.Tests
         [Test]
         public void FortyFiveDegreeBend_IsThePublishedOne()
         {
-            // Bathe and Bolourchi 1979: arc of radius 100 over 45 degrees, unit square section, E = 1e7, nu = 0, load 600 out
-            // of its plane; tip at (15.685, 47.150, 53.475) with J = 1/6 (here G J = 0.5e7/6).
+            // Bathe and Bolourchi 1979: arc of radius 100 over 45 degrees, unit square section, E = 1e7, nu = 0, load
+            // 600 out of its plane; tip at (15.685, 47.150, 53.475) with J = 1/6 (here G J = 0.5e7/6).
             const int N = 40;
             const double R = 100.0;
             double length = R * Math.PI / 4.0;
@@ -209,7 +212,8 @@ namespace Guidewire.Core.Tests
         }
 
         /// <summary>Unit length; writes (0, w, z) where points are asked for.</summary>
-        private static void Elastica(double k, double startCurvature, int steps, Vector3d[]? points, out double endCurvature)
+        private static void Elastica(double k, double startCurvature, int steps, Vector3d[]? points,
+            out double endCurvature)
         {
             double h = 1.0 / steps;
             double theta = 0.0;

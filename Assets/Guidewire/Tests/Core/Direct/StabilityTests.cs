@@ -31,8 +31,8 @@ namespace Guidewire.Core.Tests
         [Test]
         public void ThrustBeyondEuler_EndsBent()
         {
-            // A thrust along the axis exactly: the straight rod is in equilibrium, and a saddle. 1.1 P_c bends the elastica
-            // to a tip angle alpha with K(sin(alpha/2))^2 = 1.1 (pi/2)^2.
+            // A thrust along the axis exactly: the straight rod is in equilibrium, and a saddle. 1.1 P_c bends the
+            // elastica to a tip angle alpha with K(sin(alpha/2))^2 = 1.1 (pi/2)^2.
             const int N = 40;
             RodShape shape = Rods.AtRest(Rods.Wire(N), new RodSupports(), Vector3d.Zero,
                 new Vector3d(0.0, 0.0, -1.1 * Math.PI * Math.PI / 4.0 * Rods.BendForce), Vector3d.Zero);
@@ -127,8 +127,8 @@ namespace Guidewire.Core.Tests
                 1e-4 * Rods.BendForce);
         }
 
-        /// <summary>Bare Newton steps to the equilibrium nearby, stable or not: twist and bend together need a shear force
-        /// across the ring's plane, GJ tau kappa, which the even polygon has not yet.</summary>
+        /// <summary>Bare Newton steps to the equilibrium nearby, stable or not: twist and bend together need a shear
+        /// force across the ring's plane, GJ tau kappa, which the even polygon has not yet.</summary>
         private static void Balance(MaterialRod rod, RodSupports supports, RodShape shape)
         {
             var statics = new RodStatics(rod, supports);
@@ -158,11 +158,12 @@ namespace Guidewire.Core.Tests
                 angle += couple / joints[j].Twist;
                 shape.Q[j] = Quaterniond.FromAxisAngle(Vector3d.UnitZ, angle);
             }
-            shape.DistalFrame = Quaterniond.FromAxisAngle(Vector3d.UnitZ, angle + couple / joints[rod.ElementCount].Twist);
+            angle += couple / joints[rod.ElementCount].Twist;
+            shape.DistalFrame = Quaterniond.FromAxisAngle(Vector3d.UnitZ, angle);
         }
 
-        /// <summary>Deflection u = y + i z obeys u'''' - i m u''' - t u'' = 0 (unit length and EI), so u = A + B s + C e^(ias) +
-        /// D e^(ibs) with a, b = m/2 +- d, d^2 = m^2/4 - t. Clamped ends leave, but for a phase,
+        /// <summary>Deflection u = y + i z obeys u'''' - i m u''' - t u'' = 0 (unit length and EI), so u = A + B s + C
+        /// e^(ias) + D e^(ibs) with a, b = m/2 +- d, d^2 = m^2/4 - t. Clamped ends leave, but for a phase,
         /// 2 d (cos(d) - cos(m/2)) = t sin(d); the smallest m beyond d = 0 that solves it.</summary>
         private static double GreenhillMoment(double tension)
         {

@@ -1,0 +1,85 @@
+using System.Collections.Generic;
+using Guidewire.Io;
+using Newtonsoft.Json.Linq;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>A run has gains or a material: what is refused, passed over and chosen by default.</summary>
+    public sealed class MaterialKeyTests
+    {
+        [Test]
+        public void MaterialRun_ChoosesItsOwnDefaults()
+        {
+            RunParameters values = Load(("solver", "direct"));
+            Assert.That(values.Simulation.Integrator, Is.EqualTo(Integrator.Sdirk3));
+            Assert.That(values.Simulation.Displacement, Is.Zero);
+        }
+
+        [TestCase("stretchStiffness", 0.5)]
+        [TestCase("bendStiffness", 0.5)]
+        [TestCase("totalMass", 0.5)]
+        public void GainKey_InAMaterialRun_IsRefused(string key, double value)
+        {
+            Assert.That(() => Load(("solver", "direct"), (key, value)),
+                Throws.TypeOf<ParameterException>().With.Message.Contains(key));
+        }
+
+        [Test]
+        public void MaterialKey_InARunWithGains_IsRefused()
+        {
+            Assert.That(() => Load(("youngsModulus", 1e9)),
+                Throws.TypeOf<ParameterException>().With.Message.Contains("youngsModulus"));
+        }
+
+        [Test]
+        public void IntegratorOfTheOtherKind_IsRefused()
+        {
+            Assert.That(() => Load(("solver", "direct"), ("integrator", "verlet")),
+                Throws.TypeOf<ParameterException>().With.Message.Contains("sdirk3"));
+            Assert.That(() => Load(("integrator", "sdirk3")),
+                Throws.TypeOf<ParameterException>().With.Message.Contains("verlet"));
+        }
+
+        [Test]
+        public void RestShapeOfALooseWire_IsRefused()
+        {
+            Assert.That(() => Load(("solver", "direct"), ("initialState", "equilibrium")),
+                Throws.TypeOf<ParameterException>().With.Message.Contains("clamped"));
+        }
+
+        [Test]
+        public void Sections_AreReadAndWrittenBack()
+        {
+            JToken sections = JToken.Parse("[{\"from\": 250.0, \"to\": 300.0, \"wireRadius\": 0.0002,"
+                + " \"restCurvature\": [10.0, 0.0, 0.0]}]");
+            RunParameters values = Load(("solver", "direct"), ("wireSections", sections));
+            WireSection section = values.Simulation.Material.Sections[0];
+            Assert.That(section.WireRadius, Is.EqualTo(2e-4));
+            Assert.That(section.RestCurvature, Is.EqualTo(new Vector3d(10.0, 0.0, 0.0)));
+            Assert.That(section.Density, Is.Null);
+            Assert.That(JToken.DeepEquals(ParameterTable.Find("wireSections")!.Write(values), sections), Is.True);
+        }
+
+        [TestCase("[{\"from\": 10.0, \"to\": 5.0}]")]
+        [TestCase("[{\"to\": 5.0}]")]
+        [TestCase("[{\"from\": 0.0, \"to\": 5.0, \"wireRadius\": -1.0}]")]
+        [TestCase("[{\"from\": 0.0, \"to\": 5.0, \"colour\": 1.0}]")]
+        [TestCase("{}")]
+        public void SectionsThatMakeNoSense_AreRefused(string text)
+        {
+            Assert.That(() => Load(("solver", "direct"), ("wireSections", JToken.Parse(text))),
+                Throws.TypeOf<ParameterException>().With.Message.Contains("wireSections"));
+        }
+
+        private static RunParameters Load(params (string Key, JToken Value)[] given)
+        {
+            var overrides = new List<KeyValuePair<string, JToken>>();
+            foreach ((string key, JToken value) in given)
+            {
+                overrides.Add(new KeyValuePair<string, JToken>(key, value));
+            }
+            return ParameterHandler.Load(null, overrides).Values;
+        }
+    }
+}

@@ -1,0 +1,162 @@
+"""Euler or Verlet for positions, Euler or Verlet for orientations: where the four differ, by how much, at what cost.
+
+Without damping or forces Euler's and Verlet's positions are one formula: x + dt v with v = (x_k - x_(k-1))/dt is
+2 x_k - x_(k-1). The same holds for orientations up to the third order of a step's turn.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from analysis.figures.wording import number
+from analysis.logs import read_entries
+from analysis.runs import Run, read_run
+from analysis.validation.check import Case, Check, Finding, Plan, Result
+
+_METHODS = {
+    "Euler, Euler": "euler", "Verlet, Euler": "verlet", "Euler, Verlet": "eulerOrientationVerlet",
+    "Verlet, Verlet": "orientationVerlet",
+}
+_REFERENCE = "Verlet, Euler"  # what the thesis calls Verlet
+_STEPS = 300
+_REPEATS = 5
+_TURN = 0.5 * math.pi  # of the last element at the start of the twist problem
+_ROUNDING = 1e-6  # units or rad; less is one motion
+
+_BASE: dict[str, Any] = {
+    "solver": "pbd", "guidewireLength": 300.0, "numberRodElements": 30, "totalMass": 0.01, "stretchStiffness": 0.1,
+    "bendStiffness": 0.1, "logOrientations": True, "maxSimulationSteps": _STEPS,
+}
+
+
+def _twisted_start(elements: int, length: float) -> dict[str, Any]:
+    """A straight wire at rest whose elements are turned about it, evenly from 0 to a quarter turn."""
+    angles = _TURN * np.arange(elements) / (elements - 1)
+    return {
+        "positions": [[0.0, 0.0, float(z)] for z in np.linspace(0.0, length, elements + 1)],
+        "orientations": [[0.0, 0.0, math.sin(0.5 * a), math.cos(0.5 * a)] for a in angles],
+    }
+
+
+_PROBLEMS: dict[str, tuple[dict[str, Any], dict[str, Any] | None]] = {
+    "transversal, m = 500": (
+        {"displacement": 10.0, "displacementDirection": [0.0, 1.0, 0.0], "constraintSolverSteps": 500,
+         "timeStep": 0.01}, None),
+    "transversal, m = 20": (
+        {"displacement": 10.0, "displacementDirection": [0.0, 1.0, 0.0], "constraintSolverSteps": 20,
+         "timeStep": 0.01}, None),
+    "transversal, m = 500, damping 0.02": (
+        {"displacement": 10.0, "displacementDirection": [0.0, 1.0, 0.0], "constraintSolverSteps": 500,
+         "timeStep": 0.01, "damping": 0.02}, None),
+    "twist, m = 500": (
+        {"displacement": 0.0, "twistPerStep": 1e-12, "constraintSolverSteps": 500, "timeStep": 0.01},
+        _twisted_start(30, 300.0)),
+    "twist, m = 20": (
+        {"displacement": 0.0, "twistPerStep": 1e-12, "constraintSolverSteps": 20, "timeStep": 0.01},
+        _twisted_start(30, 300.0)),
+}
+
+
+def _motion(run: Run) -> tuple[np.ndarray, np.ndarray]:
+    """Places of the last sphere in units, shape (k, 3), and turn of the last element about z in rad, shape (k,)."""
+    places, turns = [], []
+    for _, entry in read_entries(run.folder):
+        last = max(entry["sphere"], key=int)
+        places.append([float(entry["sphere"][last][axis]) for axis in "xyz"])
+        q = entry["orientation"][str(int(last) - 1)]
+        turns.append(2.0 * math.atan2(float(q["z"]), float(q["w"])))
+    return np.array(places), np.unwrap(turns)
+
+
+def _integrators() -> Plan:
+    cases = {
+        (problem, method): Case(f"{k}-{word}", {**_BASE, **overrides, "guidewireOffset": 0.0, "integrator": word,
+                                                "deltaThreshold": 0.0}, _REPEATS, start)
+        for k, (problem, (overrides, start)) in enumerate(_PROBLEMS.items()) for method, word in _METHODS.items()
+    }
+    runs = yield list(cases.values())
+    motions = {key: _motion(runs[case.key]) for key, case in cases.items()}
+    costs = {key: _step_time(runs[case.key], case.repeats) for key, case in cases.items()}
+    results = []
+    for problem in _PROBLEMS:
+        twist = problem.startswith("twist")
+        for method in _METHODS:
+            results.append(_difference(problem, method, motions, twist, costs[problem, method]))
+
+    def draw(figure) -> None:
+        panels = figure.subplots(2, len(_PROBLEMS), sharex=True)
+        for column, problem in enumerate(_PROBLEMS):
+            twist = problem.startswith("twist")
+            above, below = panels[:, column]
+            for k, method in enumerate(_METHODS):
+                value = _seen(motions[problem, method], twist)
+                above.plot(value, color=f"C{k}", linewidth=1.0, linestyle=("-", "--", "-.", ":")[k], label=method)
+                off = np.abs(value - _seen(motions[problem, _REFERENCE], twist))
+                if method != _REFERENCE and np.any(off > 0.0):
+                    below.plot(np.where(off > 0.0, off, np.nan), color=f"C{k}", linewidth=0.9, label=method)
+            above.set_title(problem.replace(", ", ",\n", 1), fontsize=8)
+            above.set_ylabel("turn of the last element (rad)" if twist else "tip across (units)", fontsize=7)
+            below.set_yscale("log")
+            below.set_ylabel(f"difference ({'rad' if twist else 'units'})", fontsize=7)
+            below.set_xlabel("step (number)")
+        panels[0, 0].legend(fontsize=6, title="positions, orientations", title_fontsize=6)
+
+    return Finding(tuple(results), draw, _caption(results, costs), width=12.0)
+
+
+def _seen(motion: tuple[np.ndarray, np.ndarray], twist: bool) -> np.ndarray:
+    places, turns = motion
+    return turns if twist else places[:, 1]
+
+
+def _difference(problem: str, method: str, motions: Mapping, twist: bool, cost: float) -> Result:
+    value, reference = (_seen(motions[problem, name], twist) for name in (method, _REFERENCE))
+    return Result(
+        f"{problem}: largest difference from {_REFERENCE} over {_STEPS} steps", f"pbd, {method}", float(value[-1]),
+        float(reference[-1]), float(np.max(np.abs(value - reference))), None, "rad" if twist else "units", cost,
+        "rad" if twist else "units",
+    )
+
+
+def _step_time(run: Run, repeats: int) -> float:
+    """Median wall time of a step over the timed repeats, s."""
+    return 1e-3 * float(np.median(
+        [read_run(run.folder / f"repeat-{k}").measured("medianStepTime") for k in range(1, repeats + 1)]
+    ))
+
+
+def _caption(results: list[Result], costs: Mapping[tuple[str, str], float]) -> str:
+    of = {(r.what.split(":")[0], r.solver[5:]): r.error for r in results}
+    same = [problem for problem in _PROBLEMS if of[problem, "Euler, Euler"] < _ROUNDING]
+    sentences = [
+        "Four ways to predict, \"positions, orientations\" each by Euler or Verlet, in the thesis's transversal run and for "
+        f"a wire whose elements start turned by 0 to 90°; {_STEPS} steps. Below: difference from {_REFERENCE}."
+    ]
+    if same:
+        sentences.append(
+            f"Euler's and Verlet's positions are one formula and differ by rounding only (largest "
+            f"{number(max(of[problem, 'Euler, Euler'] for problem in same), 1)}) in: {'; '.join(same)}."
+        )
+    other = [problem for problem in _PROBLEMS if problem not in same]
+    if other:
+        sentences.append("They differ in: " + "; ".join(
+            f"{problem} by {number(of[problem, 'Euler, Euler'], 2)}" for problem in other) + ".")
+    sentences.append("Verlet for orientations changes the motion by " + "; ".join(
+        f"{number(of[problem, 'Verlet, Verlet'], 2)} {'rad' if problem.startswith('twist') else 'units'} ({problem})"
+        for problem in _PROBLEMS) + ".")
+    problem = next(iter(_PROBLEMS))
+    sentences.append("Median time of a step, " + problem + ": " + ", ".join(
+        f"{method} {number(1e3 * costs[problem, method], 3)} ms" for method in _METHODS) + ".")
+    sentences.append(
+        "With gains there is no limit in the time step that one of them could be nearer to; the choice of m changes the "
+        "motion far more."
+    )
+    return " ".join(sentences)
+
+
+INTEGRATORS = Check("integrators", "Integrators", "Euler and Verlet, positions and orientations", _integrators)
+CHECKS = (INTEGRATORS,)
