@@ -157,11 +157,17 @@ class WrittenRun(Protocol):
         """Writes a run folder."""
 
 
-def write_study(folder: Path, name: str, key: str | None, chains: Sequence[WrittenRun], repeats: int = 3) -> Path:
-    """Writes a study folder: each run and timed repeats of it, of 2, 3, 4 ... ms a step, and study.json."""
+def write_study(
+    folder: Path, name: str, key: str | None, chains: Sequence[WrittenRun], repeats: int = 3,
+    labels: Sequence[str] = (),
+) -> Path:
+    """Writes a study folder: each run and timed repeats of it, of 2, 3, 4 ... ms a step, and study.json.
+
+    ``labels`` names the runs where a parameter does not tell them apart.
+    """
     rows = []
-    for chain in chains:
-        label = name if key is None else f"{key}={chain.parameters[key]}"
+    for index, chain in enumerate(chains):
+        label = labels[index] if labels else name if key is None else f"{key}={chain.parameters[key]}"
         for repeat in (None, *range(1, repeats + 1)):
             place = label if repeat is None else f"{label}/repeat-{repeat}"
             chain.write(folder / place, 2.0 if repeat is None else 1.0 + repeat)

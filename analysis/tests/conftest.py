@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from analysis.tests.chain import Chain, small, write_study
@@ -39,7 +40,75 @@ def studies(tmp_path_factory: pytest.TempPathFactory, default_study: Path) -> di
         folders[name] = write_study(tmp_path_factory.mktemp(name), name, key, chains)
     for name, (key, waves) in WAVES.items():
         folders[name] = write_study(tmp_path_factory.mktemp(name), name, key, waves, repeats=0)
+        if name.startswith("transversal"):  # the collision's figures are drawn from runs of the same make
+            folders[name.replace("transversal", "collision")] = folders[name]
+    mesh = tmp_path_factory.mktemp("meshes") / "box.obj"
+    write_box(mesh)
+    made_of = {
+        "wall-gain": {"shape": "plane", "point": [0, 0, 200], "normal": [0, 0.5, -1]},
+        "vessel-gain": {"shape": "mesh", "file": str(mesh)},
+    }
+    for name, vessel in made_of.items():
+        waves = [gain_wave(rule, n, vessel) for rule in ("none", "barycentric", "seed") for n in (4, 8, 16)]
+        labels = [f"{wave.more['elementContact']},numberRodElements={wave.elements}" for wave in waves]
+        folders[name] = write_study(tmp_path_factory.mktemp(name), name, None, waves, labels=labels)
+    for name, named in NAMED_WAVES.items():
+        folders[name] = write_study(tmp_path_factory.mktemp(name), name, None, list(named.values()), repeats=0,
+                                    labels=list(named))
     return folders
+
+
+BOX = np.array([[-50.0, -4.7, -400.0], [50.0, 25.0, 400.0]])  # corners of a lumen that the waves leave at y = -4.7
+LUMEN = {"shape": "tube", "knots": [[0, 0, -200], [0, 0, 100], [0, 100, 100]], "radius": 8}
+
+
+def write_box(path: Path) -> None:
+    """BOX as a mesh of twelve triangles."""
+    corners = [BOX[[i, j, k], [0, 1, 2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)]
+    quads = [(1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2), (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4)]
+    lines = [f"v {x} {y} {z}" for x, y, z in corners]
+    lines += [f"f {a} {b} {c}\nf {a} {c} {d}" for a, b, c, d in quads]
+    path.write_text("\n".join(lines) + "\n")
+
+
+def gain_wave(rule: str, elements: int, vessel: dict) -> Wave:
+    """A run of the studies of long elements, with so many passages as its box allows it."""
+    wave = Wave(elements=elements, more={"elementContact": rule, "vessel": vessel})
+    passages = box_passages(wave) if rule == "none" and vessel["shape"] == "mesh" else 0
+    return replace(wave, measured={"passages": passages})
+
+
+def box_passages(wave: Wave) -> int:
+    """Of the wave's samples through the lower side of BOX, from its closed form."""
+    y = wave.positions[..., 1]
+    share = np.arange(10) / 10
+    samples = ((1.0 - share) * y[:, :-1, None] + share * y[:, 1:, None]).reshape(len(y), -1)
+    samples = np.concatenate([samples, y[:, -1:]], axis=1)
+    low = BOX[0, 1]
+    return int(np.count_nonzero((samples[:-1] > low) & (samples[1:] < low)))
+
+
+def _rest(rule: str, position: float) -> Wave:
+    obstacle = {"shape": "sphere", "centre": [0, -4.6, 60.0 * position], "radius": 0.6}
+    return Wave(steps=10, elements=1, length=60.0, offset=0.0, displacement=-1.0,
+                more={"elementContact": rule, "obstacles": [obstacle]})
+
+
+NAMED_WAVES: dict[str, dict[str, Wave]] = {
+    "contact-rule": {
+        f"{rule},s={s:g}": _rest(rule, s) for rule in ("barycentric", "seed") for s in (0.0, 0.25, 0.5, 0.75, 1.0)
+    },
+    "drives": {
+        key: Wave(length=100.0, more={"vessel": LUMEN}, displacement=size)
+        for key, size in (("axis-published", 12.0), ("axis", 8.0), ("push", 2.0), ("force", 3.0))
+    },
+    "twist": {
+        f"{lumen},constraintSolverSteps={m}": Wave(
+            steps=60, constraint_solver_steps=m, turning=True, more={"twistPerStep": 0.01, "vessel": LUMEN}
+        )
+        for lumen in ("straight", "bent") for m in (20, 100)
+    },
+}
 
 
 REFERENCE = Wave(steps=500, constraint_solver_steps=1000, elements=20, time_step=0.002)

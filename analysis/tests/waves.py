@@ -8,15 +8,17 @@ therefore size (s_i/L) |cos - cos'|, and its mean over evenly spaced spheres hal
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 
 @dataclass(frozen=True)
 class Wave:
-    """Parameters of a run of so many steps."""
+    """Parameters of a run of so many steps; ``more`` are further ones, ``measured`` what stands in its summary."""
 
     steps: int = 100
     constraint_solver_steps: int = 500
@@ -27,6 +29,9 @@ class Wave:
     length: float = 300.0
     offset: float = -120.0
     direction: tuple[float, float, float] = (0.0, 1.0, 0.0)
+    more: Mapping[str, Any] = field(default_factory=dict)
+    measured: Mapping[str, Any] = field(default_factory=dict)
+    turning: bool = False  # log orientations too: element j turned about itself by 0.01 (j + 1) rad a step
 
     @property
     def arc_length(self) -> np.ndarray:
@@ -53,7 +58,8 @@ class Wave:
             "constraintSolverSteps": self.constraint_solver_steps, "numberRodElements": self.elements,
             "displacement": self.displacement, "displacementDirection": list(self.direction),
             "timeStep": self.time_step, "totalMass": self.total_mass, "guidewireLength": self.length,
-            "guidewireOffset": self.offset, "sphereRadius": 5.0,
+            "guidewireOffset": self.offset, "sphereRadius": 5.0, "collisionStiffness": 0.01, "vessel": None,
+            "elementContact": "barycentric", "displacementPerStep": 0.5, **self.more,
         }
 
     def write(self, folder: Path, milliseconds_per_step: float = 2.0) -> Path:
@@ -66,12 +72,19 @@ class Wave:
                     str(i): dict(zip(("x", "y", "z", "vx", "vy", "vz"), (*sphere, 0.0, 0.0, 0.0)))
                     for i, sphere in enumerate(wire)
                 },
+                **({"orientation": self._orientations(k)} if self.turning else {}),
             })
             for k, wire in enumerate(self.positions.tolist())
         )
         (folder / "positions.json").write_text("{\n" + ",\n".join(entries) + "\n}\n")
         (folder / "parameters.json").write_text(json.dumps(self.parameters))
         summary = {"outcome": "finished", "steps": self.steps, "averageStepTime": milliseconds_per_step,
+                   "medianStepTime": milliseconds_per_step, "passages": 0, "maxPenetration": 0.5, "driveShortfall": 0.0,
+                   "driveAsked": 50.0, **self.measured,
                    "computationTime": self.steps * milliseconds_per_step / 1000.0, "complete": True}
         (folder / "summary.json").write_text(json.dumps(summary))
         return folder
+
+    def _orientations(self, step: int) -> dict:
+        halves = [0.005 * (j + 1) * step for j in range(self.elements)]
+        return {str(j): {"x": 0.0, "y": 0.0, "z": np.sin(half), "w": np.cos(half)} for j, half in enumerate(halves)}

@@ -22,13 +22,14 @@ def table_of(folder):
 
 
 def test_the_thesis_sweeps_are_the_thesis_ranges():
-    ranges = {
-        study.parameter: (min(study.values), max(study.values)) for study in STUDIES.values() if study.parameter
-    }
-    assert ranges == {
+    thesis = {
         "constraintSolverSteps": (100, 1000), "numberRodElements": (5, 60), "displacement": (1, 100),
         "timeStep": (1e-4, 1e-1), "totalMass": (1e-3, 1.0),
     }
+    swept = [study for study in STUDIES.values() if study.parameter and not study.name.endswith("gain")]
+    assert len(swept) == 14
+    for study in swept:
+        assert (min(study.values), max(study.values)) == thesis[study.parameter], study.name
 
 
 def test_every_thesis_sweep_holds_the_default_value():
