@@ -82,6 +82,10 @@ def _tune(wanted: float) -> Generator[Sequence[Case], Mapping[str, Run], float]:
     return low * (high / low) ** share
 
 
+def _explicit(step: float, elements: int) -> dict[str, Any]:
+    return {"solver": "explicit", **scenes.small_steps("explicit", BASE, step, elements)}
+
+
 def _static_points(gain: float) -> list[_Point]:
     points = [
         ("direct", f"n = {n}, dt = {1e3 * dt:g} ms", {**_settled({"integrator": "implicitEuler"}, dt),
@@ -89,9 +93,7 @@ def _static_points(gain: float) -> list[_Point]:
         for n, dt in ((8, 4e-3), (15, 4e-3), (30, 4e-3), (60, 2e-3))
     ]
     points += [
-        ("explicit", f"n = {n}", {**_settled({"solver": "explicit", **scenes.small_steps("explicit", BASE, 2e-4, n)}, 2e-4),
-                                  "numberRodElements": n})
-        for n in (8, 15, 30)
+        ("explicit", f"n = {n}", _settled({**_explicit(2e-4, n), "numberRodElements": n}, 2e-4)) for n in (8, 15, 30)
     ]
     points += [
         ("xpbd", f"substep {1e6 * 1e-3 / k:g} µs, m = {m}",
@@ -124,9 +126,7 @@ def _release_points(gain: float) -> list[_Point]:
         )
     ]
     points += [
-        ("explicit", f"n = {n}", release(n, 2e-4, {"solver": "explicit", **scenes.small_steps("explicit", BASE, 2e-4, n)}),
-         None)
-        for n in (10, 20, 30)
+        ("explicit", f"n = {n}", release(n, 2e-4, _explicit(2e-4, n)), None) for n in (10, 20, 30)
     ]
     points += [
         ("xpbd", f"substep {2e2 / k:g} µs, m = {m}",
@@ -158,8 +158,7 @@ def _twist_points() -> list[_Point]:
 
     points = [("direct", f"n = {n}, dt = {1e6 * dt:g} µs", turned({"integrator": "implicitEuler"}, dt, n))
               for n, dt in ((8, 2e-5), (15, 2e-5), (30, 2e-5))]
-    points += [("explicit", f"n = {n}", turned({"solver": "explicit", **scenes.small_steps("explicit", BASE, 4e-6, n)},
-                                               4e-6, n)) for n in (8, 15, 30)]
+    points += [("explicit", f"n = {n}", turned(_explicit(4e-6, n), 4e-6, n)) for n in (8, 15, 30)]
     points += [("xpbd", f"substep {4.0 / k:g} µs, m = {m}",
                 turned({"solver": "xpbd", "substeps": k, "constraintSolverSteps": m}, 4e-6))
                for k, m in ((1, 1), (1, 10), (1, 50), (4, 1), (4, 10))]
@@ -196,7 +195,9 @@ def _chart() -> Plan:
     ]
 
     def draw(figure) -> None:
-        titles = {"static": "(a) sag under own weight", "release": "(b) cantilever let go", "twist": "(c) turned by 90°"}
+        titles = {
+            "static": "(a) sag under own weight", "release": "(b) cantilever let go", "twist": "(c) turned by 90°",
+        }
         for axes, (problem, title) in zip(figure.subplots(1, 3), titles.items()):
             for k, (solver, marker) in enumerate(zip(("pbd", "xpbd", "explicit", "direct"), pictures.MARKERS)):
                 at = [(r.cost, r.error) for point, r in zip(points, results)
@@ -222,8 +223,10 @@ def _chart() -> Plan:
         "= 1 ms "
         f"(stretchStiffness 1, totalMass 0.01): {number(gain, 4)}. The other pbd points have the same gains and "
         "another m, n "
-        "or dt: " + _pbd_spread(points, results) + " The other solvers have the material itself; their points differ in n, "
-        "time step, scheme, substeps and sweeps. " + _best(points, results)
+        "or dt: " + _pbd_spread(points, results)
+        + " The other solvers have the material itself; their points differ in n, time step, scheme, substeps and "
+          "sweeps. "
+        + _best(points, results)
     )
     return Finding(tuple(results), draw, caption, width=12.0)
 

@@ -47,8 +47,10 @@ def _compliance() -> Plan:
                 errors.append(abs(tip / exact[load] - 1.0))
                 if load == "tip-load" and rule == "wholeElement":
                     chain = beam.hinged_chain_factor(n) * beam.tip_load_compliance() + shear
-                    results.append(Result(f"tip load, {name}, n = {n}: compliance of such a chain", "direct", tip, chain,
-                                          abs(tip / chain - 1.0), ROUNDING, "L³/EI"))
+                    results.append(Result(
+                        f"tip load, {name}, n = {n}: compliance of such a chain", "direct", tip, chain,
+                        abs(tip / chain - 1.0), ROUNDING, "L³/EI",
+                    ))
             if load == "tip-load" and rule == "fourthOrder":
                 results.append(Result("tip load, Gregory's weights: compliance, worst of n = 10 to 80", "direct",
                                       tip, exact[load], max(errors), ROUNDING, "L³/EI"))

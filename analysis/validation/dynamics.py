@@ -241,7 +241,9 @@ def _energy() -> Plan:
         axes = figure.add_subplot()
         for k, (name, share) in enumerate(series.items()):
             shown = np.maximum(share, 1e-12)
-            axes.plot(np.arange(len(share)), shown, pictures.MARKERS[k] + "-", markevery=10, fillstyle="none", label=name)
+            axes.plot(
+                np.arange(len(share)), shown, pictures.MARKERS[k] + "-", markevery=10, fillstyle="none", label=name
+            )
         axes.set_yscale("log")
         axes.set_ylim(1e-4, 3.0)
         axes.set_xlabel("periods (1)")
@@ -335,8 +337,10 @@ def _order() -> Plan:
         for steps in _ORDER_STEPS:
             errors.append(rms_error(swing(runs[cases[scheme, steps].key]), exact))
         measured = -math.log2(errors[-1] / errors[-2])
-        results.append(Result("order in time on the first mode, 80 to 160 steps a period", f"direct, {scheme}", measured,
-                              claimed, abs(measured - claimed), 0.1, "", None, "absolute"))
+        results.append(Result(
+            "order in time on the first mode, 80 to 160 steps a period", f"direct, {scheme}", measured, claimed,
+            abs(measured - claimed), 0.1, "", None, "absolute",
+        ))
         series[scheme] = (_ORDER_STEPS, errors)
     caption = (
         f"Half a period in the first mode, amplitude near 1e-4 L, n = {n}: RMS error of the mode against {_FINEST} "

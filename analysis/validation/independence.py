@@ -29,7 +29,8 @@ def _elements_and_tolerance() -> Plan:
     exact = elastica.tip_loaded(_LOAD, np.linspace(0.0, 1.0, 11)).tip[1]
     tips = {n: -float(last_state(runs[case.key]).positions[-1, 1]) / BASE.length for n, case in static.items()}
     results = [
-        Result(f"tip load F L²/EI = {_LOAD:g}, n = {n}: deflection", "direct", tip, exact, abs(tip / exact - 1.0), GATE, "L")
+        Result(f"tip load F L²/EI = {_LOAD:g}, n = {n}: deflection", "direct", tip, exact, abs(tip / exact - 1.0), GATE,
+               "L")
         for n, tip in tips.items()
     ]
     time = np.linspace(0.0, 0.2, 201)

@@ -8,8 +8,9 @@ y' = sin t and J the integral from 0 to s:
     X = -J sin t P, Y = J cos t P, M = X^T W X + Y^T W Y + e P^T W P, K = P'^T W P',
 
 with the quadrature's weights W and e = I/(A L^2) (1 + E/G): the rotary inertia and, as its second part, the shear. To
-first order in I/(A L^2) shear lowers a cantilever's frequencies as E/G more rotary inertia does, because the mode's third
-derivative is that of the mode turned end for end, so that the integrals of (w''')^2 and beta^4 (w')^2 are equal.
+first order in I/(A L^2) shear lowers a cantilever's frequencies as E/G more rotary inertia does, because the mode's
+third derivative is the slope of the mode turned end for end, so that the integrals of (w''')^2 and beta^4 (w')^2 are
+equal.
 """
 
 from __future__ import annotations

@@ -143,12 +143,15 @@ def _ring() -> Plan:
             _ring_start(_RING_ELEMENTS["direct"]),
         )
         found[f"EI/GJ = {ratio:g}"] = (load, seen)
-        results.append(Result(f"closed ring, EI/GJ = {ratio:g}, n = {_RING_ELEMENTS['direct']}: critical twist", "direct", load,
-                              exact, abs(load / exact - 1.0), GATE, "rad"))
+        results.append(Result(
+            f"closed ring, EI/GJ = {ratio:g}, n = {_RING_ELEMENTS['direct']}: critical twist", "direct", load, exact,
+            abs(load / exact - 1.0), GATE, "rad",
+        ))
     for solver in ("explicit", "xpbd"):
         for ratio in _RING_RATIO[solver]:
             exact = twisted.ring_twist(ratio, 1.0)
-            cases = [Case(f"{solver}-{share:g}", _ring_run(solver, ratio, share * exact), start=_ring_start(_RING_ELEMENTS[solver]))
+            start = _ring_start(_RING_ELEMENTS[solver])
+            cases = [Case(f"{solver}-{share:g}", _ring_run(solver, ratio, share * exact), start=start)
                      for share in _RING_BRACKET]
             runs = yield cases
             below, above = (_ring_left(runs[case.key]) for case in cases)
@@ -262,7 +265,7 @@ def _column() -> Plan:
 
 
 def _implied_load(thrust: float, side: float, tip: float) -> float:
-    """Critical load of a column that a force across deflects so far under a thrust, all forces over EI/L^2, the tip over L.
+    """Critical load of a column that a force across deflects so far under a thrust: forces over EI/L^2, the tip over L.
 
     A stiffness of f EI gives tip = side/thrust (tan(u)/u - 1), u^2 = thrust/f; the critical load is f pi^2/4.
     """

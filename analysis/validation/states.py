@@ -65,7 +65,7 @@ def tip_motion(run: Run) -> tuple[np.ndarray, np.ndarray]:
 
 
 def tip_at(run: Run, time: np.ndarray) -> np.ndarray:
-    """Places of the last sphere at these times (s), m, shape (k, 3): cubics through the logged places and velocities."""
+    """Places of the last sphere at these times (s), m, shape (k, 3), by cubics through logged places and velocities."""
     log = read_log(run.folder, velocities=True)
     metres = _metres(run)
     return CubicHermiteSpline(log.time, metres * log.positions[:, 0], metres * log.velocities[:, 0])(time)
@@ -80,7 +80,7 @@ def solver_report(run: Run, name: str) -> float | np.ndarray:
 
 
 def wall_time(run: Run, repeats: int = 0) -> float:
-    """Wall time of all of a run in s, and of its steps where it has any: the median of the timed repeats if there are."""
+    """Wall time of a run's steps in s, or of all of it where it has none: the median of the timed repeats, if any."""
     runs = [read_run(run.folder / f"repeat-{k}") for k in range(1, repeats + 1)] or [run]
     return float(np.median([r.measured("computationTime" if r.measured("steps") else "wallTime") for r in runs]))
 

@@ -214,7 +214,8 @@ def _torsion(solvers: Sequence[str] = ALL) -> Plan:
         if case.key == "direct":
             measured = float(solver_report(run, "distalMoment")[2])
         else:
-            measured = BASE.torsion * float(np.polyfit((np.arange(n) + 0.5)[inner], twists[inner], 1)[0]) * n / BASE.length
+            slope = float(np.polyfit((np.arange(n) + 0.5)[inner] * BASE.length / n, twists[inner], 1)[0])
+            measured = BASE.torsion * slope
         results.append(Result(what + ": torque", case.key, measured, torque, abs(measured / torque - 1.0), 1e-3, "N m",
                               cost))
 
