@@ -153,7 +153,7 @@ def _twist_points() -> list[_Point]:
         return {
             "numberRodElements": n, "distalEnd": "clamped", "distalRotation": _TURN, "timeStep": step,
             "damping": min(1.0, 2.0 * omega * step), "maxSimulationSteps": math.ceil(_TWIST_TIME / step),
-            "logEvery": 1_000_000, "logOrientations": True, **method,
+            "logEvery": 1_000_000, "logOrientations": True, "distalRampTime": 0.05 / _TWIST_FREQUENCY, **method,
         }
 
     points = [("direct", f"n = {n}, dt = {1e6 * dt:g} µs", turned({"integrator": "implicitEuler"}, dt, n))

@@ -141,7 +141,7 @@ def _release() -> Plan:
         f"geometrically exact, modes of the slope, 14 and 10 of them differ by {number(own, 1)}. "
         + "; ".join(f"{r.solver}: {percent(r.error)} at {number(r.cost, 2)}" for r in results[:-1]) + "."
     )
-    return Finding(tuple(results), draw, caption)
+    return Finding(tuple(results), draw, caption, width=12.0)
 
 
 def _slug(name: str) -> str:

@@ -103,7 +103,7 @@ def _integrators() -> Plan:
             below.set_yscale("log")
             below.set_ylabel(f"difference ({'rad' if twist else 'units'})", fontsize=7)
             below.set_xlabel("step (number)")
-        panels[0, 0].legend(fontsize=6, title="positions, orientations", title_fontsize=6)
+        panels[0, 0].legend(loc="upper right", fontsize=6, title="positions, orientations", title_fontsize=6)
 
     return Finding(tuple(results), draw, _caption(results, costs), width=12.0)
 

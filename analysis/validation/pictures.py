@@ -52,6 +52,8 @@ def orders(
         axes.set_yscale("log")
         low, high = axes.get_xlim()
         bottom, top = axes.get_ylim()
+        if marked is not None:
+            bottom, top = min(bottom, 0.5 * marked[0]), max(top, 2.0 * marked[0])
         for power, name in slopes:
             x = np.array([low, high])
             middle = np.sqrt(bottom * top) * (x / np.sqrt(low * high)) ** power

@@ -6,13 +6,14 @@ import csv
 import io
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from matplotlib.figure import Figure
 
 from analysis.figures.style import add_caption, new_figure, styled
 from analysis.figures.wording import number
+from analysis.logs import LogError
 from analysis.validation import clamp, dynamics, independence, stability, statics
 from analysis.validation.check import Check, Finding, Result, replay
 
@@ -29,9 +30,10 @@ _LIMITS = (1e-9, 1e2)  # of the overview's axis, error over gate
 
 @dataclass(frozen=True)
 class Report:
-    """What all checks found, in their order."""
+    """What all checks found, in their order, and why some found nothing."""
 
     findings: Mapping[Check, Finding]
+    missing: Mapping[Check, str] = field(default_factory=dict)
 
     @property
     def results(self) -> list[tuple[Check, Result]]:
@@ -46,13 +48,16 @@ class Report:
 
 
 def read_report(folder: Path, checks: Sequence[Check] = ROWS) -> Report:
-    """Drive all checks over their runs.
-
-    Raises
-    ------
-    analysis.logs.LogError : a run is missing.
-    """
-    return Report({check: replay(check, folder) for check in checks})
+    """Drive all checks over their runs; one that lacks a run is named with the reason."""
+    findings, missing = {}, {}
+    for check in checks:
+        try:
+            findings[check] = replay(check, folder)
+        except LogError as error:
+            missing[check] = str(error)
+    if not findings:
+        raise LogError(f"{folder}: no check has its runs")
+    return Report(findings, missing)
 
 
 def as_csv(report: Report) -> str:
@@ -77,6 +82,7 @@ def as_markdown(report: Report) -> str:
         f"{passed} lines passed, {failed} failed, {shown} have no gate and are only shown. Errors are relative unless "
         "stated; cost is wall time in s, or per simulated second where the check is of a motion, on the machine that "
         "made the runs and beside whatever else ran there.", "",
+        *(f"Not made: {check.title} ({reason})." for check, reason in report.missing.items()), "",
     ]
     section = ""
     for check, finding in report.findings.items():
@@ -153,7 +159,8 @@ def draw_overview(report: Report) -> tuple[Figure, str]:
                       for check, r in report.results if r.passed is False)
     caption = (
         f"Every line of the validation that has a gate: {passed} passed, {failed} failed; {shown} more have none. "
-        + (f"Failed: {wrong}." if wrong else "")
+        + (f"Failed: {wrong}. " if wrong else "")
+        + (f"Not made: {', '.join(check.title for check in report.missing)}." if report.missing else "")
     )
     add_caption(figure, caption)
     return figure, caption

@@ -26,16 +26,17 @@ _REPEATS = 5
 _GRAVITY = 9.81  # m/s^2
 
 def _solver_cases(
-    wire: Wire, loads: Mapping[str, Any], frequency: float | None = None, solvers: Sequence[str] = ALL
+    wire: Wire, loads: Mapping[str, Any], frequency: float | None = None, solvers: Sequence[str] = ALL,
+    moving: Mapping[str, Any] | None = None,
 ) -> list[Case]:
-    """The same rest shape by every solver: at once, and as the end of a damped motion."""
+    """The same rest shape by every solver: at once, and as the end of a damped motion, which takes `moving` too."""
     cases = []
     for solver in solvers:
         common = {**scenes.wire_parameters(wire), **loads}
         if solver == "direct":
             cases.append(Case(solver, scenes.at_rest(common), repeats=_REPEATS))
         else:
-            cases.append(Case(solver, scenes.settled(solver, wire, common, frequency)))
+            cases.append(Case(solver, scenes.settled(solver, wire, {**common, **(moving or {})}, frequency)))
     return cases
 
 
@@ -189,7 +190,8 @@ def _torsion(solvers: Sequence[str] = ALL) -> Plan:
     turn = 0.5 * math.pi
     # The slowest motion: a standing wave of twist between two clamps.
     frequency = 0.5 / BASE.length * math.sqrt(BASE.shear_modulus / BASE.density)
-    cases = _solver_cases(BASE, {"distalEnd": "clamped", "distalRotation": turn}, frequency, solvers)
+    cases = _solver_cases(BASE, {"distalEnd": "clamped", "distalRotation": turn}, frequency, solvers,
+                          {"distalRampTime": 0.05 / frequency})
     runs = yield cases
     torque = twisted.torsion_torque(BASE.torsion, BASE.length, turn)
     results, profiles = [], {}

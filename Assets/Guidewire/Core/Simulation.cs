@@ -46,8 +46,8 @@ namespace Guidewire.Core
         public ContactRecord? Contacts { get; private set; }
 
         /// <summary>Builds the wire and chooses every part of the method, once.</summary>
-        /// <exception cref="ArgumentException">A value out of the range that the rod allows, or a wire that starts outside
-        /// the vessel.</exception>
+        /// <exception cref="ArgumentException">A value out of the range that the rod allows, or a wire that starts
+        /// outside the vessel.</exception>
         public static Simulation Create(SimulationParameters parameters)
         {
             if (parameters.DisplacementDirection.Length == 0.0)

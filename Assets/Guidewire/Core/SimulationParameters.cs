@@ -136,7 +136,8 @@ namespace Guidewire.Core
         /// <summary>The vessel and what stands in it, placed; none costs nothing.</summary>
         public ContactShape[] Walls { get; set; } = System.Array.Empty<ContactShape>();
 
-        /// <summary>epsilon, in units: a steady state's prediction errors lie below it; 0 switches the test off.</summary>
+        /// <summary>epsilon, in units: a steady state's prediction errors lie below it; 0 switches the test
+        /// off.</summary>
         public double DeltaThreshold { get; set; } = 0.001;
 
         /// <summary>Steps in a row that a steady state must last.</summary>
@@ -163,7 +164,8 @@ namespace Guidewire.Core
         /// <summary>A vessel's Euler angles in degrees, about z, then x, then y, as in Unity.</summary>
         public Vector3d Rotation { get; set; }
 
-        /// <summary>A hand that pushes and turns the wire as it goes, in place of the drive's motion, or null.</summary>
+        /// <summary>A hand that pushes and turns the wire as it goes, in place of the drive's motion, or
+        /// null.</summary>
         public Steering? Steering { get; set; }
 
         /// <summary>What keeps the wire together: gains (pbd) or a material (the others).</summary>

@@ -4,13 +4,13 @@ using System.Globalization;
 namespace Guidewire.Core
 {
     /// <summary>Decides after each step whether a run is at its end, and which end it is.</summary>
-    /// <remarks>Steady state: the prediction error has stayed below epsilon for a number of steps in a row, after it was
-    /// once above (it oscillates, and is 0 before the disturbance arrives at the last sphere).
-    /// Diverged: a number that is not finite; a sphere farther than 10 L from the start; or elements that are wrong in
-    /// length and do not recover. The last finds gains beyond their limit, where all positions stay near. It compares the
-    /// largest |length/l - 1| of two successive windows of 100 steps: both above 0.2 and not falling. A stable sweep with
-    /// few iterations swings, so its windows do not fall one by one, but it never holds more strain than was put in: with
-    /// S the root of the sum of |C|^2 over all stretch constraints at the start plus the drive's way over l, a wire whose
+    /// <remarks>Steady state: the prediction error has stayed below epsilon for a number of steps in a row, after it
+    /// was once above (it oscillates, and is 0 before the disturbance arrives at the last sphere). Diverged: a number
+    /// that is not finite; a sphere farther than 10 L from the start; or elements that are wrong in length and do not
+    /// recover. The last finds gains beyond their limit, where all positions stay near. It compares the largest
+    /// |length/l - 1| of two successive windows of 100 steps: both above 0.2 and not falling. A stable sweep with few
+    /// iterations swings, so its windows do not fall one by one, but it never holds more strain than was put in: with S
+    /// the root of the sum of |C|^2 over all stretch constraints at the start plus the drive's way over l, a wire whose
     /// sum of strains squared is within S^2 is compared over windows of 1,000 steps only.</remarks>
     internal sealed class StopRule
     {
@@ -80,7 +80,8 @@ namespace Guidewire.Core
             {
                 return false;
             }
-            // A wire that hardly moves because its gains are tiny is not at rest while its elements are wrong in length.
+            // A wire that hardly moves because its gains are tiny is not at rest while its elements are wrong in
+            // length.
             if (!(predictionError < _threshold) || strain > LostStrain)
             {
                 _disturbed |= predictionError >= _threshold;

@@ -6,7 +6,8 @@ using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
-    /// <summary>Reads the arguments of a run (thesis 3.2.4); the console program and Unity's batch mode share it.</summary>
+    /// <summary>Reads the arguments of a run (thesis 3.2.4); the console program and Unity's batch mode share
+    /// it.</summary>
     public static class CommandLineHandler
     {
         /// <summary>What errors name as their source.</summary>
@@ -14,8 +15,8 @@ namespace Guidewire.Io
 
         /// <summary>Reads <c>-parameters FILE -out DIR -repeat K -KEY VALUE ...</c>.</summary>
         /// <param name="arguments">The arguments.</param>
-        /// <param name="logFileIsOurs">Whether the thesis's <c>-logFile DIR</c> stands for <c>-out</c>; in Unity it is Unity's
-        /// own.</param>
+        /// <param name="logFileIsOurs">Whether the thesis's <c>-logFile DIR</c> stands for <c>-out</c>; in Unity it is
+        /// Unity's own.</param>
         /// <exception cref="ParameterException">An unknown key, a value that is missing or not allowed.</exception>
         public static CommandLine Read(IReadOnlyList<string> arguments, bool logFileIsOurs)
         {

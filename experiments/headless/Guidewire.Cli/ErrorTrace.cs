@@ -7,7 +7,8 @@ namespace Guidewire.Cli
     /// <summary>Keeps the trace of an error of the program itself.</summary>
     internal static class ErrorTrace
     {
-        /// <summary>Writes the trace into the run's folder, or where that is not possible into the temporary folder.</summary>
+        /// <summary>Writes the trace into the run's folder, or where that is not possible into the temporary
+        /// folder.</summary>
         /// <returns>One line that says where.</returns>
         public static string Write(Exception error, string? folder)
         {

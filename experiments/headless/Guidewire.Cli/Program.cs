@@ -6,7 +6,8 @@ using Guidewire.Io;
 
 namespace Guidewire.Cli
 {
-    /// <summary>The console program: one run from its arguments, or one run after another from standard input.</summary>
+    /// <summary>The console program: one run from its arguments, or one run after another from standard
+    /// input.</summary>
     internal static class Program
     {
         private const string Usage =

@@ -5,7 +5,8 @@ using Guidewire.Io;
 
 namespace Guidewire.Cli
 {
-    /// <summary>One line on a terminal that says how far a long run is; nothing where standard error is a file.</summary>
+    /// <summary>One line on a terminal that says how far a long run is; nothing where standard error is a
+    /// file.</summary>
     internal sealed class ProgressLine : IDisposable
     {
         private const double FirstAfter = 1000.0;     // ms

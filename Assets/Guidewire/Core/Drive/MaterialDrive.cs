@@ -1,7 +1,7 @@
 namespace Guidewire.Core
 {
-    /// <summary>Prescribes the motion of node 0 of a material rod within the next step: none, along a fixed axis, or along
-    /// the first element (thesis eq. 3.6).</summary>
+    /// <summary>Prescribes the motion of node 0 of a material rod within the next step: none, along a fixed axis, or
+    /// along the first element (thesis eq. 3.6).</summary>
     internal sealed class MaterialDrive
     {
         private readonly RodSchedule _schedule;

@@ -1,6 +1,7 @@
 namespace Guidewire.Core
 {
-    /// <summary>Moves sphere 0 every step along the first element, d = (x_1 - x_0)/|x_1 - x_0| (thesis eq. 3.6).</summary>
+    /// <summary>Moves sphere 0 every step along the first element, d = (x_1 - x_0)/|x_1 - x_0| (thesis eq.
+    /// 3.6).</summary>
     internal sealed class PushDrive : IDriveMotion
     {
         private readonly double _perStep;

@@ -5,7 +5,8 @@ namespace Guidewire.Core
     /// <summary>How the runtime is asked to compile a method.</summary>
     internal static class Compiled
     {
-        /// <summary>In full at the first call: AggressiveOptimization, which netstandard2.1 knows by number only.</summary>
+        /// <summary>In full at the first call: AggressiveOptimization, which netstandard2.1 knows by number
+        /// only.</summary>
         public const MethodImplOptions AtOnce = (MethodImplOptions)512;
     }
 }

@@ -105,7 +105,8 @@ namespace Guidewire.Core
             return (1.0 / Math.Sqrt(q.X * q.X + q.Y * q.Y + q.Z * q.Z + q.W * q.W)) * q;
         }
 
-        /// <summary>The turn by <paramref name="angle"/> radians about <paramref name="axis"/>, a unit vector.</summary>
+        /// <summary>The turn by <paramref name="angle"/> radians about <paramref name="axis"/>, a unit
+        /// vector.</summary>
         public static Quaterniond FromAxisAngle(in Vector3d axis, double angle)
         {
             double sine = Math.Sin(0.5 * angle);

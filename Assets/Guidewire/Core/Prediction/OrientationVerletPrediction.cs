@@ -2,12 +2,12 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>q = 2 q_k - q_(k-1), normalised: Verlet's formula (thesis eq. 2.7) for orientations, the question that the
-    /// thesis leaves open; the first step by Euler.</summary>
-    /// <remarks>With r = conj(q_(k-1)) q_k = (v, w) the last turn, this is q_k (2 - w + v), and Euler's q_k (1 + v), since
-    /// omega = (2/dt) v. Turning on by r itself would be q_k (w + v). The three turn by half angles whose tangents are
-    /// |v|/(2 - w), |v| and |v|/w: they differ in third order of the turn in a step, 1e-6 of it at a tenth of a degree.
-    /// </remarks>
+    /// <summary>q = 2 q_k - q_(k-1), normalised: Verlet's formula (thesis eq. 2.7) for orientations, the question that
+    /// the thesis leaves open; the first step by Euler.</summary>
+    /// <remarks>With r = conj(q_(k-1)) q_k = (v, w) the last turn, this is q_k (2 - w + v), and Euler's q_k (1 + v),
+    /// since omega = (2/dt) v. Turning on by r itself would be q_k (w + v). The three turn by half angles whose
+    /// tangents are |v|/(2 - w), |v| and |v|/w: they differ in third order of the turn in a step, 1e-6 of it at a tenth
+    /// of a degree.</remarks>
     internal sealed class OrientationVerletPrediction : IOrientationPrediction
     {
         private readonly OrientationEulerPrediction _firstStep = new OrientationEulerPrediction();

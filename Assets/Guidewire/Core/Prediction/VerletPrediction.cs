@@ -1,7 +1,7 @@
 namespace Guidewire.Core
 {
-    /// <summary>p = (2 - d) x_k - (1 - d) x_{k-1} + dt^2 (w f + g) (thesis eq. 2.7 with damping d); the first step, which
-    /// has no x_{k-1}, by Euler.</summary>
+    /// <summary>p = (2 - d) x_k - (1 - d) x_{k-1} + dt^2 (w f + g) (thesis eq. 2.7 with damping d); the first step,
+    /// which has no x_{k-1}, by Euler.</summary>
     internal sealed class VerletPrediction : IPositionPrediction
     {
         private readonly double _damping;

@@ -92,7 +92,8 @@ namespace Guidewire.Core
         /// <summary>w_q, n inverse inertias of the orientations, dimensionless.</summary>
         public double[] OrientationWeights { get; }
 
-        /// <summary>Omega_0 in 1/unit, n - 1: the Darboux vector of each joint at rest; 0 for a straight wire.</summary>
+        /// <summary>Omega_0 in 1/unit, n - 1: the Darboux vector of each joint at rest; 0 for a straight
+        /// wire.</summary>
         public Vector3d[] RestDarbouxVectors { get; }
 
         /// <summary>Takes over a start; it must have as many elements as the wire.</summary>

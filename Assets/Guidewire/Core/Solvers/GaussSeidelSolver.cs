@@ -1,7 +1,8 @@
 namespace Guidewire.Core
 {
-    /// <summary>Position-and-orientation-based dynamics (thesis 2.1.2): m iterations, each all stretch constraints, then
-    /// all bend-twist constraints, then all contacts. The answer depends on m, because gains act per iteration.</summary>
+    /// <summary>Position-and-orientation-based dynamics (thesis 2.1.2): m iterations, each all stretch constraints,
+    /// then all bend-twist constraints, then all contacts. The answer depends on m, because gains act per
+    /// iteration.</summary>
     internal sealed class GaussSeidelSolver : IConstraintSolver
     {
         private readonly int _iterations;

@@ -22,8 +22,8 @@ namespace Guidewire.Core
         /// <summary>Largest unbalanced force of the rest shape over EI/L^2 + loads.</summary>
         public double EquilibriumResidual { get; internal set; } = double.NaN;
 
-        /// <summary>Smallest eigenvalue of the rest shape's second derivative against l on turns and l/L^2 on shifts, N.
-        /// </summary>
+        /// <summary>Smallest eigenvalue of the rest shape's second derivative against l on turns and l/L^2 on shifts,
+        /// N. </summary>
         public double SmallestEigenvalue { get; internal set; } = double.NaN;
 
         /// <summary>Largest error that a step left, by the solver's own measure.</summary>

@@ -2,15 +2,15 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>One step of extended position-based dynamics (Macklin 2016): the time step is divided into substeps, each a
-    /// prediction and m sweeps over all constraints with compliance, whose multipliers start at 0.</summary>
-    /// <remarks>Where the sweeps have converged a substep is one of implicit Euler, whatever m is. Orientations carry the
-    /// wire's own rotary inertia rho I l (2 rho I l about the axis), 400 to 4,000 times less than a sphere's mass times l^2:
-    /// twist then moves as it should, but a correction runs along the wire one element a sweep, and the light
-    /// orientations follow their neighbours instead of pulling them, so that many sweeps or many substeps are needed.
-    /// A step counts as converged where what the sweeps have still to correct, estimated from the ratio of the last
-    /// two, is below 1 % of the motion in the substep; with fewer than three sweeps this is not known and counts as
-    /// not converged.</remarks>
+    /// <summary>One step of extended position-based dynamics (Macklin 2016): the time step is divided into substeps,
+    /// each a prediction and m sweeps over all constraints with compliance, whose multipliers start at 0.</summary>
+    /// <remarks>Where the sweeps have converged a substep is one of implicit Euler, whatever m is. Orientations carry
+    /// the wire's own rotary inertia rho I l (2 rho I l about the axis), 400 to 4,000 times less than a sphere's mass
+    /// times l^2: twist then moves as it should, but a correction runs along the wire one element a sweep, and the
+    /// light orientations follow their neighbours instead of pulling them, so that many sweeps or many substeps are
+    /// needed. A step counts as converged where what the sweeps have still to correct, estimated from the ratio of the
+    /// last two, is below 1 % of the motion in the substep; with fewer than three sweeps this is not known and counts
+    /// as not converged.</remarks>
     internal sealed class CompliantStep : ITimeStep, IReportingStep
     {
         private const double ConvergedShare = 0.01;

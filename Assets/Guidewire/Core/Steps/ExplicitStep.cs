@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>The material's forces with explicit steps: half a step of motion, velocities from the forces there, the other
-    /// half (position Verlet, order 2), on lumped masses and the wire's own rotary inertia.</summary>
+    /// <summary>The material's forces with explicit steps: half a step of motion, velocities from the forces there, the
+    /// other half (position Verlet, order 2), on lumped masses and the wire's own rotary inertia.</summary>
     /// <remarks>Stable below 2/omega_max. The largest frequency is that of elements turning against their shear,
     /// sqrt(GA/(rho I)) = 2 sqrt(G/rho)/r, however coarse the wire is.</remarks>
     internal sealed class ExplicitStep : ITimeStep, IReportingStep

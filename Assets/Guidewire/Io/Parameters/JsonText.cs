@@ -4,7 +4,8 @@ using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
-    /// <summary>Reads JSON that <see cref="StrictJson"/> has passed: no dates made of strings, numbers as doubles.</summary>
+    /// <summary>Reads JSON that <see cref="StrictJson"/> has passed: no dates made of strings, numbers as
+    /// doubles.</summary>
     public static class JsonText
     {
         /// <summary>The value that a text holds.</summary>

@@ -6,15 +6,17 @@ using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
-    /// <summary>What a run with a material asks of its parameters together. A run has gains or a material: what the user sets
-    /// on the command line must belong to the one it has; what a scene's file holds of the other is passed over.</summary>
+    /// <summary>What a run with a material asks of its parameters together. A run has gains or a material: what the
+    /// user sets on the command line must belong to the one it has; what a scene's file holds of the other is passed
+    /// over.</summary>
     internal static class MaterialRules
     {
         private static readonly string[] WallKeys = { "vessel", "obstacles" };
         private static readonly string[] GainKeys = { "stretchStiffness", "bendStiffness", "totalMass" };
 
         /// <summary>Sets the defaults that depend on the solver, and checks what belongs together.</summary>
-        /// <param name="values">The parameters; integrator and displacement may change where they were not given.</param>
+        /// <param name="values">The parameters; integrator and displacement may change where they were not
+        /// given.</param>
         /// <param name="given">Key, value and source of all that was given.</param>
         public static void Apply(RunParameters values, Dictionary<string, (JToken Value, string Source)> given)
         {

@@ -10,8 +10,8 @@ using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
-    /// <summary>Reads the parameters of a run from a JSON file and from overrides (thesis 3.2.2), and checks them against
-    /// the <see cref="ParameterTable"/>.</summary>
+    /// <summary>Reads the parameters of a run from a JSON file and from overrides (thesis 3.2.2), and checks them
+    /// against the <see cref="ParameterTable"/>.</summary>
     public sealed class ParameterHandler
     {
         // An older word and the newer one that says the same and more.
@@ -43,8 +43,8 @@ namespace Guidewire.Io
         /// <summary>The parameters of a file with overrides on top.</summary>
         /// <param name="file">A JSON file, or null for the defaults (thesis table 4.1).</param>
         /// <param name="overrides">Keys and values that count instead of the file's.</param>
-        /// <exception cref="ParameterException">A file that cannot be read, a key that is not known, a value that is not
-        /// allowed, two keys that disagree.</exception>
+        /// <exception cref="ParameterException">A file that cannot be read, a key that is not known, a value that is
+        /// not allowed, two keys that disagree.</exception>
         public static ParameterHandler Load(string? file, IEnumerable<KeyValuePair<string, JToken>> overrides)
         {
             var handler = new ParameterHandler();

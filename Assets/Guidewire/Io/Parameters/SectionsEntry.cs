@@ -5,8 +5,8 @@ using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
-    /// <summary>A list of wire sections: [{"from": 250, "to": 300, "wireRadius": 2e-4, "restCurvature": [10, 0, 0]}, ...].
-    /// </summary>
+    /// <summary>A list of wire sections: [{"from": 250, "to": 300, "wireRadius": 2e-4, "restCurvature": [10, 0, 0]},
+    /// ...]. </summary>
     internal sealed class SectionsEntry : ParameterEntry
     {
         private readonly Func<RunParameters, IReadOnlyList<WireSection>> _get;

@@ -4,15 +4,16 @@ using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
-    /// <summary>Reads a start other than the straight wire: {"positions": [[x, y, z], ...] (n + 1, units), "orientations":
-    /// [[x, y, z, w], ...] (n), "velocities": (n + 1, unit/s) and "angularVelocities": (n, rad/s, body frame), the last two
-    /// optional}.</summary>
+    /// <summary>Reads a start other than the straight wire: {"positions": [[x, y, z], ...] (n + 1, units),
+    /// "orientations": [[x, y, z, w], ...] (n), "velocities": (n + 1, unit/s) and "angularVelocities": (n, rad/s, body
+    /// frame), the last two optional}.</summary>
     internal static class StartFileReader
     {
         private static readonly string[] Keys = { "positions", "orientations", "velocities", "angularVelocities" };
 
         /// <summary>The start that a file holds.</summary>
-        /// <exception cref="ParameterException">The file cannot be read or does not fit a wire of n elements.</exception>
+        /// <exception cref="ParameterException">The file cannot be read or does not fit a wire of n
+        /// elements.</exception>
         public static RodStart Read(string file, int n)
         {
             JObject root = JsonText.ReadObject(file);

@@ -5,8 +5,8 @@ using System.Globalization;
 namespace Guidewire.Io
 {
     /// <summary>Checks that a text is JSON as RFC 8259 has it. Newtonsoft.Json also takes comments, single quotes, NaN,
-    /// trailing commas and names without quotes, and a file that only some programs can read is an error here. So is a key
-    /// that stands twice in one object, where RFC 8259 leaves open which counts.</summary>
+    /// trailing commas and names without quotes, and a file that only some programs can read is an error here. So is a
+    /// key that stands twice in one object, where RFC 8259 leaves open which counts.</summary>
     internal sealed class StrictJson
     {
         private const int MaximumDepth = 64;

@@ -13,7 +13,8 @@ namespace Guidewire.Io
 
         /// <summary>A run into a folder.</summary>
         /// <param name="handler">The parameters.</param>
-        /// <param name="folder">The folder of the results; made where it is missing. Null or empty: logFilePath.</param>
+        /// <param name="folder">The folder of the results; made where it is missing. Null or empty:
+        /// logFilePath.</param>
         /// <param name="repeat">Number of a timed repeat, or null.</param>
         /// <exception cref="ParameterException">No folder is named.</exception>
         public SimulationRun(ParameterHandler handler, string? folder, int? repeat)
@@ -28,7 +29,8 @@ namespace Guidewire.Io
             }
         }
 
-        /// <summary>Asked before every step; true ends the run as interrupted. May be set from another thread.</summary>
+        /// <summary>Asked before every step; true ends the run as interrupted. May be set from another
+        /// thread.</summary>
         public Func<bool>? StopRequested { get; set; }
 
         /// <summary>Told after every step, with the wall time in ms since the run's start.</summary>
@@ -38,7 +40,8 @@ namespace Guidewire.Io
         public string Folder => _folder;
 
         /// <summary>Runs to the end, or takes over what the folder already holds.</summary>
-        /// <param name="reuse">Whether a whole earlier result of the same parameters, repeat and build stands in.</param>
+        /// <param name="reuse">Whether a whole earlier result of the same parameters, repeat and build stands
+        /// in.</param>
         /// <exception cref="ParameterException">The folder cannot be written; nothing has been.</exception>
         public RunResult Execute(bool reuse)
         {

@@ -4,8 +4,8 @@ namespace Guidewire.Core.Tests
 {
     public sealed class StopRuleTests
     {
-        // Transversal motion breaks down at a stretch gain of 2, purely longitudinal motion at 2 (1 + 2 w_q l^2/w) = 2.13,
-        // a bent wire at a bend gain of l = 10: thesis table 4.1.
+        // Transversal motion breaks down at a stretch gain of 2, purely longitudinal motion at 2 (1 + 2 w_q l^2/w) =
+        // 2.13, a bent wire at a bend gain of l = 10: thesis table 4.1.
         [TestCase(2.02, 0.1)]
         [TestCase(2.1, 0.1)]
         [TestCase(0.1, 10.2)]
