@@ -68,7 +68,7 @@ class Wall:
         return cls(vertices[faces], np.concatenate(fans) if fans else np.empty((0, 3, 3)))
 
     def winding_numbers(self, points: np.ndarray) -> np.ndarray:
-        """Turns of the closed wall around points (p, 3) in units, shape (p,); the sign is that of the triangles' sense."""
+        """Turns of the closed wall around points (p, 3) in units, shape (p,); their sign is the triangles' sense."""
         return _Clusters(np.concatenate([self.triangles, self.fans])).winding_numbers(points)
 
 

@@ -2,7 +2,8 @@
 
 The longitudinal studies of the thesis (Figures 4.5 to 4.9) start from its Table 4.1 and change one parameter each, and
 so do the transversal ones (Figures 4.10 to 4.14), where the first sphere is displaced across the wire instead, and the
-collision ones (Figures 4.15 to 4.18), where the wire stands before a wall; all their runs last for the same in-game time.
+collision ones (Figures 4.15 to 4.18), where the wire stands before a wall; all their runs last for the same in-game
+time. The other studies are of contact, of drives and of twist.
 """
 
 from __future__ import annotations
@@ -158,7 +159,7 @@ _ELEMENT_CONTACTS = {rule: {"elementContact": rule} for rule in ("none", "baryce
 _GAIN_ELEMENTS = (*range(5, 61, 5), 120)  # the last one is what the others are measured against
 
 
-# One element, free at both ends and without inertia (damping 1), that reaches 1 unit too deep onto a small fixed sphere.
+# One element, free at both ends and without inertia (damping 1): it reaches 1 unit too deep onto a small fixed sphere.
 _ONE_ELEMENT = {
     "drive": "force", "damping": 1, "numberRodElements": 1, "guidewireLength": 60, "guidewireOffset": 0,
     "constraintSolverSteps": 100, "collisionStiffness": 0.01, "deltaThreshold": 0, "maxSimulationSteps": 50,

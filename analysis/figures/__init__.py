@@ -118,7 +118,8 @@ FIGURES: dict[str, FigureSpec] = {
         _perturbation_spec("4.18", "collision", "total-mass", "collision against the total mass"),
         FigureSpec("scenes", "the wall and the vessel", ("wall-gain", "vessel-gain"), _draw_scenes),
         FigureSpec("gain-wall", "long elements at a wall: error, cost, passages", ("wall-gain",), partial(
-            _draw_gain, "gain-wall", "wall-gain", "Push against a wall, the wire's first two thirds between two plates")),
+            _draw_gain, "gain-wall", "wall-gain",
+            "Push against a wall, the wire's first two thirds between two plates")),
         FigureSpec("gain-vessel", "long elements in a vessel: error, cost, passages", ("vessel-gain",), partial(
             _draw_gain, "gain-vessel", "vessel-gain", "Insertion into an arch with a branch, until the wire buckles")),
         FigureSpec("contact-rule", "the published contact rule beside the lever rule", ("contact-rule",),

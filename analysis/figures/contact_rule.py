@@ -116,9 +116,11 @@ def contact_rule_caption(rests: list[Rest]) -> str:
         "Figure contact-rule. One rod element that reaches 1 unit too deep onto a small fixed sphere at position s; no "
         "inertia, both ends free.",
         f"(a) Lever rule, weights 1 - s and s: {_which(lever)}.",
-        f"(b) As published: {_sign(seed)}, because its normal is scaled to a hundredth and the point to which an end is "
+        f"(b) As published: {_sign(seed)}, because its normal is scaled to a hundredth and the point to which an end "
+        "is "
         f"drawn lies almost on the obstacle; {_which(seed)}.",
-        f"(c) At the end the element rests {_depths(lever)} under the lever rule and {_depths(seed)} under the published "
+        f"(c) At the end the element rests {_depths(lever)} under the lever rule and {_depths(seed)} under the "
+        "published "
         f"one, whose element is {span([rest.shrunk for rest in seed], 2)} units shorter then (lever rule: at most "
         f"{number(max(abs(rest.shrunk) for rest in lever), 2)}).",
     ))

@@ -1,4 +1,4 @@
-"""Control of the wire (thesis, 3.1.5 and outlook): what moves the first sphere in a bend, and a twist that reaches the tip."""
+"""Control of the wire (thesis, 3.1.5, outlook): what moves the first sphere in a bend, a twist that reaches the tip."""
 
 from __future__ import annotations
 
@@ -127,9 +127,11 @@ def drives_caption(rows: dict[str, DriveRow]) -> str:
     radius = push.wire.run.value("vessel")["radius"]
     asked = push.wire.run.measured("driveAsked")
     parts = [
-        f"Figure pulling. A wire of {push.wire.run.number('guidewireLength'):g} units in a lumen of radius {radius:g} that "
+        f"Figure pulling. A wire of {push.wire.run.number('guidewireLength'):g} units in a lumen of radius "
+        f"{radius:g} that "
         f"turns round, after {push.wire.motion.steps[-1]} steps of "
-        f"{push.wire.run.number('displacementPerStep'):g} units ({asked:g} asked of the first sphere, black; dotted: its "
+        f"{push.wire.run.number('displacementPerStep'):g} units ({asked:g} asked of the first sphere, black; dotted: "
+        "its "
         f"way)."
     ]
     for name, (key, (label, _)) in zip("abcd", _DRIVES.items()):
@@ -143,7 +145,8 @@ def _came_to(row: DriveRow, radius: float) -> str:
     passages = int(run.measured("passages"))
     if farthest > radius:
         told = (
-            f"the first sphere does not see the wall and leaves the lumen, up to {number(farthest)} units from its middle "
+            f"the first sphere does not see the wall and leaves the lumen, up to {number(farthest)} units from its "
+            "middle "
             f"line, and the wire is pulled after it: {passages} of its points pass the wall; "
         )
     else:
@@ -226,7 +229,8 @@ def twist_caption(rows: list[TwistRow]) -> str:
         )
     fewest = rows[0]
     parts.append(
-        f"With few solver steps the turn runs to and fro along the wire as a wave (m = {fewest.solver_steps}: difference "
+        f"With few solver steps the turn runs to and fro along the wire as a wave (m = {fewest.solver_steps}: "
+        "difference "
         f"{span(fewest.twist.tip - fewest.twist.base, 2)} rad); there is no friction, so nothing holds the tip back."
     )
     return " ".join(parts)

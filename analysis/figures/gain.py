@@ -46,7 +46,8 @@ def draw_gain(name: str, scene: str, table: GainTable) -> tuple[Figure, str]:
     panels["e"].set_ylabel("number of passages")
     panels["e"].set_yscale("symlog", linthresh=1.0)
     panels["e"].yaxis.set_major_locator(_counts(max(row.passages for row in table.rows)))
-    touching = table.reference.wire.run.number("guidewireLength") / (2.0 * table.reference.wire.run.number("sphereRadius"))
+    run = table.reference.wire.run
+    touching = run.number("guidewireLength") / (2.0 * run.number("sphereRadius"))
     for panel in "cde":
         panels[panel].axvline(touching, linestyle="--", color="0.3", linewidth=1.0, label="$l = 2r$")
         panels[panel].set_xlabel("number of rod elements $n$")
@@ -128,7 +129,8 @@ def _cost(elements: list[GainRow], spheres: list[GainRow]) -> str:
     ])
     return (
         f"(d) With element contact a step takes {number(first.step_time.median, 2)} ms at n = {first.elements}, "
-        f"{number(touching.step_time.median, 2)} at n = {touching.elements} and {number(longest.step_time.median, 2)} at "
+        f"{number(touching.step_time.median, 2)} at n = {touching.elements} and "
+        f"{number(longest.step_time.median, 2)} at "
         f"n = {longest.elements} (median of the steps, then of {first.step_time.count} runs), in the median of all n "
         f"{percent(abs(extra))} {'more' if extra >= 0.0 else 'less'} than with spheres only."
     )
@@ -146,7 +148,8 @@ def _passed(subject: str, rows: list[GainRow], radius: float) -> str:
     shortest = min(row.element_length for row in failed)
     held = [row.element_length for row in rows if row.passages == 0]
     if held and max(held) < shortest:
-        told += f": for l = {number(shortest)} units and more, and not for {number(max(held))} and less (2r = {2 * radius:g})"
+        told += f": for l = {number(shortest)} units and more, and not for {number(max(held))} and less"
+        told += f" (2r = {2 * radius:g})"
     return told + "."
 
 
@@ -170,7 +173,8 @@ def _flat(table: GainTable) -> str:
     if not vessel or vessel["shape"] != "plane":
         return ""
     return (
-        "A plane is no trial of sphere contact: an element lies before it wherever both its spheres do. Only at an edge, "
+        "A plane is no trial of sphere contact: an element lies before it wherever both its spheres do. Only at an "
+        "edge, "
         "here the plates', can a long element pass between two spheres."
     )
 
@@ -183,6 +187,7 @@ def _length(table: GainTable) -> str:
     if lost < 0.02:
         return ""
     return (
-        f"With m = {run.number('constraintSolverSteps'):g} the wire with n = {table.reference.elements} is compressed, by "
+        f"With m = {run.number('constraintSolverSteps'):g} the wire with n = {table.reference.elements} is "
+        "compressed, by "
         f"{percent(lost)} of its length at the end: much of (c) is this lag."
     )

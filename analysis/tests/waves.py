@@ -1,7 +1,7 @@
 """Wires whose motion is written down in closed form: what distances between runs are tested on.
 
-Sphere i at arc length s_i stands at y = size (1 - (s_i/L) (1 - cos(2 pi k/P))) after k steps, P steps to a swing, with x
-and z at rest; the swing of a run with more solver steps is shorter. Between two runs the distance at equal moments is
+Sphere i at arc length s_i stands at y = size (1 - (s_i/L) (1 - cos(2 pi k/P))) after k steps, P steps to a swing, with
+x and z at rest; the swing of a run with more solver steps is shorter. Between two runs the distance at equal moments is
 therefore size (s_i/L) |cos - cos'|, and its mean over evenly spaced spheres half of that at the last one.
 """
 
