@@ -23,7 +23,7 @@ def test_every_study_that_a_figure_needs_can_be_run():
 
 
 def test_a_figure_is_a_picture_a_caption_and_a_place_in_the_index(tmp_path, monkeypatch):
-    monkeypatch.setattr(gallery, "FIGURES", {"1.1": spec("1.1"), "1.2": spec("1.2")})
+    monkeypatch.setattr(gallery, "SPECS", {"1.1": spec("1.1"), "1.2": spec("1.2")})
     drawn = gallery.draw(["1.2"], {"default": Path("a"), "other": Path("b")}, tmp_path / "out")
     index = drawn.index
     assert drawn.problems == () and index == tmp_path / "out" / "index.md"
@@ -34,7 +34,7 @@ def test_a_figure_is_a_picture_a_caption_and_a_place_in_the_index(tmp_path, monk
 
 
 def test_the_index_keeps_figures_drawn_earlier_in_the_order_of_their_numbers(tmp_path, monkeypatch):
-    monkeypatch.setattr(gallery, "FIGURES", {"1.1": spec("1.1"), "1.2": spec("1.2")})
+    monkeypatch.setattr(gallery, "SPECS", {"1.1": spec("1.1"), "1.2": spec("1.2")})
     for name in ("1.2", "1.1"):
         drawn = gallery.draw([name], {"default": Path("a")}, tmp_path)
     text = drawn.index.read_text()
@@ -45,7 +45,7 @@ def test_a_figure_that_cannot_be_drawn_is_told_and_the_others_are_drawn(tmp_path
     def broken(folders):
         raise LogError("study.json: no such file")
 
-    monkeypatch.setattr(gallery, "FIGURES", {
+    monkeypatch.setattr(gallery, "SPECS", {
         "1.1": FigureSpec("1.1", "broken", ("default",), broken), "1.2": spec("1.2"),
     })
     drawn = gallery.draw(["1.1", "1.2"], {"default": Path("a")}, tmp_path)
