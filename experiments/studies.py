@@ -106,14 +106,12 @@ _TIMED = {"logSpheres": "last"}  # a timed run's log is read for its times only
 _DURATION = 1.0  # s, in-game, of every run of these; 100 steps of Table 4.1
 _REFERENCE = {"constraintSolverSteps": 2000, "numberRodElements": 60, "timeStep": 2e-4}
 
-# Two plates along the wire's first two thirds: without them the wire turns away from the wall about its held end, whose
-# frame is free, and goes round for ever; between them it comes to rest against the wall.
-_CHANNEL = [{"shape": "box", "centre": [0, side * 16, -215], "halfSize": [50, 10, 115]} for side in (1, -1)]
+# The wall scene has two plates along the wire's first two thirds: without them the wire turns away from the wall about
+# its held end, whose frame is free, and goes round for ever; between them it comes to rest against the wall.
 _PERTURBATIONS: dict[str, tuple[str, dict[str, Any]]] = {
     "transversal": (_TABLE_4_1, {"displacementDirection": [0, 1, 0], "deltaThreshold": 0, "timeStep": 0.01}),
     "collision": ("params/collision-wall.json", {
         "drive": "hold", "displacement": 10, "guidewireOffset": -306, "timeStep": 0.01, "collisionStiffness": 1e-4,
-        "obstacles": _CHANNEL,
     }),
 }
 
@@ -216,7 +214,7 @@ STUDIES: dict[str, Study] = {
         Study(
             "wall-gain", "push against the wall: rod elements n and what touches the wall",
             "params/collision-wall.json", "numberRodElements", _GAIN_ELEMENTS,
-            {"obstacles": _CHANNEL, "maxSimulationSteps": 100}, repeats=3, variants=_ELEMENT_CONTACTS,
+            {"maxSimulationSteps": 100}, repeats=3, variants=_ELEMENT_CONTACTS,
         ),
         Study(
             "vessel-gain", "insertion into the vessel: rod elements n and what touches the wall",
