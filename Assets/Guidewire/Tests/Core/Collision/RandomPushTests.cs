@@ -76,6 +76,18 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void Wire_ThatBacksOutOfTheOpenRim_HasPassedNoWall()
+        {
+            // The buckled base of this one turns and pushes itself out, within one step around the sheath's end.
+            const int Seed = 135;
+            Push push = Run(Seed, ElementContact.Barycentric);
+            Vector3d[] x = push.Simulation.State.Positions;
+            Assert.That(Array.Exists(x, sphere => sphere.Z < Entrance), Is.True, "the wire left by the rim");
+            Assert.That(push.Simulation.Contacts!.Passages, Is.EqualTo(0));
+            Assert.That(push.Outside, Is.EqualTo(0));
+        }
+
+        [Test]
         public void Count_SeesTheWireOutside_UnderThePublishedRule()
         {
             long passages = 0;
