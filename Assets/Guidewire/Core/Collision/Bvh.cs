@@ -10,8 +10,7 @@ namespace Guidewire.Core
         private const int StackSize = 96;
         private readonly BvhNode[] _nodes;
         private readonly int[] _order;
-        private readonly int[] _slot;
-        private readonly int[] _leaf;          // node that holds a triangle, per place in _order
+        private readonly int[] _leaf;          // node that holds a triangle, per triangle
         private readonly Vector3d[] _corners;
         private readonly Vector3d[] _normals;  // sum of its triangles' area vectors, per node
         private readonly int[] _from;          // first of its triangles, per node
@@ -22,21 +21,19 @@ namespace Guidewire.Core
         {
             _nodes = BvhBuilder.Build(corners, out _order);
             _corners = new Vector3d[corners.Length];
-            _slot = new int[_order.Length];
             _normals = new Vector3d[_nodes.Length];
             _from = new int[_nodes.Length];
             _count = new int[_nodes.Length];
-            for (int k = 0; k < _order.Length; k++)
-            {
-                _slot[_order[k]] = k;
-            }
             _leaf = new int[_order.Length];
             for (int i = 0; i < _nodes.Length; i++)
             {
                 BvhNode node = _nodes[i];
                 if (node.Count > 0)
                 {
-                    Array.Fill(_leaf, i, node.First, node.Count);
+                    for (int k = node.First; k < node.First + node.Count; k++)
+                    {
+                        _leaf[_order[k]] = i;
+                    }
                 }
                 else
                 {
@@ -94,7 +91,7 @@ namespace Guidewire.Core
             {
                 // From the hint's leaf up: what is nearest is found first, and each level costs one look at the branch
                 // that is not yet searched.
-                int node = _leaf[_slot[hint]];
+                int node = _leaf[hint];
                 TestLeaf(_nodes[node], ref search);
                 while (node > 0)
                 {
