@@ -10,7 +10,7 @@ namespace Guidewire.Core
         private const int StackSize = 96;
         private readonly BvhNode[] _nodes;
         private readonly int[] _order;
-        private readonly int[] _slot;
+        private readonly int[] _leaf;          // node that holds a triangle, per triangle
         private readonly Vector3d[] _corners;
         private readonly Vector3d[] _normals;  // sum of its triangles' area vectors, per node
         private readonly int[] _from;          // first of its triangles, per node
@@ -21,13 +21,25 @@ namespace Guidewire.Core
         {
             _nodes = BvhBuilder.Build(corners, out _order);
             _corners = new Vector3d[corners.Length];
-            _slot = new int[_order.Length];
             _normals = new Vector3d[_nodes.Length];
             _from = new int[_nodes.Length];
             _count = new int[_nodes.Length];
-            for (int k = 0; k < _order.Length; k++)
+            _leaf = new int[_order.Length];
+            for (int i = 0; i < _nodes.Length; i++)
             {
-                _slot[_order[k]] = k;
+                BvhNode node = _nodes[i];
+                if (node.Count > 0)
+                {
+                    for (int k = node.First; k < node.First + node.Count; k++)
+                    {
+                        _leaf[_order[k]] = i;
+                    }
+                }
+                else
+                {
+                    _nodes[node.First].Parent = i;
+                    _nodes[node.First + 1].Parent = i;
+                }
             }
             Refit(corners);
         }
@@ -71,56 +83,76 @@ namespace Guidewire.Core
             out double squared, out double s, out Vector3d point, out int feature)
         {
             var search = new SegmentSearch(a, b, range);
-            if (hint >= 0)
+            if (hint < 0)
             {
-                TestTriangle(_slot[hint], ref search);
+                Descend(0, ref search);
             }
-            Span<int> stack = stackalloc int[StackSize];
-            Span<double> bounds = stackalloc double[StackSize];
-            int depth = 0;
-            int current = 0;
+            else
+            {
+                // From the hint's leaf up: what is nearest is found first, and each level costs one look at the branch
+                // that is not yet searched.
+                int node = _leaf[hint];
+                TestLeaf(_nodes[node], ref search);
+                while (node > 0)
+                {
+                    int sibling = ((node - 1) ^ 1) + 1;
+                    ref readonly BvhNode other = ref _nodes[sibling];
+                    if (search.MayHold(other, out _))
+                    {
+                        Descend(sibling, ref search);
+                    }
+                    node = other.Parent;
+                }
+            }
+            squared = search.Squared;
+            s = search.S;
+            point = search.Point;
+            feature = search.Feature;
+            return search.Slot < 0 ? -1 : _order[search.Slot];
+        }
+
+        // The call goes to the nearer child, the loop to the other: no list of what is left to do has to be cleared
+        // for a search that mostly ends after a few nodes.
+        private void Descend(int current, ref SegmentSearch search)
+        {
             while (true)
             {
                 ref readonly BvhNode node = ref _nodes[current];
                 if (node.Count > 0)
                 {
-                    for (int k = node.First; k < node.First + node.Count; k++)
+                    TestLeaf(node, ref search);
+                    return;
+                }
+                int left = node.First;
+                bool goLeft = search.MayHold(_nodes[left], out double boundLeft);
+                bool goRight = search.MayHold(_nodes[left + 1], out double boundRight);
+                if (goLeft && goRight)
+                {
+                    bool leftFirst = search.Order(_nodes[left]) <= search.Order(_nodes[left + 1]);
+                    Descend(leftFirst ? left : left + 1, ref search);
+                    if ((leftFirst ? boundRight : boundLeft) > search.Squared)
                     {
-                        TestTriangle(k, ref search);
+                        return;
                     }
+                    current = leftFirst ? left + 1 : left;
+                }
+                else if (goLeft || goRight)
+                {
+                    current = goLeft ? left : left + 1;
                 }
                 else
                 {
-                    int left = node.First;
-                    bool goLeft = search.MayHold(_nodes[left], out double boundLeft, out double orderLeft);
-                    bool goRight = search.MayHold(_nodes[left + 1], out double boundRight, out double orderRight);
-                    if (goLeft && goRight)
-                    {
-                        bool leftFirst = orderLeft <= orderRight;
-                        stack[depth] = leftFirst ? left + 1 : left;
-                        bounds[depth++] = leftFirst ? boundRight : boundLeft;
-                        current = leftFirst ? left : left + 1;
-                        continue;
-                    }
-                    if (goLeft || goRight)
-                    {
-                        current = goLeft ? left : left + 1;
-                        continue;
-                    }
+                    return;
                 }
-                do
-                {
-                    if (depth == 0)
-                    {
-                        squared = search.Squared;
-                        s = search.S;
-                        point = search.Point;
-                        feature = search.Feature;
-                        return search.Slot < 0 ? -1 : _order[search.Slot];
-                    }
-                    current = stack[--depth];
-                }
-                while (bounds[depth] > search.Squared);
+            }
+        }
+
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        private void TestLeaf(in BvhNode leaf, ref SegmentSearch search)
+        {
+            for (int k = leaf.First; k < leaf.First + leaf.Count; k++)
+            {
+                TestTriangle(k, ref search);
             }
         }
 

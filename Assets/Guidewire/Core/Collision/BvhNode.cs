@@ -12,9 +12,6 @@ namespace Guidewire.Core
         /// <summary>Half the box's edges.</summary>
         public Vector3d Extent;
 
-        /// <summary>Distance of the box's corners from its centre.</summary>
-        public double Radius;
-
         /// <summary>Mean normal of the triangles, 0 where they have none.</summary>
         public Vector3d Normal;
 
@@ -29,6 +26,9 @@ namespace Guidewire.Core
 
         /// <summary>Triangles of a leaf; 0 for a node with children.</summary>
         public int Count;
+
+        /// <summary>The node that this one is a child of; 0 for the first node itself.</summary>
+        public int Parent;
 
         /// <summary>Makes the box hold <paramref name="count"/> points.</summary>
         public void Enclose(Vector3d[] points, int first, int count)
@@ -101,7 +101,6 @@ namespace Guidewire.Core
             Centre = 0.5 * (low + high);
             Vector3d size = Max(Max(low, high), Max(-low, -high));
             Extent = 0.5 * (high - low) + 1e-15 * size;
-            Radius = Extent.Length * (1.0 + 1e-15);
         }
     }
 }

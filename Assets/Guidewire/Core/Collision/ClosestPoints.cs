@@ -22,6 +22,10 @@ namespace Guidewire.Core
         // Squared ratio of a triangle's height to its length below which it is a needle.
         private const double Needle = 1e-8;
 
+        // Relative width in which a triangle at the limit is still looked at: above the rounding of a triangle that is
+        // no needle, and without cost.
+        private const double LimitBorder = 1e-9;
+
         /// <summary>Parameter in [0, 1] of the point of segment a b nearest to p; 0 for a segment of no
         /// length.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -131,62 +135,77 @@ namespace Guidewire.Core
             out double s, out Vector3d point, out int feature)
         {
             Vector3d e0 = v1 - v0;
-            Vector3d n = Vector3d.Cross(e0, v2 - v0);
+            Vector3d e2 = v0 - v2;
+            Vector3d n = Vector3d.Cross(e2, e0);
             double nn = n.LengthSquared;
             double ha = Vector3d.Dot(n, a - v0);
             double hb = Vector3d.Dot(n, b - v0);
-            double best = double.PositiveInfinity;
             s = 0.0;
             point = v0;
             feature = Corner;
             bool crosses = (ha <= 0.0 && hb >= 0.0) || (ha >= 0.0 && hb <= 0.0);
-            if (IsNeedle(nn, e0, v2 - v0))
+            if (IsNeedle(nn, e0, e2))
             {
-                double cut = crosses && ha != hb ? ha / (ha - hb) : 0.0;
-                NeedleCandidate(a, 0.0, v0, v1, v2, ref best, ref s, ref point, ref feature);
-                NeedleCandidate(b, 1.0, v0, v1, v2, ref best, ref s, ref point, ref feature);
-                NeedleCandidate(Vector3d.Lerp(a, b, cut), cut, v0, v1, v2, ref best, ref s, ref point, ref feature);
+                return SegmentNeedle(a, b, v0, v1, v2, crosses && ha != hb ? ha / (ha - hb) : 0.0,
+                    out s, out point, out feature);
             }
-            else
+
+            // What is left of the limit for the distance along the plane, times n.n; rounding must not decide.
+            double nearer = crosses ? 0.0 : Math.Min(Math.Abs(ha), Math.Abs(hb));
+            double left = limit * nn * (1.0 + LimitBorder) - nearer * nearer;
+            if (left < 0.0)
             {
-                double nearer = Math.Min(Math.Abs(ha), Math.Abs(hb));
-                if (!crosses && nearer * nearer > limit * nn)
+                return double.PositiveInfinity;
+            }
+            Vector3d e1 = v2 - v1;
+            var heightsA = new EdgeHeights(a, n, v0, v1, v2, e0, e1, e2);
+            var heightsB = new EdgeHeights(b, n, v0, v1, v2, e0, e1, e2);
+            if (IsBeyond(heightsA.First, heightsB.First, left * e0.LengthSquared)
+                || IsBeyond(heightsA.Second, heightsB.Second, left * e1.LengthSquared)
+                || IsBeyond(heightsA.Third, heightsB.Third, left * e2.LengthSquared))
+            {
+                return double.PositiveInfinity;
+            }
+            double best = double.PositiveInfinity;
+            if (crosses && ha != hb)
+            {
+                double cut = ha / (ha - hb);
+                Vector3d x = Vector3d.Lerp(a, b, cut);
+                if (new EdgeHeights(x, n, v0, v1, v2, e0, e1, e2).AreInside)
                 {
-                    return double.PositiveInfinity;
-                }
-                Vector3d m0 = Vector3d.Cross(n, e0);
-                Vector3d m1 = Vector3d.Cross(n, v2 - v1);
-                Vector3d m2 = Vector3d.Cross(n, v0 - v2);
-                if (crosses && ha != hb)
-                {
-                    double cut = ha / (ha - hb);
-                    Vector3d x = Vector3d.Lerp(a, b, cut);
-                    if (IsAbove(x, v0, v1, v2, m0, m1, m2))
-                    {
-                        s = cut;
-                        point = x;
-                        feature = Face;
-                        return 0.0;
-                    }
-                }
-                if (IsAbove(a, v0, v1, v2, m0, m1, m2))
-                {
-                    best = ha * ha / nn;
-                    s = 0.0;
-                    point = a - (ha / nn) * n;
+                    s = cut;
+                    point = x;
                     feature = Face;
-                }
-                if (hb * hb < best * nn && IsAbove(b, v0, v1, v2, m0, m1, m2))
-                {
-                    best = hb * hb / nn;
-                    s = 1.0;
-                    point = b - (hb / nn) * n;
-                    feature = Face;
+                    return 0.0;
                 }
             }
-            SegmentEdge(a, b, v0, v1, 0, ref best, ref s, ref point, ref feature);
-            SegmentEdge(a, b, v1, v2, 1, ref best, ref s, ref point, ref feature);
-            SegmentEdge(a, b, v2, v0, 2, ref best, ref s, ref point, ref feature);
+            if (heightsA.AreInside)
+            {
+                best = ha * ha / nn;
+                point = a - (ha / nn) * n;
+                feature = Face;
+            }
+            if (hb * hb < best * nn && heightsB.AreInside)
+            {
+                best = hb * hb / nn;
+                s = 1.0;
+                point = b - (hb / nn) * n;
+                feature = Face;
+            }
+
+            // The nearest point lies on an edge only if the segment comes beyond it.
+            if (!(heightsA.First > 0.0 && heightsB.First > 0.0))
+            {
+                SegmentEdge(a, b, v0, v1, 0, ref best, ref s, ref point, ref feature);
+            }
+            if (!(heightsA.Second > 0.0 && heightsB.Second > 0.0))
+            {
+                SegmentEdge(a, b, v1, v2, 1, ref best, ref s, ref point, ref feature);
+            }
+            if (!(heightsA.Third > 0.0 && heightsB.Third > 0.0))
+            {
+                SegmentEdge(a, b, v2, v0, 2, ref best, ref s, ref point, ref feature);
+            }
             return best;
         }
 
@@ -205,13 +224,12 @@ namespace Guidewire.Core
             return Edge + edge;
         }
 
+        // True where both heights over an edge, times |n| |e|, are so negative that the limit is exceeded.
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private static bool IsAbove(
-            in Vector3d x, in Vector3d v0, in Vector3d v1, in Vector3d v2,
-            in Vector3d m0, in Vector3d m1, in Vector3d m2)
+        private static bool IsBeyond(double heightA, double heightB, double limit)
         {
-            return Vector3d.Dot(m0, x - v0) >= 0.0 && Vector3d.Dot(m1, x - v1) >= 0.0
-                && Vector3d.Dot(m2, x - v2) >= 0.0;
+            double nearer = Math.Max(heightA, heightB);
+            return nearer < 0.0 && nearer * nearer > limit;
         }
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -250,6 +268,23 @@ namespace Guidewire.Core
                     feature = Face;
                 }
             }
+            return best;
+        }
+
+        private static double SegmentNeedle(
+            in Vector3d a, in Vector3d b, in Vector3d v0, in Vector3d v1, in Vector3d v2, double cut,
+            out double s, out Vector3d point, out int feature)
+        {
+            double best = double.PositiveInfinity;
+            s = 0.0;
+            point = v0;
+            feature = Corner;
+            NeedleCandidate(a, 0.0, v0, v1, v2, ref best, ref s, ref point, ref feature);
+            NeedleCandidate(b, 1.0, v0, v1, v2, ref best, ref s, ref point, ref feature);
+            NeedleCandidate(Vector3d.Lerp(a, b, cut), cut, v0, v1, v2, ref best, ref s, ref point, ref feature);
+            SegmentEdge(a, b, v0, v1, 0, ref best, ref s, ref point, ref feature);
+            SegmentEdge(a, b, v1, v2, 1, ref best, ref s, ref point, ref feature);
+            SegmentEdge(a, b, v2, v0, 2, ref best, ref s, ref point, ref feature);
             return best;
         }
 

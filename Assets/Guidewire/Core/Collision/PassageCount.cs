@@ -4,19 +4,23 @@ namespace Guidewire.Core
 {
     /// <summary>Counts points of the wire that are inside before a step and outside after it, ten an element (s = 0,
     /// 0.1, ... 0.9) and the last sphere. Leaving through an open rim is no passage.</summary>
-    /// <remarks>Only an element whose straight way comes within the clearance of a wall is asked: another changes no
-    /// side. The clearance must not be 0, where the swept test may end behind the wall by rounding and see it
-    /// recede.</remarks>
+    /// <remarks>Where a point left is asked of each part of a step: the straight line between a whole step's ends may
+    /// cut the corner of a rim around which the wire really went. Only an element whose straight way comes within the
+    /// clearance of a wall is asked: another changes no side. The clearance must not be 0, where the swept test may end
+    /// behind the wall by rounding and see it recede.</remarks>
     internal sealed class PassageCount
     {
         private const int SamplesPerElement = 10;
         private readonly ContactShape[] _walls;
         private readonly double _clearance;
+        private readonly bool[] _left;    // whether a point left across a wall in this step, per wall and point
 
         /// <param name="walls">What may not be passed.</param>
+        /// <param name="elementCount">n.</param>
         /// <param name="radius">r in units.</param>
-        public PassageCount(ContactShape[] walls, double radius)
+        public PassageCount(ContactShape[] walls, int elementCount, double radius)
         {
+            _left = new bool[walls.Length * PointsOf(elementCount)];
             _walls = walls;
             _clearance = SweptGuard.ClearanceFor(radius);
         }
@@ -24,44 +28,71 @@ namespace Guidewire.Core
         /// <summary>Passages so far.</summary>
         public long Total { get; private set; }
 
-        /// <summary>Counts those of one step, from x_k to x_{k+1} in units.</summary>
-        /// <param name="from">x_k, n + 1.</param>
-        /// <param name="to">x_{k+1}.</param>
-        /// <param name="rule">Knows for each element a lower bound of its distance from the wall.</param>
-        /// <param name="boundsHold">Whether the bounds are those at x_k.</param>
-        public void Add(Vector3d[] from, Vector3d[] to, IContactRule rule, bool boundsHold)
+        /// <summary>Takes note of the points that leave across a wall in one part of a step.</summary>
+        /// <param name="from">Where the part starts, n + 1 positions in units.</param>
+        /// <param name="to">Where it ends.</param>
+        /// <param name="rule">Knows for each element a lower bound of its distance from the wall at the start.</param>
+        public void AddPart(Vector3d[] from, Vector3d[] to, IContactRule rule)
         {
             int n = to.Length - 1;
             for (int j = 0; j < n; j++)
             {
                 double motion = Math.Max(Vector3d.Distance(from[j], to[j]), Vector3d.Distance(from[j + 1], to[j + 1]));
-                if (boundsHold && motion < rule.ClearanceOf(j))
+                if (motion < rule.ClearanceOf(j))
                 {
                     continue;
                 }
-                foreach (ContactShape wall in _walls)
+                for (int w = 0; w < _walls.Length; w++)
                 {
-                    if (wall.Sweep(from[j], from[j + 1], to[j], to[j + 1], _clearance, out _) < ContactShape.NoImpact)
+                    if (_walls[w].Sweep(
+                        from[j], from[j + 1], to[j], to[j + 1], _clearance, out _) < ContactShape.NoImpact)
                     {
-                        CountElement(wall, from, to, j, j + 1 == n ? SamplesPerElement + 1 : SamplesPerElement);
+                        MarkElement(w, from, to, j);
                     }
                 }
             }
         }
 
-        private void CountElement(ContactShape wall, Vector3d[] from, Vector3d[] to, int j, int samples)
+        /// <summary>Counts those of the whole step, from x_k to x_{k+1} in units.</summary>
+        public void EndStep(Vector3d[] from, Vector3d[] to)
         {
-            for (int k = 0; k < samples; k++)
+            int points = PointsOf(to.Length - 1);
+            for (int at = Array.IndexOf(_left, true); at >= 0; at = Array.IndexOf(_left, true, at + 1))
             {
-                double s = (double)k / SamplesPerElement;
-                Vector3d before = Vector3d.Lerp(from[j], from[j + 1], s);
-                Vector3d after = Vector3d.Lerp(to[j], to[j + 1], s);
-                if (wall.Contains(before) && !wall.Contains(after)
-                    && wall.Sweep(before, before, after, after, _clearance, out _) < ContactShape.NoImpact)
+                ContactShape wall = _walls[at / points];
+                if (wall.Contains(Point(from, at % points)) && !wall.Contains(Point(to, at % points)))
                 {
                     Total++;
                 }
+                _left[at] = false;
             }
+        }
+
+        private void MarkElement(int w, Vector3d[] from, Vector3d[] to, int j)
+        {
+            int n = to.Length - 1;
+            int end = j + 1 == n ? PointsOf(n) : (j + 1) * SamplesPerElement;
+            for (int k = j * SamplesPerElement; k < end; k++)
+            {
+                Vector3d before = Point(from, k);
+                Vector3d after = Point(to, k);
+                if (_walls[w].Contains(before) && !_walls[w].Contains(after)
+                    && _walls[w].Sweep(before, before, after, after, _clearance, out _) < ContactShape.NoImpact)
+                {
+                    _left[w * PointsOf(n) + k] = true;
+                }
+            }
+        }
+
+        private static int PointsOf(int elementCount)
+        {
+            return elementCount * SamplesPerElement + 1;
+        }
+
+        private static Vector3d Point(Vector3d[] x, int k)
+        {
+            int j = Math.Min(k / SamplesPerElement, x.Length - 2);
+            return Vector3d.Lerp(x[j], x[j + 1], (double)(k - j * SamplesPerElement) / SamplesPerElement);
         }
     }
 }

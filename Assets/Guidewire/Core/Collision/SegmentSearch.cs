@@ -18,7 +18,6 @@ namespace Guidewire.Core
         private readonly Vector3d _middle;
         private readonly Vector3d _half;
         private readonly double _inverseLengthSquared;
-        private double _distance;
 
         public SegmentSearch(in Vector3d a, in Vector3d b, double range)
         {
@@ -33,7 +32,6 @@ namespace Guidewire.Core
 
             // A triangle exactly at the range counts: the smallest step up keeps "less than" enough below.
             Squared = range * range * (1.0 + 1e-15);
-            _distance = range;
             Slot = -1;
             S = 0.0;
             Point = a;
@@ -47,32 +45,36 @@ namespace Guidewire.Core
         public void Accept(double squared, int slot, double s, in Vector3d point, int feature)
         {
             Squared = squared;
-            _distance = Math.Sqrt(squared);
             Slot = slot;
             S = s;
             Point = point;
             Feature = feature;
         }
 
-        /// <summary>False when the node is farther than the best so far, by its box against the segment's box, by its
-        /// slab or by its ball against the segment. The bound is the larger squared distance of the first two, the
-        /// order that of the centre.</summary>
+        /// <summary>False when the node is farther than the best so far, by its box against the segment's box or by its
+        /// slab against the segment. The bound is the larger squared distance of the two.</summary>
+        /// <remarks>No branches but the answer: which bound is the larger cannot be foretold, and a wrong guess costs
+        /// more than both.</remarks>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public bool MayHold(in BvhNode node, out double bound, out double order)
+        public readonly bool MayHold(in BvhNode node, out double bound)
         {
             double gx = Math.Max(0.0, Math.Abs(_middle.X - node.Centre.X) - (node.Extent.X + _half.X));
             double gy = Math.Max(0.0, Math.Abs(_middle.Y - node.Centre.Y) - (node.Extent.Y + _half.Y));
             double gz = Math.Max(0.0, Math.Abs(_middle.Z - node.Centre.Z) - (node.Extent.Z + _half.Z));
-            bound = gx * gx + gy * gy + gz * gz;
-            double ha = Vector3d.Dot(node.Normal, A);
-            double hb = Vector3d.Dot(node.Normal, B);
-            double slab = Math.Max(0.0, Math.Max(Math.Min(ha, hb) - node.High, node.Low - Math.Max(ha, hb)));
-            bound = Math.Max(bound, slab * slab);
+            double middle = Vector3d.Dot(node.Normal, _middle);
+            double half = 0.5 * Math.Abs(Vector3d.Dot(node.Normal, _along));
+            double slab = Math.Max(0.0, Math.Max(middle - node.High, node.Low - middle) - half);
+            bound = Math.Max(gx * gx + gy * gy + gz * gz, slab * slab);
+            return bound < Squared;
+        }
+
+        /// <summary>Squared distance of the node's centre from the segment: which of two to look at first.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public readonly double Order(in BvhNode node)
+        {
             Vector3d offset = node.Centre - A;
             double t = Math.Min(1.0, Math.Max(0.0, Vector3d.Dot(offset, _along) * _inverseLengthSquared));
-            order = (offset - t * _along).LengthSquared;
-            double reach = node.Radius + _distance;
-            return bound < Squared && order < reach * reach;
+            return (offset - t * _along).LengthSquared;
         }
     }
 }

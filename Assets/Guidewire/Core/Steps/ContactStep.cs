@@ -45,7 +45,7 @@ namespace Guidewire.Core
             _solver = solver;
             _rule = rule;
             _guard = new SweptGuard(parameters.Walls, rule, state.SphereCount, parameters.SphereRadius);
-            _passages = new PassageCount(parameters.Walls, parameters.SphereRadius);
+            _passages = new PassageCount(parameters.Walls, state.ElementCount, parameters.SphereRadius);
             _longestPart = rule.GuardsSpheres
                 ? Math.Min(0.5 * state.ElementLength, parameters.SphereRadius) : double.PositiveInfinity;
             _target = new Vector3d[state.SphereCount];
@@ -76,22 +76,20 @@ namespace Guidewire.Core
             Array.Copy(state.Positions, _safe, _safe.Length);
             Array.Copy(state.Orientations, _safeTurn, _safeTurn.Length);
             Record.StartStep();
-            bool inOne = MoveInParts(state);
+            MoveInParts(state);
             PredictionError = Vector3d.Distance(_target[state.ElementCount], _safe[state.ElementCount]);
-            _passages.Add(state.Positions, state.PredictedPositions, _rule, inOne);
+            _passages.EndStep(state.Positions, state.PredictedPositions);
             Record.Passages = _passages.Total;
             Record.EndStep(state, _target, _timeStep);
             VelocityUpdate.Apply(state, _timeStep);
         }
 
-        // True when the whole motion was one part.
-        private bool MoveInParts(RodState state)
+        private void MoveInParts(RodState state)
         {
             bool driven = state.InverseMasses[0] == 0.0;
             double asked = driven ? Vector3d.Distance(_target[0], state.Positions[0]) : 0.0;
             Record.DriveAsked += asked;
             double part = 1.0 / Math.Max(1.0, Math.Ceiling(asked / _longestPart));
-            bool inOne = part == 1.0;
             double left = 1.0;
             while (left > 0.5 * SmallestPart)
             {
@@ -103,10 +101,8 @@ namespace Guidewire.Core
                 else
                 {
                     part *= 0.5;
-                    inOne = false;
                 }
             }
-            return inOne;
         }
 
         private bool TryPart(RodState state, double part, bool isLast, bool shorten)
@@ -136,6 +132,7 @@ namespace Guidewire.Core
             {
                 Record.DriveShortfall += Vector3d.Distance(driveTo, p[0]);
             }
+            _passages.AddPart(_safe, p, _rule);
             _rule.AddImpulses(Record.Impulses);
             Record.MaxPenetration = Math.Max(Record.MaxPenetration, _rule.Penetration(p));
             Array.Copy(p, _safe, p.Length);

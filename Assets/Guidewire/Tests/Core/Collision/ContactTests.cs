@@ -199,7 +199,7 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        public void Scene_WithAWallOutOfReach_GivesTheSameBitsAsOneWithout()
+        public void Scene_WithAWallOutOfReach_MovesAsOneWithout_UpToRounding()
         {
             var p = new SimulationParameters { MaxSimulationSteps = 50, DisplacementDirection = Vector3d.UnitY };
             Simulation free = Simulation.Create(p);

@@ -14,8 +14,10 @@ namespace Guidewire.Core.Tests
     {
         private const double Asked = 200.0;
 
-        // z of the open rim: what a buckled wire pushes back out of it has passed no wall.
+        // The open rim, a circle around the z axis, and z where its straight sheath ends.
         private const double Entrance = -320.0;
+        private const double EntranceRadius = 8.0;
+        private const double SheathEnd = 0.0;
 
         private sealed class Push
         {
@@ -23,7 +25,15 @@ namespace Guidewire.Core.Tests
             public int Outside;
             public double Reached;
             public double Driven;
+            public double Advance;
+            public double TakenUp;
             public string Words = "";
+
+            /// <summary>Share of the motion that the wire lacks and neither its base nor its shape accounts for: what
+            /// sphere 0 did not advance (shortfall, or turned aside) is lost to all spheres, what buckles and
+            /// compression take up at most to all. A tenth is left to the bend, whose chord is shorter than the way.
+            /// </summary>
+            public double Unexplained => 0.9 - Reached - (1.0 - Advance) - TakenUp;
 
             public Push(Simulation simulation)
             {
@@ -39,13 +49,15 @@ namespace Guidewire.Core.Tests
             var worst = new List<string>();
             long passages = 0;
             int outside = 0;
+            double unexplained = double.NegativeInfinity;
             for (int seed = 0; seed < runs; seed++)
             {
                 Push push = Run(seed, ElementContact.Barycentric);
                 passages += push.Simulation.Contacts!.Passages;
                 outside += push.Outside;
                 reached.Add(push.Reached);
-                if (push.Simulation.Contacts.Passages > 0 || push.Outside > 0 || push.Reached < 0.5)
+                unexplained = Math.Max(unexplained, push.Unexplained);
+                if (push.Simulation.Contacts.Passages > 0 || push.Outside > 0 || push.Reached < 0.9)
                 {
                     worst.Add(push.Words);
                 }
@@ -60,6 +72,19 @@ namespace Guidewire.Core.Tests
             Assert.That(passages, Is.EqualTo(0));
             Assert.That(outside, Is.EqualTo(0), "points of the wire outside after a step, asked apart from the count");
             Assert.That(reached[runs / 2], Is.GreaterThanOrEqualTo(0.9));
+            Assert.That(unexplained, Is.LessThanOrEqualTo(0.0), "motion lost for no reason, as a share");
+        }
+
+        [Test]
+        public void Wire_ThatBacksOutOfTheOpenRim_HasPassedNoWall()
+        {
+            // The buckled base of this one turns and pushes itself out, within one step around the sheath's end.
+            const int Seed = 135;
+            Push push = Run(Seed, ElementContact.Barycentric);
+            Vector3d[] x = push.Simulation.State.Positions;
+            Assert.That(Array.Exists(x, sphere => sphere.Z < Entrance), Is.True, "the wire left by the rim");
+            Assert.That(push.Simulation.Contacts!.Passages, Is.EqualTo(0));
+            Assert.That(push.Outside, Is.EqualTo(0));
         }
 
         [Test]
@@ -144,6 +169,8 @@ namespace Guidewire.Core.Tests
                 previous = simulation.State.Positions[0];
                 push.Outside += PointsOutside(simulation.State);
             }
+            push.Advance = (simulation.State.Positions[0].Z - start[0].Z) / simulation.Contacts!.DriveAsked;
+            push.TakenUp = TakenUp(simulation.State) / simulation.Contacts.DriveAsked;
             push.Driven = 1.0 - simulation.Contacts!.DriveShortfall / simulation.Contacts.DriveAsked;
             for (int i = 0; i < start.Length; i++)
             {
@@ -154,23 +181,61 @@ namespace Guidewire.Core.Tests
                 + p.SphereRadius.ToString("F2") + ", kC " + p.CollisionStiffness.ToString("F4") + ", per step "
                 + p.DisplacementPerStep.ToString("F1") + ", " + simulation.Outcome + " after " + simulation.StepCount
                 + ", passages " + simulation.Contacts.Passages + ", outside " + push.Outside + ", reached "
-                + push.Reached.ToString("F3") + ", driven " + push.Driven.ToString("F3") + ", way " + way.ToString("F1") + ", deepest "
+                + push.Reached.ToString("F3") + ", driven " + push.Driven.ToString("F3") + ", advance "
+                + push.Advance.ToString("F3") + ", taken up " + push.TakenUp.ToString("F3")
+                + ", way " + way.ToString("F1") + ", deepest "
                 + simulation.Contacts.MaxPenetration.ToString("F2") + ", tip " + simulation.State.Positions[^1];
             return push;
         }
 
-        private static int PointsOutside(RodState state)
+        // Length of wire, in units, that does not reach forward: in the sheath what is not along z, in the vessel what
+        // is compressed.
+        private static double TakenUp(RodState state)
         {
-            int count = 0;
+            double sum = 0.0;
             for (int j = 0; j < state.ElementCount; j++)
             {
-                for (int k = 0; k < 10; k++)
+                Vector3d along = state.Positions[j + 1] - state.Positions[j];
+                bool isInSheath = state.Positions[j].Z < SheathEnd && state.Positions[j + 1].Z < SheathEnd;
+                sum += state.ElementLength - (isInSheath ? along.Z : along.Length);
+            }
+            return sum;
+        }
+
+        // Walks along the wire from its tip, the end far from the open rim. What lies outside is counted, unless the
+        // wire left through the rim's disc; where it then lies, even beside the sheath, it has passed no wall.
+        private static int PointsOutside(RodState state)
+        {
+            Vector3d last = state.Positions[state.ElementCount];
+            bool isInside = Vessel.Contains(last);
+            bool throughRim = false;
+            int count = isInside ? 0 : 1;
+            for (int k = 10 * state.ElementCount - 1; k >= 0; k--)
+            {
+                int j = k / 10;
+                Vector3d x = Vector3d.Lerp(state.Positions[j], state.Positions[j + 1], (k - 10 * j) / 10.0);
+                bool wasInside = isInside;
+                isInside = Vessel.Contains(x);
+                if (isInside != wasInside)
                 {
-                    Vector3d x = Vector3d.Lerp(state.Positions[j], state.Positions[j + 1], k / 10.0);
-                    count += x.Z < Entrance || Vessel.Contains(x) ? 0 : 1;
+                    bool crossesRim = CrossesRim(last, x);
+                    count += isInside && throughRim && !crossesRim ? 1 : 0;
+                    throughRim = !isInside && crossesRim;
                 }
+                count += isInside || throughRim ? 0 : 1;
+                last = x;
             }
             return count;
+        }
+
+        private static bool CrossesRim(in Vector3d from, in Vector3d to)
+        {
+            if (from.Z < Entrance == to.Z < Entrance)
+            {
+                return false;
+            }
+            Vector3d at = Vector3d.Lerp(from, to, (Entrance - from.Z) / (to.Z - from.Z));
+            return Math.Sqrt(at.X * at.X + at.Y * at.Y) < EntranceRadius;
         }
 
         private static readonly MeshShape Vessel = new MeshShape(MeshFile.Read(
