@@ -2,10 +2,10 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Turns neighbouring elements towards their rest angle (Kugelstadt and Schoemer 2016, eqs. 39 and 40): C
-    /// = E = Omega - s Omega_0 with the Darboux vector Omega = (2/l) Im(q_j* q_{j+1}) in 1/unit.</summary>
-    /// <remarks>q and -q are one orientation, so s = +1 or -1 is whichever makes E shorter. One projection adds w_j
-    /// q_{j+1} (0, E)/(w_j + w_{j+1}) to q_j and -w_{j+1} q_j (0, E)/(w_j + w_{j+1}) to q_{j+1}, each times the gain.
+    /// <summary>Turns neighbouring elements towards their rest angle (Kugelstadt and Schoemer 2016, eqs. 39 and 40):
+    /// C = E = Omega - s Omega_0 with the Darboux vector Omega = (2/l) Im(q_j* q_{j+1}) in 1/unit.</summary>
+    /// <remarks>q and -q are one orientation, so s = +1 or -1 is whichever makes E shorter. One projection adds
+    /// w_j q_{j+1} (0, E)/(w_j + w_{j+1}) to q_j and -w_{j+1} q_j (0, E)/(w_j + w_{j+1}) to q_{j+1}, times the gain.
     /// The correction does not take the factor 2/l of Omega out again: the gain has the dimension of a length, acts as
     /// 2 gain/l, and the sweep breaks down at gain = l.</remarks>
     internal sealed class BendTwistConstraint
