@@ -3,7 +3,7 @@ namespace Guidewire.Core
     /// <summary>How a search for a rest shape ended.</summary>
     internal struct EquilibriumResult
     {
-        /// <summary>True only where the last Newton step was below the tolerance and the energy is convex.</summary>
+        /// <summary>True only where the last Newton step was below the tolerance and the shape is stable.</summary>
         public bool Converged;
 
         /// <summary>Why not, in one line; empty when converged.</summary>
@@ -22,7 +22,8 @@ namespace Guidewire.Core
         public double Residual;
 
         /// <summary>Smallest eigenvalue of the second derivative against the metric (l on turns, l/L^2 on shifts), N:
-        /// for a straight clamped-free rod EI (pi/(2 L))^2, the distance to its Euler load.</summary>
+        /// for a straight clamped-free rod EI (pi/(2 L))^2, the distance to its Euler load. Under a couple without
+        /// potential the smallest real part of the tangent's.</summary>
         public double SmallestEigenvalue;
     }
 }

@@ -47,10 +47,7 @@ namespace Guidewire.Core
             _work = new RodVector[_system.VectorCount];
             _trial = new RodShape(rod.ElementCount);
             _length = rod.TotalLength;
-            foreach (double stiffness in rod.BendStiffness)
-            {
-                _bendForce = Math.Max(_bendForce, stiffness / (_length * _length));
-            }
+            _bendForce = rod.BendForce;
             _neutral = Neutral * _bendForce;
         }
 
@@ -60,7 +57,7 @@ namespace Guidewire.Core
         /// <summary>Moves <paramref name="shape"/> to a rest shape near it.</summary>
         /// <param name="tolerance">On the last Newton step, radians or displacement over L.</param>
         /// <param name="mostIterations">After which the search gives up.</param>
-        /// <param name="judge">Whether the result states residual and smallest eigenvalue, which cost some
+        /// <param name="judge">Whether the result states the smallest eigenvalue, which costs some
         /// solutions.</param>
         public EquilibriumResult Solve(RodShape shape, double tolerance, int mostIterations, bool judge = true)
         {
@@ -204,18 +201,8 @@ namespace Guidewire.Core
         /// smallest.</summary>
         private void InverseIteration(out double eigenvalue)
         {
-            // A fixed start without symmetry, so that no mode of the rod is orthogonal to it.
-            for (int i = 0; i < _work.Length; i++)
-            {
-                double a = Math.Sin(12.9898 * i + 1.0);
-                _work[i] = new RodVector
-                {
-                    X1 = a * _length, X2 = (0.5 - a * a) * _length, X3 = 0.3 * a * _length,
-                    T1 = Math.Sin(78.233 * i), T2 = Math.Cos(37.719 * i), T3 = 0.7 + a,
-                };
-            }
+            RodVectors.SetWithoutSymmetry(_work, _length);
             _system.Project(_work);
-            _work[_work.Length - 1] = default;
             double norm = Math.Sqrt(_system.MetricDot(_work, _work));
             eigenvalue = 0.0;
             for (int k = 0; k < PowerIterations; k++)
@@ -240,25 +227,6 @@ namespace Guidewire.Core
                 shift = _neutral;
                 negative = _system.Factorise(_terms, shape, _gradient, _direction, shift);
                 result.Factorisations++;
-            }
-            double loads = _bendForce;
-            foreach (EnergyTerm term in _terms)
-            {
-                if (term is DeadLoads dead)
-                {
-                    foreach (Vector3d force in dead.Force)
-                    {
-                        loads += force.Length;
-                    }
-                }
-            }
-            _system.Gradient(_terms, shape, _gradient, _direction);
-            result.Residual = 0.0;
-            foreach (RodVector g in _direction)
-            {
-                double x = Math.Sqrt(g.X1 * g.X1 + g.X2 * g.X2 + g.X3 * g.X3);
-                double t = Math.Sqrt(g.T1 * g.T1 + g.T2 * g.T2 + g.T3 * g.T3);
-                result.Residual = Math.Max(result.Residual, Math.Max(x, t / _length) / loads);
             }
             if (negative == 0)
             {

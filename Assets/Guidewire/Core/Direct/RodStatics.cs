@@ -4,8 +4,8 @@ namespace Guidewire.Core
 {
     /// <summary>A material rod at rest: between its supports, under dead loads and a couple at the tip. Chooses the
     /// way to the rest shape: minimisation where the loads have a potential (all but a couple in space), a
-    /// minimisation kept in the plane for a couple in a plane problem, else minimisation without the couple and
-    /// continuation to it.</summary>
+    /// minimisation kept in the plane for a couple in a plane problem, else minimisation without the couple and then
+    /// creeping under it.</summary>
     internal sealed class RodStatics
     {
         private const double PlaneTolerance = 1e-12;
@@ -57,31 +57,71 @@ namespace Guidewire.Core
         /// <param name="mostIterations">Newton iterations, after which the search gives up.</param>
         public EquilibriumResult Solve(RodShape shape, double tolerance, int mostIterations)
         {
+            EquilibriumResult result;
             if (Moment.Moment == Vector3d.Zero)
             {
                 Method = "minimum of the energy";
-                return new EquilibriumSolver(_rod, _supports, _terms).Solve(shape, tolerance, mostIterations);
+                result = new EquilibriumSolver(_rod, _supports, _terms).Solve(shape, tolerance, mostIterations);
             }
-            if (FindPlane(shape, out Vector3d normal))
+            else if (FindPlane(shape, out Vector3d normal))
             {
                 Method = "minimum of the energy in the plane of the loads, kept to that plane";
                 PlaneGuide guide = new PlaneGuide(_rod, normal, shape.X[0]);
                 EnergyTerm[] inPlane = { Stretch, Bending, Loads, Moment, guide };
-                return new EquilibriumSolver(_rod, _supports, inPlane).Solve(shape, tolerance, mostIterations);
+                result = new EquilibriumSolver(_rod, _supports, inPlane).Solve(shape, tolerance, mostIterations);
+                if (result.Converged && !IsStableInSpace(shape))
+                {
+                    Method += "; free to leave it, the wire would not stay";
+                }
             }
-            Method = "tipMoment has no potential in space: equilibrium by continuation, line search on the residual";
+            else
+            {
+                Method = "tipMoment has no potential in space: where a wire with drag comes to rest";
+                result = Creep(shape, tolerance, mostIterations);
+            }
+            result.Residual = Residual(shape);
+            return result;
+        }
+
+        /// <summary>Minimises without the couple, then puts it on and creeps.</summary>
+        private EquilibriumResult Creep(RodShape shape, double tolerance, int mostIterations)
+        {
             EquilibriumResult first = new EquilibriumSolver(_rod, _supports, _terms).Solve(
-                shape, tolerance, mostIterations);
+                shape, tolerance, mostIterations, false);
             if (!first.Converged)
             {
                 return first;
             }
-            EnergyTerm[] all = { Stretch, Bending, Loads, Moment };
-            EquilibriumResult result = new FollowerSolver(_rod, _supports, all, Moment).Solve(
+            EquilibriumResult result = new DragFlow(_rod, _supports, AllTerms(), Moment).Solve(
                 shape, tolerance, mostIterations);
             result.Iterations += first.Iterations;
             result.Factorisations += first.Factorisations;
             return result;
+        }
+
+        private bool IsStableInSpace(RodShape shape)
+        {
+            var tangent = new FollowerTangent(_rod, _supports, AllTerms(), Moment);
+            return new DragSpectrum(tangent, _rod).IsStable(shape);
+        }
+
+        private EnergyTerm[] AllTerms()
+        {
+            return new EnergyTerm[] { Stretch, Bending, Loads, Moment };
+        }
+
+        /// <summary>Largest unbalanced force over EI/L^2 + the sum of the loads, or couple over that times L.</summary>
+        private double Residual(RodShape shape)
+        {
+            var system = new BlockTridiagonal(_rod, _supports);
+            var free = new RodVector[system.VectorCount];
+            system.Gradient(AllTerms(), shape, new RodVector[system.VectorCount], free);
+            double loads = _rod.BendForce;
+            foreach (Vector3d force in Loads.Force)
+            {
+                loads += force.Length;
+            }
+            return RodVectors.Largest(free, _rod.TotalLength) / loads;
         }
 
         /// <summary>The terms of a motion: all that stores energy or does work, and the inertia.</summary>

@@ -1,3 +1,5 @@
+using System;
+
 namespace Guidewire.Core
 {
     /// <summary>Sums over whole vectors of a rod.</summary>
@@ -41,6 +43,34 @@ namespace Guidewire.Core
                 v[i].T2 *= scale;
                 v[i].T3 *= scale;
             }
+        }
+
+        /// <summary>The largest force of all nodes, or couple of all elements over a length.</summary>
+        public static double Largest(RodVector[] v, double length)
+        {
+            double largest = 0.0;
+            for (int i = 0; i < v.Length; i++)
+            {
+                double x = v[i].X1 * v[i].X1 + v[i].X2 * v[i].X2 + v[i].X3 * v[i].X3;
+                double t = v[i].T1 * v[i].T1 + v[i].T2 * v[i].T2 + v[i].T3 * v[i].T3;
+                largest = Math.Max(largest, Math.Max(x, t / (length * length)));
+            }
+            return Math.Sqrt(largest);
+        }
+
+        /// <summary>A fixed vector without symmetry, so that no mode of a rod is orthogonal to it.</summary>
+        public static void SetWithoutSymmetry(RodVector[] v, double length)
+        {
+            for (int i = 0; i < v.Length; i++)
+            {
+                double a = Math.Sin(12.9898 * i + 1.0);
+                v[i] = new RodVector
+                {
+                    X1 = a * length, X2 = (0.5 - a * a) * length, X3 = 0.3 * a * length,
+                    T1 = Math.Sin(78.233 * i), T2 = Math.Cos(37.719 * i), T3 = 0.7 + a,
+                };
+            }
+            v[v.Length - 1] = default;
         }
     }
 }

@@ -4,7 +4,9 @@ namespace Guidewire.Core
     /// <remarks>In a plane, and about the tip's own axis in a pure twist, it has the potential -m times the angle. In
     /// space it has none: the work on a closed path of frames is not 0. It then enters by its work since the anchor,
     /// -m . log(conj(q_anchor) q), whose second derivative at the anchor is 0; the part of the tangent that no energy
-    /// carries, [m]/2 on the last element, the solver adds on its own.</remarks>
+    /// carries, [m]/2 on the last element, the solver adds on its own (<see cref="FollowerTangent"/>). Such a couple
+    /// can drive the wire for ever: a straight round wire (GJ = 0.77 EI) without other loads has one equilibrium only,
+    /// and that flutters, drag or not, beyond m L/EI = 3.60 across its axis and 4.15 along it.</remarks>
     internal sealed class TipMoment : EnergyTerm
     {
         private Quaterniond _anchor = Quaterniond.Identity;

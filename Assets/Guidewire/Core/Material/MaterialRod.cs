@@ -63,6 +63,21 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>EI/L^2 of the stiffest element, N: the scale of the forces that bend the rod.</summary>
+        public double BendForce
+        {
+            get
+            {
+                double largest = 0.0;
+                foreach (double stiffness in BendStiffness)
+                {
+                    largest = Math.Max(largest, stiffness);
+                }
+                double length = TotalLength;
+                return largest / (length * length);
+            }
+        }
+
         /// <summary>A straight round wire of n equal elements: A = pi r^2, I = pi r^4/4, J = 2 I.</summary>
         /// <param name="elementCount">n, at least 1.</param>
         /// <param name="length">L, m.</param>

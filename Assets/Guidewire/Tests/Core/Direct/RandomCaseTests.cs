@@ -3,8 +3,8 @@ using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
 {
-    /// <summary>Rest shapes from the straight start under random loads, without a ramp: a seeded campaign of 1,000
-    /// cases, a tenth of it by default.</summary>
+    /// <summary>Rest shapes from the straight start under random loads, without a ramp: seeded campaigns of 1,000
+    /// cases with a potential and 500 without, a tenth of them by default.</summary>
     public sealed class RandomCaseTests
     {
         private const double LargestResidual = 1e-6;  // of EI/L^2 + load
@@ -44,14 +44,13 @@ namespace Guidewire.Core.Tests
         public void MomentThatTurnsWithTheTip_EndsInAHelixExactly()
         {
             // Without a force, and with GJ = EI, every section carries the couple m along its own axes: the strain
-            // m/EI is even, so element j is turned by exp of (j + 1/2) l m/EI.
+            // m/EI is even, so element j is turned by exp of (j + 1/2) l m/EI. Beyond m L/EI = 3.6 it flutters.
             int count = Rods.InFull ? 100 : 20;
             var random = new System.Random(3);
             for (int i = 0; i < count; i++)
             {
                 int n = random.Next(15, 121);
-                Vector3d moment = 4.0 * Math.PI * random.NextDouble() * Rods.BendStiffness / Rods.Length
-                    * Direction(random);
+                Vector3d moment = 3.5 * random.NextDouble() * Rods.BendStiffness / Rods.Length * Direction(random);
                 MaterialRod rod = Rods.Wire(n);
                 Array.Copy(rod.BendStiffness, rod.TwistStiffness, n);
                 RodShape shape = Rods.AtRest(rod, new RodSupports { Clamp = ClampRule.HalfElement }, Vector3d.Zero,
@@ -69,20 +68,24 @@ namespace Guidewire.Core.Tests
         [Test]
         public void ForceAndMomentInSpace_EndAtRestOrFail()
         {
-            // The couple has no potential here, and its branch of equilibria may end: then the answer is a failure
-            // with a reason. What is called converged is in balance.
-            int count = Rods.InFull ? 400 : 40;
+            // The couple has no potential here, and a wire under a large one never rests: then the answer is a failure
+            // with a reason. What is called converged is in balance and comes back when disturbed. A dense
+            // eigen-decomposition in Python looks at the same.
+            int count = Rods.InFull ? 500 : 50;
             var random = new System.Random(4);
             int converged = 0;
             for (int i = 0; i < count; i++)
             {
                 int n = random.Next(15, 121);
-                Vector3d force = LogUniform(random, 0.1, 100.0) * Rods.BendForce * Direction(random);
-                Vector3d moment = 4.0 * Math.PI * random.NextDouble() * Rods.BendStiffness / Rods.Length
-                    * Direction(random);
-                converged += Check("space " + i, n, force, moment, false) ? 1 : 0;
+                double k = LogUniform(random, 0.1, 100.0);
+                Vector3d force = k * Rods.BendForce * Direction(random);
+                double couple = 4.0 * Math.PI * random.NextDouble();
+                Vector3d moment = couple * Rods.BendStiffness / Rods.Length * Direction(random);
+                bool rests = Check("space " + i, n, force, moment, false);
+                converged += rests ? 1 : 0;
+                Assert.That(rests || couple > 1.0, "case " + i + ": a couple below EI/L has a rest shape");
             }
-            Assert.That(converged, Is.GreaterThan(count * 3 / 4));
+            Assert.That(converged, Is.GreaterThan(count / 3));
         }
 
         [TestCase(1.0)]
@@ -114,14 +117,11 @@ namespace Guidewire.Core.Tests
             EquilibriumResult result = statics.Solve(shape, 1e-9, 500);
             if (!hasPotential && !result.Converged)
             {
-                Assert.That(result.Reason, Is.Not.Empty, name);
+                Assert.That(result.Reason, Does.Contain("tipMoment"), name);
                 return false;
             }
             Assert.That(result.Converged, Is.True, name + ": " + result.Reason);
-            if (hasPotential)
-            {
-                Assert.That(result.SmallestEigenvalue, Is.GreaterThan(0.0), name);
-            }
+            Assert.That(result.SmallestEigenvalue, Is.GreaterThan(0.0), name);
             Assert.That(Unbalanced(rod, supports, statics, shape), Is.LessThan(LargestResidual), name);
             for (int j = 0; j < n; j++)
             {

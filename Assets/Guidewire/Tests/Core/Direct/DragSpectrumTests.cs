@@ -1,0 +1,96 @@
+using System;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>Stability under a couple that turns with the tip: the small matrices, and the spectrum of a
+    /// rod.</summary>
+    public sealed class DragSpectrumTests
+    {
+        [Test]
+        public void Inverse_TimesMatrix_IsOne()
+        {
+            double[,] a = { { 0.0, 2.0, 1.0 }, { 1.0, 0.0, -3.0 }, { 4.0, 1.0, 0.5 } };
+            double[,] inverse = SquareMatrix.Inverse(a, out double logOfDeterminant);
+            for (int i = 0; i < 3; i++)
+            {
+                for (int j = 0; j < 3; j++)
+                {
+                    double sum = 0.0;
+                    for (int k = 0; k < 3; k++)
+                    {
+                        sum += a[i, k] * inverse[k, j];
+                    }
+                    Assert.That(sum, Is.EqualTo(i == j ? 1.0 : 0.0).Within(1e-14));
+                }
+            }
+            // det = -2 (0.5 + 12) + 1 = -24.
+            Assert.That(logOfDeterminant, Is.EqualTo(Math.Log(24.0)).Within(1e-14));
+        }
+
+        // Roots -3, 1 + 2i, 1 - 2i, 40: companion matrix of (x + 3)(x^2 - 2 x + 5)(x - 40).
+        [TestCase(-3.01, 0)]
+        [TestCase(-2.99, 1)]
+        [TestCase(0.99, 1)]
+        [TestCase(1.01, 3)]
+        [TestCase(39.9, 3)]
+        [TestCase(40.1, 4)]
+        public void EigenvaluesLeftOfALine_AreCounted(double x, int expected)
+        {
+            double[] cubic = { 15.0, -1.0, 1.0 };  // (x + 3)(x^2 - 2 x + 5) = x^3 + x^2 - x + 15
+            double[] c = { -40.0 * cubic[0], cubic[0] - 40.0 * cubic[1], cubic[1] - 40.0 * cubic[2], cubic[2] - 40.0 };
+            double[,] companion =
+            {
+                { 0.0, 0.0, 0.0, -c[0] }, { 1.0, 0.0, 0.0, -c[1] }, { 0.0, 1.0, 0.0, -c[2] }, { 0.0, 0.0, 1.0, -c[3] },
+            };
+            Assert.That(SquareMatrix.EigenvaluesLeftOf(companion, x), Is.EqualTo(expected));
+        }
+
+        [TestCase(1)]
+        [TestCase(2)]
+        [TestCase(3)]
+        [TestCase(60)]
+        public void WithoutACouple_TheSmallestRealPartIsTheEnergysSmallestEigenvalue(int n)
+        {
+            MaterialRod rod = Rods.Wire(n);
+            RodShape shape = Rods.Straight(rod);
+            var statics = new RodStatics(rod, new RodSupports());
+            statics.Loads.Set(rod, MassRule.Consistent, Vector3d.Zero, new Vector3d(0.0, -3.0 * Rods.BendForce, 0.0));
+            EquilibriumResult result = statics.Solve(shape, 1e-12, 500);
+            EnergyTerm[] terms = { statics.Stretch, statics.Bending, statics.Loads, statics.Moment };
+            var tangent = new FollowerTangent(rod, new RodSupports(), terms, statics.Moment);
+            Assert.That(new DragSpectrum(tangent, rod).SmallestRealPart(shape),
+                Is.EqualTo(result.SmallestEigenvalue).Within(1e-5 * Rods.BendForce));
+        }
+
+        [TestCase(0.0, 3.5, true)]
+        [TestCase(0.0, 3.7, false)]
+        [TestCase(30.0, 3.7, true)]  // a pull along the tip's tangent calms it
+        public void BendingCoupleInSpace_RestsBelowItsFlutterOnly(double pull, double couple, bool rests)
+        {
+            // 3.60 EI/L from the eigenvalues of the full tangent of the circular arc, by a dense solver in Python.
+            MaterialRod rod = Rods.Wire(40);
+            var statics = new RodStatics(rod, new RodSupports());
+            // A force across the couple's plane, too small to matter, makes it a problem in space.
+            statics.Loads.Set(rod, MassRule.Consistent, Vector3d.Zero,
+                new Vector3d(1e-4 * Rods.BendForce, 0.0, pull * Rods.BendForce));
+            statics.Moment.Moment = new Vector3d(couple * Rods.BendStiffness / Rods.Length, 0.0, 0.0);
+            EquilibriumResult result = statics.Solve(Rods.Straight(rod), 1e-9, 500);
+            Assert.That(result.Converged, Is.EqualTo(rests), result.Reason);
+            Assert.That(result.Converged ? "tipMoment" : result.Reason, Does.Contain("tipMoment"));
+        }
+
+        [Test]
+        public void PlaneProblem_SaysWhereItIsStableInItsPlaneOnly()
+        {
+            MaterialRod rod = Rods.Wire(40);
+            foreach (double angle in new[] { Math.PI, 2.0 * Math.PI })
+            {
+                var statics = new RodStatics(rod, new RodSupports());
+                statics.Moment.Moment = new Vector3d(angle * Rods.BendStiffness / Rods.Length, 0.0, 0.0);
+                Assert.That(statics.Solve(Rods.Straight(rod), 1e-9, 500).Converged, Is.True);
+                Assert.That(statics.Method.Contains("would not stay"), Is.EqualTo(angle > 3.6), statics.Method);
+            }
+        }
+    }
+}
