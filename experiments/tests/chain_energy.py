@@ -4,8 +4,8 @@ With x_0 and the clamp's frame given, R_j the frame of element j and theta the r
 
     V = sum_j l/2 Gamma_j . K_s Gamma_j + sum_j 1/2 theta_j . K_j theta_j - F . x_n,    Gamma_j = R_j^T dx_j/l - e3,
 
-K_s = diag(GA, GA, EA), K_j = diag(EI, EI, GJ)/(w_j l) with Gregory's weights w = 3/8, 7/6, 23/24 at the clamp. Nothing is
-differentiated by hand: gradients come from the energy by complex steps, exact to rounding, second derivatives by
+K_s = diag(GA, GA, EA), K_j = diag(EI, EI, GJ)/(w_j l) with Gregory's weights w = 3/8, 7/6, 23/24 at the clamp. Nothing
+is differentiated by hand: gradients come from the energy by complex steps, exact to rounding, second derivatives by
 central differences of gradients. A couple m along the tip's own axes adds -m to the last element's gradient, wherever
 that element has turned to.
 """
@@ -70,6 +70,11 @@ class ChainEnergy:
         parts = stretch + bend
         parts[-1] -= self.force @ x[-1]
         return scale * parts
+
+    def joint_angles(self) -> np.ndarray:
+        """Angle between successive frames at the shape itself, rad, shape (n,)."""
+        before = np.concatenate([[[0.0, 0.0, 0.0, 1.0]], self.orientations[:-1]])
+        return np.linalg.norm(_log(_times(before * [-1.0, -1.0, -1.0, 1.0], self.orientations)), axis=1)
 
     def gradient(self, u: np.ndarray) -> np.ndarray:
         """Of the energy, shape (n, 6), without the couple: by complex steps in every second block at once."""
