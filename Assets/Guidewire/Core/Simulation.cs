@@ -125,15 +125,16 @@ namespace Guidewire.Core
         /// <summary>A run that goes on from this one's state with other parameters: steps and time go on counting, the
         /// displacement of the start is not made again.</summary>
         /// <param name="parameters">The other parameters, for a wire of as many elements. Their
-        /// <see cref="SimulationParameters.Start"/> and <see cref="SimulationParameters.Displacement"/> are
-        /// overwritten.</param>
+        /// <see cref="SimulationParameters.Start"/> and <see cref="SimulationParameters.Displacement"/> are not
+        /// looked at.</param>
         /// <exception cref="ArgumentException">As <see cref="Create"/>, and another number of elements.</exception>
         public Simulation Continue(SimulationParameters parameters)
         {
-            parameters.Start = new RodStart(State.Positions, State.Orientations, State.Velocities,
+            SimulationParameters continued = parameters.Copy();
+            continued.Start = new RodStart(State.Positions, State.Orientations, State.Velocities,
                 State.AngularVelocities);
-            parameters.Displacement = 0.0;
-            Simulation next = Create(parameters);
+            continued.Displacement = 0.0;
+            Simulation next = Create(continued);
             next.StepCount = StepCount;
             next._firstStep = StepCount;
             next._firstTime = Time;

@@ -176,5 +176,11 @@ namespace Guidewire.Core
 
         /// <summary>A start other than the straight wire along z at rest, or null.</summary>
         public RodStart? Start { get; set; }
+
+        /// <summary>The same values; walls, material and steering are shared.</summary>
+        internal SimulationParameters Copy()
+        {
+            return (SimulationParameters)MemberwiseClone();
+        }
     }
 }

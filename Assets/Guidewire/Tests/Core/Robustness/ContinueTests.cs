@@ -70,6 +70,17 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void Continue_LeavesTheParametersAlone()
+        {
+            Simulation first = Simulation.Create(Transversal());
+            SimulationParameters parameters = Transversal();
+            double displacement = parameters.Displacement;
+            first.Continue(parameters);
+            Assert.That(parameters.Start, Is.Null);
+            Assert.That(parameters.Displacement, Is.EqualTo(displacement).And.Not.Zero);
+        }
+
+        [Test]
         public void Continue_Refuses_AnotherNumberOfElements()
         {
             Simulation first = Simulation.Create(Transversal());
