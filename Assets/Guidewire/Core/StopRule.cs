@@ -93,7 +93,8 @@ namespace Guidewire.Core
                 return false;
             }
             SteadyStateStep = step - _hold + 1;
-            Reason = Text("the prediction error has stayed below {0} units since step {1}", _threshold, SteadyStateStep);
+            Reason = Text("the prediction error has stayed below {0} units since step {1}", _threshold,
+                SteadyStateStep);
             return true;
         }
 
@@ -110,7 +111,8 @@ namespace Guidewire.Core
                 if (!((x[i] - _origin).LengthSquared <= limit * limit))
                 {
                     Reason = x[i].IsFinite
-                        ? Text("sphere {0} is farther than {1} wire lengths from the start at step {2}", i, LostDistance, step)
+                        ? Text("sphere {0} is farther than {1} wire lengths from the start at step {2}", i,
+                            LostDistance, step)
                         : Text("sphere {0} has no finite position at step {1}", i, step);
                     return true;
                 }
@@ -140,8 +142,8 @@ namespace Guidewire.Core
             }
             if (shortLost || longLost)
             {
-                Reason = Text("elements are up to {0:0.#} % wrong in length and do not recover (step {1}): a gain beyond its"
-                    + " limit, or a load that so few iterations do not carry",
+                Reason = Text("elements are up to {0:0.#} % wrong in length and do not recover (step {1}): a gain"
+                    + " beyond its limit, or a load that so few iterations do not carry",
                     100.0 * (shortLost ? _shortWatch : _longWatch).Largest, step);
                 return true;
             }

@@ -47,7 +47,8 @@ namespace Guidewire.Io
                 string value = arguments[i + 1];
                 if (entry != null)
                 {
-                    JToken token = entry.FromText(value) ?? throw new ParameterException(Source, key, value, entry.Allowed);
+                    JToken token = entry.FromText(value)
+                        ?? throw new ParameterException(Source, key, value, entry.Allowed);
                     line.Overrides.Add(new KeyValuePair<string, JToken>(key, token));
                 }
                 else if (isOut)

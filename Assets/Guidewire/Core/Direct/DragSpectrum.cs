@@ -5,9 +5,9 @@ namespace Guidewire.Core
     /// <summary>How slowly a disturbance of a rod with drag dies out: the smallest real part among the eigenvalues
     /// lambda of K v = lambda M v, where K, under a couple that turns with the tip, is not symmetric.</summary>
     /// <remarks>With a shift s that makes K + s M positive definite all eigenvalues lie right of -s, and the largest of
-    /// theta = 1/(lambda + s), those of (K + s M)^-1 M, belong to the ones nearest to it. Arnoldi's method finds them in
-    /// a space of a few vectors, in which H = V^T M (K + s M)^-1 M V has them as its own, and H^-1 - s those of K. A
-    /// line is brought to the first of them by bisection.</remarks>
+    /// theta = 1/(lambda + s), those of (K + s M)^-1 M, belong to the ones nearest to it. Arnoldi's method finds them
+    /// in a space of a few vectors, in which H = V^T M (K + s M)^-1 M V has them as its own, and H^-1 - s those of K.
+    /// A line is brought to the first of them by bisection.</remarks>
     internal sealed class DragSpectrum
     {
         private const int MostVectors = 24;

@@ -18,7 +18,8 @@ namespace Guidewire.Core
             if (positions.Length != n + 1 || (velocities ?? positions).Length != n + 1
                 || (angularVelocities != null && angularVelocities.Length != n))
             {
-                throw new ArgumentException("a start needs n + 1 positions and velocities and n orientations and angular velocities");
+                throw new ArgumentException(
+                    "a start needs n + 1 positions and velocities and n orientations and angular velocities");
             }
             Positions = positions;
             Orientations = orientations;

@@ -19,7 +19,8 @@ namespace Guidewire.Core
         {
             if (elementCount < 1)
             {
-                throw new ArgumentOutOfRangeException(nameof(elementCount), elementCount, "a wire has at least one element");
+                throw new ArgumentOutOfRangeException(nameof(elementCount), elementCount,
+                    "a wire has at least one element");
             }
             if (!(length > 0.0))
             {

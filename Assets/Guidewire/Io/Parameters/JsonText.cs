@@ -48,11 +48,13 @@ namespace Guidewire.Io
             catch (IOException error)
             {
                 bool missing = error is FileNotFoundException || error is DirectoryNotFoundException;
-                throw new ParameterException(file + (missing ? ": no such file" : ": cannot be read: " + error.Message));
+                throw new ParameterException(file
+                    + (missing ? ": no such file" : ": cannot be read: " + error.Message));
             }
             catch (System.UnauthorizedAccessException)
             {
-                throw new ParameterException(file + (Directory.Exists(file) ? ": is a folder, a parameter file is needed"
+                throw new ParameterException(file
+                    + (Directory.Exists(file) ? ": is a folder, a parameter file is needed"
                     : ": cannot be read: permission denied"));
             }
         }

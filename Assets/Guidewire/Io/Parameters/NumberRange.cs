@@ -49,7 +49,8 @@ namespace Guidewire.Io
                 string text = double.IsNegativeInfinity(Minimum) ? ""
                     : (_minimumExcluded ? " > " : " >= ") + Minimum.ToString("R", CultureInfo.InvariantCulture);
                 return double.IsPositiveInfinity(Maximum) ? text
-                    : text + (text.Length > 0 ? " and" : "") + " <= " + Maximum.ToString("R", CultureInfo.InvariantCulture);
+                    : text + (text.Length > 0 ? " and" : "") + " <= "
+                    + Maximum.ToString("R", CultureInfo.InvariantCulture);
             }
         }
 

@@ -211,7 +211,8 @@ namespace Guidewire.Io
             {
                 if (!entry.IsOutputPath && entry.Key != "startFile" && entry.Key != "vessel")
                 {
-                    text.Append(entry.Key).Append('=').Append(entry.Write(Values).ToString(Formatting.None)).Append('\n');
+                    text.Append(entry.Key).Append('=').Append(entry.Write(Values).ToString(Formatting.None))
+                        .Append('\n');
                 }
             }
             if (Values.StartFile.Length > 0)

@@ -27,13 +27,15 @@ namespace Guidewire.Io
         {
             MaterialEntries.Solver,
             new IntegerEntry("constraintSolverSteps", "iterations a step", 0, 1_000_000,
-                "m, Gauss-Seidel iterations; with gains, more of them make a stiffer wire; with xpbd 1 a substep if not given",
+                "m, Gauss-Seidel iterations; with gains, more of them make a stiffer wire; with xpbd 1 a substep if"
+                + " not given",
                 p => p.Simulation.ConstraintSolverSteps, (p, v) => p.Simulation.ConstraintSolverSteps = v),
             new NumberEntry("timeStep", "s", NumberRange.Positive, "dt",
                 p => p.Simulation.TimeStep, (p, v) => p.Simulation.TimeStep = v),
             new NumberEntry("guidewireLength", "units", NumberRange.Positive, "L",
                 p => p.Simulation.GuidewireLength, (p, v) => p.Simulation.GuidewireLength = v),
-            new IntegerEntry("numberRodElements", "", 1, MostElements, "n; the wire has n + 1 spheres and elements of L/n",
+            new IntegerEntry("numberRodElements", "", 1, MostElements,
+                "n; the wire has n + 1 spheres and elements of L/n",
                 p => p.Simulation.NumberRodElements, (p, v) => p.Simulation.NumberRodElements = v),
             new NumberEntry("totalMass", "mass units", NumberRange.Positive, "M, shared evenly by the spheres",
                 p => p.Simulation.TotalMass, (p, v) => p.Simulation.TotalMass = v),
@@ -53,9 +55,10 @@ namespace Guidewire.Io
                 "k_C, gain of a contact an iteration",
                 p => p.Simulation.CollisionStiffness, (p, v) => p.Simulation.CollisionStiffness = v),
             new ChoiceEntry<Drive>("drive",
-                "what moves sphere 0: one displacement, then held; a fixed axis each step; the first element's direction"
-                + " each step; externalForce", p => p.Simulation.Drive, (p, v) => p.Simulation.Drive = v),
-            new NumberEntry("displacement", "units", NumberRange.Any, "displacement of sphere 0 at the start, drive \"hold\"",
+                "what moves sphere 0: one displacement, then held; a fixed axis each step; the first element's"
+                + " direction each step; externalForce", p => p.Simulation.Drive, (p, v) => p.Simulation.Drive = v),
+            new NumberEntry("displacement", "units", NumberRange.Any,
+                "displacement of sphere 0 at the start, drive \"hold\"",
                 p => p.Simulation.Displacement, (p, v) => p.Simulation.Displacement = v),
             new VectorEntry("displacementDirection", "", false, "its direction, and that of drive \"displace\"",
                 p => p.Simulation.DisplacementDirection, (p, v) => p.Simulation.DisplacementDirection = v),
@@ -71,7 +74,8 @@ namespace Guidewire.Io
                 p => p.Simulation.ExternalForce, (p, v) => p.Simulation.ExternalForce = v),
             new VectorEntry("gravity", "unit/s^2; with a material m/s^2", true, "acceleration of every free sphere",
                 p => p.Simulation.Gravity, (p, v) => p.Simulation.Gravity = v),
-            new NumberEntry("damping", "", NumberRange.Between(0.0, 1.0), "share of its velocity that a sphere loses a step",
+            new NumberEntry("damping", "", NumberRange.Between(0.0, 1.0),
+                "share of its velocity that a sphere loses a step",
                 p => p.Simulation.Damping, (p, v) => p.Simulation.Damping = v),
             new ChoiceEntry<Integrator>("integrator", "how positions are predicted",
                 p => p.Simulation.Integrator, (p, v) => p.Simulation.Integrator = v),
@@ -84,12 +88,15 @@ namespace Guidewire.Io
                 p => p.Simulation.SteadyStateHold, (p, v) => p.Simulation.SteadyStateHold = v),
             new IntegerEntry("maxSimulationSteps", "steps", 0, MostSteps, "where the run ends at the latest",
                 p => p.Simulation.MaxSimulationSteps, (p, v) => p.Simulation.MaxSimulationSteps = v),
-            new ChoiceEntry<ElementContact>("elementContact", "what touches a wall besides the spheres: rod elements by the"
+            new ChoiceEntry<ElementContact>("elementContact",
+                "what touches a wall besides the spheres: rod elements by the"
                 + " lever rule, nothing, or rod elements by the rule as published",
                 p => p.Simulation.ElementContact, (p, v) => p.Simulation.ElementContact = v),
-            new JsonEntry("vessel", JTokenType.Object, "null, {\"shape\": \"plane\", \"point\", \"normal\"}, {\"shape\":"
+            new JsonEntry("vessel", JTokenType.Object,
+                "null, {\"shape\": \"plane\", \"point\", \"normal\"}, {\"shape\":"
                 + " \"tube\", \"knots\", \"radius\", \"openStart\", \"openEnd\"} or {\"shape\": \"mesh\", \"file\","
-                + " \"metresPerUnit\", \"openRims\"}", "the wall around the wire; a mesh file's name counts from the parameter"
+                + " \"metresPerUnit\", \"openRims\"}",
+                "the wall around the wire; a mesh file's name counts from the parameter"
                 + " file's folder, openRims names a point near the middle of each open rim",
                 p => p.Vessel, (p, v) => p.Vessel = v),
             new JsonEntry("obstacles", JTokenType.Array, "null or a list of {\"shape\": \"sphere\", \"centre\","
@@ -111,7 +118,8 @@ namespace Guidewire.Io
                 p => p.LogSpheres, (p, v) => p.LogSpheres = v),
             new SwitchEntry("logOrientations", "whether orientations are logged too",
                 p => p.LogOrientations, (p, v) => p.LogOrientations = v),
-            new SwitchEntry("logContacts", "whether each entry of the log also has \"contact\": the walls' force on each sphere"
+            new SwitchEntry("logContacts",
+                "whether each entry of the log also has \"contact\": the walls' force on each sphere"
                 + " they touch, their total, and the first sphere's reaction (mass unit * unit/s^2)",
                 p => p.LogContacts, (p, v) => p.LogContacts = v),
             new TextEntry("logFilePath", "folder of the results, where -out does not name one",

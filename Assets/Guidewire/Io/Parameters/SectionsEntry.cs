@@ -20,7 +20,8 @@ namespace Guidewire.Io
             _set = set;
         }
 
-        public override string Allowed => "a list of {\"from\", \"to\" (units, from < to), and any of \"youngsModulus\","
+        public override string Allowed =>
+            "a list of {\"from\", \"to\" (units, from < to), and any of \"youngsModulus\","
             + " \"shearModulus\" (Pa), \"density\" (kg/m^3), \"wireRadius\" (m), all > 0, \"restCurvature\" (rad/m)}";
 
         public override JToken Write(RunParameters source)
@@ -76,7 +77,8 @@ namespace Guidewire.Io
                     section.RestCurvature = curvature;
                     continue;
                 }
-                if (!NumberEntry.TryNumber(property.Value, out double number) || !TrySet(section, property.Name, number))
+                if (!NumberEntry.TryNumber(property.Value, out double number)
+                    || !TrySet(section, property.Name, number))
                 {
                     return false;
                 }

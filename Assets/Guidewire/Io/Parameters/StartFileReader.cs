@@ -26,7 +26,8 @@ namespace Guidewire.Io
                 }
             }
             return new RodStart(
-                Vectors(file, root, "positions", n + 1) ?? throw Missing(file, "positions", n + 1, "[x, y, z] in units"),
+                Vectors(file, root, "positions", n + 1)
+                ?? throw Missing(file, "positions", n + 1, "[x, y, z] in units"),
                 Orientations(file, root, n),
                 Vectors(file, root, "velocities", n + 1),
                 Vectors(file, root, "angularVelocities", n));
@@ -48,7 +49,8 @@ namespace Guidewire.Io
             {
                 if (!VectorEntry.TryVector(array[i], out vectors[i]))
                 {
-                    throw new ParameterException(file, key + "[" + i + "]", array[i].ToString(), "three numbers [x, y, z]");
+                    throw new ParameterException(file, key + "[" + i + "]", array[i].ToString(),
+                        "three numbers [x, y, z]");
                 }
             }
             return vectors;

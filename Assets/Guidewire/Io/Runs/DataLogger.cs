@@ -38,7 +38,8 @@ namespace Guidewire.Io
         /// <exception cref="IOException">The file cannot be written, or another run writes to it.</exception>
         public static DataLogger Open(string path, RunParameters parameters)
         {
-            return new DataLogger(new FileStream(path, FileMode.Create, FileAccess.Write, FileShare.None, 1), parameters);
+            return new DataLogger(new FileStream(path, FileMode.Create, FileAccess.Write, FileShare.None, 1),
+                parameters);
         }
 
         /// <summary>Writes one state.</summary>
@@ -185,7 +186,8 @@ namespace Guidewire.Io
             }
             Reserve(40);
 #if NET8_0_OR_GREATER
-            value.TryFormat(_bytes.AsSpan(_length), out int written, default, System.Globalization.CultureInfo.InvariantCulture);
+            value.TryFormat(_bytes.AsSpan(_length), out int written, default,
+                System.Globalization.CultureInfo.InvariantCulture);
             _length += written;
 #else
             _length += Encoding.ASCII.GetBytes(value.ToString("R", System.Globalization.CultureInfo.InvariantCulture),

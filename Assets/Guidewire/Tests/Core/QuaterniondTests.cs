@@ -23,12 +23,16 @@ namespace Guidewire.Core.Tests
             var random = new Random(1);
             for (int k = 0; k < 100; k++)
             {
-                Quaterniond q = Quaterniond.FromAxisAngle(Vector3d.Normalize(Wires.Any(random)), 6.0 * random.NextDouble());
+                Quaterniond q = Quaterniond.FromAxisAngle(Vector3d.Normalize(Wires.Any(random)),
+                    6.0 * random.NextDouble());
                 Quaterniond turned = q * Quaterniond.Pure(Vector3d.UnitZ) * q.Conjugate;
                 Assert.That(Vector3d.Distance(q.Director3, turned.Imaginary), Is.LessThan(Rounding), "d3 = q e3 q*");
-                Assert.That(Vector3d.Distance(q.Director1, Quaterniond.Rotate(q, Vector3d.UnitX)), Is.LessThan(Rounding));
-                Assert.That(Vector3d.Distance(q.Director2, Quaterniond.Rotate(q, Vector3d.UnitY)), Is.LessThan(Rounding));
-                Assert.That(Vector3d.Distance(Vector3d.Cross(q.Director1, q.Director2), q.Director3), Is.LessThan(Rounding));
+                Assert.That(Vector3d.Distance(q.Director1, Quaterniond.Rotate(q, Vector3d.UnitX)),
+                    Is.LessThan(Rounding));
+                Assert.That(Vector3d.Distance(q.Director2, Quaterniond.Rotate(q, Vector3d.UnitY)),
+                    Is.LessThan(Rounding));
+                Assert.That(Vector3d.Distance(Vector3d.Cross(q.Director1, q.Director2), q.Director3),
+                    Is.LessThan(Rounding));
             }
         }
     }

@@ -74,7 +74,8 @@ namespace Guidewire.Core.Tests
             {
                 Vector3d[] s = random.Segment(Vector3d.UnitX);
                 tree.Nearest(s[0], s[1], 10.0, -1, out double plain, out _, out _, out _);
-                tree.Nearest(s[0], s[1], 10.0, random.Index(corners.Length / 3), out double hinted, out _, out _, out _);
+                tree.Nearest(s[0], s[1], 10.0, random.Index(corners.Length / 3), out double hinted, out _, out _,
+                    out _);
                 Assert.That(hinted, Is.EqualTo(plain), "case " + i);
             }
         }

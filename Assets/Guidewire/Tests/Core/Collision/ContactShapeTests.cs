@@ -98,7 +98,8 @@ namespace Guidewire.Core.Tests
                 Vector3d touching = Vector3d.Lerp(a, b, contact.Position);
                 Assert.That(contact.Distance, Is.EqualTo(At(shape, touching).Distance).Within(1e-9), "case " + i);
                 Assert.That(
-                    (contact.Point + contact.Distance * contact.Normal - touching).Length, Is.LessThan(1e-9), "case " + i);
+                    (contact.Point + contact.Distance * contact.Normal - touching).Length, Is.LessThan(1e-9),
+                    "case " + i);
                 for (int k = 0; k <= 50; k++)
                 {
                     double sample = At(shape, Vector3d.Lerp(a, b, k / 50.0)).Distance;

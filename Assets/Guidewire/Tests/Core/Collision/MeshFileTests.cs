@@ -54,11 +54,13 @@ namespace Guidewire.Core.Tests
             Refused("one.obj", Text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), "not watertight");
             Refused("nan.obj", Text("v 0 0 nan\n"), "line 1 'v 0 0 nan' needs three finite numbers");
             Refused("nan.stl", Text("solid\nfacet\nvertex 0 inf 0\n"), "line 3 'vertex 0 inf 0' needs");
-            Refused("index.obj", Text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"), "line 4 'f 1 2 9' needs vertices from 1 to 3");
+            Refused("index.obj", Text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"),
+                "line 4 'f 1 2 9' needs vertices from 1 to 3");
             Refused("garbage.obj", garbage, "is not text");
             Refused("garbage.stl", garbage, "is not STL, or truncated");
             Refused("short.stl", truncated, "truncated: as binary STL of 12 triangles it needs 684 bytes and has 654");
-            Refused("facet.stl", Text("solid\nfacet\nvertex 0 0 0\nendfacet\n"), "line 4 'endfacet' needs three vertices");
+            Refused("facet.stl", Text("solid\nfacet\nvertex 0 0 0\nendfacet\n"),
+                "line 4 'endfacet' needs three vertices");
             Refused("mesh.ply", Text("ply"), "needs a name that ends in .obj or .stl");
             Refused("vertices.obj", Text("v 0 0 0\n"), "has no triangles");
             Assert.That(
@@ -110,7 +112,8 @@ namespace Guidewire.Core.Tests
                 text.Append("facet normal 0 0 0\nouter loop\n");
                 for (int k = t; k < t + 3; k++)
                 {
-                    text.Append("vertex " + mesh.Corners[k].X + " " + mesh.Corners[k].Y + " " + mesh.Corners[k].Z + "\n");
+                    text.Append("vertex " + mesh.Corners[k].X + " " + mesh.Corners[k].Y + " " + mesh.Corners[k].Z
+                        + "\n");
                 }
                 text.Append("endloop\nendfacet\n");
             }

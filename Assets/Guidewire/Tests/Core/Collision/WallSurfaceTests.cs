@@ -23,7 +23,8 @@ namespace Guidewire.Core.Tests
             };
             int[] inward =
             {
-                0, 1, 2, 0, 2, 3, 4, 6, 5, 4, 7, 6, 0, 5, 1, 0, 4, 5, 3, 2, 6, 3, 6, 7, 0, 3, 7, 0, 7, 4, 1, 5, 6, 1, 6, 2,
+                0, 1, 2, 0, 2, 3, 4, 6, 5, 4, 7, 6, 0, 5, 1, 0, 4, 5, 3, 2, 6, 3, 6, 7, 0, 3, 7, 0, 7, 4, 1, 5, 6,
+                1, 6, 2,
             };
             TriangleMesh box = TriangleMesh.Create(corners, inward, Array.Empty<Vector3d>());
             yield return Named("mesh", new MeshShape(box), 0.0);

@@ -12,7 +12,8 @@ namespace Guidewire.Core.Tests
         public void DarbouxVector_IsTwiceTheSineOfHalfTheAngleOverTheLength()
         {
             RodState state = Bent(Vector3d.UnitX, 0.6);
-            Assert.That(BendTwistConstraint.DarbouxVector(state, 0).X, Is.EqualTo(2.0 / Length * Math.Sin(0.3)).Within(1e-15));
+            Assert.That(BendTwistConstraint.DarbouxVector(state, 0).X,
+                Is.EqualTo(2.0 / Length * Math.Sin(0.3)).Within(1e-15));
         }
 
         [TestCase(1.0)]

@@ -31,7 +31,8 @@ namespace Guidewire.Core.Tests
             RodState state = Turned(angle, 0.0);
             for (int i = 1; i < Elements; i++)
             {
-                Assert.That(RodStrain.Curvature(state, i), Is.EqualTo(2.0 * Math.Sin(0.5 * angle) / Length).Within(1e-12));
+                Assert.That(RodStrain.Curvature(state, i),
+                    Is.EqualTo(2.0 * Math.Sin(0.5 * angle) / Length).Within(1e-12));
                 Assert.That(RodStrain.Twist(state, i), Is.EqualTo(0.0).Within(1e-12));
             }
         }

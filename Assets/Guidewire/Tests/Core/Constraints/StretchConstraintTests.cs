@@ -19,7 +19,8 @@ namespace Guidewire.Core.Tests
                 state.Positions[1] = new Vector3d(3.0 * size, -2.0 * size, 10.0);
                 state.Orientations[0] = Quaterniond.Normalize(new Quaterniond(size, 0.0, -size, 1.0));
                 new StretchConstraint(state, 1.0).Sweep(state.Positions, state.Orientations, OneElement);
-                Assert.That(StretchConstraint.Residual(state, 0).Length, Is.LessThan(20.0 * size * size), "size " + size);
+                Assert.That(StretchConstraint.Residual(state, 0).Length, Is.LessThan(20.0 * size * size),
+                    "size " + size);
             }
         }
 
@@ -30,7 +31,8 @@ namespace Guidewire.Core.Tests
             var state = new RodState(12, 300.0, 0.5, 0.0);
             state.Load(parameters.Start);
             Vector3d before = Sum(state.Positions);
-            new StretchConstraint(state, 0.7).Sweep(state.Positions, state.Orientations, SweepOrders.Indices(SweepOrder.Naive, 12));
+            new StretchConstraint(state, 0.7).Sweep(state.Positions, state.Orientations,
+                SweepOrders.Indices(SweepOrder.Naive, 12));
             Assert.That(Vector3d.Distance(before, Sum(state.Positions)), Is.LessThan(1e-10 * before.Length));
         }
 
@@ -54,7 +56,8 @@ namespace Guidewire.Core.Tests
         {
             var state = new RodState(20, 300.0, 0.01, 0.0);
             state.Load(Wires.Random(20, 300.0, 9));
-            new StretchConstraint(state, 0.9).Sweep(state.Positions, state.Orientations, SweepOrders.Indices(SweepOrder.Naive, 20));
+            new StretchConstraint(state, 0.9).Sweep(state.Positions, state.Orientations,
+                SweepOrders.Indices(SweepOrder.Naive, 20));
             foreach (Quaterniond q in state.Orientations)
             {
                 Assert.That(Math.Abs(q.LengthSquared - 1.0), Is.LessThan(1e-14));

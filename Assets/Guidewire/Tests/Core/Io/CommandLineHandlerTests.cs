@@ -11,7 +11,8 @@ namespace Guidewire.Core.Tests
         {
             CommandLine line = CommandLineHandler.Read(new[]
             {
-                "-parameters", "wire.json", "-out", "results", "-guidewireOffset", "-100", "-drive", "push", "-repeat", "3",
+                "-parameters", "wire.json", "-out", "results", "-guidewireOffset", "-100", "-drive", "push",
+                "-repeat", "3",
             }, true);
             Assert.That(line.ParameterFile, Is.EqualTo("wire.json"));
             Assert.That(line.Out, Is.EqualTo("results"));

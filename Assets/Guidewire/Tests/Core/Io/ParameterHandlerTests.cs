@@ -44,7 +44,8 @@ namespace Guidewire.Core.Tests
         public void FilesOfTheSeedsShape_LoadWithOneWarningWhereTheElementLengthDisagrees()
         {
             ParameterHandler handler = Load("{\"logFilePath\": \"results/seed/\", \"rodElementLength\": 10.0,"
-                + "\"guidewireLength\": 1000.0, \"numberRodElements\": 30, \"position\": {\"x\": 1.0, \"y\": 0.0, \"z\": 0.0},"
+                + "\"guidewireLength\": 1000.0, \"numberRodElements\": 30,"
+                + " \"position\": {\"x\": 1.0, \"y\": 0.0, \"z\": 0.0},"
                 + "\"VerletIntegration\": true, \"SteadyState\": true}");
             Assert.That(handler.Warnings, Has.Count.EqualTo(1));
             Assert.That(handler.Warnings[0], Does.Contain("rodElementLength = 10").And.Contain("33.33"));
@@ -106,7 +107,8 @@ namespace Guidewire.Core.Tests
         [Test]
         public void EffectiveParameters_LoadAgainAsTheSameRun()
         {
-            ParameterHandler first = Load("{\"drive\": \"push\", \"displacementPerStep\": 0.1, \"timeStep\": 0.1234567890123}");
+            ParameterHandler first = Load(
+                "{\"drive\": \"push\", \"displacementPerStep\": 0.1, \"timeStep\": 0.1234567890123}");
             ParameterHandler second = Load(first.ToJson().ToString());
             Assert.That(second.Hash, Is.EqualTo(first.Hash));
             Assert.That(second.Values.Simulation.TimeStep, Is.EqualTo(0.1234567890123));
@@ -133,8 +135,10 @@ namespace Guidewire.Core.Tests
         public void StartFile_IsRead_AndRefusedWhereItDoesNotFit()
         {
             string start = Path.Combine(_folder, "start.json");
-            File.WriteAllText(start, "{\"positions\": [[0,0,0],[0,0,5],[0,5,5]], \"orientations\": [[0,0,0,1],[0,0,0,2]]}");
-            SimulationParameters simulation = Load("{\"numberRodElements\": 2}", ("startFile", start)).Values.Simulation;
+            File.WriteAllText(start,
+                "{\"positions\": [[0,0,0],[0,0,5],[0,5,5]], \"orientations\": [[0,0,0,1],[0,0,0,2]]}");
+            SimulationParameters simulation = Load("{\"numberRodElements\": 2}", ("startFile", start))
+                .Values.Simulation;
             Assert.That(simulation.Start!.Positions[2], Is.EqualTo(new Vector3d(0.0, 5.0, 5.0)));
             ParameterException error = Assert.Throws<ParameterException>(
                 () => Load("{\"numberRodElements\": 3}", ("startFile", start)))!;

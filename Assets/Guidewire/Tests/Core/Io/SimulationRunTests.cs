@@ -102,7 +102,8 @@ namespace Guidewire.Core.Tests
         public void StopRequest_EndsTheRunWithAWholeLog()
         {
             int asked = 0;
-            var run = new SimulationRun(Load(("constraintSolverSteps", 1)), _folder, null) { StopRequested = () => ++asked > 4 };
+            var run = new SimulationRun(Load(("constraintSolverSteps", 1)), _folder, null)
+                { StopRequested = () => ++asked > 4 };
             Assert.That(run.Execute(false).Outcome, Is.EqualTo(Outcome.Interrupted));
             Assert.That(Read("positions.json").Count, Is.EqualTo(5), "entries 0 to 4");
             Assert.That((string?)Read("summary.json")["outcome"], Is.EqualTo("interrupted"));

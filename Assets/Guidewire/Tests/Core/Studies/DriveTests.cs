@@ -15,7 +15,8 @@ namespace Guidewire.Core.Tests
                 parameters.Displacement = 6.0;
                 parameters.Integrator = integrator;
                 Simulation run = Wires.Run(parameters);
-                Assert.That(Vector3d.Distance(run.State.Positions[0], new Vector3d(2.0, 4.0, -124.0)), Is.LessThan(1e-13));
+                Assert.That(Vector3d.Distance(run.State.Positions[0], new Vector3d(2.0, 4.0, -124.0)),
+                    Is.LessThan(1e-13));
                 Assert.That(run.State.Velocities[0], Is.EqualTo(Vector3d.Zero));
             }
         }

@@ -47,7 +47,8 @@ namespace Guidewire.Core.Tests
                 simulation.Step();
             }
             Assert.That(simulation.State.Positions[0].Z - start, Is.EqualTo(10.0).Within(1e-9), "held where it is");
-            Assert.That(simulation.State.Positions[30].Z - tip, Is.EqualTo(10.0).Within(1e-3), "a straight wire at rest");
+            Assert.That(simulation.State.Positions[30].Z - tip, Is.EqualTo(10.0).Within(1e-3),
+                "a straight wire at rest");
         }
 
         [Test]
