@@ -18,6 +18,9 @@ namespace Guidewire.Core
         private const double ShortStep = 0.1;   // below it, it falls
         private const double NearRest = 0.01;   // below it, it falls fast
 
+        private const string Flutter =
+            "; a couple that turns with the tip drives a slender wire for ever from about 3.6 EI/L on";
+
         private readonly MaterialRod _rod;
         private readonly RodSupports _supports;
         private readonly FollowerTangent _tangent;
@@ -66,7 +69,7 @@ namespace Guidewire.Core
                 drag *= size > LongStep ? 1.5 : size > ShortStep ? 1.0 : size > NearRest ? 0.7 : 0.2;
             }
             result.Reason = "a wire with drag does not come to rest under tipMoment in "
-                + mostIterations.ToString(System.Globalization.CultureInfo.InvariantCulture) + " steps";
+                + mostIterations.ToString(System.Globalization.CultureInfo.InvariantCulture) + " steps" + Flutter;
             return result;
         }
 
@@ -86,7 +89,8 @@ namespace Guidewire.Core
             result.SmallestEigenvalue = new DragSpectrum(_tangent, _rod).SmallestRealPart(shape);
             result.Converged = result.SmallestEigenvalue > 0.0;
             result.Reason = result.Converged ? string.Empty
-                : "the equilibrium under tipMoment is not stable: a disturbance grows even in a wire with drag";
+                : "the equilibrium under tipMoment is not stable: a disturbance grows even in a wire with drag"
+                    + Flutter;
             return result;
         }
     }
