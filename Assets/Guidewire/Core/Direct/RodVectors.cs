@@ -1,3 +1,5 @@
+using System;
+
 namespace Guidewire.Core
 {
     /// <summary>Sums over whole vectors of a rod.</summary>
@@ -13,6 +15,26 @@ namespace Guidewire.Core
                     + a[i].T1 * b[i].T1 + a[i].T2 * b[i].T2 + a[i].T3 * b[i].T3;
             }
             return sum;
+        }
+
+        /// <summary>The largest sum of the forces on nodes 0 to k, over all k.</summary>
+        /// <param name="couples">Sum of the magnitudes of all components of the couples.</param>
+        public static double LargestPartialForce(RodVector[] v, out double couples)
+        {
+            double x = 0.0;
+            double y = 0.0;
+            double z = 0.0;
+            double largest = 0.0;
+            couples = 0.0;
+            for (int i = 0; i < v.Length; i++)
+            {
+                x += v[i].X1;
+                y += v[i].X2;
+                z += v[i].X3;
+                largest = Math.Max(largest, x * x + y * y + z * z);
+                couples += Math.Abs(v[i].T1) + Math.Abs(v[i].T2) + Math.Abs(v[i].T3);
+            }
+            return Math.Sqrt(largest);
         }
 
         /// <summary>to += scale v.</summary>

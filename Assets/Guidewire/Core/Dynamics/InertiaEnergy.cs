@@ -19,7 +19,6 @@ namespace Guidewire.Core
         private readonly double[] _rotary;    // rho I l, kg m^2, n
         private readonly Quaterniond[] _anchor;
         private readonly Vector3d[] _anchorCouple;
-        private readonly Vector3d[] _lastTurn;
 
         /// <summary>The inertia of a rod under one mass rule.</summary>
         public InertiaEnergy(MaterialRod rod, MassRule rule)
@@ -30,7 +29,7 @@ namespace Guidewire.Core
             _rotary = new double[n];
             _anchor = new Quaterniond[n];
             _anchorCouple = new Vector3d[n];
-            _lastTurn = new Vector3d[n];
+            LastTurn = new Vector3d[n];
             Start = new Quaterniond[n];
             FreePositions = new Vector3d[n + 1];
             TurnHistory = new Vector3d[n];
@@ -46,6 +45,7 @@ namespace Guidewire.Core
                 _rotary[j] = rod.RotaryInertia[j] * rod.Length[j];
                 total += mass;
             }
+            TotalMass = total;
             if (rule == MassRule.Uniform)
             {
                 Array.Fill(_diagonal, total / (n + 1));
@@ -67,11 +67,17 @@ namespace Guidewire.Core
         /// <summary>w^, the angular velocity that earlier stages have contributed, rad/s.</summary>
         public Vector3d[] SpinHistory { get; }
 
+        /// <summary>phi when it was last asked for, radians.</summary>
+        public Vector3d[] LastTurn { get; }
+
+        /// <summary>kg.</summary>
+        public double TotalMass { get; }
+
         /// <summary>A new step begins: turns count from these orientations.</summary>
         public void BeginStep(Quaterniond[] orientations)
         {
             Array.Copy(orientations, Start, Start.Length);
-            Array.Clear(_lastTurn, 0, _lastTurn.Length);
+            Array.Clear(LastTurn, 0, LastTurn.Length);
         }
 
         /// <summary>phi of element j in this orientation: of all rotation vectors that lead there, the one nearest to
@@ -80,14 +86,14 @@ namespace Guidewire.Core
         public Vector3d Turn(in Quaterniond orientation, int j)
         {
             Vector3d turn = RotationVector.Log(Start[j].Conjugate * orientation);
-            Vector3d last = _lastTurn[j];
+            Vector3d last = LastTurn[j];
             if (last.LengthSquared > SurelyFirst && turn.LengthSquared > 0.0)
             {
                 Vector3d axis = Vector3d.Normalize(turn);
                 double turns = Math.Round(Vector3d.Dot(last - turn, axis) / (2.0 * Math.PI));
                 turn += (2.0 * Math.PI * turns) * axis;
             }
-            _lastTurn[j] = turn;
+            LastTurn[j] = turn;
             return turn;
         }
 
