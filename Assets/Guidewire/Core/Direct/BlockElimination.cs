@@ -11,13 +11,14 @@ namespace Guidewire.Core
     /// <remarks>x of one node never meets theta of the next element but one, so the elimination fills nothing in: 228
     /// multiplications a block against some 400 of a dense 6x6 sweep. The pivots of a 3x3 block are ratios of its
     /// leading minors m1, m2, m3: P^-1 = diag(1/m1, m1/m2, m2/m3), so its three divisions do not wait for each other,
-    /// and the minors' signs count the negative eigenvalues (Sylvester's law of inertia). A row is finished before the
-    /// next is begun, and finished rows are read back from the block: the few numbers at work then fit the registers.
-    /// </remarks>
+    /// nor do the products with L^-1, whose three entries are formed first; the minors' signs count the negative
+    /// eigenvalues (Sylvester's law of inertia). A row is finished before the next is begun, and finished rows are
+    /// read back from the block: the few numbers at work then fit the registers.</remarks>
     internal static class BlockElimination
     {
         /// <summary>Eliminates one block, with its right-hand side, from the block after it. The block is overwritten:
-        /// B, D, E, F become U, V, G, H; A and C become P^-1 and R^-1 on their diagonals, L and L' below.</summary>
+        /// B, D, E, F become U, V, G, H; A and C become P^-1 and R^-1 on their diagonals; below stand -l21, -l32 and
+        /// l21 l32 - l31 of the inverses of L and L', the first two without their signs.</summary>
         /// <returns>The number of eigenvalues of A and C (as eliminated) that are not positive, 0 to 6.</returns>
         [MethodImpl(Compiled.AtOnce)]
         public static int Eliminate(ref RodBlock block, ref RodBlock next, ref RodVector y, ref RodVector nextY)
@@ -34,33 +35,33 @@ namespace Guidewire.Core
             double p2 = a11 * pShare;
             double p3 = pMinor / pDet;
             double p21 = a21 * p1;
-            double p31 = a31 * p1;
             double p32 = pMixed * pShare;
+            double p31 = p21 * p32 - a31 * p1;
             block.A11 = p1;
             block.A21 = p21; block.A22 = p2;
             block.A31 = p31; block.A32 = p32; block.A33 = p3;
             int negative = CountNegative(a11, pMinor, pDet);
             double s11 = block.B11;
             double s12 = block.B12 - s11 * p21;
-            double s13 = block.B13 - s11 * p31 - s12 * p32;
+            double s13 = block.B13 - block.B12 * p32 + s11 * p31;
             block.B11 = s11 * p1; block.B12 = s12 * p2; block.B13 = s13 * p3;
             double c11 = block.C11 - (s11 * block.B11 + s12 * block.B12 + s13 * block.B13);
             double s21 = block.B21;
             double s22 = block.B22 - s21 * p21;
-            double s23 = block.B23 - s21 * p31 - s22 * p32;
+            double s23 = block.B23 - block.B22 * p32 + s21 * p31;
             block.B21 = s21 * p1; block.B22 = s22 * p2; block.B23 = s23 * p3;
             double c21 = block.C21 - (s21 * block.B11 + s22 * block.B12 + s23 * block.B13);
             double c22 = block.C22 - (s21 * block.B21 + s22 * block.B22 + s23 * block.B23);
             double s31 = block.B31;
             double s32 = block.B32 - s31 * p21;
-            double s33 = block.B33 - s31 * p31 - s32 * p32;
+            double s33 = block.B33 - block.B32 * p32 + s31 * p31;
             block.B31 = s31 * p1; block.B32 = s32 * p2; block.B33 = s33 * p3;
             double c31 = block.C31 - (s31 * block.B11 + s32 * block.B12 + s33 * block.B13);
             double c32 = block.C32 - (s31 * block.B21 + s32 * block.B22 + s33 * block.B23);
             double c33 = block.C33 - (s31 * block.B31 + s32 * block.B32 + s33 * block.B33);
             double d11 = block.D11;
             double d12 = block.D12 - d11 * p21;
-            double d13 = block.D13 - d11 * p31 - d12 * p32;
+            double d13 = block.D13 - block.D12 * p32 + d11 * p31;
             block.D11 = d11 * p1; block.D12 = d12 * p2; block.D13 = d13 * p3;
             double e11 = block.E11 - (d11 * block.B11 + d12 * block.B12 + d13 * block.B13);
             double e12 = block.E12 - (d11 * block.B21 + d12 * block.B22 + d13 * block.B23);
@@ -68,7 +69,7 @@ namespace Guidewire.Core
             double n11 = next.A11 - (d11 * block.D11 + d12 * block.D12 + d13 * block.D13);
             double d21 = block.D21;
             double d22 = block.D22 - d21 * p21;
-            double d23 = block.D23 - d21 * p31 - d22 * p32;
+            double d23 = block.D23 - block.D22 * p32 + d21 * p31;
             block.D21 = d21 * p1; block.D22 = d22 * p2; block.D23 = d23 * p3;
             double e21 = block.E21 - (d21 * block.B11 + d22 * block.B12 + d23 * block.B13);
             double e22 = block.E22 - (d21 * block.B21 + d22 * block.B22 + d23 * block.B23);
@@ -77,7 +78,7 @@ namespace Guidewire.Core
             double n22 = next.A22 - (d21 * block.D21 + d22 * block.D22 + d23 * block.D23);
             double d31 = block.D31;
             double d32 = block.D32 - d31 * p21;
-            double d33 = block.D33 - d31 * p31 - d32 * p32;
+            double d33 = block.D33 - block.D32 * p32 + d31 * p31;
             block.D31 = d31 * p1; block.D32 = d32 * p2; block.D33 = d33 * p3;
             double e31 = block.E31 - (d31 * block.B11 + d32 * block.B12 + d33 * block.B13);
             double e32 = block.E32 - (d31 * block.B21 + d32 * block.B22 + d33 * block.B23);
@@ -95,33 +96,33 @@ namespace Guidewire.Core
             double r2 = c11 * rShare;
             double r3 = rMinor / rDet;
             double r21 = c21 * r1;
-            double r31 = c31 * r1;
             double r32 = rMixed * rShare;
+            double r31 = r21 * r32 - c31 * r1;
             block.C11 = r1;
             block.C21 = r21; block.C22 = r2;
             block.C31 = r31; block.C32 = r32; block.C33 = r3;
             negative += CountNegative(c11, rMinor, rDet);
             double x11 = e11;
             double x12 = e12 - x11 * r21;
-            double x13 = e13 - x11 * r31 - x12 * r32;
+            double x13 = e13 - e12 * r32 + x11 * r31;
             block.E11 = x11 * r1; block.E12 = x12 * r2; block.E13 = x13 * r3;
             next.A11 = n11 - (x11 * block.E11 + x12 * block.E12 + x13 * block.E13);
             double x21 = e21;
             double x22 = e22 - x21 * r21;
-            double x23 = e23 - x21 * r31 - x22 * r32;
+            double x23 = e23 - e22 * r32 + x21 * r31;
             block.E21 = x21 * r1; block.E22 = x22 * r2; block.E23 = x23 * r3;
             next.A21 = n21 - (x21 * block.E11 + x22 * block.E12 + x23 * block.E13);
             next.A22 = n22 - (x21 * block.E21 + x22 * block.E22 + x23 * block.E23);
             double x31 = e31;
             double x32 = e32 - x31 * r21;
-            double x33 = e33 - x31 * r31 - x32 * r32;
+            double x33 = e33 - e32 * r32 + x31 * r31;
             block.E31 = x31 * r1; block.E32 = x32 * r2; block.E33 = x33 * r3;
             next.A31 = n31 - (x31 * block.E11 + x32 * block.E12 + x33 * block.E13);
             next.A32 = n32 - (x31 * block.E21 + x32 * block.E22 + x33 * block.E23);
             next.A33 = n33 - (x31 * block.E31 + x32 * block.E32 + x33 * block.E33);
             double t11 = block.F11;
             double t12 = block.F12 - t11 * r21;
-            double t13 = block.F13 - t11 * r31 - t12 * r32;
+            double t13 = block.F13 - block.F12 * r32 + t11 * r31;
             block.F11 = t11 * r1; block.F12 = t12 * r2; block.F13 = t13 * r3;
             next.B11 -= t11 * block.E11 + t12 * block.E12 + t13 * block.E13;
             next.B12 -= t11 * block.E21 + t12 * block.E22 + t13 * block.E23;
@@ -129,7 +130,7 @@ namespace Guidewire.Core
             next.C11 -= t11 * block.F11 + t12 * block.F12 + t13 * block.F13;
             double t21 = block.F21;
             double t22 = block.F22 - t21 * r21;
-            double t23 = block.F23 - t21 * r31 - t22 * r32;
+            double t23 = block.F23 - block.F22 * r32 + t21 * r31;
             block.F21 = t21 * r1; block.F22 = t22 * r2; block.F23 = t23 * r3;
             next.B21 -= t21 * block.E11 + t22 * block.E12 + t23 * block.E13;
             next.B22 -= t21 * block.E21 + t22 * block.E22 + t23 * block.E23;
@@ -138,7 +139,7 @@ namespace Guidewire.Core
             next.C22 -= t21 * block.F21 + t22 * block.F22 + t23 * block.F23;
             double t31 = block.F31;
             double t32 = block.F32 - t31 * r21;
-            double t33 = block.F33 - t31 * r31 - t32 * r32;
+            double t33 = block.F33 - block.F32 * r32 + t31 * r31;
             block.F31 = t31 * r1; block.F32 = t32 * r2; block.F33 = t33 * r3;
             next.B31 -= t31 * block.E11 + t32 * block.E12 + t33 * block.E13;
             next.B32 -= t31 * block.E21 + t32 * block.E22 + t33 * block.E23;
@@ -150,10 +151,11 @@ namespace Guidewire.Core
             // The right-hand side goes along: y = L^-1 r, then the diagonal.
             double y1 = y.X1;
             double y2 = y.X2 - p21 * y1;
-            double y3 = y.X3 - p31 * y1 - p32 * y2;
+            double y3 = y.X3 - p32 * y.X2 + p31 * y1;
             double z1 = y.T1 - (block.B11 * y1 + block.B12 * y2 + block.B13 * y3);
-            double z2 = y.T2 - (block.B21 * y1 + block.B22 * y2 + block.B23 * y3) - r21 * z1;
-            double z3 = y.T3 - (block.B31 * y1 + block.B32 * y2 + block.B33 * y3) - r31 * z1 - r32 * z2;
+            double s2 = y.T2 - (block.B21 * y1 + block.B22 * y2 + block.B23 * y3);
+            double z2 = s2 - r21 * z1;
+            double z3 = y.T3 - (block.B31 * y1 + block.B32 * y2 + block.B33 * y3) - r32 * s2 + r31 * z1;
             nextY.X1 -= block.D11 * y1 + block.D12 * y2 + block.D13 * y3
                 + block.E11 * z1 + block.E12 * z2 + block.E13 * z3;
             nextY.X2 -= block.D21 * y1 + block.D22 * y2 + block.D23 * y3
@@ -178,10 +180,11 @@ namespace Guidewire.Core
         {
             double y1 = y.X1;
             double y2 = y.X2 - block.A21 * y1;
-            double y3 = y.X3 - block.A31 * y1 - block.A32 * y2;
+            double y3 = y.X3 - block.A32 * y.X2 + block.A31 * y1;
             double z1 = y.T1 - (block.B11 * y1 + block.B12 * y2 + block.B13 * y3);
-            double z2 = y.T2 - (block.B21 * y1 + block.B22 * y2 + block.B23 * y3) - block.C21 * z1;
-            double z3 = y.T3 - (block.B31 * y1 + block.B32 * y2 + block.B33 * y3) - block.C31 * z1 - block.C32 * z2;
+            double s2 = y.T2 - (block.B21 * y1 + block.B22 * y2 + block.B23 * y3);
+            double z2 = s2 - block.C21 * z1;
+            double z3 = y.T3 - (block.B31 * y1 + block.B32 * y2 + block.B33 * y3) - block.C32 * s2 + block.C31 * z1;
             nextY.X1 -= block.D11 * y1 + block.D12 * y2 + block.D13 * y3
                 + block.E11 * z1 + block.E12 * z2 + block.E13 * z3;
             nextY.X2 -= block.D21 * y1 + block.D22 * y2 + block.D23 * y3
@@ -205,24 +208,26 @@ namespace Guidewire.Core
         {
             double x1 = nextZ.X1, x2 = nextZ.X2, x3 = nextZ.X3;
             double s1 = nextZ.T1, s2 = nextZ.T2, s3 = nextZ.T3;
-            double t3 = z.T3 - (block.E13 * x1 + block.E23 * x2 + block.E33 * x3)
+            double u1 = z.T1 - (block.E11 * x1 + block.E21 * x2 + block.E31 * x3)
+                - (block.F11 * s1 + block.F21 * s2 + block.F31 * s3);
+            double u2 = z.T2 - (block.E12 * x1 + block.E22 * x2 + block.E32 * x3)
+                - (block.F12 * s1 + block.F22 * s2 + block.F32 * s3);
+            double u3 = z.T3 - (block.E13 * x1 + block.E23 * x2 + block.E33 * x3)
                 - (block.F13 * s1 + block.F23 * s2 + block.F33 * s3);
-            double t2 = z.T2 - (block.E12 * x1 + block.E22 * x2 + block.E32 * x3)
-                - (block.F12 * s1 + block.F22 * s2 + block.F32 * s3) - block.C32 * t3;
-            double t1 = z.T1 - (block.E11 * x1 + block.E21 * x2 + block.E31 * x3)
-                - (block.F11 * s1 + block.F21 * s2 + block.F31 * s3) - block.C21 * t2 - block.C31 * t3;
-            double y3 = z.X3 - (block.D13 * x1 + block.D23 * x2 + block.D33 * x3)
-                - (block.B13 * t1 + block.B23 * t2 + block.B33 * t3);
-            double y2 = z.X2 - (block.D12 * x1 + block.D22 * x2 + block.D32 * x3)
-                - (block.B12 * t1 + block.B22 * t2 + block.B32 * t3) - block.A32 * y3;
-            double y1 = z.X1 - (block.D11 * x1 + block.D21 * x2 + block.D31 * x3)
-                - (block.B11 * t1 + block.B21 * t2 + block.B31 * t3) - block.A21 * y2 - block.A31 * y3;
-            z.X1 = y1;
-            z.X2 = y2;
-            z.X3 = y3;
+            double t1 = u1 - block.C21 * u2 + block.C31 * u3;
+            double t2 = u2 - block.C32 * u3;
+            double v1 = z.X1 - (block.D11 * x1 + block.D21 * x2 + block.D31 * x3)
+                - (block.B11 * t1 + block.B21 * t2 + block.B31 * u3);
+            double v2 = z.X2 - (block.D12 * x1 + block.D22 * x2 + block.D32 * x3)
+                - (block.B12 * t1 + block.B22 * t2 + block.B32 * u3);
+            double v3 = z.X3 - (block.D13 * x1 + block.D23 * x2 + block.D33 * x3)
+                - (block.B13 * t1 + block.B23 * t2 + block.B33 * u3);
+            z.X1 = v1 - block.A21 * v2 + block.A31 * v3;
+            z.X2 = v2 - block.A32 * v3;
+            z.X3 = v3;
             z.T1 = t1;
             z.T2 = t2;
-            z.T3 = t3;
+            z.T3 = u3;
         }
 
         /// <summary>Eigenvalues of a symmetric 3x3 matrix that are not positive, from its leading minors: each change

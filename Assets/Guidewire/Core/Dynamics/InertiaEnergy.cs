@@ -30,6 +30,7 @@ namespace Guidewire.Core
             _anchor = new Quaterniond[n];
             _anchorCouple = new Vector3d[n];
             LastTurn = new Vector3d[n];
+            LastSpin = new Vector3d[n];
             Start = new Quaterniond[n];
             FreePositions = new Vector3d[n + 1];
             TurnHistory = new Vector3d[n];
@@ -70,6 +71,9 @@ namespace Guidewire.Core
         /// <summary>phi when it was last asked for, radians.</summary>
         public Vector3d[] LastTurn { get; }
 
+        /// <summary>w when it was last asked for, rad/s.</summary>
+        public Vector3d[] LastSpin { get; }
+
         /// <summary>kg.</summary>
         public double TotalMass { get; }
 
@@ -97,12 +101,14 @@ namespace Guidewire.Core
             return turn;
         }
 
-        /// <summary>w of element j in this orientation, and phi.</summary>
+        /// <summary>w of element j in this orientation; phi is then the last that was asked for.</summary>
         [MethodImpl(Compiled.AtOnce)]
-        public Vector3d Spin(in Quaterniond orientation, int j, out Vector3d turn)
+        public Vector3d Spin(in Quaterniond orientation, int j)
         {
-            turn = Turn(orientation, j);
-            return (1.0 / StageLength) * RotationVector.TangentMap(turn, turn - TurnHistory[j]);
+            Vector3d turn = Turn(orientation, j);
+            Vector3d spin = (1.0 / StageLength) * RotationVector.TangentMap(turn, turn - TurnHistory[j]);
+            LastSpin[j] = spin;
+            return spin;
         }
 
         /// <summary>Linear momentum, kg m/s, of these velocities.</summary>
@@ -202,33 +208,38 @@ namespace Guidewire.Core
         {
             AddGradient(shape, gradient, from, to);
             double perSquare = 1.0 / (StageLength * StageLength);
-            int nodes = Math.Min(to, _diagonal.Length);
-            for (int i = from; i < nodes; i++)
+            int end = Math.Min(to, _coupling.Length);
+            for (int i = from; i < end; i++)
             {
                 ref RodBlock b = ref blocks[i];
-                double mass = perSquare * _diagonal[i];
-                b.A11 += mass;
-                b.A22 += mass;
-                b.A33 += mass;
-                if (i < _coupling.Length)
-                {
-                    double coupling = perSquare * _coupling[i];
-                    b.D11 += coupling;
-                    b.D22 += coupling;
-                    b.D33 += coupling;
-                    double rotary = perSquare * _rotary[i];
-                    b.C11 += rotary;
-                    b.C22 += rotary;
-                    b.C33 += 2.0 * rotary;
-                }
+                AddMass(ref b, perSquare * _diagonal[i]);
+                double coupling = perSquare * _coupling[i];
+                b.D11 += coupling;
+                b.D22 += coupling;
+                b.D33 += coupling;
+                double rotary = perSquare * _rotary[i];
+                b.C11 += rotary;
+                b.C22 += rotary;
+                b.C33 += 2.0 * rotary;
             }
+            if (end < to)
+            {
+                AddMass(ref blocks[end], perSquare * _diagonal[end]);
+            }
+        }
+
+        private static void AddMass(ref RodBlock b, double mass)
+        {
+            b.A11 += mass;
+            b.A22 += mass;
+            b.A33 += mass;
         }
 
         /// <summary>I (w - w^)/h + w x I w.</summary>
         [MethodImpl(Compiled.AtOnce)]
         private Vector3d Couple(in Quaterniond orientation, int j)
         {
-            Vector3d w = Spin(orientation, j, out _);
+            Vector3d w = Spin(orientation, j);
             Vector3d rate = (1.0 / StageLength) * (w - SpinHistory[j]);
             double i = _rotary[j];
             return new Vector3d(i * (rate.X + w.Y * w.Z), i * (rate.Y - w.X * w.Z), 2.0 * i * rate.Z);

@@ -287,8 +287,8 @@ namespace Guidewire.Core
             }
             for (int j = 0; j < Spins.Length; j++)
             {
-                Vector3d spin = _inertia.Spin(Shape.Q[j], j, out Vector3d turn);
-                _turnRate[stage][j] = perStage * (turn - _inertia.TurnHistory[j]);
+                Vector3d spin = _solver.GradientIsCurrent ? _inertia.LastSpin[j] : _inertia.Spin(Shape.Q[j], j);
+                _turnRate[stage][j] = perStage * (_inertia.LastTurn[j] - _inertia.TurnHistory[j]);
                 _spinRate[stage][j] = perStage * (spin - _inertia.SpinHistory[j]);
             }
             if (TracksReactions)

@@ -65,6 +65,10 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>Whether the last gradient, with all that its terms remember of it, was that of the shape
+        /// returned.</summary>
+        public bool GradientIsCurrent { get; private set; }
+
         /// <summary>Error that a stage's shape may have: radians, or displacement over L.</summary>
         public double Tolerance { get; set; } = 1e-6;
 
@@ -93,6 +97,7 @@ namespace Guidewire.Core
             double rounding = LastPlace * (shape.X[0].Length + _length)
                 * (_axialSpring + _mass / (stageLength * stageLength));
             double unbalanced = double.PositiveInfinity;
+            GradientIsCurrent = false;
             for (int f = 0; f < MostFactorisations; f++)
             {
                 Factorisations++;
@@ -123,6 +128,7 @@ namespace Guidewire.Core
                     bool atRounding = k == 0 && unbalanced >= 0.5 * last && first <= Tolerance;
                     if (unbalanced <= allowed || atRounding)
                     {
+                        GradientIsCurrent = true;
                         return true;
                     }
                     KeptSolutions++;
@@ -151,6 +157,7 @@ namespace Guidewire.Core
         public string? Search(RodShape shape)
         {
             Searches++;
+            GradientIsCurrent = false;
             _curvature = double.PositiveInfinity;
             EquilibriumResult result = _search.Solve(shape, Tolerance, MostIterations, false);
             return result.Converged ? null : result.Reason;
