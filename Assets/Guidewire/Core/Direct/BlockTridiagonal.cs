@@ -44,7 +44,7 @@ namespace Guidewire.Core
         public int Factorise(EnergyTerm[] terms, RodShape shape, RodVector[] gradient, RodVector[] y, double shift)
         {
             int last = _count - 1;
-            Array.Clear(y, 0, y.Length);
+            y[0] = default;
             gradient[0] = default;
             _block[0] = default;
             int negative = 0;
@@ -58,6 +58,7 @@ namespace Guidewire.Core
                 }
                 Array.Clear(_block, from + 1, to - from);
                 Array.Clear(gradient, from + 1, to - from);
+                Array.Clear(y, from + 1, to - from);
                 for (int k = 0; k < terms.Length; k++)
                 {
                     terms[k].AddBlocks(shape, _block, gradient, from, to);
@@ -74,9 +75,9 @@ namespace Guidewire.Core
                 {
                     HoldEnd();
                 }
+                Subtract(gradient, y, from, to);
                 for (int i = from; i < to; i++)
                 {
-                    AddNegative(gradient, y, i);
                     negative += BlockElimination.Eliminate(ref _block[i], ref _block[i + 1], ref y[i], ref y[i + 1]);
                 }
                 from = to;
@@ -93,10 +94,7 @@ namespace Guidewire.Core
                 terms[k].AddGradient(shape, gradient, 0, _count);
             }
             Array.Clear(y, 0, y.Length);
-            for (int i = 0; i < _count; i++)
-            {
-                AddNegative(gradient, y, i);
-            }
+            Subtract(gradient, y, 0, _count);
         }
 
         /// <summary>y := A^-1 y with the factorisation at hand.</summary>
@@ -157,24 +155,26 @@ namespace Guidewire.Core
             }
         }
 
-        private void AddNegative(RodVector[] gradient, RodVector[] y, int i)
+        /// <summary>y -= gradient where nothing is held.</summary>
+        private void Subtract(RodVector[] gradient, RodVector[] y, int from, int to)
         {
-            RodVector g = gradient[i];
-            if (i == 0)
+            RodVector start = gradient[0];
+            RodVector end = gradient[_count - 1];
+            ProjectStart(ref gradient[0]);
+            ProjectEnd(ref gradient[_count - 1]);
+            for (int i = from; i < to; i++)
             {
-                ProjectStart(ref g);
+                ref RodVector v = ref y[i];
+                ref RodVector g = ref gradient[i];
+                v.X1 -= g.X1;
+                v.X2 -= g.X2;
+                v.X3 -= g.X3;
+                v.T1 -= g.T1;
+                v.T2 -= g.T2;
+                v.T3 -= g.T3;
             }
-            if (i == _count - 1)
-            {
-                ProjectEnd(ref g);
-            }
-            ref RodVector v = ref y[i];
-            v.X1 -= g.X1;
-            v.X2 -= g.X2;
-            v.X3 -= g.X3;
-            v.T1 -= g.T1;
-            v.T2 -= g.T2;
-            v.T3 -= g.T3;
+            gradient[0] = start;
+            gradient[_count - 1] = end;
         }
 
         private void ProjectStart(ref RodVector v)

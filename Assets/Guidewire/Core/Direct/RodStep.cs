@@ -10,8 +10,8 @@ namespace Guidewire.Core
     /// end is held, what the sum misses of its place, of second order too, is spread over the rod.</remarks>
     internal static class RodStep
     {
-        /// <summary>Sets <paramref name="to"/> to <paramref name="shape"/> moved by <paramref name="scale"/> times
-        /// <paramref name="direction"/>.</summary>
+        /// <summary>Sets <paramref name="to"/>, which may be <paramref name="shape"/> itself, to
+        /// <paramref name="shape"/> moved by <paramref name="scale"/> times <paramref name="direction"/>.</summary>
         public static void Apply(MaterialRod rod, RodSupports supports, RodShape shape, RodVector[] direction,
             double scale, RodShape to)
         {
@@ -42,18 +42,50 @@ namespace Guidewire.Core
                 move = nextMove;
                 old = nextOld;
             }
-            if (supports.Distal == DistalEnd.Free)
+            if (supports.Distal != DistalEnd.Free)
             {
-                return;
+                Close(supports, to, old + move);
             }
-            Vector3d miss = old + move - x;
+        }
+
+        /// <summary>Turns the elements of a shape and lays them end to end from node 0, each with the strain that it
+        /// has along its own axes.</summary>
+        /// <param name="orientations">The elements' new orientations.</param>
+        /// <param name="start">New place of node 0.</param>
+        /// <param name="end">Where the last node is held, if it is.</param>
+        public static void Lay(RodSupports supports, RodShape shape, Quaterniond[] orientations, in Vector3d start,
+            in Vector3d end)
+        {
+            Vector3d x = start;
+            Vector3d old = shape.X[0];
+            shape.X[0] = x;
+            for (int j = 0; j < orientations.Length; j++)
+            {
+                Quaterniond q = orientations[j];
+                Vector3d next = shape.X[j + 1];
+                x += Quaterniond.Rotate(q, Quaterniond.Rotate(shape.Q[j].Conjugate, next - old));
+                shape.Q[j] = q;
+                shape.X[j + 1] = x;
+                old = next;
+            }
+            if (supports.Distal != DistalEnd.Free)
+            {
+                Close(supports, shape, end);
+            }
+        }
+
+        /// <summary>Spreads over the rod what the last node misses of the place where it is held.</summary>
+        private static void Close(RodSupports supports, RodShape shape, in Vector3d end)
+        {
+            int n = shape.ElementCount;
+            Vector3d miss = end - shape.X[n];
             if (supports.Distal == DistalEnd.Sliding)
             {
                 miss -= Vector3d.Dot(miss, supports.SlidingAxis) * supports.SlidingAxis;
             }
             for (int i = 1; i <= n; i++)
             {
-                to.X[i] += ((double)i / n) * miss;
+                shape.X[i] += ((double)i / n) * miss;
             }
         }
 

@@ -17,6 +17,26 @@ namespace Guidewire.Core
             return sum;
         }
 
+        /// <summary>The largest sum of the forces on nodes 0 to k, over all k.</summary>
+        /// <param name="couples">Sum of the magnitudes of all components of the couples.</param>
+        public static double LargestPartialForce(RodVector[] v, out double couples)
+        {
+            double x = 0.0;
+            double y = 0.0;
+            double z = 0.0;
+            double largest = 0.0;
+            couples = 0.0;
+            for (int i = 0; i < v.Length; i++)
+            {
+                x += v[i].X1;
+                y += v[i].X2;
+                z += v[i].X3;
+                largest = Math.Max(largest, x * x + y * y + z * z);
+                couples += Math.Abs(v[i].T1) + Math.Abs(v[i].T2) + Math.Abs(v[i].T3);
+            }
+            return Math.Sqrt(largest);
+        }
+
         /// <summary>to += scale v.</summary>
         public static void AddScaled(RodVector[] to, double scale, RodVector[] v)
         {

@@ -16,27 +16,22 @@ namespace Guidewire.Core
         private const double SmallAngleSquared = 0.09;
 
         /// <summary>The unit quaternion that turns by <paramref name="theta"/>.</summary>
-        [MethodImpl(Compiled.AtOnce)]
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Quaterniond Exp(in Vector3d theta)
         {
             double squared = theta.LengthSquared;
-            double scale;
-            double real;
-            if (squared < SmallAngleSquared)
+            if (squared >= SmallAngleSquared)
             {
-                // sin(a/2)/a and cos(a/2) in h = (a/2)^2.
-                double h = 0.25 * squared;
-                scale = 0.5 * (1.0 - h / 6.0 * (1.0 - h / 20.0 * (1.0 - h / 42.0 * (1.0 - h / 72.0
-                    * (1.0 - h / 110.0)))));
-                real = 1.0 - h / 2.0 * (1.0 - h / 12.0 * (1.0 - h / 30.0 * (1.0 - h / 56.0 * (1.0 - h / 90.0
-                    * (1.0 - h / 132.0)))));
+                return LargeExp(theta, squared);
             }
-            else
-            {
-                double angle = Math.Sqrt(squared);
-                scale = Math.Sin(0.5 * angle) / angle;
-                real = Math.Cos(0.5 * angle);
-            }
+            // sin(a/2)/a and cos(a/2) in h = (a/2)^2.
+            double h = 0.25 * squared;
+            double h2 = h * h;
+            double h4 = h2 * h2;
+            double scale = 0.5 - h * (0.5 / 6.0) + h2 * (0.5 / 120.0 - h * (0.5 / 5040.0))
+                + h4 * (0.5 / 362880.0 - h * (0.5 / 39916800.0));
+            double real = 1.0 - h * (1.0 / 2.0) + h2 * (1.0 / 24.0 - h * (1.0 / 720.0))
+                + h4 * (1.0 / 40320.0 - h * (1.0 / 3628800.0) + h2 * (1.0 / 479001600.0));
             return new Quaterniond(scale * theta.X, scale * theta.Y, scale * theta.Z, real);
         }
 
@@ -54,38 +49,36 @@ namespace Guidewire.Core
 
         /// <summary>c(a) = (1 - (a/2) cot(a/2))/a^2, for the inverse tangent map T = 1 + [theta]/2 + c
         /// [theta]^2.</summary>
-        [MethodImpl(Compiled.AtOnce)]
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static double CotangentFactor(double angleSquared)
         {
             double a = angleSquared;
-            if (a < SmallAngleSquared)
+            if (a >= SmallAngleSquared)
             {
-                return 1.0 / 12.0 + a * (1.0 / 720.0 + a * (1.0 / 30240.0 + a * (1.0 / 1209600.0
-                    + a * (1.0 / 47900160.0 + a * (691.0 / 1307674368000.0)))));
+                return LargeCotangentFactor(a);
             }
-            double half = 0.5 * Math.Sqrt(a);
-            return (1.0 - half / Math.Tan(half)) / a;
+            double a2 = a * a;
+            return 1.0 / 12.0 + a * (1.0 / 720.0) + a2 * (1.0 / 30240.0 + a * (1.0 / 1209600.0))
+                + a2 * a2 * (1.0 / 47900160.0 + a * (691.0 / 1307674368000.0));
         }
 
         /// <summary>c'(a)/a, the derivative of <see cref="CotangentFactor"/> by the angle over the angle.</summary>
-        [MethodImpl(Compiled.AtOnce)]
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static double CotangentSlope(double angleSquared, double cotangentFactor)
         {
             double a = angleSquared;
-            if (a < SmallAngleSquared)
+            if (a >= SmallAngleSquared)
             {
-                return 1.0 / 360.0 + a * (1.0 / 7560.0 + a * (1.0 / 201600.0 + a * (1.0 / 5987520.0
-                    + a * (691.0 / 130767436800.0 + a / 6227020800.0))));
+                return LargeCotangentSlope(a, cotangentFactor);
             }
-            double half = 0.5 * Math.Sqrt(a);
-            double sine = Math.Sin(half);
-            double slope = 0.5 * (Math.Cos(half) / sine - half / (sine * sine));
-            return -slope / (2.0 * half * a) - 2.0 * cotangentFactor / a;
+            double a2 = a * a;
+            return 1.0 / 360.0 + a * (1.0 / 7560.0) + a2 * (1.0 / 201600.0 + a * (1.0 / 5987520.0))
+                + a2 * a2 * (691.0 / 130767436800.0 + a * (1.0 / 6227020800.0));
         }
 
         /// <summary>J(phi) u, the body's turn that belongs to the change u of the rotation vector phi:
         /// J = 1 - (1 - cos a)/a^2 [phi] + (a - sin a)/a^3 [phi]^2.</summary>
-        [MethodImpl(Compiled.AtOnce)]
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Vector3d TangentMap(in Vector3d phi, in Vector3d u)
         {
             double a = phi.LengthSquared;
@@ -93,31 +86,68 @@ namespace Guidewire.Core
             double second;
             if (a < SmallAngleSquared)
             {
-                first = 0.5 - a / 24.0 * (1.0 - a / 30.0 * (1.0 - a / 56.0 * (1.0 - a / 90.0 * (1.0 - a / 132.0))));
-                second = 1.0 / 6.0 - a / 120.0 * (1.0 - a / 42.0 * (1.0 - a / 72.0 * (1.0 - a / 110.0
-                    * (1.0 - a / 156.0))));
+                double a2 = a * a;
+                double a4 = a2 * a2;
+                first = 1.0 / 2.0 - a * (1.0 / 24.0) + a2 * (1.0 / 720.0 - a * (1.0 / 40320.0))
+                    + a4 * (1.0 / 3628800.0 - a * (1.0 / 479001600.0));
+                second = 1.0 / 6.0 - a * (1.0 / 120.0) + a2 * (1.0 / 5040.0 - a * (1.0 / 362880.0))
+                    + a4 * (1.0 / 39916800.0 - a * (1.0 / 6227020800.0));
             }
             else
             {
-                double angle = Math.Sqrt(a);
-                first = (1.0 - Math.Cos(angle)) / a;
-                second = (angle - Math.Sin(angle)) / (a * angle);
+                LargeTangent(a, out first, out second);
             }
             Vector3d cross = Vector3d.Cross(phi, u);
             return u - first * cross + second * Vector3d.Cross(phi, cross);
         }
 
+        [MethodImpl(MethodImplOptions.NoInlining)]
+        private static Quaterniond LargeExp(in Vector3d theta, double squared)
+        {
+            double angle = Math.Sqrt(squared);
+            double scale = Math.Sin(0.5 * angle) / angle;
+            return new Quaterniond(scale * theta.X, scale * theta.Y, scale * theta.Z, Math.Cos(0.5 * angle));
+        }
+
+        [MethodImpl(MethodImplOptions.NoInlining)]
+        private static void LargeTangent(double squared, out double first, out double second)
+        {
+            double angle = Math.Sqrt(squared);
+            first = (1.0 - Math.Cos(angle)) / squared;
+            second = (angle - Math.Sin(angle)) / (squared * angle);
+        }
+
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         private static double SmallScale(double s)
         {
-            return 2.0 * (1.0 + s * (1.0 / 6.0 + s * (3.0 / 40.0 + s * (5.0 / 112.0 + s * (35.0 / 1152.0
-                + s * (63.0 / 2816.0 + s * (231.0 / 13312.0 + s * (143.0 / 10240.0 + s * (6435.0 / 557056.0)))))))));
+            double s2 = s * s;
+            double s4 = s2 * s2;
+            return 2.0 + s * (2.0 / 6.0) + s2 * (6.0 / 40.0 + s * (10.0 / 112.0))
+                + s4 * (70.0 / 1152.0 + s * (126.0 / 2816.0) + s2 * (462.0 / 13312.0 + s * (286.0 / 10240.0))
+                + s4 * (12870.0 / 557056.0));
         }
 
+        [MethodImpl(MethodImplOptions.NoInlining)]
         private static double LargeScale(double sineSquared, double real)
         {
             double sine = Math.Sqrt(sineSquared);
             return real < 0.0 ? -2.0 * Math.Atan2(sine, -real) / sine : 2.0 * Math.Atan2(sine, real) / sine;
+        }
+
+        [MethodImpl(MethodImplOptions.NoInlining)]
+        private static double LargeCotangentFactor(double a)
+        {
+            double half = 0.5 * Math.Sqrt(a);
+            return (1.0 - half / Math.Tan(half)) / a;
+        }
+
+        [MethodImpl(MethodImplOptions.NoInlining)]
+        private static double LargeCotangentSlope(double a, double cotangentFactor)
+        {
+            double half = 0.5 * Math.Sqrt(a);
+            double sine = Math.Sin(half);
+            double slope = 0.5 * (Math.Cos(half) / sine - half / (sine * sine));
+            return -slope / (2.0 * half * a) - 2.0 * cotangentFactor / a;
         }
     }
 }

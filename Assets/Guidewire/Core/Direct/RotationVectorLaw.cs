@@ -21,7 +21,7 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        [MethodImpl(Compiled.AtOnce)]
         public void AddGradient(in Joint joint, in Quaterniond relative, ref RodVector a, ref RodVector b)
         {
             Vector3d theta = RotationVector.Log(relative);
@@ -33,7 +33,7 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        [MethodImpl(Compiled.AtOnce)]
         public void AddBlocks(in Joint joint, in Quaterniond relative, ref RodVector a, ref RodVector b,
             ref RodBlock blockA, ref RodBlock blockB)
         {

@@ -19,7 +19,6 @@ namespace Guidewire.Core
         private readonly double[] _rotary;    // rho I l, kg m^2, n
         private readonly Quaterniond[] _anchor;
         private readonly Vector3d[] _anchorCouple;
-        private readonly Vector3d[] _lastTurn;
 
         /// <summary>The inertia of a rod under one mass rule.</summary>
         public InertiaEnergy(MaterialRod rod, MassRule rule)
@@ -30,7 +29,8 @@ namespace Guidewire.Core
             _rotary = new double[n];
             _anchor = new Quaterniond[n];
             _anchorCouple = new Vector3d[n];
-            _lastTurn = new Vector3d[n];
+            LastTurn = new Vector3d[n];
+            LastSpin = new Vector3d[n];
             Start = new Quaterniond[n];
             FreePositions = new Vector3d[n + 1];
             TurnHistory = new Vector3d[n];
@@ -46,6 +46,7 @@ namespace Guidewire.Core
                 _rotary[j] = rod.RotaryInertia[j] * rod.Length[j];
                 total += mass;
             }
+            TotalMass = total;
             if (rule == MassRule.Uniform)
             {
                 Array.Fill(_diagonal, total / (n + 1));
@@ -67,11 +68,20 @@ namespace Guidewire.Core
         /// <summary>w^, the angular velocity that earlier stages have contributed, rad/s.</summary>
         public Vector3d[] SpinHistory { get; }
 
+        /// <summary>phi when it was last asked for, radians.</summary>
+        public Vector3d[] LastTurn { get; }
+
+        /// <summary>w when it was last asked for, rad/s.</summary>
+        public Vector3d[] LastSpin { get; }
+
+        /// <summary>kg.</summary>
+        public double TotalMass { get; }
+
         /// <summary>A new step begins: turns count from these orientations.</summary>
         public void BeginStep(Quaterniond[] orientations)
         {
             Array.Copy(orientations, Start, Start.Length);
-            Array.Clear(_lastTurn, 0, _lastTurn.Length);
+            Array.Clear(LastTurn, 0, LastTurn.Length);
         }
 
         /// <summary>phi of element j in this orientation: of all rotation vectors that lead there, the one nearest to
@@ -80,23 +90,25 @@ namespace Guidewire.Core
         public Vector3d Turn(in Quaterniond orientation, int j)
         {
             Vector3d turn = RotationVector.Log(Start[j].Conjugate * orientation);
-            Vector3d last = _lastTurn[j];
+            Vector3d last = LastTurn[j];
             if (last.LengthSquared > SurelyFirst && turn.LengthSquared > 0.0)
             {
                 Vector3d axis = Vector3d.Normalize(turn);
                 double turns = Math.Round(Vector3d.Dot(last - turn, axis) / (2.0 * Math.PI));
                 turn += (2.0 * Math.PI * turns) * axis;
             }
-            _lastTurn[j] = turn;
+            LastTurn[j] = turn;
             return turn;
         }
 
-        /// <summary>w of element j in this orientation, and phi.</summary>
+        /// <summary>w of element j in this orientation; phi is then the last that was asked for.</summary>
         [MethodImpl(Compiled.AtOnce)]
-        public Vector3d Spin(in Quaterniond orientation, int j, out Vector3d turn)
+        public Vector3d Spin(in Quaterniond orientation, int j)
         {
-            turn = Turn(orientation, j);
-            return (1.0 / StageLength) * RotationVector.TangentMap(turn, turn - TurnHistory[j]);
+            Vector3d turn = Turn(orientation, j);
+            Vector3d spin = (1.0 / StageLength) * RotationVector.TangentMap(turn, turn - TurnHistory[j]);
+            LastSpin[j] = spin;
+            return spin;
         }
 
         /// <summary>Linear momentum, kg m/s, of these velocities.</summary>
@@ -196,33 +208,38 @@ namespace Guidewire.Core
         {
             AddGradient(shape, gradient, from, to);
             double perSquare = 1.0 / (StageLength * StageLength);
-            int nodes = Math.Min(to, _diagonal.Length);
-            for (int i = from; i < nodes; i++)
+            int end = Math.Min(to, _coupling.Length);
+            for (int i = from; i < end; i++)
             {
                 ref RodBlock b = ref blocks[i];
-                double mass = perSquare * _diagonal[i];
-                b.A11 += mass;
-                b.A22 += mass;
-                b.A33 += mass;
-                if (i < _coupling.Length)
-                {
-                    double coupling = perSquare * _coupling[i];
-                    b.D11 += coupling;
-                    b.D22 += coupling;
-                    b.D33 += coupling;
-                    double rotary = perSquare * _rotary[i];
-                    b.C11 += rotary;
-                    b.C22 += rotary;
-                    b.C33 += 2.0 * rotary;
-                }
+                AddMass(ref b, perSquare * _diagonal[i]);
+                double coupling = perSquare * _coupling[i];
+                b.D11 += coupling;
+                b.D22 += coupling;
+                b.D33 += coupling;
+                double rotary = perSquare * _rotary[i];
+                b.C11 += rotary;
+                b.C22 += rotary;
+                b.C33 += 2.0 * rotary;
             }
+            if (end < to)
+            {
+                AddMass(ref blocks[end], perSquare * _diagonal[end]);
+            }
+        }
+
+        private static void AddMass(ref RodBlock b, double mass)
+        {
+            b.A11 += mass;
+            b.A22 += mass;
+            b.A33 += mass;
         }
 
         /// <summary>I (w - w^)/h + w x I w.</summary>
         [MethodImpl(Compiled.AtOnce)]
         private Vector3d Couple(in Quaterniond orientation, int j)
         {
-            Vector3d w = Spin(orientation, j, out _);
+            Vector3d w = Spin(orientation, j);
             Vector3d rate = (1.0 / StageLength) * (w - SpinHistory[j]);
             double i = _rotary[j];
             return new Vector3d(i * (rate.X + w.Y * w.Z), i * (rate.Y - w.X * w.Z), 2.0 * i * rate.Z);

@@ -29,9 +29,11 @@ namespace Guidewire.Core
         private readonly Vector3d[] _oldVelocities;
         private readonly Quaterniond[] _oldOrientations;
         private readonly Vector3d[] _oldSpins;
+        private readonly RodShape _before;            // the last stage's
+        private readonly Quaterniond[] _predicted;
         private readonly int _last;                   // index of the stage that ends a step
-        private readonly double _tolerance;
-        private readonly int _mostIterations;
+        private readonly double _mass;
+        private Vector3d _oldMomentum;
         private bool _hasHistory;
         private double _proximalTurn;
         private double _distalTurn;
@@ -40,7 +42,8 @@ namespace Guidewire.Core
         /// <param name="statics">The rod's energies and loads.</param>
         /// <param name="shape">Where it starts; the rod moves it from then on.</param>
         /// <param name="scheme">A Runge-Kutta scheme, or null for BDF2.</param>
-        /// <param name="tolerance">On each stage's error: radians, or displacement over L.</param>
+        /// <param name="tolerance">On each stage's error: radians, or displacement over L; and on what a step may leave
+        /// of the balance of forces, over the largest force in the rod.</param>
         /// <param name="mostIterations">Newton iterations of a stage.</param>
         public RodDynamics(MaterialRod rod, RodSupports supports, RodStatics statics, RodSchedule schedule,
             RodShape shape, RungeKuttaScheme? scheme, double tolerance, int mostIterations)
@@ -51,13 +54,19 @@ namespace Guidewire.Core
             _statics = statics;
             _schedule = schedule;
             _scheme = scheme;
-            _tolerance = tolerance;
-            _mostIterations = mostIterations;
             Shape = shape;
             Velocities = new Vector3d[n + 1];
             Spins = new Vector3d[n];
             _inertia = new InertiaEnergy(rod, supports.Mass);
-            _solver = new StageSolver(rod, supports, statics.DynamicTerms(_inertia));
+            _solver = new StageSolver(rod, supports, statics.Stretch, statics.DynamicTerms(_inertia))
+            {
+                Tolerance = tolerance,
+                Balance = tolerance / (2.0 * (scheme == null ? 1.0 : scheme.WeightSum)),
+                MostIterations = mostIterations,
+            };
+            _before = new RodShape(n);
+            _predicted = new Quaterniond[n];
+            _mass = _inertia.TotalMass;
             _startPositions = new Vector3d[n + 1];
             _velocityHistory = new Vector3d[n + 1];
             int stages = scheme == null ? 1 : scheme.StageCount;
@@ -96,12 +105,19 @@ namespace Guidewire.Core
         /// <summary>Counts of what was solved.</summary>
         public StageSolver Solver => _solver;
 
-        /// <summary>Whether <see cref="MeanReaction"/> and <see cref="MeanLoad"/> are kept; they cost a gradient a
-        /// stage. </summary>
+        /// <summary>Whether <see cref="MomentumRate"/> and the forces beside it are kept; they cost a gradient a
+        /// stage.</summary>
         public bool TracksReactions { get; set; }
 
-        /// <summary>Force that the supports exert on node 0, N, the mean over the last step by the scheme's weights:
-        /// the first element's stress, less the node's own share of weight and inertia.</summary>
+        /// <summary>Change of the momentum in the last step, N, as the scheme writes it: (P_new - P)/dt for one that acts
+        /// on stages, (3 P_new - 4 P + P_old)/(2 dt) for BDF2 after its first step. With the same scheme's weights it
+        /// equals the forces: <see cref="MeanReaction"/> + <see cref="MeanDistalReaction"/> + <see cref="MeanLoad"/>.
+        /// </summary>
+        public Vector3d MomentumRate { get; private set; }
+
+        /// <summary>Force that the supports exert on node 0, N, the mean over the last step by the scheme's weights
+        /// (BDF2: at the step's end): the first element's stress, less the node's own share of weight and
+        /// inertia.</summary>
         public Vector3d MeanReaction { get; private set; }
 
         /// <summary>Force that the supports exert on the last node, N, the mean over the last step.</summary>
@@ -135,8 +151,16 @@ namespace Guidewire.Core
             MeanReaction = Vector3d.Zero;
             MeanDistalReaction = Vector3d.Zero;
             MeanLoad = Vector3d.Zero;
+            Vector3d momentum = TracksReactions ? Momentum : Vector3d.Zero;
+            bool isTwoStep = _scheme == null && _hasHistory;
             string? failure = _scheme == null ? StepByBdf2(dt) : StepByRungeKutta(_scheme, dt);
             Time += dt;
+            if (TracksReactions)
+            {
+                Vector3d change = Momentum - momentum;
+                MomentumRate = (isTwoStep ? 1.5 * change - 0.5 * (momentum - _oldMomentum) : change) / dt;
+                _oldMomentum = momentum;
+            }
             return failure;
         }
 
@@ -174,8 +198,7 @@ namespace Guidewire.Core
                     _inertia.TurnHistory[j] = turn;
                     _inertia.SpinHistory[j] = spin;
                 }
-                int before = s > 0 ? s - 1 : _last;
-                string? failure = SolveStage(Time + scheme.Times[s] * dt, h, s, before, final[s]);
+                string? failure = SolveStage(Time + scheme.Times[s] * dt, h, s, scheme.Predictors[s], final[s]);
                 if (failure != null)
                 {
                     return failure;
@@ -217,7 +240,7 @@ namespace Guidewire.Core
                 _oldOrientations[j] = _inertia.Start[j];
                 _oldSpins[j] = Spins[j];
             }
-            string? failure = SolveStage(Time + dt, h, 0, 0, 1.0);
+            string? failure = SolveStage(Time + dt, h, 0, default, 1.0);
             if (failure == null)
             {
                 Accept(h);
@@ -226,9 +249,9 @@ namespace Guidewire.Core
             return failure;
         }
 
-        /// <summary>Places the supports, predicts with the acceleration of the stage before, solves, and takes the
-        /// stage's derivatives.</summary>
-        private string? SolveStage(double time, double h, int stage, int before, double weight)
+        /// <summary>Places the supports, predicts from stages before, solves, and takes the stage's
+        /// derivatives.</summary>
+        private string? SolveStage(double time, double h, int stage, in StagePredictor predictor, double weight)
         {
             _schedule.SetLoads(_rod, _supports.Mass, _statics.Loads, time);
             string? failure = TurnFrames(time, out bool inParts);
@@ -238,15 +261,22 @@ namespace Guidewire.Core
             }
             // A prediction knows nothing of turns just wound up, and one of more than a radian leads to another
             // winding.
-            if (Predict(h, before) > LargestPredictedTurn || inParts)
+            Vector3d start = PredictStart(time, h, predictor);
+            if (Predict(h, predictor) > LargestPredictedTurn || inParts)
             {
-                Array.Clear(_solver.Prediction, 0, _solver.Prediction.Length);
+                Array.Copy(Shape.Q, _predicted, _predicted.Length);
             }
-            PlaceEnds(time);
-            failure = _solver.Solve(Shape, _tolerance, _mostIterations);
-            if (failure != null)
+            Vector3d end = _schedule.DistalPositionAt(time);
+            _before.CopyFrom(Shape);
+            RodStep.Lay(_supports, Shape, _predicted, start, end);
+            double loads = _schedule.LoadAt(time, _mass);
+            if (!_solver.Iterate(Shape, h, loads))
             {
-                return failure;
+                failure = Search(h, loads, start, end);
+                if (failure != null)
+                {
+                    return failure;
+                }
             }
             double perStage = 1.0 / h;
             for (int i = 0; i < _startPositions.Length; i++)
@@ -257,8 +287,8 @@ namespace Guidewire.Core
             }
             for (int j = 0; j < Spins.Length; j++)
             {
-                Vector3d spin = _inertia.Spin(Shape.Q[j], j, out Vector3d turn);
-                _turnRate[stage][j] = perStage * (turn - _inertia.TurnHistory[j]);
+                Vector3d spin = _solver.GradientIsCurrent ? _inertia.LastSpin[j] : _inertia.Spin(Shape.Q[j], j);
+                _turnRate[stage][j] = perStage * (_inertia.LastTurn[j] - _inertia.TurnHistory[j]);
                 _spinRate[stage][j] = perStage * (spin - _inertia.SpinHistory[j]);
             }
             if (TracksReactions)
@@ -268,57 +298,46 @@ namespace Guidewire.Core
             return null;
         }
 
-        /// <summary>Sets the prediction; returns its largest turn.</summary>
-        private double Predict(double h, int before)
+        /// <summary>The slower search from the stage before, with what the iteration can still add to it.</summary>
+        private string? Search(double h, double loads, in Vector3d start, in Vector3d end)
+        {
+            Shape.CopyFrom(_before);
+            RodStep.Lay(_supports, Shape, Shape.Q, start, end);
+            string? failure = _solver.Search(Shape);
+            if (failure == null)
+            {
+                _before.CopyFrom(Shape);
+                if (!_solver.Iterate(Shape, h, loads))
+                {
+                    Shape.CopyFrom(_before);
+                }
+            }
+            return failure;
+        }
+
+        /// <summary>Orientations by the accelerations of stages before; strains are not predicted but kept, because
+        /// EA makes a force of every error that the turns leave in a chord. Returns the largest turn.</summary>
+        private double Predict(double h, in StagePredictor predictor)
         {
             double largest = 0.0;
-            RodVector[] direction = _solver.Prediction;
-            Array.Clear(direction, 0, direction.Length);
-            for (int i = 0; i < _startPositions.Length; i++)
+            Vector3d[] first = _spinRate[predictor.First];
+            Vector3d[] second = _spinRate[predictor.Second];
+            double share = Time > 0.0 ? predictor.Share : 0.0;
+            for (int j = 0; j < _predicted.Length; j++)
             {
-                Vector3d d = _inertia.FreePositions[i] + (h * h) * _acceleration[before][i] - Shape.X[i];
-                direction[i].X1 = d.X;
-                direction[i].X2 = d.Y;
-                direction[i].X3 = d.Z;
-            }
-            for (int j = 0; j < Spins.Length; j++)
-            {
-                Vector3d turn = _inertia.Turn(Shape.Q[j], j);
-                Vector3d d = RotationVector.TangentMap(turn, _inertia.TurnHistory[j]
-                    + h * (_inertia.SpinHistory[j] + h * _spinRate[before][j]) - turn);
-                direction[j].T1 = d.X;
-                direction[j].T2 = d.Y;
-                direction[j].T3 = d.Z;
-                largest = Math.Max(largest, d.LengthSquared);
+                Vector3d rate = first[j] + share * (second[j] - first[j]);
+                Vector3d turn = _inertia.TurnHistory[j] + h * (_inertia.SpinHistory[j] + h * rate);
+                _predicted[j] = _inertia.Start[j] * RotationVector.Exp(turn);
+                largest = Math.Max(largest, (turn - _inertia.LastTurn[j]).LengthSquared);
             }
             return Math.Sqrt(largest);
         }
 
-        private void PlaceEnds(double time)
+        private Vector3d PredictStart(double time, double h, in StagePredictor predictor)
         {
-            RodVector[] direction = _solver.Prediction;
-            if (_supports.Proximal != ProximalEnd.Free)
-            {
-                Vector3d d = _schedule.ProximalPositionAt(time) - Shape.X[0];
-                direction[0].X1 = d.X;
-                direction[0].X2 = d.Y;
-                direction[0].X3 = d.Z;
-            }
-            if (_supports.Distal == DistalEnd.Free)
-            {
-                return;
-            }
-            int last = _startPositions.Length - 1;
-            Vector3d e = _schedule.DistalPositionAt(time) - Shape.X[last];
-            if (_supports.Distal == DistalEnd.Sliding)
-            {
-                Vector3d axis = _supports.SlidingAxis;
-                Vector3d free = new Vector3d(direction[last].X1, direction[last].X2, direction[last].X3);
-                e += Vector3d.Dot(free - e, axis) * axis;
-            }
-            direction[last].X1 = e.X;
-            direction[last].X2 = e.Y;
-            direction[last].X3 = e.Z;
+            return _supports.Proximal == ProximalEnd.Free
+                ? _inertia.FreePositions[0] + (h * h) * _acceleration[predictor.First][0]
+                : _schedule.ProximalPositionAt(time);
         }
 
         /// <summary>Turns the clamps' frames; a large turn in parts, each solved on its own, so that the rod winds up
@@ -340,7 +359,7 @@ namespace Guidewire.Core
                 _schedule.TurnFrames(Shape, _proximalTurn + share * proximal, _distalTurn + share * distal);
                 if (k < parts)
                 {
-                    string? failure = _solver.Search(Shape, _tolerance, _mostIterations);
+                    string? failure = _solver.Search(Shape);
                     if (failure != null)
                     {
                         return failure;

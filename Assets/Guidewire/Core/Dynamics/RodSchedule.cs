@@ -59,6 +59,13 @@ namespace Guidewire.Core
             loads.Force[0] += ProximalForce;
         }
 
+        /// <summary>Sum of the loads' magnitudes at this time, N, on a rod of this mass, kg.</summary>
+        public double LoadAt(double time, double mass)
+        {
+            return mass * Gravity.Length + ProximalForce.Length + Math.Abs(AxialForce)
+                + (time <= TipForceReleaseTime ? TipForce.Length : 0.0);
+        }
+
         /// <summary>Node 0 at this time, m.</summary>
         public Vector3d ProximalPositionAt(double time)
         {

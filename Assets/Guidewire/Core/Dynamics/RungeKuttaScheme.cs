@@ -18,6 +18,15 @@ namespace Guidewire.Core
                     Times[i] += a;
                 }
             }
+            foreach (double b in rows[rows.Length - 1])
+            {
+                WeightSum += Math.Abs(b);
+            }
+            Predictors = new StagePredictor[rows.Length];
+            for (int i = 0; i < rows.Length; i++)
+            {
+                Predictors[i] = PredictorOf(i);
+            }
         }
 
         /// <summary>Lower triangle a_ij of the coefficients; row i has i+1 entries.</summary>
@@ -25,6 +34,12 @@ namespace Guidewire.Core
 
         /// <summary>c_i, the stages' times in units of the time step.</summary>
         public double[] Times { get; }
+
+        /// <summary>Sum of the magnitudes of the weights b_i: by what the errors of the stages enter a step.</summary>
+        public double WeightSum { get; }
+
+        /// <summary>From which stages each is predicted.</summary>
+        public StagePredictor[] Predictors { get; }
 
         /// <summary>gamma, the same on the whole diagonal.</summary>
         public double Diagonal { get; }
@@ -69,6 +84,34 @@ namespace Guidewire.Core
                 new[] { 371.0 / 1360.0, -137.0 / 2720.0, 15.0 / 544.0, 0.25 },
                 new[] { 25.0 / 24.0, -49.0 / 48.0, 125.0 / 16.0, -85.0 / 12.0, 0.25 },
             });
+        }
+
+        /// <summary>The line through two of the stages at hand, those before this one and, one step earlier, the
+        /// others, that is least wrong at this stage's time: of the pairs, the one with the smallest product of the
+        /// two distances, which goes with the second derivative, and the weights' magnitudes, which go with
+        /// noise.</summary>
+        private StagePredictor PredictorOf(int stage)
+        {
+            double time = Times[stage];
+            int before = stage > 0 ? stage - 1 : StageCount - 1;
+            var best = new StagePredictor { First = before, Second = before };
+            double least = double.PositiveInfinity;
+            for (int i = 0; i < StageCount; i++)
+            {
+                double first = time - Times[i] + (i < stage ? 0.0 : 1.0);
+                for (int k = 0; k < StageCount; k++)
+                {
+                    double second = time - Times[k] + (k < stage ? 0.0 : 1.0);
+                    double share = first / (first - second);
+                    double wrong = Math.Abs(first * second) * (Math.Abs(share) + Math.Abs(1.0 - share));
+                    if (Math.Abs(first) < Math.Abs(second) && wrong < least)
+                    {
+                        least = wrong;
+                        best = new StagePredictor { First = i, Second = k, Share = share };
+                    }
+                }
+            }
+            return best;
         }
     }
 }

@@ -4,45 +4,79 @@ namespace Guidewire.Core
 {
     /// <summary>Solves one implicit stage from a prediction: Newton's method with a factorisation that is kept as long
     /// as it contracts, and where it does not, the slower search that minimises the stage's energy.</summary>
-    /// <remarks>After a step d1 the next correction d2 is computed with the same factorisation. Its length over that
-    /// of d1 is the contraction c; the error left is about c/(1-c) |d2| and has to be below the tolerance. From the
-    /// same two comes Newton's own constant, |d2|/|d1|^2: a stage for whose first step it promises an error below the
-    /// tolerance takes no second one, but for every 16th, which looks whether the promise still holds.</remarks>
+    /// <remarks>A stage is solved when no piece of the rod, from its start to any node, is out of balance by more than
+    /// a force S, nor the couples on its elements by S L in all. S is the share that is asked for of the largest force
+    /// in the rod, and at most tolerance EI/L^2, because a force S at the tip of a cantilever moves it by S L^3/(3 EI)
+    /// and turns it by S L^2/(2 EI): the balance then bounds the error of the shape too. A bound on the last step
+    /// alone does not do: stretching costs EA, and a step of 1e-6 L along the rod is 1e-6 EA of force, more than the
+    /// weight of the wire. What rounding of the positions leaves in the balance, one unit in the last place times
+    /// EA/l and M/h^2, is added to S.
+    ///
+    /// After a full step d1 the force left is of second order: its ratio to |d1|^2, as last measured, is trusted for
+    /// steps so short that it promises S with a margin, but for every 16th stage. A correction d2 with the
+    /// factorisation that is kept takes the stiff direction of each element where it was a turn d1 ago, so it leaves
+    /// EA |d1| |d2|: where that is below S nothing more is looked at.</remarks>
     internal sealed class StageSolver
     {
         private const double WorstContraction = 0.3;
         private const int MostKept = 6;
         private const int MostFactorisations = 6;
-        private const int MostOnTrust = 16;  // stages
-        private const double Caution = 10.0; // on an error that is not measured but extrapolated
+        private const int MostOnTrust = 16;   // stages
+        private const double Caution = 10.0;  // on a force that is not measured but extrapolated
+        private const double Safety = 2.0;    // on EA |d1| |d2|
+        private const double LastPlace = 1.0 / (1L << 52);
 
         private readonly MaterialRod _rod;
         private readonly RodSupports _supports;
+        private readonly StretchEnergy _stretch;
         private readonly EnergyTerm[] _terms;
         private readonly BlockTridiagonal _system;
         private readonly EquilibriumSolver _search;
         private readonly RodVector[] _gradient;
         private readonly RodVector[] _direction;
-        private readonly RodShape _trial;
-        private readonly RodShape _start;
         private readonly double _length;
-        private double _curvature = double.PositiveInfinity;  // |d2|/|d1|^2 when last measured
+        private readonly double _mass;
+        private readonly double _bendForce;        // EI/L^2 of the softest element, N
+        private readonly double _stiffest;         // EA, N
+        private readonly double _axialSpring;      // EA/l, N/m
+        private double _largestForce;              // in the rod when last measured, N
+        private double _curvature = double.PositiveInfinity;  // force left over |d1|^2 when last measured, N
         private int _stagesOnTrust;
 
-        /// <summary>A solver for this rod under these terms, inertia among them.</summary>
-        public StageSolver(MaterialRod rod, RodSupports supports, EnergyTerm[] terms)
+        /// <summary>A solver for this rod under these terms, stretch and inertia among them.</summary>
+        public StageSolver(MaterialRod rod, RodSupports supports, StretchEnergy stretch, EnergyTerm[] terms)
         {
             _rod = rod;
             _supports = supports;
+            _stretch = stretch;
             _terms = terms;
             _system = new BlockTridiagonal(rod, supports);
             _search = new EquilibriumSolver(rod, supports, terms);
             _gradient = new RodVector[_system.VectorCount];
             _direction = new RodVector[_system.VectorCount];
-            _trial = new RodShape(rod.ElementCount);
-            _start = new RodShape(rod.ElementCount);
             _length = rod.TotalLength;
+            _bendForce = double.PositiveInfinity;
+            for (int j = 0; j < rod.ElementCount; j++)
+            {
+                _mass += rod.LineDensity[j] * rod.Length[j];
+                _bendForce = Math.Min(_bendForce, rod.BendStiffness[j] / (_length * _length));
+                _stiffest = Math.Max(_stiffest, rod.StretchStiffness[j]);
+                _axialSpring = Math.Max(_axialSpring, rod.StretchStiffness[j] / rod.Length[j]);
+            }
         }
+
+        /// <summary>Whether the last gradient, with all that its terms remember of it, was that of the shape
+        /// returned.</summary>
+        public bool GradientIsCurrent { get; private set; }
+
+        /// <summary>Error that a stage's shape may have: radians, or displacement over L.</summary>
+        public double Tolerance { get; set; } = 1e-6;
+
+        /// <summary>Share of the largest force that a stage may leave unbalanced.</summary>
+        public double Balance { get; set; } = 1e-7;
+
+        /// <summary>Newton iterations of the slower search.</summary>
+        public int MostIterations { get; set; } = 50;
 
         /// <summary>Factorisations so far.</summary>
         public long Factorisations { get; private set; }
@@ -53,34 +87,79 @@ namespace Guidewire.Core
         /// <summary>Stages that needed the slower search so far.</summary>
         public long Searches { get; private set; }
 
-        /// <summary>Room for a prediction, as a direction from the shape at hand.</summary>
-        public RodVector[] Prediction => _direction;
-
-        /// <summary>Solves the stage; the shape's supports are in place, <see cref="Prediction"/> leads to the
-        /// guess.</summary>
-        /// <param name="shape">In: the last shape. Out: the stage's.</param>
-        /// <param name="tolerance">On the error left: radians, or displacement over L.</param>
-        /// <param name="mostIterations">Of the slower search.</param>
-        /// <returns>Null, or why there is no solution.</returns>
-        public string? Solve(RodShape shape, double tolerance, int mostIterations)
+        /// <summary>Solves the stage from a prediction in which the supports are in place.</summary>
+        /// <param name="shape">In: the prediction. Out: the stage's.</param>
+        /// <param name="stageLength">h, s.</param>
+        /// <param name="loads">Sum of the loads' magnitudes, N.</param>
+        /// <returns>False where the iteration does not converge; the shape is then not to be used.</returns>
+        public bool Iterate(RodShape shape, double stageLength, double loads)
         {
-            _start.CopyFrom(shape);
-            RodStep.Apply(_rod, _supports, shape, _direction, 1.0, _trial);
-            shape.CopyFrom(_trial);
-            if (Iterate(shape, tolerance))
+            double rounding = LastPlace * (shape.X[0].Length + _length)
+                * (_axialSpring + _mass / (stageLength * stageLength));
+            double unbalanced = double.PositiveInfinity;
+            GradientIsCurrent = false;
+            for (int f = 0; f < MostFactorisations; f++)
             {
-                return null;
+                Factorisations++;
+                if (_system.Factorise(_terms, shape, _gradient, _direction, 0.0) != 0)
+                {
+                    return false;
+                }
+                _system.Back(_direction);
+                double first = Move(shape);
+                double allowed = Allowed(rounding, loads);
+                _stagesOnTrust++;
+                if (_stagesOnTrust < MostOnTrust && Caution * _curvature * first * first <= allowed)
+                {
+                    return true;
+                }
+                double size = first;
+                for (int k = 0; k < MostKept; k++)
+                {
+                    double last = unbalanced;
+                    unbalanced = Unbalanced(shape);
+                    allowed = Allowed(rounding, loads);
+                    if (k == 0)
+                    {
+                        _curvature = unbalanced / (first * first);
+                        _stagesOnTrust = 0;
+                    }
+                    // A full step that no longer lowers the force left has come to what rounding leaves.
+                    bool atRounding = k == 0 && unbalanced >= 0.5 * last && first <= Tolerance;
+                    if (unbalanced <= allowed || atRounding)
+                    {
+                        GradientIsCurrent = true;
+                        return true;
+                    }
+                    KeptSolutions++;
+                    _system.Solve(_direction);
+                    double next = Move(shape);
+                    if (Safety * _stiffest * first * next <= allowed)
+                    {
+                        return true;
+                    }
+                    if (!(next < size))
+                    {
+                        return false;
+                    }
+                    if (next > WorstContraction * size)
+                    {
+                        break;
+                    }
+                    size = next;
+                }
             }
-            shape.CopyFrom(_start);
-            return Search(shape, tolerance, mostIterations);
+            return false;
         }
 
-        /// <summary>The slower search alone, from the shape as it is.</summary>
-        public string? Search(RodShape shape, double tolerance, int mostIterations)
+        /// <summary>The slower search, from the shape as it is; it looks at the error of the shape alone.</summary>
+        /// <returns>Null, or why there is no solution.</returns>
+        public string? Search(RodShape shape)
         {
             Searches++;
+            GradientIsCurrent = false;
             _curvature = double.PositiveInfinity;
-            EquilibriumResult result = _search.Solve(shape, tolerance, mostIterations, false);
+            EquilibriumResult result = _search.Solve(shape, Tolerance, MostIterations, false);
             return result.Converged ? null : result.Reason;
         }
 
@@ -105,58 +184,26 @@ namespace Guidewire.Core
             return _gradient;
         }
 
-        private bool Iterate(RodShape shape, double tolerance)
+        /// <summary>S, N.</summary>
+        private double Allowed(double rounding, double loads)
         {
-            for (int f = 0; f < MostFactorisations; f++)
-            {
-                Factorisations++;
-                if (_system.Factorise(_terms, shape, _gradient, _direction, 0.0) != 0)
-                {
-                    return false;
-                }
-                _system.Back(_direction);
-                double first = Move(shape);
-                _stagesOnTrust++;
-                if (_stagesOnTrust < MostOnTrust && Caution * _curvature * first * first <= tolerance)
-                {
-                    return true;
-                }
-                double size = first;
-                for (int k = 0; k < MostKept; k++)
-                {
-                    KeptSolutions++;
-                    _system.Gradient(_terms, shape, _gradient, _direction);
-                    _system.Solve(_direction);
-                    double next = Move(shape);
-                    double contraction = next / size;
-                    if (k == 0)
-                    {
-                        _curvature = next / (first * first);
-                        _stagesOnTrust = 0;
-                    }
-                    size = next;
-                    if (size * contraction <= tolerance * (1.0 - contraction))
-                    {
-                        return true;
-                    }
-                    if (!(contraction < 1.0))
-                    {
-                        return false;
-                    }
-                    if (contraction > WorstContraction)
-                    {
-                        break;
-                    }
-                }
-            }
-            return false;
+            return Math.Min(Balance * Math.Max(_largestForce, loads), Tolerance * _bendForce) + rounding;
+        }
+
+        /// <summary>The largest force on a piece of the rod from its start to any node, or the sum of the couples over
+        /// L, N; the direction is set to minus the gradient.</summary>
+        private double Unbalanced(RodShape shape)
+        {
+            _system.Gradient(_terms, shape, _gradient, _direction);
+            _largestForce = _stretch.LargestForce;
+            double force = RodVectors.LargestPartialForce(_direction, out double couples);
+            return Math.Max(force, couples / _length);
         }
 
         private double Move(RodShape shape)
         {
             double size = RodStep.Size(_direction, _rod.ElementCount, _length, out _);
-            RodStep.Apply(_rod, _supports, shape, _direction, 1.0, _trial);
-            shape.CopyFrom(_trial);
+            RodStep.Apply(_rod, _supports, shape, _direction, 1.0, shape);
             return size;
         }
     }

@@ -114,6 +114,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>q v q*: the body vector <paramref name="v"/> in the world; q must be of unit length.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Vector3d Rotate(in Quaterniond q, in Vector3d v)
         {
             Vector3d u = q.Imaginary;

@@ -1,0 +1,135 @@
+using System;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>Forces against the change of momentum, in every step, at the default tolerance. The momentum is that of
+    /// the velocities and the mass matrix; the reactions are the stress of the first and the last element.</summary>
+    public sealed class ForceBalanceTests
+    {
+        private const double Balance = 1e-6;  // of the largest reaction or load of the run
+        private const double Tolerance = 1e-6;
+        private static readonly Vector3d Gravity = new Vector3d(1.0, -9.81, 2.0);
+
+        private static readonly Integrator[] Schemes =
+        {
+            Integrator.ImplicitEuler, Integrator.Bdf2, Integrator.Sdirk2, Integrator.Sdirk3, Integrator.Sdirk4,
+        };
+
+        [Test]
+        public void LetGo([ValueSource(nameof(Schemes))] Integrator scheme, [Values(10, 30)] int n,
+            [Values(0.5e-3, 2e-3)] double step)
+        {
+            MaterialRod rod = Rods.Wire(n);
+            RodShape shape = Rods.AtRest(rod, new RodSupports(), Vector3d.Zero,
+                new Vector3d(0.0, 0.1 * Rods.BendForce, 0.0), Vector3d.Zero);
+            AssertBalanced(rod, new RodSupports(), new RodSchedule(), shape, scheme, step, 100);
+        }
+
+        [Test]
+        public void FallingFromTheStraight([ValueSource(nameof(Schemes))] Integrator scheme, [Values(12, 60)] int n,
+            [Values(1e-3, 5e-3)] double step)
+        {
+            MaterialRod rod = Rods.Wire(n);
+            AssertBalanced(rod, new RodSupports(), new RodSchedule { Gravity = Gravity }, Rods.Straight(rod), scheme,
+                step, 100);
+        }
+
+        [Test]
+        public void ClampedAtBothEnds([ValueSource(nameof(Schemes))] Integrator scheme,
+            [Values(0.5e-3, 1e-3, 5e-3)] double step)
+        {
+            const int N = 24;
+            MaterialRod rod = Rods.Wire(N);
+            var supports = new RodSupports { Distal = DistalEnd.Clamped };
+            RodShape shape = Rods.Straight(rod);
+            var schedule = new RodSchedule { Gravity = Gravity, DistalPosition = shape.X[N] };
+            AssertBalanced(rod, supports, schedule, shape, scheme, step, 100);
+        }
+
+        [Test]
+        public void PushedTogetherUntilItBuckles([ValueSource(nameof(Schemes))] Integrator scheme,
+            [Values(1e-3, 5e-3)] double step)
+        {
+            // Clamped ends that come 2 % closer, under weight.
+            const int N = 24;
+            MaterialRod rod = Rods.Wire(N);
+            var supports = new RodSupports { Distal = DistalEnd.Clamped };
+            RodShape shape = Rods.Straight(rod);
+            var schedule = new RodSchedule
+            {
+                Gravity = Gravity,
+                DistalPosition = shape.X[N],
+                DistalDisplacement = -0.02 * Rods.Length,
+                DistalRampTime = 0.05,
+            };
+            AssertBalanced(rod, supports, schedule, shape, scheme, step, 100);
+        }
+
+        [Test]
+        public void UnderWeightAndATipForce([ValueSource(nameof(Schemes))] Integrator scheme,
+            [Values(1e-3, 5e-3)] double step)
+        {
+            // Ten times what bends it by its own length, until it is let go.
+            const int N = 20;
+            MaterialRod rod = Rods.Wire(N);
+            var schedule = new RodSchedule
+            {
+                Gravity = Gravity,
+                TipForce = new Vector3d(0.0, 10.0 * Rods.BendForce, -3.0 * Rods.BendForce),
+                TipForceReleaseTime = 0.05,
+            };
+            AssertBalanced(rod, new RodSupports(), schedule, Rods.Straight(rod), scheme, step, 100);
+        }
+
+        [Test]
+        public void FlyingFree([ValueSource(nameof(Schemes))] Integrator scheme)
+        {
+            // Bent and held by nothing: the weight alone changes the momentum, while larger forces within the rod must
+            // cancel each other.
+            MaterialRod rod = Rods.Wire(12);
+            RodShape shape = Rods.Random(rod, 0.05, 0.0, 3);
+            var supports = new RodSupports { Proximal = ProximalEnd.Free };
+            AssertBalanced(rod, supports, new RodSchedule { Gravity = Gravity }, shape, scheme, 1e-3, 100);
+        }
+
+        private static void AssertBalanced(MaterialRod rod, RodSupports supports, RodSchedule schedule, RodShape shape,
+            Integrator scheme, double step, int steps)
+        {
+            RodDynamics motion = MotionTests.Start(rod, supports, schedule, shape, scheme, Tolerance);
+            motion.TracksReactions = true;
+            double worst = 0.0;
+            double peak = 0.0;
+            int worstStep = 0;
+            for (int i = 0; i < steps; i++)
+            {
+                Assert.That(motion.Step(step), Is.Null);
+                Vector3d reactions = motion.MeanReaction + motion.MeanDistalReaction;
+                double left = (motion.MomentumRate - reactions - motion.MeanLoad).Length;
+                if (left > worst)
+                {
+                    worst = left;
+                    worstStep = i;
+                }
+                peak = Math.Max(peak, Math.Max(motion.MeanReaction.Length, motion.MeanLoad.Length));
+                if (supports.Proximal == ProximalEnd.Free)
+                {
+                    peak = Math.Max(peak, LargestForce(rod, shape));
+                }
+            }
+            TestContext.WriteLine("{0:0.0e0} of the peak, {1:0.000} N, in step {2}", worst / peak, peak, worstStep);
+            Assert.That(worst, Is.LessThan(Balance * peak));
+        }
+
+        private static double LargestForce(MaterialRod rod, RodShape shape)
+        {
+            var stretch = new StretchEnergy(rod);
+            double largest = 0.0;
+            for (int j = 0; j < rod.ElementCount; j++)
+            {
+                largest = Math.Max(largest, stretch.Stress(shape, j, out _).Length);
+            }
+            return largest;
+        }
+    }
+}
