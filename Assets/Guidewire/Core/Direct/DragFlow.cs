@@ -41,12 +41,31 @@ namespace Guidewire.Core
             _bendForce = rod.BendForce;
         }
 
-        /// <summary>Moves <paramref name="shape"/> to the rest shape that it creeps to.</summary>
+        /// <summary>Moves <paramref name="shape"/> to the rest shape that it creeps to, and judges it.</summary>
         /// <param name="tolerance">On the last Newton step, radians or displacement over L.</param>
         /// <param name="mostIterations">Steps, after which the search gives up.</param>
         public EquilibriumResult Solve(RodShape shape, double tolerance, int mostIterations)
         {
+            EquilibriumResult result = Settle(shape, tolerance, mostIterations);
+            if (!result.Converged)
+            {
+                result.Reason += Flutter;
+                return result;
+            }
+            result.SmallestEigenvalue = new DragSpectrum(_tangent, _rod).SmallestRealPart(shape);
+            result.Converged = result.SmallestEigenvalue > 0.0;
+            result.Reason = result.Converged ? string.Empty
+                : "the equilibrium under tipMoment is not stable: a disturbance grows even in a wire with drag" + Flutter;
+            return result;
+        }
+
+        /// <summary>Moves <paramref name="shape"/> to where it comes to rest, stable or not.</summary>
+        /// <param name="tolerance">On the last Newton step, radians or displacement over L.</param>
+        /// <param name="mostIterations">Steps, after which the search gives up.</param>
+        public EquilibriumResult Settle(RodShape shape, double tolerance, int mostIterations)
+        {
             EquilibriumResult result = default;
+            result.Reason = string.Empty;
             double drag = FirstDrag * _bendForce;
             while (result.Iterations < mostIterations)
             {
@@ -64,12 +83,13 @@ namespace Guidewire.Core
                 shape.CopyFrom(_trial);
                 if (size <= tolerance)
                 {
-                    return Judge(shape, result);
+                    result.Converged = true;
+                    return result;
                 }
                 drag *= size > LongStep ? 1.5 : size > ShortStep ? 1.0 : size > NearRest ? 0.7 : 0.2;
             }
             result.Reason = "a wire with drag does not come to rest under tipMoment in "
-                + mostIterations.ToString(System.Globalization.CultureInfo.InvariantCulture) + " steps" + Flutter;
+                + mostIterations.ToString(System.Globalization.CultureInfo.InvariantCulture) + " steps";
             return result;
         }
 
@@ -82,16 +102,6 @@ namespace Guidewire.Core
                 drag = Math.Max(2.0 * drag, 0.1 * _bendForce);
                 result.Factorisations++;
             }
-        }
-
-        private EquilibriumResult Judge(RodShape shape, EquilibriumResult result)
-        {
-            result.SmallestEigenvalue = new DragSpectrum(_tangent, _rod).SmallestRealPart(shape);
-            result.Converged = result.SmallestEigenvalue > 0.0;
-            result.Reason = result.Converged ? string.Empty
-                : "the equilibrium under tipMoment is not stable: a disturbance grows even in a wire with drag"
-                    + Flutter;
-            return result;
         }
     }
 }

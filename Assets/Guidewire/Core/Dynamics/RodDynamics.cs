@@ -58,7 +58,7 @@ namespace Guidewire.Core
             Velocities = new Vector3d[n + 1];
             Spins = new Vector3d[n];
             _inertia = new InertiaEnergy(rod, supports.Mass);
-            _solver = new StageSolver(rod, supports, statics.Stretch, statics.DynamicTerms(_inertia))
+            _solver = new StageSolver(rod, supports, statics, _inertia)
             {
                 Tolerance = tolerance,
                 Balance = tolerance / (2.0 * (scheme == null ? 1.0 : scheme.WeightSum)),

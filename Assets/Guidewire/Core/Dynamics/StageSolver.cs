@@ -32,6 +32,7 @@ namespace Guidewire.Core
         private readonly EnergyTerm[] _terms;
         private readonly BlockTridiagonal _system;
         private readonly EquilibriumSolver _search;
+        private readonly DragFlow? _creep;  // in place of the search where a couple at the tip has no potential
         private readonly RodVector[] _gradient;
         private readonly RodVector[] _direction;
         private readonly double _length;
@@ -43,15 +44,17 @@ namespace Guidewire.Core
         private double _curvature = double.PositiveInfinity;  // force left over |d1|^2 when last measured, N
         private int _stagesOnTrust;
 
-        /// <summary>A solver for this rod under these terms, stretch and inertia among them.</summary>
-        public StageSolver(MaterialRod rod, RodSupports supports, StretchEnergy stretch, EnergyTerm[] terms)
+        /// <summary>A solver for this rod under the terms of its statics and its inertia.</summary>
+        public StageSolver(MaterialRod rod, RodSupports supports, RodStatics statics, EnergyTerm inertia)
         {
             _rod = rod;
             _supports = supports;
-            _stretch = stretch;
-            _terms = terms;
+            _stretch = statics.Stretch;
+            _terms = statics.DynamicTerms(inertia);
             _system = new BlockTridiagonal(rod, supports);
-            _search = new EquilibriumSolver(rod, supports, terms);
+            _search = new EquilibriumSolver(rod, supports, _terms);
+            _creep = statics.Moment.Moment == Vector3d.Zero ? null
+                : new DragFlow(rod, supports, _terms, statics.Moment);
             _gradient = new RodVector[_system.VectorCount];
             _direction = new RodVector[_system.VectorCount];
             _length = rod.TotalLength;
@@ -159,7 +162,8 @@ namespace Guidewire.Core
             Searches++;
             GradientIsCurrent = false;
             _curvature = double.PositiveInfinity;
-            EquilibriumResult result = _search.Solve(shape, Tolerance, MostIterations, false);
+            EquilibriumResult result = _creep == null ? _search.Solve(shape, Tolerance, MostIterations, false)
+                : _creep.Settle(shape, Tolerance, MostIterations);
             return result.Converged ? null : result.Reason;
         }
 

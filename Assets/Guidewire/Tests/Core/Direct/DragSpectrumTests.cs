@@ -81,6 +81,50 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void CoupleInSpacePutOnAtOnce_DampedSteps_EndInTheRestShape()
+        {
+            // Another way to the same shape: 5 s of overdamped motion, each stage solved with its inertia. Damped less,
+            // the wire would flutter: eigenvalues a + ib grow in a motion unless the damping exceeds b/sqrt(a).
+            SimulationParameters parameters = CoupleInSpace(3.0);
+            parameters.Damping = 0.5;
+            parameters.MaxSimulationSteps = 1000;
+            RodState moved = Wires.Run(parameters).State;
+            parameters.MaxSimulationSteps = 0;
+            parameters.Material.InitialState = InitialState.Equilibrium;
+            Simulation rest = Simulation.Create(parameters);
+            Assert.That(rest.Outcome, Is.EqualTo(Outcome.Converged), rest.Reason);
+            Assert.That(Wires.Distance(moved, rest.State), Is.LessThan(1e-5 * 300.0));
+        }
+
+        [Test]
+        public void CoupleBeyondFlutter_MovesOn()
+        {
+            // 4.5 EI/L: no rest shape, but a motion, in steps that turn the tip by radians at first.
+            Simulation run = Wires.Run(CoupleInSpace(4.5));
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+        }
+
+        private static SimulationParameters CoupleInSpace(double couple)
+        {
+            var parameters = new SimulationParameters
+            {
+                Solver = Solver.Direct,
+                Integrator = Integrator.ImplicitEuler,
+                GuidewireLength = 300.0,
+                GuidewireOffset = 0.0,
+                Displacement = 0.0,
+                NumberRodElements = 30,
+                TimeStep = 5e-3,
+                MaxSimulationSteps = 400,
+                DeltaThreshold = 0.0,
+            };
+            parameters.Material.ProximalEnd = ProximalEnd.Clamped;
+            Vector3d axis = Vector3d.Normalize(new Vector3d(1.0, 0.0, 0.5));
+            parameters.Material.TipMoment = couple * Rods.BendStiffness / Rods.Length * axis;
+            return parameters;
+        }
+
+        [Test]
         public void PlaneProblem_SaysWhereItIsStableInItsPlaneOnly()
         {
             MaterialRod rod = Rods.Wire(40);
