@@ -109,10 +109,9 @@ namespace Guidewire.Core
         /// stage.</summary>
         public bool TracksReactions { get; set; }
 
-        /// <summary>Change of the momentum in the last step, N, as the scheme writes it: (P_new - P)/dt for one that acts
-        /// on stages, (3 P_new - 4 P + P_old)/(2 dt) for BDF2 after its first step. With the same scheme's weights it
-        /// equals the forces: <see cref="MeanReaction"/> + <see cref="MeanDistalReaction"/> + <see cref="MeanLoad"/>.
-        /// </summary>
+        /// <summary>Change of the momentum in the last step, N, as the scheme writes it: (P_new - P)/dt with stages,
+        /// (3 P_new - 4 P + P_old)/(2 dt) for BDF2 after its first step. With the same scheme's weights it equals the
+        /// forces: <see cref="MeanReaction"/> + <see cref="MeanDistalReaction"/> + <see cref="MeanLoad"/>.</summary>
         public Vector3d MomentumRate { get; private set; }
 
         /// <summary>Force that the supports exert on node 0, N, the mean over the last step by the scheme's weights
