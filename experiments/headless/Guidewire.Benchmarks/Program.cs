@@ -9,6 +9,7 @@ using BenchmarkDotNet.Loggers;
 using BenchmarkDotNet.Reports;
 using BenchmarkDotNet.Running;
 using BenchmarkDotNet.Toolchains.InProcess.Emit;
+using Guidewire.Core;
 
 namespace Guidewire.Benchmarks
 {
@@ -19,7 +20,11 @@ namespace Guidewire.Benchmarks
         private static readonly Type[] Families =
         {
             typeof(SweepBenchmark), typeof(RunBenchmark), typeof(LogBenchmark), typeof(DetectionBenchmark),
+            typeof(NewtonBenchmark), typeof(CantileverBenchmark),
         };
+
+        private const double LimitRatio = 220.0;  // element-iterations a simulated millisecond
+        private const double LimitSweep = 60.0;   // ns
 
         private static int Main(string[] arguments)
         {
@@ -40,12 +45,52 @@ namespace Guidewire.Benchmarks
                 }
             }
             Print(rows);
+            if (rows.All(row => row.Measured))
+            {
+                PrintNewton(rows);
+                PrintCantilever(rows);
+            }
             return rows.All(row => row.Measured) ? 0 : 1;
+        }
+
+        private static Row Find(List<Row> rows, string name)
+        {
+            return rows.First(row => row.Name.StartsWith(name, StringComparison.Ordinal));
+        }
+
+        private static void PrintNewton(List<Row> rows)
+        {
+            double middle = Find(rows, "Newton [Elements=1000]").PerUnit;
+            double large = Find(rows, "Newton [Elements=100000]").PerUnit;
+            Console.WriteLine(string.Format(CultureInfo.InvariantCulture,
+                "Newton iteration: {0:0} ns an element at n = 1000, {1:0} ns at n = 100,000 ({2:+0.0;-0.0} %)",
+                middle, large, 100.0 * (large / middle - 1.0)));
+        }
+
+        /// <summary>The error is that of the motion which was timed, against a fine one; how far that is from one half
+        /// as fine bounds its own.</summary>
+        private static void PrintCantilever(List<Row> rows)
+        {
+            double[] timed = FreeCantilever.Tip(FreeCantilever.Elements, FreeCantilever.Scheme,
+                FreeCantilever.TimeStep);
+            double[] fine = FreeCantilever.Tip(40, Integrator.Sdirk4, 1e-4);
+            double[] half = FreeCantilever.Tip(28, Integrator.Sdirk4, 2e-4);
+            double perMillisecond = Find(rows, "LetGo").PerUnit;
+            double sweep = Find(rows, "SweepBeside").PerUnit;
+            Console.WriteLine(string.Format(CultureInfo.InvariantCulture,
+                "free cantilever (n = {0}, {1}, {2:0.###} ms): {3:0.00} % error (reference good to {4:0.000} %)",
+                FreeCantilever.Elements, FreeCantilever.Scheme.ToString().ToLowerInvariant(),
+                1e3 * FreeCantilever.TimeStep, 100.0 * FreeCantilever.Difference(timed, fine),
+                100.0 * FreeCantilever.Difference(half, fine)));
+            Console.WriteLine(string.Format(CultureInfo.InvariantCulture,
+                "free cantilever: {0:0.00} us per simulated ms = {1:0} element-iterations (limit {2:0} where the sweep "
+                + "takes at most {3:0} ns; here {4:0.0}); {5:0.0000} s per simulated second", 1e-3 * perMillisecond,
+                perMillisecond / sweep, LimitRatio, LimitSweep, sweep, 1e-6 * perMillisecond));
         }
 
         private static void Print(List<Row> rows)
         {
-            double sweep = rows.First(row => row.Name.StartsWith("Sweep", StringComparison.Ordinal)).PerUnit;
+            double sweep = Find(rows, "Sweep").PerUnit;
             Console.WriteLine("{0,-46} {1,12} {2,24} {3,9} {4,8} {5,12}", "what", "median", "per unit", "spread", "ratio",
                 "allocated");
             foreach (Row row in rows)

@@ -24,7 +24,7 @@ namespace Guidewire.Core
         private readonly Vector3d[][] _velocity;      // by stage: x'
         private readonly Vector3d[][] _acceleration;  // v'
         private readonly Vector3d[][] _turnRate;      // phi'
-        private readonly Vector3d[][] _spinRate;      // w'
+        private readonly Vector3d[][] _spinRate;      // w', two or more
         private readonly Vector3d[] _oldPositions;    // BDF2: one step ago
         private readonly Vector3d[] _oldVelocities;
         private readonly Quaterniond[] _oldOrientations;
@@ -74,7 +74,7 @@ namespace Guidewire.Core
             _velocity = Arrays(stages, n + 1);
             _acceleration = Arrays(stages, n + 1);
             _turnRate = Arrays(stages, n);
-            _spinRate = Arrays(stages, n);
+            _spinRate = Arrays(Math.Max(stages, 2), n);
             _oldPositions = new Vector3d[scheme == null ? n + 1 : 0];
             _oldVelocities = new Vector3d[scheme == null ? n + 1 : 0];
             _oldOrientations = new Quaterniond[scheme == null ? n : 0];
@@ -109,10 +109,9 @@ namespace Guidewire.Core
         /// stage.</summary>
         public bool TracksReactions { get; set; }
 
-        /// <summary>Change of the momentum in the last step, N, as the scheme writes it: (P_new - P)/dt for one that acts
-        /// on stages, (3 P_new - 4 P + P_old)/(2 dt) for BDF2 after its first step. With the same scheme's weights it
-        /// equals the forces: <see cref="MeanReaction"/> + <see cref="MeanDistalReaction"/> + <see cref="MeanLoad"/>.
-        /// </summary>
+        /// <summary>Change of the momentum in the last step, N, as the scheme writes it: (P_new - P)/dt with stages,
+        /// (3 P_new - 4 P + P_old)/(2 dt) for BDF2 after its first step. With the same scheme's weights it equals the
+        /// forces: <see cref="MeanReaction"/> + <see cref="MeanDistalReaction"/> + <see cref="MeanLoad"/>.</summary>
         public Vector3d MomentumRate { get; private set; }
 
         /// <summary>Force that the supports exert on node 0, N, the mean over the last step by the scheme's weights
@@ -240,7 +239,7 @@ namespace Guidewire.Core
                 _oldOrientations[j] = _inertia.Start[j];
                 _oldSpins[j] = Spins[j];
             }
-            string? failure = SolveStage(Time + dt, h, 0, default, 1.0);
+            string? failure = SolveStage(Time + dt, h, 0, StagePredictor.OneStage, 1.0);
             if (failure == null)
             {
                 Accept(h);
@@ -278,6 +277,10 @@ namespace Guidewire.Core
                     return failure;
                 }
             }
+            if (_last == 0)
+            {
+                Array.Copy(_spinRate[0], _spinRate[1], Spins.Length);
+            }
             double perStage = 1.0 / h;
             for (int i = 0; i < _startPositions.Length; i++)
             {
@@ -290,6 +293,11 @@ namespace Guidewire.Core
                 Vector3d spin = _solver.GradientIsCurrent ? _inertia.LastSpin[j] : _inertia.Spin(Shape.Q[j], j);
                 _turnRate[stage][j] = perStage * (_inertia.LastTurn[j] - _inertia.TurnHistory[j]);
                 _spinRate[stage][j] = perStage * (spin - _inertia.SpinHistory[j]);
+            }
+            if (_last == 0 && Time == 0.0)
+            {
+                // The first step stands for the one before it too.
+                Array.Copy(_spinRate[0], _spinRate[1], Spins.Length);
             }
             if (TracksReactions)
             {

@@ -93,6 +93,10 @@ namespace Guidewire.Core
         private StagePredictor PredictorOf(int stage)
         {
             double time = Times[stage];
+            if (StageCount == 1)
+            {
+                return StagePredictor.OneStage;
+            }
             int before = stage > 0 ? stage - 1 : StageCount - 1;
             var best = new StagePredictor { First = before, Second = before };
             double least = double.PositiveInfinity;

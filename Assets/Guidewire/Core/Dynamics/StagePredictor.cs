@@ -6,5 +6,8 @@ namespace Guidewire.Core
         public int First;
         public int Second;
         public double Share;
+
+        /// <summary>2 a - a_old, for a scheme of one stage that keeps the step before in a second place.</summary>
+        public static StagePredictor OneStage => new StagePredictor { First = 0, Second = 1, Share = -1.0 };
     }
 }

@@ -79,7 +79,8 @@ namespace Guidewire.Core
         /// <summary>Parts into which the explicit and the compliant solver divide a time step.</summary>
         public int Substeps { get; set; } = 1;
 
-        /// <summary>Error that a solver may leave in a step: radians, or displacement over L.</summary>
+        /// <summary>Error that a solver may leave in a step: radians, or displacement over L; of the direct solver also
+        /// what it may leave of the balance of forces, over the largest force in the wire.</summary>
         public double SolverTolerance { get; set; } = 1e-6;
 
         /// <summary>Newton iterations after which the direct solver gives up a stage; a rest shape gets ten times as

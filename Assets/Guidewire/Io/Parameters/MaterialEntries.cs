@@ -71,7 +71,8 @@ namespace Guidewire.Io
             new IntegerEntry("substeps", "", 1, 100_000_000, "parts of a time step, xpbd and explicit",
                 p => Of(p).Substeps, (p, v) => Of(p).Substeps = v),
             new NumberEntry("solverTolerance", "rad, or displacement over L", NumberRange.PositiveUpTo(1e-2),
-                "error that the direct solver may leave in a stage",
+                "error that the direct solver may leave in a stage; also of the balance of forces in a step, "
+                + "over the largest",
                 p => Of(p).SolverTolerance, (p, v) => Of(p).SolverTolerance = v),
             new IntegerEntry("maxNewtonIterations", "", 1, 1_000_000,
                 "after which the direct solver gives up a stage; ten times as many for a rest shape",

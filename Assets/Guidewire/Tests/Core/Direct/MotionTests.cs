@@ -3,7 +3,7 @@ using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
 {
-    /// <summary>Motion against closed forms: modes, the exact chain, momentum.</summary>
+    /// <summary>Motion against closed forms: modes, the exact chain, a parabola, a top.</summary>
     public sealed class MotionTests
     {
         [TestCase(Integrator.ImplicitEuler, 1.0)]
@@ -60,33 +60,6 @@ namespace Guidewire.Core.Tests
             Assert.That(Math.Sqrt(square / reference), Is.LessThan(3e-3));
         }
 
-        [TestCase(Integrator.ImplicitEuler)]
-        [TestCase(Integrator.Sdirk2)]
-        [TestCase(Integrator.Sdirk3)]
-        [TestCase(Integrator.Sdirk4)]
-        public void ForcesAndReaction_ChangeTheMomentum(Integrator scheme)
-        {
-            // The reaction is the clamp's and the first element's own stress; nothing else acts but weight.
-            const int N = 12;
-            const double Step = 1e-3;
-            MaterialRod rod = Rods.Wire(N);
-            var schedule = new RodSchedule { Gravity = new Vector3d(1.0, -9.81, 2.0) };
-            RodShape shape = Rods.Straight(rod);
-            RodDynamics motion = Start(rod, new RodSupports(), schedule, shape, scheme, 1e-12);
-            motion.TracksReactions = true;
-            double worst = 0.0;
-            double peak = 0.0;
-            for (int i = 0; i < 100; i++)
-            {
-                Vector3d before = motion.Momentum;
-                Assert.That(motion.Step(Step), Is.Null);
-                Vector3d rate = (motion.Momentum - before) / Step;
-                worst = Math.Max(worst, (rate - motion.MeanReaction - motion.MeanLoad).Length);
-                peak = Math.Max(peak, Math.Max(motion.MeanReaction.Length, motion.MeanLoad.Length));
-            }
-            Assert.That(worst, Is.LessThan(1e-6 * peak));
-        }
-
         [Test]
         public void FreeRod_FliesOnItsParabola()
         {
@@ -136,9 +109,18 @@ namespace Guidewire.Core.Tests
             Assert.That(worst, Is.LessThan(1e-3 * Shift));
         }
 
-        [Test]
-        public void TurnedScene_MovesTheSame()
+        [TestCase(Integrator.ImplicitEuler, DistalEnd.Free)]
+        [TestCase(Integrator.Bdf2, DistalEnd.Free)]
+        [TestCase(Integrator.Sdirk2, DistalEnd.Free)]
+        [TestCase(Integrator.Sdirk3, DistalEnd.Free)]
+        [TestCase(Integrator.Sdirk4, DistalEnd.Free)]
+        [TestCase(Integrator.Sdirk3, DistalEnd.Clamped)]
+        public void TurnedAndMovedScene_MovesTheSame(Integrator scheme, DistalEnd distal)
         {
+            // Weight, a tip force that is let go half-way and turning clamps, at the default tolerance. Rounding of the
+            // positions decides where a stage may end, so shapes differ by what is then left: the unbalanced force
+            // allowed, below 1e-6 of the load, bends by less than 1e-6 L; by the second order of Newton's last step
+            // far less is left.
             const int N = 10;
             Quaterniond turn = Quaterniond.FromAxisAngle(Vector3d.Normalize(new Vector3d(1.0, 0.4, -0.3)), 1.9);
             var offset = new Vector3d(0.5, -0.2, 0.1);
@@ -152,22 +134,30 @@ namespace Guidewire.Core.Tests
                 var schedule = new RodSchedule
                 {
                     Gravity = Quaterniond.Rotate(r, new Vector3d(3.0, -9.81, 1.0)),
+                    TipForce = Quaterniond.Rotate(r, Rods.BendForce * new Vector3d(0.5, 1.0, 0.0)),
+                    TipForceReleaseTime = 0.0255,
                     ProximalPosition = shape.X[0],
                     ProximalFrame = shape.ProximalFrame,
+                    ProximalTwistRate = 20.0,
+                    DistalPosition = shape.X[N],
                     DistalFrame = shape.DistalFrame,
+                    DistalRotation = 1.0,
+                    DistalRampTime = 0.03,
                 };
-                RodDynamics motion = Start(rod, new RodSupports(), schedule, shape, Integrator.Sdirk3, 1e-11);
+                RodDynamics motion = Start(rod, new RodSupports { Distal = distal }, schedule, shape, scheme, 1e-6);
                 for (int i = 0; i < 50; i++)
                 {
                     Assert.That(motion.Step(1e-3), Is.Null);
                 }
                 shapes[k] = shape;
             }
+            double largest = 0.0;
             for (int i = 0; i <= N; i++)
             {
                 Vector3d expected = Quaterniond.Rotate(turn, shapes[0].X[i]) + offset;
-                Assert.That(Vector3d.Distance(shapes[1].X[i], expected), Is.LessThan(1e-9 * Rods.Length), "node " + i);
+                largest = Math.Max(largest, Vector3d.Distance(shapes[1].X[i], expected));
             }
+            Assert.That(largest, Is.LessThan(1e-10 * Rods.Length));
         }
 
         [Test]
