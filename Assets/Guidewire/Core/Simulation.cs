@@ -136,14 +136,23 @@ namespace Guidewire.Core
         /// <summary>A run that goes on from this one's state with other parameters: steps and time go on counting, the
         /// displacement of the start is not made again.</summary>
         /// <param name="parameters">The other parameters, for a wire of as many elements. Their
-        /// <see cref="SimulationParameters.Start"/> and <see cref="SimulationParameters.Displacement"/> are
-        /// overwritten.</param>
+        /// <see cref="SimulationParameters.Start"/>, <see cref="SimulationParameters.Displacement"/> and, with gains, the
+        /// motion of the distal clamp are overwritten.</param>
         /// <exception cref="ArgumentException">As <see cref="Create"/>, and another number of elements.</exception>
         public Simulation Continue(SimulationParameters parameters)
         {
             parameters.Start = new RodStart(State.Positions, State.Orientations, State.Velocities,
                 State.AngularVelocities);
             parameters.Displacement = 0.0;
+            if (parameters.Solver == Solver.Pbd)
+            {
+                // A clamp of a wire with gains moves on from where it is; the rest of its way is what it has left.
+                MaterialParameters ends = parameters.Material;
+                double left = ends.DistalRampTime > Time ? 1.0 - Time / ends.DistalRampTime : 0.0;
+                ends.DistalRotation *= left;
+                ends.DistalDisplacement *= left;
+                ends.DistalRampTime *= left;
+            }
             Simulation next = Create(parameters);
             next.StepCount = StepCount;
             next._firstStep = StepCount;
