@@ -130,7 +130,7 @@ def _gains() -> Plan:
     base = {
         "solver": "pbd", "guidewireLength": 300.0, "guidewireOffset": -120.0, "displacement": 10.0,
         "displacementDirection": [0.0, 1.0, 0.0], "numberRodElements": 30, "constraintSolverSteps": 500,
-        "timeStep": 0.01, "logSpheres": "last",
+        "timeStep": 0.01, "logSpheres": "last", "proximalEnd": "held",
     }
     varied = {
         "m": ("constraintSolverSteps", (250, 500, 1000, 2000)),

@@ -12,6 +12,7 @@ namespace Guidewire.Core
         private int _firstStep;
         private double _firstTime;    // s
         private string? _ownReason;
+        private string? _doubt;
 
         private Simulation(RodState state, ITimeStep step, StopRule stopRule, double timeStep)
         {
@@ -36,8 +37,8 @@ namespace Guidewire.Core
         /// <summary>How the run ended, or Running.</summary>
         public Outcome Outcome { get; private set; }
 
-        /// <summary>One line that says why the run ended; empty while it runs.</summary>
-        public string Reason => _ownReason ?? _stopRule.Reason;
+        /// <summary>One line that says why the run ended, and what is wrong with it; empty while it runs.</summary>
+        public string Reason => (_ownReason ?? _stopRule.Reason) + (_doubt == null ? "" : ", but " + _doubt);
 
         /// <summary>First step of the steady state, or -1.</summary>
         public int SteadyStateStep => _stopRule.SteadyStateStep;
@@ -119,14 +120,24 @@ namespace Guidewire.Core
                 End(Outcome.Failed, _step.Failure);
                 return;
             }
+            string? divergence = (_step as IWatchedStep)?.Divergence;
+            if (divergence != null)
+            {
+                End(Outcome.Diverged, divergence);
+                return;
+            }
             Outcome = _stopRule.Judge(State, StepCount, PredictionError);
+            if (Outcome == Outcome.Finished || Outcome == Outcome.Converged)
+            {
+                _doubt = (_step as IWatchedStep)?.Doubt;
+            }
         }
 
         /// <summary>A run that goes on from this one's state with other parameters: steps and time go on counting, the
         /// displacement of the start is not made again.</summary>
         /// <param name="parameters">The other parameters, for a wire of as many elements. Their
-        /// <see cref="SimulationParameters.Start"/> and <see cref="SimulationParameters.Displacement"/> are not
-        /// looked at.</param>
+        /// <see cref="SimulationParameters.Start"/> and <see cref="SimulationParameters.Displacement"/> are not looked
+        /// at; with gains, a distal clamp only makes what is left of its motion.</param>
         /// <exception cref="ArgumentException">As <see cref="Create"/>, and another number of elements.</exception>
         public Simulation Continue(SimulationParameters parameters)
         {
@@ -134,6 +145,14 @@ namespace Guidewire.Core
             continued.Start = new RodStart(State.Positions, State.Orientations, State.Velocities,
                 State.AngularVelocities);
             continued.Displacement = 0.0;
+            if (continued.Solver == Solver.Pbd)
+            {
+                MaterialParameters ends = continued.Material;
+                double left = ends.DistalRampTime > Time ? 1.0 - Time / ends.DistalRampTime : 0.0;
+                ends.DistalRotation *= left;
+                ends.DistalDisplacement *= left;
+                ends.DistalRampTime *= left;
+            }
             Simulation next = Create(continued);
             next.StepCount = StepCount;
             next._firstStep = StepCount;
@@ -142,10 +161,11 @@ namespace Guidewire.Core
         }
 
         /// <summary>Ends the run where it is.</summary>
-        /// <param name="outcome">Interrupted or Failed.</param>
+        /// <param name="outcome">Any but Running.</param>
         /// <param name="reason">One line.</param>
         public void End(Outcome outcome, string reason)
         {
+            _doubt = outcome == Outcome.Interrupted ? (_step as IWatchedStep)?.Doubt : null;
             Outcome = outcome;
             _ownReason = reason;
         }

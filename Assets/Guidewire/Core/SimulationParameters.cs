@@ -172,15 +172,17 @@ namespace Guidewire.Core
         public Solver Solver { get; set; } = Solver.Pbd;
 
         /// <summary>The material, for every solver but pbd.</summary>
-        public MaterialParameters Material { get; } = new MaterialParameters();
+        public MaterialParameters Material { get; private set; } = new MaterialParameters();
 
         /// <summary>A start other than the straight wire along z at rest, or null.</summary>
         public RodStart? Start { get; set; }
 
-        /// <summary>The same values; walls, material and steering are shared.</summary>
+        /// <summary>The same values; walls and steering are shared.</summary>
         internal SimulationParameters Copy()
         {
-            return (SimulationParameters)MemberwiseClone();
+            var copy = (SimulationParameters)MemberwiseClone();
+            copy.Material = Material.Copy();
+            return copy;
         }
     }
 }

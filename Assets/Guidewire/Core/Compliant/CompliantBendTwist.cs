@@ -25,40 +25,85 @@ namespace Guidewire.Core
             _hasDistal = supports.HasDistalJoint;
         }
 
-        /// <summary>Forgets the multipliers: a new substep begins.</summary>
+        /// <summary>Sets the multipliers to 0.</summary>
         public void Reset()
         {
             Array.Clear(_multiplier, 0, _multiplier.Length);
         }
 
+        /// <summary>Adds the motion that the multipliers make in this shape.</summary>
+        /// <param name="shape">The wire, not moved.</param>
+        /// <param name="turn">Turn of each element along its own axes.</param>
+        public void AddMotion(RodShape shape, Vector3d[] turn)
+        {
+            int n = shape.ElementCount;
+            for (int k = _hasProximal ? 0 : 1; k < (_hasDistal ? n + 1 : n); k++)
+            {
+                Quaterniond a = k == 0 ? shape.ProximalFrame : shape.Q[k - 1];
+                Quaterniond b = k == n ? shape.DistalFrame : shape.Q[k];
+                Vector3d theta = RotationVector.Log(a.Conjugate * b);
+                Vector3d lambda = _multiplier[k];
+                double square = theta.LengthSquared;
+                double c = RotationVector.CotangentFactor(square);
+                // T lambda = even + odd, T^T lambda = even - odd.
+                Vector3d even = (1.0 - c * square) * lambda + (c * Vector3d.Dot(theta, lambda)) * theta;
+                Vector3d odd = 0.5 * Vector3d.Cross(theta, lambda);
+                if (k < n)
+                {
+                    turn[k] += Scaled(_inverseInertia[k], even - odd);
+                }
+                if (k > 0)
+                {
+                    turn[k - 1] -= Scaled(_inverseInertia[k - 1], even + odd);
+                }
+            }
+        }
+
         /// <summary>One Gauss-Seidel sweep over all joints.</summary>
+        /// <param name="shape">The wire, turned in place.</param>
         /// <param name="substep">h, s.</param>
-        /// <param name="size">Grows to the largest turn of a correction, radians.</param>
-        public void Sweep(RodShape shape, double substep, ref double size)
+        public void Sweep(RodShape shape, double substep)
         {
             int n = shape.ElementCount;
             double perSquare = 1.0 / (substep * substep);
-            double largest = size * size;
             if (_hasProximal)
             {
                 Quaterniond frame = shape.ProximalFrame;
-                Solve(0, perSquare, ref frame, Vector3d.Zero, ref shape.Q[0], _inverseInertia[0], ref largest);
+                Solve(0, perSquare, ref frame, Vector3d.Zero, ref shape.Q[0], _inverseInertia[0]);
             }
             for (int k = 1; k < n; k++)
             {
-                Solve(k, perSquare, ref shape.Q[k - 1], _inverseInertia[k - 1], ref shape.Q[k], _inverseInertia[k],
-                    ref largest);
+                Solve(k, perSquare, ref shape.Q[k - 1], _inverseInertia[k - 1], ref shape.Q[k], _inverseInertia[k]);
             }
             if (_hasDistal)
             {
                 Quaterniond frame = shape.DistalFrame;
-                Solve(n, perSquare, ref shape.Q[n - 1], _inverseInertia[n - 1], ref frame, Vector3d.Zero, ref largest);
+                Solve(n, perSquare, ref shape.Q[n - 1], _inverseInertia[n - 1], ref frame, Vector3d.Zero);
             }
-            size = Math.Sqrt(largest);
+        }
+
+        /// <summary>Adds what C + alpha lambda/h^2 and C have come to.</summary>
+        public void AddResidual(RodShape shape, double substep, ref SweepResidual sum)
+        {
+            int n = shape.ElementCount;
+            double perSquare = 1.0 / (substep * substep);
+            for (int k = _hasProximal ? 0 : 1; k < (_hasDistal ? n + 1 : n); k++)
+            {
+                Joint joint = _joint[k];
+                Quaterniond a = k == 0 ? shape.ProximalFrame : shape.Q[k - 1];
+                Quaterniond b = k == n ? shape.DistalFrame : shape.Q[k];
+                Vector3d strain = RotationVector.Log(a.Conjugate * b) - joint.Rest;
+                double x = strain.X + perSquare / joint.Bend * _multiplier[k].X;
+                double y = strain.Y + perSquare / joint.Bend * _multiplier[k].Y;
+                sum.Bend += Math.Sqrt(x * x + y * y);
+                sum.Twist += Math.Abs(strain.Z + perSquare / joint.Twist * _multiplier[k].Z);
+                sum.BendStrain += Math.Sqrt(strain.X * strain.X + strain.Y * strain.Y);
+                sum.TwistStrain += Math.Abs(strain.Z);
+            }
         }
 
         private void Solve(int k, double perSquare, ref Quaterniond a, in Vector3d inertiaA, ref Quaterniond b,
-            in Vector3d inertiaB, ref double largest)
+            in Vector3d inertiaB)
         {
             Joint joint = _joint[k];
             Vector3d theta = RotationVector.Log(a.Conjugate * b);
@@ -89,7 +134,11 @@ namespace Guidewire.Core
                 -inertiaA.Y * Vector3d.Dot(even2 - odd2, change), -inertiaA.Z * Vector3d.Dot(even3 - odd3, change));
             a = Quaterniond.Normalize(a * RotationVector.Exp(turnA));
             b = Quaterniond.Normalize(b * RotationVector.Exp(turnB));
-            largest = Math.Max(largest, Math.Max(turnA.LengthSquared, turnB.LengthSquared));
+        }
+
+        private static Vector3d Scaled(in Vector3d a, in Vector3d b)
+        {
+            return new Vector3d(a.X * b.X, a.Y * b.Y, a.Z * b.Z);
         }
     }
 }

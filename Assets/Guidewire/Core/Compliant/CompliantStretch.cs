@@ -29,20 +29,38 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Forgets the multipliers: a new substep begins.</summary>
+        /// <summary>Sets the multipliers to 0.</summary>
         public void Reset()
         {
             System.Array.Clear(_multiplier, 0, _multiplier.Length);
         }
 
+        /// <summary>Adds the motion that the multipliers make in this shape.</summary>
+        /// <param name="shape">The wire, not moved.</param>
+        /// <param name="shift">Shift of each node, m.</param>
+        /// <param name="turn">Turn of each element along its own axes.</param>
+        public void AddMotion(RodShape shape, Vector3d[] shift, Vector3d[] turn)
+        {
+            for (int j = 0; j < _length.Length; j++)
+            {
+                double perLength = 1.0 / _length[j];
+                Quaterniond q = shape.Q[j];
+                Vector3d p = perLength * Quaterniond.Rotate(q.Conjugate, shape.X[j + 1] - shape.X[j]);
+                Vector3d push = perLength * Quaterniond.Rotate(q, _multiplier[j]);
+                shift[j] -= _inverseMass[j] * push;
+                shift[j + 1] += _inverseMass[j + 1] * push;
+                Vector3d couple = Vector3d.Cross(_multiplier[j], p);
+                Vector3d inertia = _inverseInertia[j];
+                turn[j] += new Vector3d(inertia.X * couple.X, inertia.Y * couple.Y, inertia.Z * couple.Z);
+            }
+        }
+
         /// <summary>One Gauss-Seidel sweep over all elements.</summary>
+        /// <param name="shape">The wire, moved and turned in place.</param>
         /// <param name="substep">h, s.</param>
-        /// <param name="size">Grows to the largest correction: a turn, or a shift over L.</param>
-        public void Sweep(RodShape shape, double substep, double totalLength, ref double size)
+        public void Sweep(RodShape shape, double substep)
         {
             double perSquare = 1.0 / (substep * substep);
-            double largestShift = 0.0;
-            double largestTurn = 0.0;
             for (int j = 0; j < _length.Length; j++)
             {
                 double perLength = 1.0 / _length[j];
@@ -68,11 +86,24 @@ namespace Guidewire.Core
                 Vector3d couple = Vector3d.Cross(change, p);
                 var turn = new Vector3d(inertia.X * couple.X, inertia.Y * couple.Y, inertia.Z * couple.Z);
                 shape.Q[j] = Quaterniond.Normalize(q * RotationVector.Exp(turn));
-                largestTurn = System.Math.Max(largestTurn, turn.LengthSquared);
-                largestShift = System.Math.Max(largestShift, w1 * w1 * push.LengthSquared);
             }
-            size = System.Math.Max(size, System.Math.Max(System.Math.Sqrt(largestTurn),
-                System.Math.Sqrt(largestShift) / totalLength));
+        }
+
+        /// <summary>Adds what l |C + alpha lambda/h^2| and l |C| have come to.</summary>
+        public void AddResidual(RodShape shape, double substep, ref SweepResidual sum)
+        {
+            double perSquare = 1.0 / (substep * substep);
+            for (int j = 0; j < _length.Length; j++)
+            {
+                Vector3d edge = Quaterniond.Rotate(shape.Q[j].Conjugate, shape.X[j + 1] - shape.X[j]);
+                Vector3d strain = (1.0 / _length[j]) * edge - Vector3d.UnitZ;
+                Vector3d alpha = perSquare * _compliance[j];
+                Vector3d multiplier = _multiplier[j];
+                var residual = new Vector3d(strain.X + alpha.X * multiplier.X, strain.Y + alpha.Y * multiplier.Y,
+                    strain.Z + alpha.Z * multiplier.Z);
+                sum.Stretch += _length[j] * residual.Length;
+                sum.StretchStrain += _length[j] * strain.Length;
+            }
         }
     }
 }

@@ -30,6 +30,10 @@ namespace Guidewire.Core
             {
                 double weight = state.OrientationWeights[j];
                 double sum = state.InverseMasses[j] + state.InverseMasses[j + 1] + 4.0 * weight * l * l;
+                if (sum == 0.0)
+                {
+                    continue;    // both spheres and the frame are held: nothing can be corrected
+                }
                 _lower[j] = gain * state.InverseMasses[j] * l / sum;
                 _upper[j] = gain * state.InverseMasses[j + 1] * l / sum;
                 _orientation[j] = gain * 2.0 * weight * l * l / sum;

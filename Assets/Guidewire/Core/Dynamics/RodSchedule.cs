@@ -97,6 +97,12 @@ namespace Guidewire.Core
             shape.DistalFrame = DistalFrame * Quaterniond.FromAxisAngle(Vector3d.UnitZ, distal);
         }
 
+        /// <summary>The distal frame at this time.</summary>
+        public Quaterniond DistalFrameAt(double time)
+        {
+            return DistalFrame * Quaterniond.FromAxisAngle(Vector3d.UnitZ, DistalTurnAt(time));
+        }
+
         private double Ramp(double time)
         {
             return DistalRampTime > 0.0 ? Math.Min(1.0, Math.Max(0.0, time / DistalRampTime)) : 1.0;

@@ -4,7 +4,8 @@ using System.Collections.Generic;
 namespace Guidewire.Core
 {
     /// <summary>What a run with a material is told beyond the seed's values, in SI units but for lengths along the wire
-    /// and displacements, which are in units of <see cref="MetresPerUnit"/>.</summary>
+    /// and displacements, which are in units of <see cref="MetresPerUnit"/>. A run with gains takes its ends from here
+    /// too.</summary>
     public sealed class MaterialParameters
     {
         /// <summary>E, Pa.</summary>
@@ -86,5 +87,11 @@ namespace Guidewire.Core
         /// <summary>Newton iterations after which the direct solver gives up a stage; a rest shape gets ten times as
         /// many. </summary>
         public int MaxNewtonIterations { get; set; } = 50;
+
+        /// <summary>The same values; lists are shared.</summary>
+        internal MaterialParameters Copy()
+        {
+            return (MaterialParameters)MemberwiseClone();
+        }
     }
 }

@@ -64,10 +64,20 @@ namespace Guidewire.Core
                 default:
                     throw new ArgumentException("unknown drive " + parameters.Drive);
             }
+            if (parameters.Material.ProximalEnd == ProximalEnd.Clamped && parameters.Drive != Drive.Force)
+            {
+                HoldFrame(state, 0);
+            }
             if (parameters.TwistPerStep != 0.0)
             {
                 state.OrientationWeights[0] = 0.0;
                 drive = new TwistDrive(drive, parameters.TwistPerStep);
+            }
+            if (parameters.Material.DistalEnd == DistalEnd.Clamped)
+            {
+                state.InverseMasses[state.ElementCount] = 0.0;
+                HoldFrame(state, state.ElementCount - 1);
+                drive = new DistalClampDrive(drive, state, parameters);
             }
             if (parameters.Steering != null)
             {
@@ -76,6 +86,13 @@ namespace Guidewire.Core
                 drive = new SteeredDrive(parameters.Steering);
             }
             return drive;
+        }
+
+        // A weight of 0 keeps the sweeps from turning a frame; a spin would go on turning it.
+        private static void HoldFrame(RodState state, int element)
+        {
+            state.OrientationWeights[element] = 0.0;
+            state.AngularVelocities[element] = Vector3d.Zero;
         }
 
         private static Vector3d Direction(SimulationParameters parameters)

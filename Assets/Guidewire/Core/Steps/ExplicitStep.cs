@@ -1,4 +1,5 @@
 using System;
+using System.Globalization;
 
 namespace Guidewire.Core
 {
@@ -6,7 +7,7 @@ namespace Guidewire.Core
     /// other half (position Verlet, order 2), on lumped masses and the wire's own rotary inertia.</summary>
     /// <remarks>Stable below 2/omega_max. The largest frequency is that of elements turning against their shear,
     /// sqrt(GA/(rho I)) = 2 sqrt(G/rho)/r, however coarse the wire is.</remarks>
-    internal sealed class ExplicitStep : ITimeStep, IReportingStep
+    internal sealed class ExplicitStep : ITimeStep, IReportingStep, IWatchedStep
     {
         private readonly MaterialScene _scene;
         private readonly RodStatics _statics;
@@ -19,6 +20,9 @@ namespace Guidewire.Core
         private readonly double _timeStep;
         private readonly int _substeps;
         private readonly double _kept;
+        private readonly HeldEnds _ends;
+        private readonly EnergyWatch _energy;
+        private readonly double _stable;    // s
         private double _time;
 
         /// <summary>A step for this scene.</summary>
@@ -36,6 +40,9 @@ namespace Guidewire.Core
             _timeStep = parameters.TimeStep;
             _substeps = parameters.Material.Substeps;
             _kept = Math.Pow(1.0 - parameters.Damping, 1.0 / _substeps);
+            _ends = new HeldEnds(scene, statics);
+            _energy = new EnergyWatch(scene, statics, _inertia, _ends);
+            _stable = StableTimeStep(scene.Rod, scene.Supports);
             Report = report;
         }
 
@@ -44,6 +51,13 @@ namespace Guidewire.Core
 
         /// <inheritdoc/>
         public string? Failure => null;
+
+        /// <inheritdoc/>
+        public string? Divergence { get; private set; }
+
+        /// <inheritdoc/>
+        public string? Doubt => _timeStep / _substeps <= _stable ? null
+            : Text("the substep of {0:G4} s is above {1:G4} s, where explicit steps become unstable; raise substeps");
 
         /// <inheritdoc/>
         public SolverReport Report { get; }
@@ -63,6 +77,12 @@ namespace Guidewire.Core
                 Drift(0.5 * h, start + h);
             }
             _time += _timeStep;
+            Divergence = _energy.Judge(_statics.Loads);
+            if (Divergence != null)
+            {
+                Divergence += Text(": a substep of {0:G4} s, in its rest shape stable below {1:G4} s; raise substeps");
+                return;
+            }
             PredictionError = Vector3d.Distance(free, _shape.X[last]) / _scene.Metres;
             _scene.Write(state, _shape, _velocities, _spins);
         }
@@ -70,22 +90,46 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public void CompleteReport()
         {
-            Report.Method = "explicit; stable below a substep of " + StableTimeStep(_scene.Rod).ToString("G4",
-                System.Globalization.CultureInfo.InvariantCulture) + " s";
+            Report.Method = Text("explicit; stable below a substep of {1:G4} s");
         }
 
-        /// <summary>2/omega_max of the shear mode and of the axial chain, whichever is less, s.</summary>
-        public static double StableTimeStep(MaterialRod rod)
+        /// <summary>2/omega_max of the wire in its rest shape, s; the true limit of an even wire is no
+        /// lower.</summary>
+        /// <remarks>Elements that turn to and fro by turns strain shear and joints: omega^2 = GA/(rho I) +
+        /// 4 GA/(rho A l^2) + (sum of the joints' stiffness, those to neighbours twice)/(rho I l), by Gershgorin's
+        /// circles for the joints. Against it stand the chain of axial springs, 4 EA/(rho A l^2), and that of twist.
+        /// </remarks>
+        public static double StableTimeStep(MaterialRod rod, RodSupports supports)
         {
+            Joint[] joints = rod.Joints(supports);
+            int n = rod.ElementCount;
             double largest = 0.0;
-            for (int j = 0; j < rod.ElementCount; j++)
+            for (int j = 0; j < n; j++)
             {
-                double shear = rod.ShearStiffness[j] / rod.RotaryInertia[j];
                 double l = rod.Length[j];
-                double axial = 4.0 * rod.StretchStiffness[j] / (l * l * rod.LineDensity[j]);
-                largest = Math.Max(largest, Math.Max(shear, axial));
+                double rotary = rod.RotaryInertia[j];
+                double before = j > 0 ? 2.0 : supports.HasProximalJoint ? 1.0 : 0.0;
+                double after = j < n - 1 ? 2.0 : supports.HasDistalJoint ? 1.0 : 0.0;
+                double bend = (before * joints[j].Bend + after * joints[j + 1].Bend) / (rotary * l);
+                double twist = (before * joints[j].Twist + after * joints[j + 1].Twist) / (2.0 * rotary * l);
+                double chain = 4.0 / (l * l * LeastDensity(rod, j));
+                double shear = rod.ShearStiffness[j] * (1.0 / rotary + chain);
+                largest = Math.Max(largest, Math.Max(shear + bend, Math.Max(chain * rod.StretchStiffness[j], twist)));
             }
             return 2.0 / Math.Sqrt(largest);
+        }
+
+        // Line density behind the lighter node of element j: a node has half of each element beside it.
+        private static double LeastDensity(MaterialRod rod, int j)
+        {
+            double before = rod.LineDensity[Math.Max(j - 1, 0)];
+            double after = rod.LineDensity[Math.Min(j + 1, rod.ElementCount - 1)];
+            return 0.5 * (rod.LineDensity[j] + Math.Min(before, after));
+        }
+
+        private string Text(string format)
+        {
+            return string.Format(CultureInfo.InvariantCulture, format, _timeStep / _substeps, _stable);
         }
 
         private void Drift(double h, double time)
@@ -99,16 +143,7 @@ namespace Guidewire.Core
                 Quaterniond q = _shape.Q[j] * RotationVector.Exp(h * _spins[j]);
                 _shape.Q[j] = (1.5 - 0.5 * q.LengthSquared) * q;
             }
-            RodSchedule schedule = _scene.Schedule;
-            schedule.TurnFrames(_shape, schedule.ProximalTurnAt(time), schedule.DistalTurnAt(time));
-            if (_scene.Supports.Proximal != ProximalEnd.Free)
-            {
-                _shape.X[0] = schedule.ProximalPositionAt(time);
-            }
-            if (_scene.Supports.Distal != DistalEnd.Free)
-            {
-                _shape.X[_spins.Length] = schedule.DistalPositionAt(time);
-            }
+            _ends.Place(_shape, time);
         }
 
         private void Kick(double h, double time)
@@ -123,7 +158,8 @@ namespace Guidewire.Core
             for (int i = 0; i <= n; i++)
             {
                 ref RodVector g = ref _gradient[i];
-                _velocities[i] = _kept * _velocities[i] - (h * _inertia.InverseMass[i]) * new Vector3d(g.X1, g.X2, g.X3);
+                _velocities[i] = _kept * _velocities[i]
+                    - (h * _inertia.InverseMass[i]) * new Vector3d(g.X1, g.X2, g.X3);
                 if (i < n)
                 {
                     Vector3d w = _spins[i];

@@ -9,7 +9,8 @@ namespace Guidewire.Io
         /// <summary>The solver, which decides between gains and a material.</summary>
         public const string SolverKey = "solver";
 
-        /// <summary>The keys that mean nothing with gains.</summary>
+        /// <summary>The keys of a wire's material, loads and ends; with gains only some of the ends mean
+        /// anything.</summary>
         public static IReadOnlyList<ParameterEntry> Material { get; } = new ParameterEntry[]
         {
             new NumberEntry("youngsModulus", "Pa", NumberRange.Positive, "E",
@@ -44,10 +45,12 @@ namespace Guidewire.Io
                 p => Of(p).StartRadius, (p, v) => Of(p).StartRadius = v),
             new NumberEntry("startTurns", "", NumberRange.Any, "turns of startShape \"helix\"",
                 p => Of(p).StartTurns, (p, v) => Of(p).StartTurns = v),
-            new ChoiceEntry<ProximalEnd>("proximalEnd", "sphere 0 held, also its frame clamped, or nothing held",
+            new ChoiceEntry<ProximalEnd>("proximalEnd", "sphere 0 held, also its frame clamped, or"
+                + " nothing held; with gains \"held\" or \"clamped\"",
                 p => Of(p).ProximalEnd, (p, v) => Of(p).ProximalEnd = v),
             new ChoiceEntry<DistalEnd>("distalEnd",
-                "nothing held; place and frame held; frame held and free to slide along the frame's axis",
+                "nothing held; place and frame held; frame held and free to slide along the frame's axis (direct"
+                + " only)",
                 p => Of(p).DistalEnd, (p, v) => Of(p).DistalEnd = v),
             new NumberEntry("axialForce", "N", NumberRange.Any, "pull on a sliding distal end along its axis",
                 p => Of(p).AxialForce, (p, v) => Of(p).AxialForce = v),

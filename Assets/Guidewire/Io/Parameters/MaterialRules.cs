@@ -8,10 +8,15 @@ namespace Guidewire.Io
 {
     /// <summary>What a run with a material asks of its parameters together. A run has gains or a material: what the
     /// user sets on the command line must belong to the one it has; what a scene's file holds of the other is passed
-    /// over.</summary>
+    /// over. The ends of the wire belong to both.</summary>
     internal static class MaterialRules
     {
         private static readonly string[] WallKeys = { "vessel", "obstacles" };
+        private static readonly string[] EndKeys =
+        {
+            "proximalEnd", "distalEnd", "distalRotation", "distalDisplacement", "distalRampTime",
+        };
+
         private static readonly string[] GainKeys = { "stretchStiffness", "bendStiffness", "totalMass" };
 
         /// <summary>Sets the defaults that depend on the solver, and checks what belongs together.</summary>
@@ -24,7 +29,7 @@ namespace Guidewire.Io
             bool gains = simulation.Solver == Solver.Pbd;
             foreach (ParameterEntry entry in MaterialEntries.Material)
             {
-                if (gains)
+                if (gains && Array.IndexOf(EndKeys, entry.Key) < 0)
                 {
                     Forbid(given, entry.Key, "solver xpbd, direct or explicit: pbd takes gains, not a material");
                 }
@@ -45,7 +50,11 @@ namespace Guidewire.Io
                 }
             }
             ChooseIntegrator(simulation, given);
-            if (!gains)
+            if (gains)
+            {
+                CheckEndsWithGains(simulation.Material, given);
+            }
+            else
             {
                 CheckTogether(simulation, given);
             }
@@ -100,10 +109,9 @@ namespace Guidewire.Io
             {
                 Refuse(given, "distalEnd", "solver direct: the others cannot slide");
             }
-            if (simulation.Solver != Solver.Direct && Math.Abs(material.DistalRotation) > 1.0
-                && material.DistalRampTime == 0.0)
+            if (simulation.Solver != Solver.Direct)
             {
-                Refuse(given, "distalRotation", "solver direct, or a distalRampTime > 0: turned at once by more than 1 rad");
+                CheckTurn(material, given);
             }
             if (simulation.Solver == Solver.Xpbd && material.BendLaw == BendLaw.Darboux)
             {
@@ -121,6 +129,32 @@ namespace Guidewire.Io
             if (freeStart)
             {
                 Refuse(given, "proximalEnd", "\"held\" or \"clamped\" with a drive that moves sphere 0");
+            }
+        }
+
+        private static void CheckEndsWithGains(MaterialParameters material,
+            Dictionary<string, (JToken Value, string Source)> given)
+        {
+            if (material.ProximalEnd == ProximalEnd.Free)
+            {
+                Refuse(given, "proximalEnd", "\"held\" or \"clamped\" with solver pbd; drive \"force\" frees sphere 0");
+            }
+            if (material.DistalEnd == DistalEnd.Sliding)
+            {
+                Refuse(given, "distalEnd", "\"free\" or \"clamped\" with solver pbd; sliding takes solver direct");
+            }
+            CheckTurn(material, given);
+        }
+
+        // The last joint sees a turn at once as one by less than half a turn, and the shorter way round.
+        private static void CheckTurn(MaterialParameters material,
+            Dictionary<string, (JToken Value, string Source)> given)
+        {
+            if (material.DistalEnd == DistalEnd.Clamped && Math.Abs(material.DistalRotation) > 1.0
+                && material.DistalRampTime == 0.0)
+            {
+                Refuse(given, "distalRotation",
+                    "solver direct, or a distalRampTime > 0: turned at once by more than 1 rad");
             }
         }
 

@@ -72,5 +72,20 @@ namespace Guidewire.Core.Tests
             }
             return worst;
         }
+
+        /// <summary>Whether all places, velocities and turns are numbers.</summary>
+        public static bool IsFinite(RodState state)
+        {
+            bool finite = true;
+            for (int i = 0; i < state.SphereCount; i++)
+            {
+                finite &= state.Positions[i].IsFinite && state.Velocities[i].IsFinite;
+            }
+            for (int j = 0; j < state.ElementCount; j++)
+            {
+                finite &= state.AngularVelocities[j].IsFinite && state.Orientations[j].Imaginary.IsFinite;
+            }
+            return finite;
+        }
     }
 }

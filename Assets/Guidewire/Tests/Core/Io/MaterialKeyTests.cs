@@ -33,6 +33,33 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void EndsOfTheWire_AreTakenWithGainsToo()
+        {
+            MaterialParameters ends = Load(("proximalEnd", "clamped"), ("distalEnd", "clamped"),
+                ("distalRotation", 3.0), ("distalRampTime", 0.1)).Simulation.Material;
+            Assert.That(ends.ProximalEnd, Is.EqualTo(ProximalEnd.Clamped));
+            Assert.That(ends.DistalEnd, Is.EqualTo(DistalEnd.Clamped));
+            Assert.That(ends.DistalRotation, Is.EqualTo(3.0));
+        }
+
+        [TestCase("distalEnd", "sliding", "direct")]
+        [TestCase("proximalEnd", "free", "force")]
+        [TestCase("axialForce", 1.0, "not a material")]
+        public void EndsThatGainsDoNotKnow_AreRefused(string key, object value, string needed)
+        {
+            Assert.That(() => Load((key, JToken.FromObject(value))),
+                Throws.TypeOf<ParameterException>().With.Message.Contains(key).And.Message.Contains(needed));
+        }
+
+        [TestCase("pbd")]
+        [TestCase("xpbd")]
+        public void EndTurnedAtOnceByMoreThanAJointCanTell_IsRefused(string solver)
+        {
+            Assert.That(() => Load(("solver", solver), ("distalEnd", "clamped"), ("distalRotation", 1.5)),
+                Throws.TypeOf<ParameterException>().With.Message.Contains("distalRampTime"));
+        }
+
+        [Test]
         public void IntegratorOfTheOtherKind_IsRefused()
         {
             Assert.That(() => Load(("solver", "direct"), ("integrator", "verlet")),

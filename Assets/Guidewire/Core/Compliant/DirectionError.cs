@@ -1,0 +1,69 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>What the sweeps of a substep got wrong in the directions of their pulls: each moved the wire along the
+    /// gradient of C where it was just then, and implicit Euler wants that of the final shape, x - x~ = M^-1 grad C^T
+    /// lambda.</summary>
+    /// <remarks>The difference d of the two sides is what forces M d/h^2 and couples J d/h^2 from nowhere would do.
+    /// Their moment about joint k, summed from the distal end, over the joint's stiffness is an angle that counts like
+    /// a residual of that joint.</remarks>
+    internal sealed class DirectionError
+    {
+        private readonly CompliantStretch _stretch;
+        private readonly CompliantBendTwist _bendTwist;
+        private readonly NodalInertia _inertia;
+        private readonly Joint[] _joint;
+        private readonly RodShape _predicted;
+        private readonly Vector3d[] _shift;
+        private readonly Vector3d[] _turn;
+
+        /// <summary>The measure for these constraints.</summary>
+        public DirectionError(MaterialScene scene, NodalInertia inertia, CompliantStretch stretch,
+            CompliantBendTwist bendTwist)
+        {
+            _stretch = stretch;
+            _bendTwist = bendTwist;
+            _inertia = inertia;
+            _joint = scene.Rod.Joints(scene.Supports);
+            _predicted = new RodShape(scene.Rod.ElementCount);
+            _shift = new Vector3d[scene.Rod.ElementCount + 1];
+            _turn = new Vector3d[scene.Rod.ElementCount];
+        }
+
+        /// <summary>Takes the prediction, before any multiplier has moved it.</summary>
+        public void Begin(RodShape shape)
+        {
+            _predicted.CopyFrom(shape);
+        }
+
+        /// <summary>Adds the angles of all joints, after the sweeps.</summary>
+        public void Add(RodShape shape, double substep, ref SweepResidual sum)
+        {
+            Array.Clear(_shift, 0, _shift.Length);
+            Array.Clear(_turn, 0, _turn.Length);
+            _stretch.AddMotion(shape, _shift, _turn);
+            _bendTwist.AddMotion(shape, _turn);
+            double perSquare = 1.0 / (substep * substep);
+            Vector3d force = Vector3d.Zero;
+            Vector3d moment = Vector3d.Zero;
+            for (int j = _turn.Length - 1; j >= 0; j--)
+            {
+                double w = _inertia.InverseMass[j + 1];
+                if (w > 0.0)
+                {
+                    force += (perSquare / w) * (shape.X[j + 1] - _predicted.X[j + 1] - _shift[j + 1]);
+                }
+                Quaterniond q = shape.Q[j];
+                Vector3d turn = RotationVector.Log(_predicted.Q[j].Conjugate * q) - _turn[j];
+                Vector3d inverse = _inertia.InverseInertia[j];
+                var couple = new Vector3d(turn.X / inverse.X, turn.Y / inverse.Y, turn.Z / inverse.Z);
+                moment += Vector3d.Cross(shape.X[j + 1] - shape.X[j], force)
+                    + perSquare * Quaterniond.Rotate(q, couple);
+                Vector3d own = Quaterniond.Rotate(q.Conjugate, moment);
+                sum.Bend += Math.Sqrt(own.X * own.X + own.Y * own.Y) / _joint[j].Bend;
+                sum.Twist += Math.Abs(own.Z) / _joint[j].Twist;
+            }
+        }
+    }
+}

@@ -1,0 +1,39 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>What the sweeps of a substep left undone, beside the strain that the wire holds. Sums over the whole
+    /// wire: radians for bending and twist, m for stretch and shear.</summary>
+    internal struct SweepResidual
+    {
+        /// <summary>Sum of |C + alpha lambda/h^2| over the joints, about d1 and d2.</summary>
+        public double Bend;
+
+        /// <summary>The same about d3.</summary>
+        public double Twist;
+
+        /// <summary>Sum of l |C + alpha lambda/h^2| over the elements.</summary>
+        public double Stretch;
+
+        /// <summary>Sum of |C| over the joints, about d1 and d2.</summary>
+        public double BendStrain;
+
+        /// <summary>The same about d3.</summary>
+        public double TwistStrain;
+
+        /// <summary>Sum of l |C| over the elements.</summary>
+        public double StretchStrain;
+
+        /// <summary>Takes in a later moment: residuals add up, weighed by the share of time that this one stands for,
+        /// of strains the largest stays.</summary>
+        public void Include(in SweepResidual other, double share)
+        {
+            Bend += share * other.Bend;
+            Twist += share * other.Twist;
+            Stretch += share * other.Stretch;
+            BendStrain = Math.Max(BendStrain, other.BendStrain);
+            TwistStrain = Math.Max(TwistStrain, other.TwistStrain);
+            StretchStrain = Math.Max(StretchStrain, other.StretchStrain);
+        }
+    }
+}

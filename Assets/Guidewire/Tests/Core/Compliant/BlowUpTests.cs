@@ -1,0 +1,115 @@
+using System;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>Small steps that are too long: the run ends as diverged, with a reason and a state of numbers.
+    /// </summary>
+    public sealed class BlowUpTests
+    {
+        // The limit by the wire's highest mode: all elements turn to and fro. With a = turn, b = shift of the nodes
+        // between them, omega^2 is the largest eigenvalue of an endless chain, GA/(rho I) (1 + (r/l)^2) + 4 E/(rho l^2).
+        private static double Limit(int n, double radius)
+        {
+            double l = Rods.Length / n;
+            double shear = 4.0 * Rods.Shear / (Rods.Density * radius * radius);
+            return 2.0 / Math.Sqrt(shear * (1.0 + radius * radius / (l * l))
+                + 4.0 * Rods.Young / (Rods.Density * l * l));
+        }
+
+        [TestCase(30, 0.5e-3)]
+        [TestCase(20, 2e-3)]
+        public void ExplicitStepsAboveTheirLimit_EndDiverged(int n, double radius)
+        {
+            Simulation run = Explicit(n, radius, 1.01 * Limit(n, radius));
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Diverged), run.Reason);
+            Assert.That(run.Reason, Does.Contain("energy").And.Contain("raise substeps"));
+            Assert.That(Wires.IsFinite(run.State), Is.True);
+            Assert.That(double.IsFinite(run.PredictionError), Is.True);
+        }
+
+        [TestCase(30, 0.5e-3)]
+        [TestCase(20, 2e-3)]
+        public void ExplicitStepsBelowTheirLimit_EndFinishedWithoutADoubt(int n, double radius)
+        {
+            Simulation run = Explicit(n, radius, 0.98 * Limit(n, radius));
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Assert.That(run.Reason, Does.Not.Contain("but"));
+        }
+
+        [Test]
+        public void ExplicitStepsAboveTheirLimit_AreDoubtful_WhereNothingMovesYet()
+        {
+            SimulationParameters parameters = Wire(Solver.Explicit, 30, Rods.Radius, 3e-7, 10);
+            parameters.Gravity = Vector3d.Zero;
+            Simulation run = Wires.Run(parameters);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished));
+            Assert.That(run.Reason, Does.Contain("unstable"));
+        }
+
+        [TestCase(1)]
+        [TestCase(3)]
+        public void TooFewSubsteps_EndDiverged_OrSayHowWrongTheyAre(int sweeps)
+        {
+            foreach (int substeps in new[] { 1, 4, 16, 64, 256 })
+            {
+                SimulationParameters parameters = Wire(Solver.Xpbd, 30, Rods.Radius, 1e-3, 100);
+                parameters.Material.TipForce = new Vector3d(0.0, 2.0 * Rods.BendForce, 0.0);
+                parameters.Material.Substeps = substeps;
+                parameters.ConstraintSolverSteps = sweeps;
+                Simulation run = Wires.Run(parameters);
+                Assert.That(Wires.IsFinite(run.State), Is.True);
+                if (run.Outcome != Outcome.Diverged)
+                {
+                    Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished));
+                    Assert.That(run.Reason, Does.Match(@"all 100 steps are done, but \d+ of 100 steps had not converged"
+                        + @" \(bending up to [\d.]+ % off\); raise substeps or constraintSolverSteps"));
+                }
+            }
+        }
+
+        [TestCase(Solver.Explicit)]
+        [TestCase(Solver.Xpbd)]
+        public void EnergyPutIn_ByLoadsAndMovedEnds_IsNotTakenForABlowUp(Solver solver)
+        {
+            // A wire without a load is pushed, turned at one end and displaced at the other, and let go by its force.
+            SimulationParameters parameters = Wire(solver, 8, 5e-3, 1e-4, 200);
+            parameters.Drive = Drive.Push;
+            parameters.DisplacementPerStep = 0.05;
+            parameters.TwistPerStep = 0.02;
+            parameters.Gravity = Vector3d.Zero;
+            parameters.Material.Substeps = 100;
+            parameters.Material.TipForce = new Vector3d(0.0, 300.0, 100.0);
+            parameters.Material.TipForceReleaseTime = 0.01;
+            Simulation run = Wires.Run(parameters);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+        }
+
+        private static Simulation Explicit(int n, double radius, double substep)
+        {
+            SimulationParameters parameters = Wire(Solver.Explicit, n, radius, 1000.0 * substep, 20);
+            parameters.Material.Substeps = 1000;
+            return Wires.Run(parameters);
+        }
+
+        private static SimulationParameters Wire(Solver solver, int n, double radius, double step, int steps)
+        {
+            var parameters = new SimulationParameters
+            {
+                Solver = solver,
+                NumberRodElements = n,
+                GuidewireLength = 1e3 * Rods.Length,
+                GuidewireOffset = 0.0,
+                Displacement = 0.0,
+                TimeStep = step,
+                MaxSimulationSteps = steps,
+                ConstraintSolverSteps = 1,
+                DeltaThreshold = 0.0,
+                Gravity = new Vector3d(0.0, -9.81, 0.0),
+            };
+            parameters.Material.WireRadius = radius;
+            parameters.Material.ProximalEnd = ProximalEnd.Clamped;
+            return parameters;
+        }
+    }
+}
