@@ -73,17 +73,17 @@ namespace Guidewire.Core
                 state.OrientationWeights[0] = 0.0;
                 drive = new TwistDrive(drive, parameters.TwistPerStep);
             }
-            if (parameters.Material.DistalEnd == DistalEnd.Clamped)
-            {
-                state.InverseMasses[state.ElementCount] = 0.0;
-                HoldFrame(state, state.ElementCount - 1);
-                drive = new DistalClampDrive(drive, state, parameters);
-            }
             if (parameters.Steering != null)
             {
                 state.InverseMasses[0] = 0.0;
                 state.OrientationWeights[0] = 0.0;
                 drive = new SteeredDrive(parameters.Steering);
+            }
+            if (parameters.Material.DistalEnd == DistalEnd.Clamped)
+            {
+                state.InverseMasses[state.ElementCount] = 0.0;
+                HoldFrame(state, state.ElementCount - 1);
+                drive = new DistalClampDrive(drive, state, parameters);
             }
             return drive;
         }
