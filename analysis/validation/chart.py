@@ -19,6 +19,7 @@ from analysis.validation.wire import BASE
 
 _GRAVITY = 9.81  # m/s^2
 _REPEATS = 3
+_PROBLEMS = ("static", "release", "twist")
 _FIRST = 2.0 * math.pi * beam.frequencies(BASE, 1)[0]  # rad/s
 _REST_TIME = 15.0 / _FIRST  # s; a critically damped motion is over
 _TURN = 0.5 * math.pi
@@ -26,11 +27,8 @@ _TWIST_FREQUENCY = 0.5 / BASE.length * math.sqrt(BASE.shear_modulus / BASE.densi
 _TWIST_TIME = 2e-3  # s, six periods of the slowest wave of twist
 
 _TUNED = {"constraintSolverSteps": 500, "numberRodElements": 30, "timeStep": 1e-3}  # where pbd's gain is tuned
-_PBD = {
-    "solver": "pbd", "stretchStiffness": 1.0, "totalMass": 0.01, "displacement": 0.0,
-    "twistPerStep": 1e-12,  # radians: a drive that turns the frame of element 0 holds it, as a clamp does
-    **_TUNED,
-}
+_PBD = {"solver": "pbd", "stretchStiffness": 1.0, "totalMass": 0.01, "displacement": 0.0, **_TUNED}
+_PBD_TWIST_TIME = 0.4  # s; with gains twist has no damping but that of the sweeps themselves
 _GAIN_RANGE = (0.02, 1.0)  # units; one sag of the tuned wire lies between them
 _TUNING_ROUNDS = 4
 _TUNING_PARTS = 4
@@ -86,6 +84,14 @@ def _explicit(step: float, elements: int) -> dict[str, Any]:
     return {"solver": "explicit", **scenes.small_steps("explicit", BASE, step, elements)}
 
 
+def _xpbd(substeps: int, sweeps: int) -> dict[str, Any]:
+    return {"solver": "xpbd", "substeps": substeps, "constraintSolverSteps": sweeps}
+
+
+def _xpbd_name(elements: int, step: float, substeps: int, sweeps: int) -> str:
+    return f"n = {elements}, substep {number(1e6 * step / substeps, 2)} µs, m = {sweeps}"
+
+
 def _static_points(gain: float) -> list[_Point]:
     points = [
         ("direct", f"n = {n}, dt = {1e3 * dt:g} ms", {**_settled({"integrator": "implicitEuler"}, dt),
@@ -96,9 +102,9 @@ def _static_points(gain: float) -> list[_Point]:
         ("explicit", f"n = {n}", _settled({**_explicit(2e-4, n), "numberRodElements": n}, 2e-4)) for n in (8, 15, 30)
     ]
     points += [
-        ("xpbd", f"substep {1e6 * 1e-3 / k:g} µs, m = {m}",
-         _settled({"solver": "xpbd", "substeps": k, "constraintSolverSteps": m}, 1e-3))
-        for k, m in ((50, 1), (200, 1), (1000, 1), (1000, 3), (200, 15))
+        ("xpbd", _xpbd_name(n, 1e-3, k, m), _settled({**_xpbd(k, m), "numberRodElements": n}, 1e-3))
+        for n, k, m in ((8, 180, 1), (15, 320, 1), (30, 400, 1), (30, 600, 1), (30, 1000, 1), (30, 4000, 1),
+                        (30, 300, 3), (30, 1000, 3), (30, 100, 30))
     ]
     points += [("pbd", _pbd_name(changed), _pbd_settled(gain, changed)) for changed in _PBD_CHANGES]
     return [_Point("static", solver, setting, _case("static", k, overrides))
@@ -129,9 +135,9 @@ def _release_points(gain: float) -> list[_Point]:
         ("explicit", f"n = {n}", release(n, 2e-4, _explicit(2e-4, n)), None) for n in (10, 20, 30)
     ]
     points += [
-        ("xpbd", f"substep {2e2 / k:g} µs, m = {m}",
-         release(30, 2e-4, {"solver": "xpbd", "substeps": k, "constraintSolverSteps": m}), None)
-        for k, m in ((10, 1), (40, 1), (200, 1), (200, 3))
+        ("xpbd", _xpbd_name(n, 2e-4, k, m), release(n, 2e-4, _xpbd(k, m)), None)
+        for n, k, m in ((10, 45, 1), (20, 80, 1), (30, 80, 1), (30, 120, 1), (30, 200, 1), (30, 1000, 1), (30, 60, 3),
+                        (30, 20, 30))
     ]
     for changed in _PBD_CHANGES:
         method = {**_PBD, **changed, "bendStiffness": gain}
@@ -146,7 +152,7 @@ def _release_points(gain: float) -> list[_Point]:
             for k, (solver, setting, overrides, start) in enumerate(points)]
 
 
-def _twist_points() -> list[_Point]:
+def _twist_points(gain: float) -> list[_Point]:
     omega = 2.0 * math.pi * _TWIST_FREQUENCY
 
     def turned(method: Mapping[str, Any], step: float, n: int = scenes.ELEMENTS) -> dict[str, Any]:
@@ -159,9 +165,13 @@ def _twist_points() -> list[_Point]:
     points = [("direct", f"n = {n}, dt = {1e6 * dt:g} µs", turned({"integrator": "implicitEuler"}, dt, n))
               for n, dt in ((8, 2e-5), (15, 2e-5), (30, 2e-5))]
     points += [("explicit", f"n = {n}", turned(_explicit(4e-6, n), 4e-6, n)) for n in (8, 15, 30)]
-    points += [("xpbd", f"substep {4.0 / k:g} µs, m = {m}",
-                turned({"solver": "xpbd", "substeps": k, "constraintSolverSteps": m}, 4e-6))
-               for k, m in ((1, 1), (1, 10), (1, 50), (4, 1), (4, 10))]
+    points += [("xpbd", _xpbd_name(n, 4e-6, k, m), turned(_xpbd(k, m), 4e-6, n))
+               for n, k, m in ((8, 1, 1), (15, 1, 1), (30, 1, 1), (30, 2, 1), (30, 4, 1), (30, 16, 1), (30, 1, 3),
+                               (30, 1, 10))]
+    for changed in _PBD_CHANGES:
+        method = {**_PBD, **changed, "bendStiffness": gain, "damping": 0.0}
+        method["maxSimulationSteps"] = round(_PBD_TWIST_TIME / method["timeStep"])
+        points.append(("pbd", _pbd_name(changed), turned(method, method["timeStep"])))
     return [_Point("twist", solver, setting, _case("twist", k, overrides))
             for k, (solver, setting, overrides) in enumerate(points)]
 
@@ -173,17 +183,26 @@ def _case(problem: str, number_: int, overrides: Mapping[str, Any], start: Mappi
 
 def _twist_error(run: Run) -> float:
     """Worst difference of an inner element's turn from the linear profile, over the turn."""
-    twists = last_state(run).twists
-    n = len(twists)
-    exact = _TURN * (np.arange(n) + 0.5) / n
-    return float(np.max(np.abs(twists - exact)[2:-2])) / _TURN
+    twists = last_state(run).twists / _TURN
+    return float(np.max(np.abs(twists - _linear(len(twists)))[2:-2]))
+
+
+def _linear(n: int) -> np.ndarray:
+    """Turn of the elements' middles between two clamps over the whole turn, shape (n,)."""
+    return (np.arange(n) + 0.5) / n
+
+
+def _pbd_twist_error(n: int) -> float:
+    """The same for sweeps with gains at rest: inner joints share the turn, the first and the last take half a share."""
+    found = (np.arange(n) - 0.5) / (n - 2)
+    return float(np.max(np.abs(found - _linear(n))[2:-2]))
 
 
 def _chart() -> Plan:
     load = BASE.line_density * _GRAVITY * BASE.length**3 / BASE.bending
     wanted = elastica.heavy(load, np.linspace(0.0, 1.0, 11)).tip[1]
     gain = yield from _tune(wanted)
-    points = [*_static_points(gain), *_release_points(gain), *_twist_points()]
+    points = [*_static_points(gain), *_release_points(gain), *_twist_points(gain)]
     runs = yield [point.case for point in points]
     measure = {"static": lambda run: abs(_sag(run) / wanted - 1.0), "release": release_error, "twist": _twist_error}
     what = {"static": "own weight, damped to rest: deflection of the tip", "release": "cantilever let go, 0.2 s: RMS",
@@ -195,10 +214,8 @@ def _chart() -> Plan:
     ]
 
     def draw(figure) -> None:
-        titles = {
-            "static": "(a) sag under own weight", "release": "(b) cantilever let go", "twist": "(c) turned by 90°",
-        }
-        for axes, (problem, title) in zip(figure.subplots(1, 3), titles.items()):
+        titles = ("(a) sag under own weight", "(b) cantilever let go", "(c) turned by 90°")
+        for axes, problem, title in zip(figure.subplots(1, 3), _PROBLEMS, titles):
             for k, (solver, marker) in enumerate(zip(("pbd", "xpbd", "explicit", "direct"), pictures.MARKERS)):
                 at = [(r.cost, r.error) for point, r in zip(points, results)
                       if point.problem == problem and point.solver == solver and np.isfinite(r.error)]
@@ -212,21 +229,19 @@ def _chart() -> Plan:
         figure.axes[0].legend()
         figure.axes[1].axhline(RELEASE_GATE, linestyle="--", color="0.3", linewidth=1.0)
 
+    clamps = percent(_pbd_twist_error(_TUNED["numberRodElements"]))
     caption = (
         "Error against wall time per simulated second, one thread, median of "
         f"{_REPEATS} timed runs (explicit and xpbd: of one). (a) The base wire under its own weight, critically damped "
-        "to rest: relative error of the "
-        "tip's sag. (b) Let go from F L²/EI = 0.1: RMS error of the tip over 0.2 s; dashed: 0.3 %. (c) One end turned "
-        "by 90° "
-        "between two clamps, damped to rest: worst error of the linear profile; pbd holds no second frame and is not "
-        "there. pbd's bendStiffness is tuned so that the wire of (a) sags as the material does at m = 500, n = 30, dt "
-        "= 1 ms "
-        f"(stretchStiffness 1, totalMass 0.01): {number(gain, 4)}. The other pbd points have the same gains and "
-        "another m, n "
-        "or dt: " + _pbd_spread(points, results)
-        + " The other solvers have the material itself; their points differ in n, time step, scheme, substeps and "
-          "sweeps. "
-        + _best(points, results)
+        "to rest: relative error of the tip's sag. (b) Let go from F L²/EI = 0.1: RMS error of the tip over 0.2 s; "
+        "dashed: 0.3 %. (c) One end turned by 90° between two clamps, damped to rest: worst error of the linear "
+        "profile. pbd's bendStiffness is tuned so that the wire of (a) sags as the material does at m = 500, n = 30, "
+        f"dt = 1 ms (stretchStiffness 1, totalMass 0.01): {number(gain, 4)}. The other pbd points, and those of (b) "
+        "and (c), have the same gains; they differ in m, n or dt: " + _pbd_spread(points, results)
+        + " pbd's clamps hold the frames of the first and the last element, whose joints take half of an inner one's "
+          f"share, so in (c) the turn is spread over n - 2 elements: {clamps} at n = 30. "
+        + "The other solvers have the material itself; their points differ in n, time step, scheme, substeps and "
+          "sweeps. " + _lost(points, results) + _best(points, results)
     )
     return Finding(tuple(results), draw, caption, width=12.0)
 
@@ -241,6 +256,13 @@ def _pbd_spread(points: Sequence[_Point], results: Sequence[Result]) -> str:
     errors = [f"{point.setting}: {percent(r.error)}" for point, r in zip(points, results)
               if point.solver == "pbd" and point.problem == "static"]
     return "errors in (a) " + "; ".join(errors) + "."
+
+
+def _lost(points: Sequence[_Point], results: Sequence[Result]) -> str:
+    """Which runs are not drawn."""
+    lost = [f"{point.solver}, {point.setting} ({'abc'[_PROBLEMS.index(point.problem)]})"
+            for point, r in zip(points, results) if not math.isfinite(r.error)]
+    return f"Not drawn, because they diverged: {'; '.join(lost)}. " if lost else ""
 
 
 def _best(points: Sequence[_Point], results: Sequence[Result]) -> str:

@@ -1,0 +1,138 @@
+using System;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>Twisted wires under xpbd: pulls whose directions are wrong have no potential, and first show where a
+    /// twist is about to leave its shape.</summary>
+    public sealed class TwistedWireTests
+    {
+        private const double Share = 0.03;  // of the critical twist: held below it, left above
+        private const double Radius = 3e-3;
+
+        [TestCase(1)]
+        [TestCase(4)]
+        public void Ring_LeavesItsPlane_AtTheTwistOfMichellAndZajac(int sweeps)
+        {
+            // Closed, straight when free, EI = GJ: 2 pi sqrt(3) EI/GJ.
+            const int N = 32;
+            double critical = 2.0 * Math.PI * Math.Sqrt(3.0);
+            Assert.That(Ring(N, sweeps, (1.0 - Share) * critical), Is.LessThan(1e-3));
+            Assert.That(Ring(N, sweeps, (1.0 + Share) * critical), Is.GreaterThan(1e-2));
+        }
+
+        [Test]
+        public void StraightWire_LeavesItsAxis_AtTheCoupleOfGreenhill()
+        {
+            // Between clamps: M L/EI = 8.9868, tan(M/2) = M/2. The ends do not come closer, so that beyond it the wire
+            // only leans on its own tension: (a/L)^2 EA is of the order of what the couple is above its limit.
+            const int N = 24;
+            double critical = 8.9868 * Rods.Young / (2.0 * Rods.Shear);
+            Assert.That(Straight(N, (1.0 - Share) * critical), Is.LessThan(1e-4));
+            Assert.That(Straight(N, (1.0 + Share) * critical), Is.GreaterThan(1e-3));
+        }
+
+        private static double Ring(int n, int sweeps, double twist)
+        {
+            SimulationParameters parameters = Damped(n, sweeps, twist);
+            parameters.Material.ShearModulus = 0.5 * Rods.Young;
+            parameters.Material.StartShape = StartShape.Ring;
+            RodState ring = Simulation.Create(parameters).State;
+            for (int i = 0; i <= n; i++)
+            {
+                double around = 2.0 * Math.PI * i / n;
+                double push = 0.03 * Math.Sin(around) * Math.Sin(around) * Math.Sin(2.0 * around);
+                ring.Positions[i] += new Vector3d(push, 0.0, 0.0);
+            }
+            return Farthest(parameters, ring, FromPlane);
+        }
+
+        private static double Straight(int n, double twist)
+        {
+            SimulationParameters parameters = Damped(n, 2, twist);
+            RodState wire = Simulation.Create(parameters).State;
+            for (int i = 1; i < n; i++)
+            {
+                wire.Positions[i] += new Vector3d(0.003 * Math.Pow(Math.Sin(Math.PI * i / n), 2), 0.0, 0.0);
+            }
+            return Farthest(parameters, wire, FromAxis);
+        }
+
+        // Over the whole run: a ring that has left its plane passes through itself and comes back with fewer turns.
+        private static double Farthest(SimulationParameters parameters, RodState start, Func<RodState, double> away)
+        {
+            parameters.Start = new RodStart(start.Positions, start.Orientations, start.Velocities,
+                start.AngularVelocities);
+            Simulation run = Simulation.Create(parameters);
+            double farthest = 0.0;
+            while (run.Outcome == Outcome.Running)
+            {
+                run.Step();
+                farthest = Math.Max(farthest, away(run.State));
+            }
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            return farthest;
+        }
+
+        private static SimulationParameters Damped(int n, int sweeps, double twist)
+        {
+            double sound = Rods.Length / n / Math.Sqrt(Rods.Young / Rods.Density);
+            var parameters = new SimulationParameters
+            {
+                Solver = Solver.Xpbd,
+                NumberRodElements = n,
+                GuidewireLength = 1e3 * Rods.Length,
+                GuidewireOffset = 0.0,
+                Displacement = 0.0,
+                TimeStep = 4e-5,
+                MaxSimulationSteps = 2000,
+                ConstraintSolverSteps = sweeps,
+                DeltaThreshold = 0.0,
+                Damping = 3e-3,
+            };
+            MaterialParameters material = parameters.Material;
+            material.WireRadius = Radius;
+            material.Substeps = (int)Math.Ceiling(parameters.TimeStep / (0.35 * Math.Sqrt(sweeps) * sound));
+            material.ProximalEnd = ProximalEnd.Clamped;
+            material.DistalEnd = DistalEnd.Clamped;
+            material.ClampRule = ClampRule.HalfElement;
+            material.DistalRotation = twist;
+            material.DistalRampTime = 0.02;
+            return parameters;
+        }
+
+        // Root mean square distance from the plane x = (b, y, z) . (1, y, z) that fits best, over L.
+        private static double FromPlane(RodState state)
+        {
+            double a21 = 0.0, a22 = 0.0, a31 = 0.0, a32 = 0.0, a33 = 0.0;
+            Vector3d right = Vector3d.Zero;
+            foreach (Vector3d x in state.Positions)
+            {
+                a21 += x.Y;
+                a22 += x.Y * x.Y;
+                a31 += x.Z;
+                a32 += x.Y * x.Z;
+                a33 += x.Z * x.Z;
+                right += x.X * new Vector3d(1.0, x.Y, x.Z);
+            }
+            Vector3d plane = new Symmetric3(state.SphereCount, a21, a22, a31, a32, a33).Solve(right);
+            double sum = 0.0;
+            foreach (Vector3d x in state.Positions)
+            {
+                double away = x.X - Vector3d.Dot(plane, new Vector3d(1.0, x.Y, x.Z));
+                sum += away * away;
+            }
+            return Math.Sqrt(sum / state.SphereCount) / (1e3 * Rods.Length);
+        }
+
+        private static double FromAxis(RodState state)
+        {
+            double largest = 0.0;
+            foreach (Vector3d x in state.Positions)
+            {
+                largest = Math.Max(largest, Math.Sqrt(x.X * x.X + x.Y * x.Y));
+            }
+            return largest / (1e3 * Rods.Length);
+        }
+    }
+}
