@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from analysis.validation import beam
+from analysis.validation.spatial import Bend
 from analysis.validation.wire import BASE, Wire
 
 UNIT = 1e-3  # m; one unit of length of the files
@@ -31,6 +32,14 @@ def wire_parameters(wire: Wire) -> dict[str, Any]:
         "youngsModulus": wire.youngs_modulus,
         "shearModulus": wire.shear_modulus,
         "density": wire.density,
+    }
+
+
+def bend_parameters(bend: Bend) -> dict[str, Any]:
+    """The keys of a curved wire under a force at its tip, with a unit of 1 m."""
+    return {
+        **wire_parameters(bend.wire), "metresPerUnit": 1.0, "guidewireLength": bend.wire.length,
+        "restCurvature": [bend.rod.curvature, 0.0, 0.0], "tipForce": bend.force.tolist(),
     }
 
 
@@ -68,12 +77,13 @@ def settled(solver: str, wire: Wire, overrides: Mapping[str, Any], frequency: fl
     }
 
 
-def small_steps(solver: str, wire: Wire, step: float, elements: int = ELEMENTS) -> dict[str, Any]:
-    """Substeps of a time step in s (and sweeps of each) of the explicit solver or of xpbd."""
+def small_steps(solver: str, wire: Wire, step: float, elements: int = ELEMENTS, finer: int = 1) -> dict[str, Any]:
+    """Substeps of a time step in s (and sweeps of each) of the explicit solver or of xpbd, whose substeps may be
+    `finer` times shorter than usual."""
     if solver == "explicit":
         return {"substeps": math.ceil(step / (_EXPLICIT_SHARE * stable_substep(wire, elements)))}
     substep = min(_XPBD_SHEAR * shear_substep(wire), _XPBD_AXIAL * axial_substep(wire, elements))
-    return {"substeps": math.ceil(step / substep), "constraintSolverSteps": _SWEEPS}
+    return {"substeps": math.ceil(finer * step / substep), "constraintSolverSteps": _SWEEPS}
 
 
 def shear_substep(wire: Wire) -> float:
