@@ -24,9 +24,11 @@ ROWS: tuple[Check, ...] = (
     *clamp.CHECKS, *joint.CHECKS, *statics.CHECKS, *couples.CHECKS, *stability.CHECKS, *ring.CHECKS, *helix.CHECKS,
     *dynamics.CHECKS, *balance.CHECKS, *order.CHECKS, *independence.CHECKS,
 )
-_QUICK = ("clamp-compliance", "clamp-frequencies", "plane", "end-moment", "end-moment-darboux", "localised-helix", "bar",
-          "force-balance", "order-in-time", "order-in-time-axial", "elements", "tolerance", "time-step",
-          *(check.id for check in joint.CHECKS))
+_QUICK = (
+    "clamp-compliance", "clamp-frequencies", "plane", "end-moment", "end-moment-darboux", "localised-helix", "bar",
+    "force-balance", "order-in-time", "order-in-time-axial", "elements", "tolerance", "time-step",
+    *(check.id for check in joint.CHECKS),
+)
 FAST = (*statics.FAST, *stability.FAST, *ring.FAST, *(check for check in ROWS if check.id in _QUICK))  # what tests run
 COLUMNS = ("section", "check", "what", "solver", "value", "reference", "unit", "error", "error in", "gate", "passed",
            "cost", "reason")

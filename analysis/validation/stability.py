@@ -264,8 +264,8 @@ def _couple(tension: float, pushing: Sequence[str] = tuple(MOVING)) -> Plan:
         f"axis. The direct solver's rest shapes stay straight up to M L/EI = {number(found.load, 5)} (dashed; "
         f"Greenhill: {number(exact, 5)}); below it they are off by rounding. "
         f"explicit and xpbd, whose clamps cannot slide, are pushed by {PUSH:g} L, turned, and move, damped: the push "
-        "dies out or grows. With clamps held apart the rod leaves its axis at the same couple, since it shortens by the "
-        "square of the distance only."
+        "dies out or grows. With clamps held apart the rod leaves its axis at the same couple, since it shortens by "
+        "the square of the distance only."
     )
     draw = branches("couple of the straight rod M L/EI (1)", "distance from the axis (L), or share of turns lost",
                     drawn)
