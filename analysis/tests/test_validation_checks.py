@@ -186,7 +186,7 @@ def test_report_counts_and_names_what_failed() -> None:
 
 def test_line_without_figure_gives_its_reason_and_no_number() -> None:
     line = next(row for row in as_markdown(_report()).splitlines() if "left out" in row)
-    assert line == "| left out: it cannot | pbd | - | - | - | - | - | - |"
+    assert line == "| left out. Not run: it cannot | pbd | - | - | - | - | - | - |"
     assert next(row for row in as_csv(_report()).splitlines() if "left out" in row).endswith(",it cannot")
     lost = next(row for row in as_markdown(_report()).splitlines() if row.startswith("| lost"))
     assert "not finite" in lost and "FAILED" in lost

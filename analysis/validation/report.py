@@ -92,7 +92,8 @@ def as_markdown(report: Report) -> str:
         "reason instead of figures says why a solver was not run. pbd has gains instead of a material: it has lines "
         "where a gain can be computed from the material, and otherwise stands in the chart of error against wall "
         "time, where its gain is tuned to the wire's sag.", "",
-        *(f"Not made: {check.title} ({reason})." for check, reason in report.missing.items()), "",
+        *(f"Not made: {check.title} ({reason})." for check, reason in report.missing.items()),
+        *([""] if report.missing else []),
     ]
     section = ""
     for check, finding in report.findings.items():
@@ -123,7 +124,7 @@ def _line(r: Result) -> str:
     unit = f" {r.unit}" if r.unit else ""
     error = "not finite" if not r.reason and not math.isfinite(r.error) else figure(r.error, 2)
     cells = (
-        f"{r.what}: {r.reason}" if r.reason else r.what, r.solver, figure(r.value, 6, unit),
+        f"{r.what}. Not run: {r.reason}" if r.reason else r.what, r.solver, figure(r.value, 6, unit),
         figure(r.reference, 6, unit), error if r.reason or r.error_in == "relative" else f"{error} ({r.error_in})",
         "-" if r.gate is None else number(r.gate, 2), _verdict(r), "-" if r.cost is None else number(r.cost, 2),
     )
