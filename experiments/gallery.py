@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
+from functools import lru_cache, partial
 from pathlib import Path
 
 import matplotlib.pyplot as pyplot
@@ -18,14 +18,20 @@ from analysis.tables import measure_relaxation
 from analysis.validation.chart import CHART
 from analysis.validation.check import Check, replay
 from analysis.validation.integrators import INTEGRATORS
-from analysis.validation.report import ROWS, draw_finding, draw_overview, read_report, write_report
+from analysis.validation.report import ROWS, Report, draw_finding, draw_overview, read_report, write_report
 
 INDEX = "index.md"
 VALIDATION = "validation"
 
 
+@lru_cache(maxsize=1)
+def _validation(folder: Path) -> Report:
+    """The report is drawn as one figure and written with its tables; its references are computed once for both."""
+    return read_report(folder)
+
+
 def _draw_validation(folders: Mapping[str, Path]) -> tuple[Figure, str]:
-    return draw_overview(read_report(folders[VALIDATION]))
+    return draw_overview(_validation(folders[VALIDATION]))
 
 
 def _draw_check(check: Check, folders: Mapping[str, Path]) -> tuple[Figure, str]:
@@ -79,7 +85,7 @@ def draw(ids: Sequence[str], folders: Mapping[str, Path], out: Path) -> Gallery:
         pyplot.close(figure)
         (out / f"figure-{name}.txt").write_text(caption + "\n", encoding="utf-8")
     if VALIDATION in ids and not any(f"figure {VALIDATION} " in problem for problem in problems):
-        write_report(read_report(folders[VALIDATION]), out / VALIDATION)
+        write_report(_validation(folders[VALIDATION]), out / VALIDATION)
     index = out / INDEX
     index.write_text(_index(out), encoding="utf-8")
     return Gallery(index, tuple(problems))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Generator, Mapping
 from pathlib import Path
 
 import numpy as np
@@ -12,24 +11,23 @@ from matplotlib.figure import Figure
 
 from analysis.figures.style import CAPTION_ID
 from analysis.runs import Run
-from analysis.validation import pictures, scenes, stability
+from analysis.validation import balance, dynamics, pictures, ring, scenes, stability
 from analysis.validation.beam import mode_numbers
-from analysis.validation.check import Check, Finding, Result
+from analysis.validation.check import Case, Check, Finding, Result, not_run
 from analysis.validation.clamp import fit_frequency
 from analysis.validation.dynamics import rms_error
-from analysis.validation.elastica import column_load
 from analysis.validation.report import ROWS, Report, as_csv, as_markdown, draw_finding, draw_overview
 from analysis.validation.states import State
 from analysis.validation.wire import BASE, Wire
 
 
-def drive(branch: Generator, answer) -> tuple[float, dict[float, float]]:
-    """Drives a search for a limit with runs that know only the load they were made for."""
-    cases = next(branch)
+def drive(search: stability.Search) -> stability.Limit:
+    """Drives a search for a limit with runs that know only the load they were made for; each takes 0.5 s."""
+    summary = {"steps": 1, "computationTime": 0.5}
+    cases = next(search)
     try:
         while True:
-            runs: Mapping[str, Run] = {case.key: Run(Path(), case.overrides, None) for case in cases}
-            cases = branch.send(runs)
+            cases = search.send({case.key: Run(Path(), case.overrides, summary) for case in cases})
     except StopIteration as end:
         return end.value
 
@@ -38,7 +36,7 @@ def search(limit: float, expected: float) -> float:
     branch = stability.limit(
         "load=", expected, lambda load: {"load": load}, lambda run: max(0.0, run.number("load") - limit)
     )
-    return drive(branch, None)[0]
+    return drive(branch).load
 
 
 @pytest.mark.parametrize("limit", [0.75, 0.99, 1.0, 1.01, 1.3])
@@ -50,12 +48,61 @@ def test_limit_outside_the_interval_is_not_a_number() -> None:
     assert math.isnan(search(0.5, 1.0)) and math.isnan(search(2.0, 1.0))
 
 
-def test_implied_load_is_that_of_the_beam_column() -> None:
-    """A column of half the stiffness, F/P (tan u/u - 1) with u^2 = P/0.5, has half the critical load."""
-    thrust, side = 0.4, 1e-3
-    u = math.sqrt(thrust / 0.5)
-    tip = side / thrust * (math.tan(u) / u - 1.0)
-    assert stability._implied_load(thrust, side, tip) == pytest.approx(0.5 * column_load(), rel=1e-9)
+def test_search_passes_over_loads_whose_run_says_nothing() -> None:
+    silent = []
+
+    def left(run: Run) -> float:
+        load = run.number("load")
+        if 0.9 < load < 1.0 and len(silent) < 2:
+            silent.append(load)
+            return math.nan
+        return max(0.0, load - 1.001) + (0.0 if load < 1.001 else stability.LEFT)
+
+    found = drive(stability.limit("load=", 1.0, lambda load: {"load": load}, left))
+    assert len(silent) == 2 and found.load == pytest.approx(1.001, abs=5e-3)
+
+
+def push(limit: float) -> stability.Limit:
+    """What `pushed` finds where a push doubles above the limit and is halved below it."""
+    return drive(stability.pushed(
+        "load=", 2.0, lambda load: Case("", {"load": load}),
+        lambda run: stability.PUSH * (2.0 if run.number("load") > 2.0 * limit else 0.5)))
+
+
+@pytest.mark.parametrize("limit, ends", [(1.0, (0.98, 1.02)), (0.95, (0.94, 0.98)), (1.07, (1.06, 1.10))])
+def test_push_grows_above_the_limit_and_dies_out_below(limit: float, ends: tuple[float, float]) -> None:
+    found = push(limit)
+    assert (found.low, found.high) == ends
+    assert found.cost == 0.5 * len(found.seen) and len(found.seen) == (2 if limit == 1.0 else 6)
+    line = stability.pushed_line("rod", "explicit", 2.0, push(limit), 0.03, "N")
+    assert line.error == pytest.approx(max(abs(end - 1.0) for end in ends)) and line.passed == (limit == 1.0)
+
+
+def test_push_that_always_grows_shows_no_limit() -> None:
+    line = stability.pushed_line("rod", "explicit", 2.0, push(0.5), 0.03, "N")
+    assert line.passed is False and math.isnan(line.value) and "none found" in line.what
+
+
+def test_two_step_rate_is_exact_for_a_parabola() -> None:
+    time = 0.1 * np.arange(5)
+    momentum = np.stack([time**2, 3.0 * time, 0.0 * time], axis=1)
+    rates = balance._rates(momentum, 0.1, two_steps=True)
+    np.testing.assert_allclose(rates[1:, 0], 2.0 * time[2:], atol=1e-12)
+    np.testing.assert_allclose(rates[:, 1], 3.0)
+
+
+def test_period_is_twice_the_distance_of_zeros() -> None:
+    time = np.linspace(0.0, 20.0, 400)
+    assert balance._period(time, np.exp(-0.01 * time) * np.cos(3.0 * time), time) == pytest.approx(
+        2.0 * np.pi / 3.0, rel=1e-3)
+
+
+def test_gain_of_the_bar_moves_a_sphere_as_its_spring_does() -> None:
+    """One sweep over one extended element, by the projection's own formula, against s e/m dt^2."""
+    step, extension = 2.5e-7, 1e-3  # s, units
+    weight, length = 1.0 / dynamics._BAR_MASS, BASE.length / 30 / scenes.UNIT
+    moved = dynamics._bar_gain(step) * weight * length * (extension / length) / (2.0 * weight + 4.0 * length**2)
+    assert moved == pytest.approx(dynamics._BAR_SPRING * extension * weight * step**2, rel=1e-12)
 
 
 def test_link_counts_the_turns_of_a_twisted_ring() -> None:
@@ -67,7 +114,7 @@ def test_link_counts_the_turns_of_a_twisted_ring() -> None:
     s, c = np.sin(0.5 * turn), np.cos(0.5 * turn)
     frames = np.stack([bend[:, 0] * c, -bend[:, 0] * s, bend[:, 3] * s, bend[:, 3] * c], axis=1)
     state = State(0.0, np.zeros((n + 1, 3)), np.zeros((n + 1, 3)), frames)
-    assert stability._link(state) == pytest.approx(twist, rel=1e-3)
+    assert ring.link(state) == pytest.approx(twist, rel=1e-3)
 
 
 def test_frequency_is_found_beside_another_mode() -> None:
@@ -101,13 +148,25 @@ def test_small_steps_are_below_the_limit_and_fill_the_step(solver: str) -> None:
     for wire in (BASE, Wire(radius=5e-3)):
         method = scenes.small_steps(solver, wire, 1e-3)
         substep = 1e-3 / method["substeps"]
-        assert substep <= {"explicit": 1.0, "xpbd": 4.0}[solver] * scenes.stable_substep(wire)
+        longest = {"explicit": scenes.stable_substep(wire), "xpbd": 4.0 * scenes.shear_substep(wire)}[solver]
+        assert substep <= longest
+
+
+def test_stable_substep_is_that_of_neighbours_turning_against_each_other() -> None:
+    """Two elements whose nodes stay: shear GA l and joint EI/l act on rho I l each; the fast motion is the odd one."""
+    wire, n = Wire(radius=5e-3), 60
+    length = wire.length / n
+    inertia = wire.density * wire.second_moment * length
+    joints = 2.0 * wire.bending / length  # one on either side of each element, neighbours opposite
+    omega = math.sqrt((wire.shearing * length + 2.0 * joints) / inertia)
+    assert scenes.stable_substep(wire, n) == pytest.approx(2.0 / omega)
 
 
 def _report() -> Report:
     results = (
         Result("good", "direct", 1.0, 1.0, 1e-4, 1e-3), Result("bad", "xpbd", 2.0, 1.0, 1.0, 1e-3),
         Result("lost", "explicit", math.nan, 1.0, math.nan, 1e-3), Result("shown", "pbd", 1.0, math.nan, 0.1, None),
+        not_run("left out", "pbd", "it cannot"),
     )
     draw = pictures.orders("n (1)", "error (1)", {"a": ((10, 20), (1e-2, 1e-4))}, [(-2.0, "order 2")], (1e-3, "gate"))
     finding = Finding(results, draw, "Two points.")
@@ -116,12 +175,21 @@ def _report() -> Report:
 
 def test_report_counts_and_names_what_failed() -> None:
     report = _report()
-    assert report.counts == (1, 2, 1)
+    assert report.counts == (1, 2, 1, 1)
     figure, caption = draw_overview(report)
-    assert "1 passed, 2 failed; 1 more" in caption and "bad" in caption and "lost" in caption
+    assert "1 lines passed, 2 failed, 1 have no gate and are only shown, 1 say why" in caption
+    assert "one check: 2 lines, worst explicit, lost" in caption
     filled = [line for line in figure.axes[0].lines if line.get_fillstyle() == "full" and line.get_marker() in "os^"]
     assert len(filled) == 2
     assert as_csv(report).count("FAILED") == 2 and as_markdown(report).count("FAILED") == 2
+
+
+def test_line_without_figure_gives_its_reason_and_no_number() -> None:
+    line = next(row for row in as_markdown(_report()).splitlines() if "left out" in row)
+    assert line == "| left out. Not run: it cannot | pbd | - | - | - | - | - | - |"
+    assert next(row for row in as_csv(_report()).splitlines() if "left out" in row).endswith(",it cannot")
+    lost = next(row for row in as_markdown(_report()).splitlines() if row.startswith("| lost"))
+    assert "not finite" in lost and "FAILED" in lost
 
 
 def test_picture_shows_points_gate_and_caption() -> None:

@@ -57,6 +57,21 @@ def test_shape_keeps_its_length() -> None:
     assert np.sum(np.hypot(np.diff(shape.along), np.diff(shape.across))) == pytest.approx(1.0, abs=1e-6)
 
 
+def test_tip_on_a_plane_agrees_with_an_independent_solution() -> None:
+    wire = Wire(radius=0.3e-3)
+    load = wire.line_density * 9.81 * wire.length**3 / wire.bending
+    shape, force = elastica.heavy_on_plane(load, 20e-3 / wire.length, HALF)
+    assert force * wire.bending / wire.length**2 == pytest.approx(1.16164e-3, rel=1e-5)
+    assert shape.tip[1] == pytest.approx(20e-3 / wire.length) and np.max(shape.across) <= shape.tip[1] + 1e-12
+
+
+def test_lightly_loaded_tip_on_a_plane_is_a_propped_cantilever() -> None:
+    """N = 3 EI/L^3 (w L^4/(8 EI) - d)."""
+    load, drop = 1e-3, 0.5e-4
+    _, force = elastica.heavy_on_plane(load, drop, HALF)
+    assert force == pytest.approx(3.0 * (load / 8.0 - drop), rel=1e-5)
+
+
 def test_full_couple_closes_the_ring() -> None:
     ring = elastica.arc(2.0 * math.pi, HALF)
     assert ring.tip == pytest.approx((0.0, 0.0), abs=1e-15)
@@ -143,6 +158,16 @@ def test_bar_chain_moves_as_its_matrix_exponential_says() -> None:
         np.testing.assert_allclose([chain.motion(np.array(time), node) for node in range(1, 6)], moved, atol=1e-15)
 
 
+def test_bar_chain_with_half_a_mass_at_its_end_has_its_first_mode() -> None:
+    chain = bar.BarChain(5, 0.2, 3.0, 1e-3)
+    omega, mode = chain.first_mode()
+    links = 2.0 * np.eye(5) - np.eye(5, k=1) - np.eye(5, k=-1)
+    links[-1, -1] = 1.0
+    masses = 0.2 * np.array([1.0, 1.0, 1.0, 1.0, 0.5])
+    np.testing.assert_allclose(3.0 * links @ mode[1:], omega**2 * masses * mode[1:], atol=1e-12)
+    assert mode[0] == 0.0 and np.all(mode[1:] > 0.0) and mode[-1] == pytest.approx(1.0)
+
+
 def test_long_bar_chain_has_the_frequency_of_the_bar() -> None:
     n = 400
     chain = bar.BarChain(n, BASE.line_density * BASE.length / (n + 1), BASE.stretching * n / BASE.length, 1e-3)
@@ -192,6 +217,27 @@ def test_curved_rod_agrees_with_the_published_bend() -> None:
     rod = spatial.CurvedRod(25.0 * math.pi, 0.01, 1e7 / 12.0, 5e6 / 6.0, 1e7, 5e6)
     x, y, z = rod.tip(np.array([600.0, 0.0, 0.0]))
     np.testing.assert_allclose([-y, z, x], [15.685, 47.150, 53.475], atol=1e-3)
+
+
+def test_bend_of_the_report_is_the_published_one() -> None:
+    bend = spatial.bathe_bolourchi()
+    square = (1e7 / 12.0, 5e6 / 6.0, 1e7, 5e6)  # EI, GJ = G/6, EA, GA
+    assert (bend.rod.bending, bend.rod.torsion, bend.rod.stretching, bend.rod.shearing) == pytest.approx(square)
+
+
+def test_straight_rod_under_a_couple_is_an_arc() -> None:
+    rod = spatial.CurvedRod(2.0, 0.0, 3.0, 1.0, 1e7, 1e7)
+    angle = 0.5 * math.pi
+    tip = rod.tip(np.zeros(3), np.array([angle * 3.0 / 2.0, 0.0, 0.0]))
+    np.testing.assert_allclose(tip, [0.0, -2.0 / angle, 2.0 / angle], atol=1e-6)
+
+
+def test_small_force_and_couple_add_up() -> None:
+    """F L^3/(3 EI) and M L^2/(2 EI), each across its own axis."""
+    rod = spatial.CurvedRod(2.0, 0.0, 3.0, 1.0, 1e9, 1e9)
+    force, couple = 1e-4, 2e-4
+    tip = rod.tip(np.array([0.0, force, 0.0]), np.array([0.0, couple, 0.0]))
+    np.testing.assert_allclose(tip[:2], [couple * 4.0 / 6.0, force * 8.0 / 9.0], rtol=1e-4)
 
 
 def test_curved_rod_without_load_is_an_arc() -> None:

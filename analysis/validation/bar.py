@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -35,6 +36,15 @@ class BarChain:
         squared, modes = self._modes()
         amplitudes = modes[node - 1] * (modes.T @ np.full(self.elements, -self.displacement))
         return self.displacement + np.cos(np.multiply.outer(time, np.sqrt(squared))) @ amplitudes
+
+    def first_mode(self) -> tuple[float, np.ndarray]:
+        """The slowest motion: its angular frequency, rad/s, and displacements of all masses, shape (n+1,), the largest
+        of them 1, where the last mass is half as heavy as the others, as lumping makes it."""
+        n = self.elements
+        # u_j = sin(j a): k (2 - 2 cos a) = m w^2 in the middle, and at half the mass its own image about it, so that
+        # the chain's end is the middle of one of 2 n springs: n a = pi/2.
+        angle = 0.5 * math.pi / n
+        return 2.0 * math.sqrt(self.spring / self.mass) * math.sin(0.5 * angle), np.sin(angle * np.arange(n + 1))
 
     @property
     def frequencies(self) -> np.ndarray:

@@ -14,6 +14,7 @@ Whoever makes the runs drives it once, and whoever draws them drives it again ov
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Generator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -70,6 +71,8 @@ class Result:
         Wall time in s, or in s per simulated second where there is a motion.
     error_in : str
         What the error is a part of, or its unit.
+    reason : str
+        Why there is no figure; empty where there is one.
     """
 
     what: str
@@ -81,11 +84,21 @@ class Result:
     unit: str = ""
     cost: float | None = None
     error_in: str = "relative"
+    reason: str = ""
 
     @property
     def passed(self) -> bool | None:
         """None where there is no gate. An error that is not a number does not pass."""
         return None if self.gate is None else bool(self.error <= self.gate)
+
+
+# Why pbd has no line of a scene whose bending counts.
+TUNED = "its gain is no material's and would be tuned to this very answer, as in the chart of error against wall time"
+
+
+def not_run(what: str, solver: str, reason: str) -> Result:
+    """A line of the table that only says why it has no figure."""
+    return Result(what, solver, math.nan, math.nan, math.nan, None, reason=reason)
 
 
 @dataclass(frozen=True)

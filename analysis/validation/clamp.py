@@ -11,7 +11,7 @@ from scipy.optimize import least_squares
 from analysis.figures.wording import number
 from analysis.validation import beam, pictures, scenes
 from analysis.validation.check import Case, Check, Finding, Plan, Result
-from analysis.validation.states import last_state, tip_motion
+from analysis.validation.states import last_state, tip_motion, wall_time, wall_time_per_second
 from analysis.validation.wire import BASE
 
 SECTION = "The clamp"
@@ -19,7 +19,7 @@ SMALL = 1e-4  # F L^2/EI and w L^3/EI, small enough for the linear beam
 ROUNDING = 1e-7  # of the compliance: what is left of 1e-4 L in double precision, and of the load's square
 RULES = {"wholeElement": (1, "whole-element joint"), "halfElement": (2, "half-element joint"),
          "fourthOrder": (4, "Gregory's weights")}
-_COUNTS = (10, 20, 40, 80)
+_COUNTS = (10, 20, 30, 40, 80)
 _GATE = 0.1  # on the order
 
 
@@ -43,30 +43,32 @@ def _compliance() -> Plan:
         for rule, (order, name) in RULES.items():
             errors = []
             for n in _COUNTS:
-                tip = -last_state(runs[f"{load}-{rule}-n={n}"]).positions[-1, 1] / BASE.length / SMALL
+                run = runs[f"{load}-{rule}-n={n}"]
+                tip = -last_state(run).positions[-1, 1] / BASE.length / SMALL
                 errors.append(abs(tip / exact[load] - 1.0))
+                if n == scenes.ELEMENTS:
+                    results.append(Result(f"{load.replace('-', ' ')}, {name}, n = {n}: compliance", "direct", tip,
+                                          exact[load], errors[-1], None, "L³/EI", wall_time(run)))
                 if load == "tip-load" and rule == "wholeElement":
                     chain = beam.hinged_chain_factor(n) * beam.tip_load_compliance() + shear
                     results.append(Result(
                         f"tip load, {name}, n = {n}: compliance of such a chain", "direct", tip, chain,
-                        abs(tip / chain - 1.0), ROUNDING, "L³/EI",
+                        abs(tip / chain - 1.0), ROUNDING, "L³/EI", wall_time(run),
                     ))
             if load == "tip-load" and rule == "fourthOrder":
                 results.append(Result("tip load, Gregory's weights: compliance, worst of n = 10 to 80", "direct",
-                                      tip, exact[load], max(errors), ROUNDING, "L³/EI"))
+                                      tip, exact[load], max(errors), ROUNDING, "L³/EI", wall_time(run)))
                 continue
             measured = -math.log2(errors[1] / errors[0])
             results.append(Result(
                 f"{load.replace('-', ' ')}, {name}: order of the compliance, n = 10 to 20", "direct",
-                measured, order, abs(measured - order), _GATE, "", None, "absolute",
+                measured, order, abs(measured - order), _GATE, "", wall_time(run), "absolute",
             ))
             series[f"{load.replace('-', ' ')}, {rule}"] = (_COUNTS, errors)
     caption = (
         "Error of the tip's deflection under small loads against the number of elements, for three rules for the "
-        "joints at "
-        "the clamp. A joint of a whole element is the first-order error of a clamp that fixes sphere 0 and the frame "
-        "of "
-        "element 0. Gregory's weights are exact for a tip load (not drawn: "
+        "joints at the clamp. A joint of a whole element has an error of first order, as has a clamp that fixes sphere "
+        "0 and the frame of element 0. Gregory's weights are exact for a tip load (not drawn: "
         f"{number(next(r.error for r in results if 'worst' in r.what), 1)}) and of fourth order for the own weight."
     )
     draw = pictures.orders("number of elements n", "relative error of the deflection", series,
@@ -102,11 +104,12 @@ def _frequencies() -> Plan:
         errors = np.empty((len(counts), _MODES))
         for i, n in enumerate(counts):
             for k in range(_MODES):
-                time, tip = tip_motion(runs[f"{rule.replace(' ', '-')}-n={n}-mode={k + 1}"])
+                run = runs[f"{rule.replace(' ', '-')}-n={n}-mode={k + 1}"]
+                time, tip = tip_motion(run)
                 measured = fit_frequency(time, tip[:, 1], exact[k])
                 errors[i, k] = measured / exact[k] - 1.0
                 results.append(Result(f"frequency {k + 1}, {rule}, n = {n}", "direct, sdirk4", measured, exact[k],
-                                      abs(errors[i, k]), None, "Hz"))
+                                      abs(errors[i, k]), None, "Hz", wall_time_per_second(run)))
         for k in range(_MODES):
             order = -math.log2(abs(errors[1, k] / errors[0, k]))
             if rule == "fourth order":
@@ -120,11 +123,9 @@ def _frequencies() -> Plan:
             series[f"mode {k + 1}, {rule}"] = (counts, np.abs(errors[:, k]))
     caption = (
         "Error of the first three frequencies of the clamped wire against n: Gregory's weights with the consistent "
-        "mass "
-        "(fourth order and more), the half-element clamp with lumped masses (second order). Each from a run that "
-        "starts in "
-        f"the mode, amplitude {_AMPLITUDE:g} L, {_PERIODS} periods, {_STEPS} steps of sdirk4 a period; reference: "
-        "Timoshenko's beam, whose shear and rotary inertia the chain has too."
+        "mass (fourth order and more), the half-element clamp with lumped masses (second order). Each from a run that "
+        f"starts in the mode, amplitude {_AMPLITUDE:g} L, {_PERIODS} periods, {_STEPS} steps of sdirk4 a period; "
+        "reference: Timoshenko's beam, whose shear and rotary inertia the chain has too."
     )
     draw = pictures.orders("number of elements n", "relative error of the frequency", series,
                            [(-2.0, "order 2"), (-4.0, "order 4")])

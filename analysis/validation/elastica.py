@@ -65,6 +65,39 @@ def heavy(load: float, points: np.ndarray) -> PlaneShape:
     return _solve(lambda s: 1.0 - s, load, points)
 
 
+def heavy_on_plane(load: float, drop: float, points: np.ndarray) -> tuple[PlaneShape, float]:
+    """Under its own weight, with the tip on a frictionless plane along the clamp's axis.
+
+    Parameters
+    ----------
+    load : w L^3/EI.
+    drop : of the plane below the clamp over L, less than the free tip's.
+    points : s/L, ascending from 0 to 1.
+
+    Returns
+    -------
+    (shape, force) : force of the plane on the tip over EI/L^2. The tip alone touches where the force is so small that
+    the rod still comes down to the plane at an angle.
+    """
+
+    def slope(s: np.ndarray, y: np.ndarray, force: np.ndarray) -> np.ndarray:
+        return np.stack([y[1], -(load * (1.0 - s) - force[0]) * np.cos(y[0]), np.cos(y[0]), np.sin(y[0])])
+
+    def ends(a: np.ndarray, b: np.ndarray, force: np.ndarray) -> np.ndarray:
+        return np.array([a[0], a[2], a[3], b[1], b[3] - drop])
+
+    mesh = np.linspace(0.0, 1.0, 41)
+    free = heavy(load, mesh)
+    if not 0.0 < drop < free.tip[1]:
+        raise ValueError(f"the free tip comes down by {free.tip[1]}, the plane lies {drop} below")
+    guess = np.stack([free.angle, np.gradient(free.angle, mesh), free.along, free.across])
+    solution = solve_bvp(slope, ends, mesh, guess, p=np.array([0.0]), tol=_TOLERANCE, max_nodes=100_000)
+    if not solution.success:
+        raise ArithmeticError(f"elastica on a plane: {solution.message}")
+    angle, _, along, across = solution.sol(points)
+    return PlaneShape(points, along, across, angle), float(solution.p[0])
+
+
 def arc(angle: float, points: np.ndarray) -> PlaneShape:
     """Under a couple theta EI/L at the tip: a circular arc of this angle theta in rad; 2 pi is a closed ring."""
     turned = angle * points

@@ -9,17 +9,24 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 MARKERS = "osD^vPX*"
+_SLOPE_STYLES = (":", "--", "-.", (0, (1, 4)))
+_TICKS = 8  # as many values are named on the axis one by one
+SOLVER_MARKERS = {"direct": "o", "explicit": "s", "xpbd": "^", "pbd": "D"}
 
 
 def shapes(
     references: Mapping[str, np.ndarray], measured: Mapping[str, np.ndarray], labels: tuple[str, str] = ("z/L", "-y/L")
 ) -> Callable[[Figure], None]:
-    """Curves in a plane: references as lines, what was measured as points; arrays of shape (k, 2)."""
+    """Curves in a plane: references as lines, one of a single point as a cross, what was measured as points; arrays of
+    shape (k, 2)."""
 
     def draw(figure: Figure) -> None:
         axes = figure.add_subplot()
         for name, curve in references.items():
-            axes.plot(*curve.T, "-", color="0.6", linewidth=2.5, zorder=1, label=name)
+            if len(curve) == 1:
+                axes.plot(*curve.T, "+", color="0.3", markersize=14, zorder=3, label=name)
+            else:
+                axes.plot(*curve.T, "-", color="0.6", linewidth=2.5, zorder=1, label=name)
         for marker, (name, points) in zip(_cycle(len(measured)), measured.items()):
             axes.plot(*points.T, marker, markersize=3.5, fillstyle="none", label=name)
         axes.set_aspect("equal", adjustable="datalim")
@@ -45,23 +52,29 @@ def orders(
 
     def draw(figure: Figure) -> None:
         axes = figure.add_subplot()
+        at: set[float] = set()
         for marker, (name, (x, y)) in zip(_cycle(len(series)), series.items()):
             shown = np.isfinite(y) & (np.asarray(y, dtype=float) > 0.0)
-            axes.plot(np.asarray(x)[shown], np.asarray(y)[shown], marker + "-", fillstyle="none", label=name)
+            if np.any(shown):
+                at |= set(np.asarray(x)[shown].tolist())
+                axes.plot(np.asarray(x)[shown], np.asarray(y)[shown], marker + "-", fillstyle="none", label=name)
         axes.set_xscale("log")
         axes.set_yscale("log")
         low, high = axes.get_xlim()
         bottom, top = axes.get_ylim()
         if marked is not None:
             bottom, top = min(bottom, 0.5 * marked[0]), max(top, 2.0 * marked[0])
-        for power, name in slopes:
+        for style, (power, name) in zip(_SLOPE_STYLES, slopes):
             x = np.array([low, high])
             middle = np.sqrt(bottom * top) * (x / np.sqrt(low * high)) ** power
-            axes.plot(x, middle, ":", color="0.5", linewidth=1.0, label=name)
+            axes.plot(x, middle, linestyle=style, color="0.5", linewidth=1.0, label=name)
         axes.set_ylim(bottom, top)
         axes.set_xlim(low, high)
         if marked is not None:
             axes.axhline(marked[0], linestyle="--", color="0.3", linewidth=1.0, label=marked[1])
+        if 0 < len(at) <= _TICKS:
+            axes.set_xticks(sorted(at), [f"{x:g}" for x in sorted(at)])
+            axes.minorticks_off()
         axes.set_xlabel(x_label)
         axes.set_ylabel(y_label)
         outside_legend(axes)

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from analysis.validation import beam
+from analysis.validation.spatial import Bend
 from analysis.validation.wire import BASE, Wire
 
 UNIT = 1e-3  # m; one unit of length of the files
@@ -34,6 +35,14 @@ def wire_parameters(wire: Wire) -> dict[str, Any]:
     }
 
 
+def bend_parameters(bend: Bend) -> dict[str, Any]:
+    """The keys of a curved wire under a force at its tip, with a unit of 1 m."""
+    return {
+        **wire_parameters(bend.wire), "metresPerUnit": 1.0, "guidewireLength": bend.wire.length,
+        "restCurvature": [bend.rod.curvature, 0.0, 0.0], "tipForce": bend.force.tolist(),
+    }
+
+
 def at_rest(overrides: Mapping[str, Any]) -> dict[str, Any]:
     """The rest shape, and nothing after it, by the direct solver."""
     return {"initialState": "equilibrium", "maxSimulationSteps": 0, "logOrientations": True, **overrides}
@@ -53,8 +62,9 @@ def settled(solver: str, wire: Wire, overrides: Mapping[str, Any], frequency: fl
     if solver == "direct":
         step, method = 0.05 / omega, {"integrator": "implicitEuler"}
     else:
-        step = min(_SUBSTEPS * stable_substep(wire), 0.05 / omega)
-        method = small_steps(solver, wire, step, overrides.get("numberRodElements", ELEMENTS))
+        elements = overrides.get("numberRodElements", ELEMENTS)
+        step = min(_SUBSTEPS * stable_substep(wire, elements), 0.05 / omega)
+        method = small_steps(solver, wire, step, elements)
     return {
         "solver": solver,
         "timeStep": step,
@@ -67,18 +77,29 @@ def settled(solver: str, wire: Wire, overrides: Mapping[str, Any], frequency: fl
     }
 
 
-def small_steps(solver: str, wire: Wire, step: float, elements: int = ELEMENTS) -> dict[str, Any]:
-    """Substeps of a time step in s (and sweeps of each) of the explicit solver or of xpbd."""
+def small_steps(solver: str, wire: Wire, step: float, elements: int = ELEMENTS, finer: int = 1) -> dict[str, Any]:
+    """Substeps of a time step in s (and sweeps of each) of the explicit solver or of xpbd, whose substeps may be
+    `finer` times shorter than usual."""
     if solver == "explicit":
-        return {"substeps": math.ceil(step / (_EXPLICIT_SHARE * stable_substep(wire)))}
-    axial = wire.length / elements / math.sqrt(wire.youngs_modulus / wire.density)
-    substep = min(_XPBD_SHEAR * stable_substep(wire), _XPBD_AXIAL * axial)
-    return {"substeps": math.ceil(step / substep), "constraintSolverSteps": _SWEEPS}
+        return {"substeps": math.ceil(step / (_EXPLICIT_SHARE * stable_substep(wire, elements)))}
+    substep = min(_XPBD_SHEAR * shear_substep(wire), _XPBD_AXIAL * axial_substep(wire, elements))
+    return {"substeps": math.ceil(finer * step / substep), "constraintSolverSteps": _SWEEPS}
 
 
-def stable_substep(wire: Wire) -> float:
+def shear_substep(wire: Wire) -> float:
     """2/omega of an element turning against its shear, omega = sqrt(GA/(rho I)), s."""
     return wire.radius / math.sqrt(wire.shear_modulus / wire.density)
+
+
+def axial_substep(wire: Wire, elements: int) -> float:
+    """2/omega of neighbours moving, or turning, against each other, omega = 2 sqrt(E/rho)/l: sound's time along an
+    element, s."""
+    return wire.length / elements / math.sqrt(wire.youngs_modulus / wire.density)
+
+
+def stable_substep(wire: Wire, elements: int = ELEMENTS) -> float:
+    """2/omega of the fastest motion, neighbours turning against each other and their shear, s."""
+    return 1.0 / math.hypot(1.0 / shear_substep(wire), 1.0 / axial_substep(wire, elements))
 
 
 def mode_start(wire: Wire, elements: int, number: float, amplitude: float) -> dict[str, Any]:

@@ -39,6 +39,11 @@ class State:
         return np.stack([2.0 * (x * z + w * y), 2.0 * (y * z - w * x), w * w - x * x - y * y + z * z], axis=1)
 
     @property
+    def momentum_per_mass(self) -> np.ndarray:
+        """Sum over elements of the velocity of their middle, shape (3,): times the mass of one, the momentum."""
+        return np.sum(0.5 * (self.velocities[1:] + self.velocities[:-1]), axis=0)
+
+    @property
     def twists(self) -> np.ndarray:
         """Turn of each element about z from its start, rad, shape (n,), without jumps; for a straight wire along z."""
         return np.unwrap(2.0 * np.arctan2(self.orientations[:, 2], self.orientations[:, 3]), period=2.0 * np.pi)
@@ -71,6 +76,17 @@ def tip_at(run: Run, time: np.ndarray) -> np.ndarray:
     return CubicHermiteSpline(log.time, metres * log.positions[:, 0], metres * log.velocities[:, 0])(time)
 
 
+def reactions(run: Run) -> np.ndarray:
+    """Force of the first sphere's support, its mean over each step, N, shape (steps, 3); the run must log contacts."""
+    entries = [entry for _, entry in read_entries(run.folder)][1:]
+    return np.array([[entry["contact"]["reaction"][axis] for axis in "xyz"] for entry in entries], dtype=float)
+
+
+def solver_method(run: Run) -> str:
+    """How the solver says that it found the end of a run, in its own words."""
+    return str(run.summary["solver"]["method"])
+
+
 def solver_report(run: Run, name: str) -> float | np.ndarray:
     """What the solver said of itself at the end of a run: a number, or a vector of shape (3,)."""
     value = run.summary["solver"][name]
@@ -80,9 +96,10 @@ def solver_report(run: Run, name: str) -> float | np.ndarray:
 
 
 def wall_time(run: Run, repeats: int = 0) -> float:
-    """Wall time of a run's steps in s, or of all of it where it has none: the median of the timed repeats, if any."""
+    """Wall time of a run's steps in s, or of finding its rest shape where it has none: the median of the timed repeats,
+    if any."""
     runs = [read_run(run.folder / f"repeat-{k}") for k in range(1, repeats + 1)] or [run]
-    return float(np.median([r.measured("computationTime" if r.measured("steps") else "wallTime") for r in runs]))
+    return float(np.median([r.measured("computationTime" if r.measured("steps") else "setUpTime") for r in runs]))
 
 
 def wall_time_per_second(run: Run, repeats: int = 0) -> float:

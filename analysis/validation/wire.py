@@ -74,3 +74,4 @@ class Wire:
 
 
 BASE = Wire()
+STURDY = Wire(radius=5e-3)  # its explicit step is ten times longer and its period ten times shorter

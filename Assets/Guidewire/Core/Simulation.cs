@@ -43,7 +43,8 @@ namespace Guidewire.Core
         /// <summary>First step of the steady state, or -1.</summary>
         public int SteadyStateStep => _stopRule.SteadyStateStep;
 
-        /// <summary>What contact with walls came to; null in a scene without walls.</summary>
+        /// <summary>What contact with walls came to, and the force at the first sphere; null in a scene without walls
+        /// whose parameters do not ask for reactions.</summary>
         public ContactRecord? Contacts { get; private set; }
 
         /// <summary>Builds the wire and chooses every part of the method, once.</summary>
@@ -72,7 +73,7 @@ namespace Guidewire.Core
                 parameters.MaxSimulationSteps, state);
             var simulation = new Simulation(state, step, stopRule, parameters.TimeStep)
             {
-                Contacts = (step as ContactStep)?.Record,
+                Contacts = (step as IContactStep)?.Record,
             };
             if (failure != null)
             {

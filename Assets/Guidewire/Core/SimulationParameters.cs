@@ -174,6 +174,10 @@ namespace Guidewire.Core
         /// <summary>The material, for every solver but pbd.</summary>
         public MaterialParameters Material { get; private set; } = new MaterialParameters();
 
+        /// <summary>Whether a run with a material states the support's force at the first sphere after each step; it
+        /// costs a little of each. With gains it is stated wherever there are walls.</summary>
+        public bool StatesReactions { get; set; }
+
         /// <summary>A start other than the straight wire along z at rest, or null.</summary>
         public RodStart? Start { get; set; }
 

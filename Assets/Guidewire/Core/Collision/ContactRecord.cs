@@ -22,8 +22,8 @@ namespace Guidewire.Core
 
         /// <summary>Force of the held or driven first sphere on the rest of the wire in the last step, mass unit *
         /// unit/s^2: what constraints gave the free spheres less what walls gave them. 0 where the first sphere is
-        /// free.</summary>
-        public Vector3d Reaction { get; private set; }
+        /// free. With a material: of the support, in N, the mean over the step by the scheme's weights.</summary>
+        public Vector3d Reaction { get; internal set; }
 
         /// <summary>Points of the wire, ten an element, that were inside before a step and outside after it.</summary>
         public long Passages { get; internal set; }

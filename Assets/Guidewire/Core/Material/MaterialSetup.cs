@@ -42,6 +42,7 @@ namespace Guidewire.Core
         {
             MaterialParameters material = parameters.Material;
             var drive = new MaterialDrive(parameters, scene.Schedule);
+            ContactRecord? record = parameters.StatesReactions ? new ContactRecord(scene.Shape.X.Length) : null;
             switch (parameters.Solver)
             {
                 case Solver.Direct:
@@ -49,11 +50,11 @@ namespace Guidewire.Core
                         Scheme(parameters.Integrator), material.SolverTolerance, material.MaxNewtonIterations);
                     dynamics.Begin(scene.Velocities, scene.Spins, material.InitialState == InitialState.Equilibrium);
                     return new DirectStep(scene, statics, dynamics, drive, parameters.TimeStep, parameters.Damping,
-                        report);
+                        report, record);
                 case Solver.Xpbd:
                     return new CompliantStep(scene, statics, drive, parameters, parameters.ConstraintSolverSteps, report);
                 case Solver.Explicit:
-                    return new ExplicitStep(scene, statics, drive, parameters, report);
+                    return new ExplicitStep(scene, statics, drive, parameters, report, record);
                 default:
                     throw new ArgumentException("unknown solver " + parameters.Solver);
             }

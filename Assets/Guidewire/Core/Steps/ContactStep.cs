@@ -8,7 +8,7 @@ namespace Guidewire.Core
     /// an element or a radius is done in parts, each with its own detection and solve; a part after which something
     /// would have passed a wall is solved again against the places where it met it, then halved, and at the end
     /// shortened. What the drive did not get is reported.</remarks>
-    internal sealed class ContactStep : ITimeStep
+    internal sealed class ContactStep : ITimeStep, IContactStep
     {
         private const int Resolves = 2;
         private const double SmallestPart = 1.0 / 256.0;
@@ -56,7 +56,7 @@ namespace Guidewire.Core
             Record = new ContactRecord(state.SphereCount);
         }
 
-        /// <summary>What contact came to.</summary>
+        /// <inheritdoc/>
         public ContactRecord Record { get; }
 
         /// <inheritdoc/>

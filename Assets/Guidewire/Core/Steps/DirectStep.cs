@@ -4,7 +4,7 @@ namespace Guidewire.Core
 {
     /// <summary>One step of the direct solver: the drive's motion, then all stages of the scheme, each an exact
     /// minimisation over the whole rod.</summary>
-    internal sealed class DirectStep : ITimeStep, IReportingStep
+    internal sealed class DirectStep : ITimeStep, IReportingStep, IContactStep
     {
         private readonly MaterialScene _scene;
         private readonly RodStatics _statics;
@@ -17,8 +17,9 @@ namespace Guidewire.Core
         /// <param name="dynamics">The motion, at its start.</param>
         /// <param name="timeStep">dt, s.</param>
         /// <param name="damping">Share of its velocity that the wire loses a step.</param>
+        /// <param name="record">Takes the support's force after each step, or null.</param>
         public DirectStep(MaterialScene scene, RodStatics statics, RodDynamics dynamics, MaterialDrive drive,
-            double timeStep, double damping, SolverReport report)
+            double timeStep, double damping, SolverReport report, ContactRecord? record)
         {
             _scene = scene;
             _statics = statics;
@@ -27,6 +28,8 @@ namespace Guidewire.Core
             _timeStep = timeStep;
             _kept = 1.0 - damping;
             Report = report;
+            Record = record;
+            dynamics.TracksReactions = record != null;
         }
 
         /// <inheritdoc/>
@@ -37,6 +40,9 @@ namespace Guidewire.Core
 
         /// <inheritdoc/>
         public SolverReport Report { get; }
+
+        /// <inheritdoc/>
+        public ContactRecord? Record { get; }
 
         /// <inheritdoc/>
         public void Advance(RodState state)
@@ -57,6 +63,10 @@ namespace Guidewire.Core
                 return;
             }
             PredictionError = Vector3d.Distance(free, _dynamics.Shape.X[last]) / _scene.Metres;
+            if (Record != null)
+            {
+                Record.Reaction = _dynamics.MeanReaction;
+            }
             _scene.Write(state, _dynamics.Shape, _dynamics.Velocities, _dynamics.Spins);
         }
 

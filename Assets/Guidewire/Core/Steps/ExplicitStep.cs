@@ -7,7 +7,7 @@ namespace Guidewire.Core
     /// other half (position Verlet, order 2), on lumped masses and the wire's own rotary inertia.</summary>
     /// <remarks>Stable below 2/omega_max. The largest frequency is that of elements turning against their shear,
     /// sqrt(GA/(rho I)) = 2 sqrt(G/rho)/r, however coarse the wire is.</remarks>
-    internal sealed class ExplicitStep : ITimeStep, IReportingStep, IWatchedStep
+    internal sealed class ExplicitStep : ITimeStep, IReportingStep, IWatchedStep, IContactStep
     {
         private readonly MaterialScene _scene;
         private readonly RodStatics _statics;
@@ -26,8 +26,9 @@ namespace Guidewire.Core
         private double _time;
 
         /// <summary>A step for this scene.</summary>
+        /// <param name="record">Takes the support's force after each step, or null.</param>
         public ExplicitStep(MaterialScene scene, RodStatics statics, MaterialDrive drive,
-            SimulationParameters parameters, SolverReport report)
+            SimulationParameters parameters, SolverReport report, ContactRecord? record)
         {
             _scene = scene;
             _statics = statics;
@@ -44,6 +45,7 @@ namespace Guidewire.Core
             _energy = new EnergyWatch(scene, statics, _inertia, _ends);
             _stable = StableTimeStep(scene.Rod, scene.Supports);
             Report = report;
+            Record = record;
         }
 
         /// <inheritdoc/>
@@ -63,17 +65,22 @@ namespace Guidewire.Core
         public SolverReport Report { get; }
 
         /// <inheritdoc/>
+        public ContactRecord? Record { get; }
+
+        /// <inheritdoc/>
         public void Advance(RodState state)
         {
             int last = _shape.ElementCount;
             double h = _timeStep / _substeps;
             Vector3d free = _shape.X[last] + _timeStep * _velocities[last];
             _drive.Prepare(_shape, _time);
+            Vector3d reaction = Vector3d.Zero;
             for (int k = 0; k < _substeps; k++)
             {
                 double start = _time + k * h;
                 Drift(0.5 * h, start + 0.5 * h);
                 Kick(h, start + 0.5 * h);
+                reaction += new Vector3d(_gradient[0].X1, _gradient[0].X2, _gradient[0].X3);
                 Drift(0.5 * h, start + h);
             }
             _time += _timeStep;
@@ -84,6 +91,10 @@ namespace Guidewire.Core
                 return;
             }
             PredictionError = Vector3d.Distance(free, _shape.X[last]) / _scene.Metres;
+            if (Record != null)
+            {
+                Record.Reaction = reaction / _substeps;
+            }
             _scene.Write(state, _shape, _velocities, _spins);
         }
 

@@ -120,8 +120,9 @@ namespace Guidewire.Io
                 p => p.LogOrientations, (p, v) => p.LogOrientations = v),
             new SwitchEntry("logContacts",
                 "whether each entry of the log also has \"contact\": the walls' force on each sphere"
-                + " they touch, their total, and the first sphere's reaction (mass unit * unit/s^2)",
-                p => p.LogContacts, (p, v) => p.LogContacts = v),
+                + " they touch, their total, and the first sphere's reaction (mass unit * unit/s^2; with a material N,"
+                + " its mean over the step, direct and explicit only)",
+                p => p.LogContacts, (p, v) => p.LogContacts = p.Simulation.StatesReactions = v),
             new TextEntry("logFilePath", "folder of the results, where -out does not name one",
                 p => p.LogFilePath, (p, v) => p.LogFilePath = v) { IsOutputPath = true },
             new NumberEntry("rodElementLength", "units", NumberRange.Positive,

@@ -16,7 +16,7 @@ namespace Guidewire.Io
     {
         private const string PositionsFile = "positions.json";
         private const string ParametersFile = "parameters.json";
-        private static readonly double ToMilliseconds = 1000.0 / Stopwatch.Frequency;
+        internal static readonly double ToMilliseconds = 1000.0 / Stopwatch.Frequency;    // of a Stopwatch's ticks
 
         private readonly ParameterHandler _handler;
         private readonly string _folder;
@@ -25,6 +25,7 @@ namespace Guidewire.Io
         private readonly StepTimes _times = new StepTimes();
         private readonly Stopwatch _clock = new Stopwatch();
         private readonly List<string> _notes = new List<string>();
+        private double _setUp;    // ms
         private int _lastLogged = -1;
         private bool _lost;
 
@@ -61,8 +62,11 @@ namespace Guidewire.Io
         }
 
         /// <summary>Starts the clock and logs the state before the first step.</summary>
-        public void Begin(Simulation simulation)
+        /// <param name="simulation">The run at its start.</param>
+        /// <param name="setUp">Wall time that building it took, its rest shape among it, ms.</param>
+        public void Begin(Simulation simulation, double setUp)
         {
+            _setUp = setUp;
             _clock.Start();
             Log(simulation);
         }
@@ -112,8 +116,8 @@ namespace Guidewire.Io
             string log = _lost ? PositionsFile + AtomicFile.Partial : PositionsFile;
             try
             {
-                string text = RunSummary.Text(simulation, _handler, _times, _clock.Elapsed.TotalSeconds, _repeat, log,
-                    _notes);
+                string text = RunSummary.Text(simulation, _handler, _times, 1e-3 * _setUp, _clock.Elapsed.TotalSeconds,
+                    _repeat, log, _notes);
                 AtomicFile.Write(Path.Combine(_folder, RunSummary.FileName), text);
             }
             catch (Exception error) when (IsDisk(error))

@@ -21,12 +21,14 @@ namespace Guidewire.Io
         /// <param name="simulation">The run at its end.</param>
         /// <param name="handler">Its parameters.</param>
         /// <param name="times">Its step times.</param>
-        /// <param name="wallTime">Wall time since the start of the run in s.</param>
+        /// <param name="setUpTime">Wall time before the first step in s: building the wire, finding its rest
+        /// shape.</param>
+        /// <param name="wallTime">Wall time since the start of the run in s, without that.</param>
         /// <param name="repeat">Number of a timed repeat, or null.</param>
         /// <param name="log">Name of the log in the run's folder.</param>
         /// <param name="notes">What other than the parameters made the run, one line each.</param>
-        internal static string Text(Simulation simulation, ParameterHandler handler, StepTimes times, double wallTime,
-            int? repeat, string log, IReadOnlyList<string> notes)
+        internal static string Text(Simulation simulation, ParameterHandler handler, StepTimes times, double setUpTime,
+            double wallTime, int? repeat, string log, IReadOnlyList<string> notes)
         {
             var json = new JObject
             {
@@ -35,6 +37,7 @@ namespace Guidewire.Io
                 ["steps"] = simulation.StepCount,
                 ["inGameTime"] = simulation.Time,
                 ["computationTime"] = 1e-3 * times.Sum,
+                ["setUpTime"] = setUpTime,
                 ["wallTime"] = wallTime,
                 ["averageStepTime"] = times.Average,
                 ["medianStepTime"] = times.Median(),

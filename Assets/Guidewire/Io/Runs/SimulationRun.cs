@@ -1,4 +1,5 @@
 using System;
+using System.Diagnostics;
 using Guidewire.Core;
 
 namespace Guidewire.Io
@@ -50,9 +51,11 @@ namespace Guidewire.Io
             {
                 return new RunResult(earlier.Value, "taken from an earlier run", true);
             }
+            long before = Stopwatch.GetTimestamp();
             Simulation simulation = Simulation.Create(_handler.Values.Simulation);
+            double setUp = (Stopwatch.GetTimestamp() - before) * RunFolder.ToMilliseconds;
             using RunFolder results = RunFolder.Open(_handler, _folder, _repeat);
-            results.Begin(simulation);
+            results.Begin(simulation, setUp);
             if (_handler.Values.Simulation.MaxSimulationSteps == 0 && simulation.Outcome == Outcome.Running)
             {
                 simulation.End(Outcome.Finished, "no steps were asked for");

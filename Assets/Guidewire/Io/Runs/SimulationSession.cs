@@ -11,7 +11,6 @@ namespace Guidewire.Io
     public sealed class SimulationSession : IDisposable
     {
         private const double Smoothing = 0.02;     // share of the newest step in the step time shown
-        private static readonly double ToMilliseconds = 1000.0 / Stopwatch.Frequency;
 
         private readonly string _file;
         private readonly List<KeyValuePair<string, JToken>> _overrides;
@@ -54,11 +53,13 @@ namespace Guidewire.Io
         {
             List<KeyValuePair<string, JToken>> given = CommandLineHandler.ReadAssignments(overrides);
             ParameterHandler handler = ParameterHandler.Load(file, given);
+            long before = Stopwatch.GetTimestamp();
             var session = new SimulationSession(file, given, handler, isSteered);
+            double setUp = (Stopwatch.GetTimestamp() - before) * RunFolder.ToMilliseconds;
             if (logFolder.Length > 0)
             {
                 session._results = RunFolder.Open(handler, logFolder, null);
-                session._results.Begin(session.Simulation);
+                session._results.Begin(session.Simulation, setUp);
                 if (isSteered)
                 {
                     session.Note("steered by hand");
@@ -87,7 +88,7 @@ namespace Guidewire.Io
             {
                 Simulation.Step();
             }
-            double time = (Stopwatch.GetTimestamp() - before) * ToMilliseconds;
+            double time = (Stopwatch.GetTimestamp() - before) * RunFolder.ToMilliseconds;
             StepTime = StepTime == 0.0 ? time : StepTime + Smoothing * (time - StepTime);
         }
 

@@ -56,6 +56,41 @@ namespace Guidewire.Core.Tests
             Assert.That(Wires.Distance(Wires.Run(direct).State, Wires.Run(other).State), Is.LessThan(1e-3 * fall));
         }
 
+        [TestCase(Solver.Direct, Integrator.ImplicitEuler)]
+        [TestCase(Solver.Direct, Integrator.Sdirk3)]
+        [TestCase(Solver.Explicit, Integrator.Sdirk3)]
+        public void StatedReaction_AndWeight_ChangeTheMomentum(Solver solver, Integrator integrator)
+        {
+            // Momentum from the nodes' velocities alone: an element's is that of its middle.
+            const int N = 8;
+            const double Step = 1e-3;
+            SimulationParameters parameters = Cantilever(N, solver, integrator, Step, 20);
+            parameters.Material.SolverTolerance = 1e-14;
+            parameters.Material.Substeps = solver == Solver.Explicit ? 5000 : 1;
+            parameters.StatesReactions = true;
+            Simulation run = Simulation.Create(parameters);
+            MaterialRod rod = Rods.Wire(N);
+            double mass = rod.LineDensity[0] * rod.Length[0];
+            Vector3d before = Vector3d.Zero;
+            double worst = 0.0;
+            double peak = 0.0;
+            while (run.Outcome == Outcome.Running)
+            {
+                run.Step();
+                Vector3d after = Vector3d.Zero;
+                for (int j = 0; j < N; j++)
+                {
+                    after += (0.5e-3 * mass) * (run.State.Velocities[j] + run.State.Velocities[j + 1]);
+                }
+                Vector3d reaction = run.Contacts!.Reaction;
+                Vector3d weight = (N * mass) * parameters.Gravity;
+                worst = Math.Max(worst, ((after - before) / Step - reaction - weight).Length);
+                peak = Math.Max(peak, reaction.Length);
+                before = after;
+            }
+            Assert.That(worst, Is.LessThan(1e-6 * peak));
+        }
+
         [Test]
         public void CompliantSolver_WhereItHasConverged_IsImplicitEuler()
         {
