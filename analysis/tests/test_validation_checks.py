@@ -60,6 +60,7 @@ def test_search_passes_over_loads_whose_run_says_nothing() -> None:
 
     found = drive(stability.limit("load=", 1.0, lambda load: {"load": load}, left))
     assert len(silent) == 2 and found.load == pytest.approx(1.001, abs=5e-3)
+    assert "(2 of " in stability.limit_line("rod", 1.0, found, 0.03, "N").what
 
 
 def push(limit: float) -> stability.Limit:

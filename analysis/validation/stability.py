@@ -141,7 +141,10 @@ def pushed(
 
 
 def limit_line(what: str, expected: float, found: Limit, gate: float, unit: str) -> Result:
-    """The direct solver's line of `limit`."""
+    """The direct solver's line of `limit`; it says how many searches for a rest shape gave up."""
+    silent = sum(math.isnan(distance) for distance in found.seen.values())
+    if silent:
+        what += f" ({silent} of {len(found.seen)} searches found no rest shape)"
     return Result(what, "direct", found.load, expected, abs(found.load / expected - 1.0), gate, unit, found.cost)
 
 
