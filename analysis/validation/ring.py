@@ -15,15 +15,13 @@ from analysis.runs import Run
 from analysis.validation import scenes, twisted
 from analysis.validation.check import Case, Check, Finding, Plan
 from analysis.validation.stability import (
-    FINER, GATE, MOVING, PUSH, SECTION, branches, limit, limit_line, motion, pushed, pushed_line,
+    GATE, MOVING, PUSH, SECTION, branches, limit, limit_line, motion, pushed, pushed_line,
 )
 from analysis.validation.states import State, last_state
 from analysis.validation.wire import BASE, STURDY, Wire
 
 _RATIOS = (0.5, 1.0, 2.0)  # EI/GJ
 _ELEMENTS = {"direct": 96, "explicit": 48, "xpbd": 32}
-_FINER = 2 * FINER  # for xpbd: its ring is a thinner wire than its straight rod; at EI/GJ = 2, twisted twice as much,
-# twice that
 _RATE = 200.0  # 1/s, of the motion near the limit
 _DURATION = 0.05  # s
 _RAMP = 5e-3  # s: turned at once, the last joint would take the shorter way
@@ -81,7 +79,7 @@ def _moving(solver: str, ratio: float, twist: float) -> Case:
     """A ring with this twist, and the motion after it, damped."""
     wire, n = _wire(STURDY, ratio), _ELEMENTS[solver]
     keys = {**_keys(wire, n, twist), "distalRampTime": _RAMP}
-    return Case("", motion(solver, wire, n, _RATE, _DURATION, keys, _FINER * max(1, round(ratio))), start=_start(n))
+    return Case("", motion(solver, wire, n, _RATE, _DURATION, keys), start=_start(n))
 
 
 def _start(n: int) -> dict[str, Any]:

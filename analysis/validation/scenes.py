@@ -77,13 +77,12 @@ def settled(solver: str, wire: Wire, overrides: Mapping[str, Any], frequency: fl
     }
 
 
-def small_steps(solver: str, wire: Wire, step: float, elements: int = ELEMENTS, finer: int = 1) -> dict[str, Any]:
-    """Substeps of a time step in s (and sweeps of each) of the explicit solver or of xpbd, whose substeps may be
-    `finer` times shorter than usual."""
+def small_steps(solver: str, wire: Wire, step: float, elements: int = ELEMENTS) -> dict[str, Any]:
+    """Substeps of a time step in s (and sweeps of each) of the explicit solver or of xpbd."""
     if solver == "explicit":
         return {"substeps": math.ceil(step / (_EXPLICIT_SHARE * stable_substep(wire, elements)))}
     substep = min(_XPBD_SHEAR * shear_substep(wire), _XPBD_AXIAL * axial_substep(wire, elements))
-    return {"substeps": math.ceil(finer * step / substep), "constraintSolverSteps": _SWEEPS}
+    return {"substeps": math.ceil(step / substep), "constraintSolverSteps": _SWEEPS}
 
 
 def shear_substep(wire: Wire) -> float:

@@ -205,7 +205,7 @@ def _lost_turn(run: Run) -> float:
 
 
 def motion(
-    solver: str, wire: Wire, n: int, rate: float, duration: float, keys: Mapping[str, Any], finer: int = 1
+    solver: str, wire: Wire, n: int, rate: float, duration: float, keys: Mapping[str, Any]
 ) -> dict[str, Any]:
     """A damped motion of a solver with small steps, logged at its end.
 
@@ -214,18 +214,16 @@ def motion(
     rate : of the slow motion near the limit, 1/s; the damping is critical for it.
     duration : s.
     keys : loads and supports.
-    finer : how much shorter than usual xpbd's substeps are.
     """
     step = duration / _FRAMES
     return {
         **scenes.wire_parameters(wire), "solver": solver, "numberRodElements": n, "timeStep": step,
         "damping": 2.0 * rate * step, "maxSimulationSteps": _FRAMES, "logEvery": 1_000_000, "logOrientations": True,
-        **scenes.small_steps(solver, wire, step, n, finer), **keys,
+        **scenes.small_steps(solver, wire, step, n), **keys,
     }
 
 
 _FRAMES = 600
-FINER = 4  # for xpbd's substeps on a twisted rod: longer ones make it leave its shape too soon
 STOUT = Wire(radius=10e-3)  # xpbd converges sooner on it; its shear and stretch are still below 0.2 %
 MOVING = {"explicit": STURDY, "xpbd": STOUT}  # the solvers that push, and the wire of each
 
@@ -255,7 +253,7 @@ def _couple(tension: float, pushing: Sequence[str] = tuple(MOVING)) -> Plan:
             return Case("", motion(solver, wire, count, slow, 12.0 / slow, {
                 "distalEnd": "clamped", "distalRotation": moment * wire.bending / wire.torsion,
                 "distalDisplacement": pull / scenes.UNIT, "distalRampTime": 2.0 / slow,
-            }, FINER), start=_hump(wire, count))
+            }), start=_hump(wire, count))
 
         bracket = yield from pushed(f"{solver}-", exact, moving, partial(_off_axis, wire))
         results.append(pushed_line(
