@@ -26,7 +26,8 @@ ROWS: tuple[Check, ...] = (
 )
 _QUICK = (
     "clamp-compliance", "clamp-frequencies", "plane", "end-moment", "end-moment-darboux", "localised-helix", "bar",
-    "force-balance", "force-balance-default", "order-in-time", "order-in-time-axial", "elements", "tolerance", "time-step",
+    "force-balance", "force-balance-default", "order-in-time", "order-in-time-axial", "elements", "tolerance",
+    "time-step",
     *(check.id for check in joint.CHECKS),
 )
 FAST = (*statics.FAST, *stability.FAST, *ring.FAST, *(check for check in ROWS if check.id in _QUICK))  # what tests run
