@@ -15,7 +15,8 @@ namespace Guidewire.Core
     /// After a full step d1 the force left is of second order: its ratio to |d1|^2, as last measured, is trusted for
     /// steps so short that it promises S with a margin, but for every 16th stage. A correction d2 with the
     /// factorisation that is kept takes the stiff direction of each element where it was a turn d1 ago, so it leaves
-    /// EA |d1| |d2|: where that is below S nothing more is looked at.</remarks>
+    /// EA |d1| |d2|: where that is below S, and with c = |d2|/|d1| the error c/(1-c) |d2| below the tolerance, nothing
+    /// more is looked at.</remarks>
     internal sealed class StageSolver
     {
         private const double WorstContraction = 0.3;
@@ -137,7 +138,7 @@ namespace Guidewire.Core
                     KeptSolutions++;
                     _system.Solve(_direction);
                     double next = Move(shape);
-                    if (Safety * _stiffest * first * next <= allowed)
+                    if (Safety * _stiffest * first * next <= allowed && next * next <= Tolerance * (size - next))
                     {
                         return true;
                     }
