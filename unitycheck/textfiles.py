@@ -8,6 +8,7 @@ from unitycheck.project import TEXT_SUFFIXES, YAML_SUFFIXES, Project
 from unitycheck.violation import Violation
 
 HEADER = "%YAML 1.1\n%TAG !u! tag:unity3d.com,2011:\n"
+WIDEST = 120  # columns of a line of code
 ATTRIBUTES = ("*.cs", "*.meta", "*.unity", "*.asset", "*.asmdef", "*.mat")
 
 
@@ -20,7 +21,7 @@ def _files(project: Project) -> Iterator[str]:
 
 
 def check(project: Project) -> Iterator[Violation]:
-    """Rules text-utf8, text-bom, text-crlf, text-tab, text-end, yaml-header, gitattributes."""
+    """Rules text-utf8, text-bom, text-crlf, text-tab, text-wide, text-end, yaml-header, gitattributes."""
     for path in _files(project):
         data = project.data(path)
         if data.startswith(b"\xef\xbb\xbf"):
@@ -35,6 +36,10 @@ def check(project: Project) -> Iterator[Violation]:
             yield Violation(path, data.count(b"\n") + 1, "text-end", "the last line has no line end")
         if path.endswith(YAML_SUFFIXES + (".meta", ".cs")) and b"\t" in data:
             yield Violation(path, data[:data.index(b"\t")].count(b"\n") + 1, "text-tab", "tab; indent by blanks")
+        if path.endswith(".cs"):
+            for number, line in enumerate(project.text(path).splitlines(), 1):
+                if len(line) > WIDEST:
+                    yield Violation(path, number, "text-wide", f"{len(line)} columns; at most {WIDEST}")
         if path.endswith(YAML_SUFFIXES) and not project.text(path).startswith(HEADER):
             yield Violation(path, 1, "yaml-header", "must start with '%YAML 1.1' and '%TAG !u! tag:unity3d.com,2011:'")
     yield from _attributes(project)

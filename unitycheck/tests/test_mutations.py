@@ -122,6 +122,7 @@ BREAKAGES = {
                            f"{GUIDEWIRE}/Tests/Core/A.cs", "nunit"),
     "CRLF": (replace(VECTOR, "^using System;", "using System;\r"), VECTOR, "text-crlf"),
     "tab": (replace(VECTOR, "^    public", "\tpublic"), VECTOR, "text-tab"),
+    "a line of 130 columns": (replace(VECTOR, "^    public", 110 * " " + "/* wide */ public"), VECTOR, "text-wide"),
     "version of a package": (replace(MANIFEST, '"3.2.1"', '"3.0.2"'), MANIFEST, "package-version"),
     "package missing": (replace(MANIFEST, r",\s*\"com.unity.test-framework\": \"1.5.1\"", ""), MANIFEST,
                         "package-missing"),

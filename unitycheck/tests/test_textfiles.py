@@ -14,6 +14,10 @@ def test_tab(breakage) -> None:
     breakage(NUMBER, "    public", "\tpublic", "text-tab")
 
 
+def test_wide_line(breakage) -> None:
+    breakage(NUMBER, "    public", "    /* " + 110 * "-" + " */ public", "text-wide")
+
+
 def test_last_line_end(breakage) -> None:
     breakage(NUMBER, "}\n}\n", "}\n}", "text-end")
 

@@ -4,8 +4,8 @@ using Guidewire.Core;
 namespace Guidewire.Benchmarks
 {
     /// <summary>The free cantilever: 0.2 s of the motion of a clamped wire that is let go from its rest shape under a
-    /// tip force F L^2/EI = 0.1, without damping, at the default tolerance; and beside it, because the load of a machine
-    /// changes within a minute, the sweep in which its time is told.</summary>
+    /// tip force F L^2/EI = 0.1, without damping, at the default tolerance; and beside it,
+    /// because the load of a machine changes within a minute, the sweep in which its time is told.</summary>
     public class CantileverBenchmark
     {
         private const int SweepElements = 30;

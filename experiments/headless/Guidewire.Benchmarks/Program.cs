@@ -30,7 +30,8 @@ namespace Guidewire.Benchmarks
         {
             IConfig config = ManualConfig.CreateEmpty()
                 .AddJob(Job.Default.WithToolchain(InProcessEmitToolchain.Instance)
-                    .WithWarmupCount(3).WithIterationCount(9).WithIterationTime(Perfolizer.Horology.TimeInterval.FromMilliseconds(200)))
+                    .WithWarmupCount(3).WithIterationCount(9)
+                    .WithIterationTime(Perfolizer.Horology.TimeInterval.FromMilliseconds(200)))
                 .AddDiagnoser(BenchmarkDotNet.Diagnosers.MemoryDiagnoser.Default)
                 .AddColumnProvider(DefaultColumnProviders.Instance)
                 .AddLogger(arguments.Contains("--verbose") ? ConsoleLogger.Default : NullLogger.Instance)
@@ -91,16 +92,16 @@ namespace Guidewire.Benchmarks
         private static void Print(List<Row> rows)
         {
             double sweep = Find(rows, "Sweep").PerUnit;
-            Console.WriteLine("{0,-46} {1,12} {2,24} {3,9} {4,8} {5,12}", "what", "median", "per unit", "spread", "ratio",
-                "allocated");
+            Console.WriteLine("{0,-46} {1,12} {2,24} {3,9} {4,8} {5,12}", "what", "median", "per unit", "spread",
+                "ratio", "allocated");
             foreach (Row row in rows)
             {
                 Console.WriteLine(string.Format(CultureInfo.InvariantCulture,
-                    "{0,-46} {1,9:0.0} us {2,9:0.0} ns / {3,-10} {4,7:0.0} % {5,8:0.00} {6,10} B", row.Name, 1e-3 * row.Median,
-                    row.PerUnit, row.Unit, row.Spread, row.PerUnit / sweep, row.Allocated));
+                    "{0,-46} {1,9:0.0} us {2,9:0.0} ns / {3,-10} {4,7:0.0} % {5,8:0.00} {6,10} B", row.Name,
+                    1e-3 * row.Median, row.PerUnit, row.Unit, row.Spread, row.PerUnit / sweep, row.Allocated));
             }
-            Console.WriteLine("ratio: to the time of one element-iteration (stretch and bend-twist) at n = 30. Spread: interquartile"
-                + " range over median.");
+            Console.WriteLine("ratio: to the time of one element-iteration (stretch and bend-twist) at n = 30. Spread:"
+                + " interquartile range over median.");
         }
     }
 }

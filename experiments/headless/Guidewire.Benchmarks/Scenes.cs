@@ -5,7 +5,8 @@ namespace Guidewire.Benchmarks
     /// <summary>Scenes that more than one benchmark steps.</summary>
     internal static class Scenes
     {
-        /// <summary>The default wire (thesis table 4.1) displaced along y, which excites stretch and bending, never at its
+        /// <summary>The default wire (thesis table 4.1) displaced along y, which excites stretch and bending,
+        /// never at its
         /// end.</summary>
         public static Simulation Transversal(int elements, int iterations)
         {

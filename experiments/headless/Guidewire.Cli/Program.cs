@@ -12,8 +12,10 @@ namespace Guidewire.Cli
     {
         private const string Usage =
             "usage: Guidewire.Cli -parameters FILE -out DIR [-KEY VALUE]...\n"
-            + "       Guidewire.Cli -lines      one JSON request a line on standard input, one answer a line on standard output:\n"
-            + "           {\"id\": TEXT, \"parameters\": FILE, \"set\": {KEY: VALUE}, \"out\": DIR, \"repeat\": K, \"reuse\": true}\n"
+            + "       Guidewire.Cli -lines      one JSON request a line on standard input, one answer a line on"
+            + " standard output:\n"
+            + "           {\"id\": TEXT, \"parameters\": FILE, \"set\": {KEY: VALUE}, \"out\": DIR, \"repeat\": K,"
+            + " \"reuse\": true}\n"
             + "       Guidewire.Cli --keys      the parameters as a Markdown table\n"
             + "       Guidewire.Cli --version\n"
             + "       Guidewire.Cli --help\n";

@@ -55,7 +55,8 @@ namespace Guidewire.Core
             result.SmallestEigenvalue = new DragSpectrum(_tangent, _rod).SmallestRealPart(shape);
             result.Converged = result.SmallestEigenvalue > 0.0;
             result.Reason = result.Converged ? string.Empty
-                : "the equilibrium under tipMoment is not stable: a disturbance grows even in a wire with drag" + Flutter;
+                : "the equilibrium under tipMoment is not stable: a disturbance grows even in a wire with drag"
+                + Flutter;
             return result;
         }
 

@@ -79,7 +79,8 @@ namespace Guidewire.Core
             Report.Energy = _dynamics.Energy;
             RodShape shape = _dynamics.Shape;
             Report.ProximalForce = _dynamics.ReactionAt(0);
-            Report.DistalForce = _scene.Supports.HasDistalJoint ? _dynamics.ReactionAt(shape.ElementCount) : Vector3d.Zero;
+            Report.DistalForce = _scene.Supports.HasDistalJoint ? _dynamics.ReactionAt(shape.ElementCount)
+                : Vector3d.Zero;
             Report.ProximalMoment = _statics.Bending.ProximalCouple(shape);
             Report.DistalMoment = _statics.Bending.DistalCouple(shape);
         }

@@ -74,7 +74,8 @@ namespace Guidewire.Io
                 throw new ParameterException(integrator.Source, "integrator",
                     integrator.Value.ToString(Formatting.None), direct
                     ? "one of \"implicitEuler\", \"bdf2\", \"sdirk2\", \"sdirk3\", \"sdirk4\" with solver \"direct\""
-                    : "one of \"verlet\", \"euler\", \"orientationVerlet\", \"eulerOrientationVerlet\" with solver \"pbd\"");
+                    : "one of \"verlet\", \"euler\", \"orientationVerlet\", \"eulerOrientationVerlet\""
+                    + " with solver \"pbd\"");
             }
             simulation.Integrator = Integrator.Sdirk3;
         }
@@ -120,7 +121,8 @@ namespace Guidewire.Io
             if (material.StartShape == StartShape.Helix && 2.0 * Math.PI * Math.Abs(material.StartTurns)
                 * material.StartRadius >= simulation.GuidewireLength)
             {
-                Refuse(given, "startTurns", "a helix shorter than guidewireLength: 2 pi startTurns startRadius is more");
+                Refuse(given, "startTurns",
+                    "a helix shorter than guidewireLength: 2 pi startTurns startRadius is more");
             }
             if (simulation.Drive == Drive.Hold || simulation.Drive == Drive.Force)
             {

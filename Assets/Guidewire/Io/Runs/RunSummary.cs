@@ -57,14 +57,16 @@ namespace Guidewire.Io
                     ["guidewire"] = Version,
                     ["core"] = CoreBuild,
                     ["runtime"] = RuntimeInformation.FrameworkDescription,
-                    ["machine"] = RuntimeInformation.OSDescription + ", " + RuntimeInformation.ProcessArchitecture + ", "
+                    ["machine"] = RuntimeInformation.OSDescription + ", " + RuntimeInformation.ProcessArchitecture
+                    + ", "
                         + Environment.ProcessorCount + " processors",
                 },
                 ["parameterHash"] = notes.Count == 0 ? handler.Hash : null,
                 ["complete"] = true,
             };
             SolverReport? report = simulation.CompleteReport();
-            json.Property("steadyStateStep")!.AddAfterSelf(new JProperty("stiffness", report == null ? "gains" : "material"));
+            json.Property("steadyStateStep")!.AddAfterSelf(new JProperty("stiffness",
+                report == null ? "gains" : "material"));
             if (report != null)
             {
                 json.Property("stiffness")!.AddAfterSelf(new JProperty("solver", Solver(report)));
