@@ -12,11 +12,11 @@ namespace Guidewire.Core
     /// weight of the wire. What rounding of the positions leaves in the balance, one unit in the last place times
     /// EA/l and M/h^2, is added to S.
     ///
-    /// After a full step d1 the force left is of second order: its ratio to |d1|^2, as last measured, is trusted for
-    /// steps so short that it promises S with a margin, but for every 16th stage. A correction d2 with the
+    /// After a full step d1 the force left is of second order, and of first where the tangent leaves something out (the
+    /// turning of fast spins): from the last that was measured it is expected to grow with |d1|^2 and to fall with
+    /// |d1|. Where that promises S with a margin it is trusted, but for every 16th stage. A correction d2 with the
     /// factorisation that is kept takes the stiff direction of each element where it was a turn d1 ago, so it leaves
-    /// EA |d1| |d2|: where that is below S, and with c = |d2|/|d1| the error c/(1-c) |d2| below the tolerance, nothing
-    /// more is looked at.</remarks>
+    /// EA |d1| |d2|: where that is below S, and |d2| below the tolerance, nothing more is looked at.</remarks>
     internal sealed class StageSolver
     {
         private const double WorstContraction = 0.3;
@@ -42,7 +42,8 @@ namespace Guidewire.Core
         private readonly double _stiffest;         // EA, N
         private readonly double _axialSpring;      // EA/l, N/m
         private double _largestForce;              // in the rod when last measured, N
-        private double _curvature = double.PositiveInfinity;  // force left over |d1|^2 when last measured, N
+        private double _knownStep;                 // |d1| when the force that it left was last measured
+        private double _knownForce = double.PositiveInfinity;
         private int _stagesOnTrust;
 
         /// <summary>A solver for this rod under the terms of its statics and its inertia.</summary>
@@ -113,7 +114,7 @@ namespace Guidewire.Core
                 double first = Move(shape);
                 double allowed = Allowed(rounding, loads);
                 _stagesOnTrust++;
-                if (_stagesOnTrust < MostOnTrust && Caution * _curvature * first * first <= allowed)
+                if (_stagesOnTrust < MostOnTrust && Caution * Expected(first) <= allowed)
                 {
                     return true;
                 }
@@ -125,7 +126,8 @@ namespace Guidewire.Core
                     allowed = Allowed(rounding, loads);
                     if (k == 0)
                     {
-                        _curvature = unbalanced / (first * first);
+                        _knownStep = first;
+                        _knownForce = unbalanced;
                         _stagesOnTrust = 0;
                     }
                     // A full step that no longer lowers the force left has come to what rounding leaves.
@@ -138,7 +140,7 @@ namespace Guidewire.Core
                     KeptSolutions++;
                     _system.Solve(_direction);
                     double next = Move(shape);
-                    if (Safety * _stiffest * first * next <= allowed && next * next <= Tolerance * (size - next))
+                    if (Safety * _stiffest * first * next <= allowed && next <= Tolerance)
                     {
                         return true;
                     }
@@ -162,7 +164,7 @@ namespace Guidewire.Core
         {
             Searches++;
             GradientIsCurrent = false;
-            _curvature = double.PositiveInfinity;
+            _knownForce = double.PositiveInfinity;
             EquilibriumResult result = _creep == null ? _search.Solve(shape, Tolerance, MostIterations, false)
                 : _creep.Settle(shape, Tolerance, MostIterations);
             return result.Converged ? null : result.Reason;
@@ -187,6 +189,13 @@ namespace Guidewire.Core
                 }
             }
             return _gradient;
+        }
+
+        /// <summary>The force that a full step of this length is expected to leave, N.</summary>
+        private double Expected(double step)
+        {
+            double ratio = step / _knownStep;
+            return _knownForce * (ratio > 1.0 ? ratio * ratio : ratio);
         }
 
         /// <summary>S, N.</summary>
