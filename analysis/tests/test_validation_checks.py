@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from analysis.figures.style import CAPTION_ID
 from analysis.runs import Run
-from analysis.validation import balance, dynamics, pictures, ring, scenes, stability
+from analysis.validation import balance, chart, dynamics, pictures, ring, scenes, stability
 from analysis.validation.beam import mode_numbers
 from analysis.validation.check import Case, Check, Finding, Result, not_run
 from analysis.validation.clamp import fit_frequency
@@ -206,3 +206,16 @@ def test_every_check_has_its_own_name() -> None:
     assert len({check.id for check in ROWS}) == len(ROWS)
     assert {check.section for check in ROWS} == {
         "The clamp", "Statics", "Stability limits", "Dynamics", "Independence"}
+
+
+def test_gains_stand_in_every_panel_of_the_chart_between_the_same_ends() -> None:
+    twist = chart._twist_points(0.1)
+    assert {point.solver for point in twist} == {"pbd", "xpbd", "explicit", "direct"}
+    for point in twist:
+        assert point.case.overrides["distalEnd"] == "clamped" and "twistPerStep" not in point.case.overrides
+
+
+def test_twist_of_gains_is_off_by_an_element_at_either_clamp() -> None:
+    # Inner element j of n stands at (j - 1/2)/(n - 2) instead of (j + 1/2)/n: (n - 2 j - 1)/(n (n - 2)) apart.
+    n = 30
+    assert chart._pbd_twist_error(n) == pytest.approx((n - 5) / (n * (n - 2)), rel=1e-12)

@@ -218,3 +218,35 @@ def test_a_run_of_100_000_steps_takes_constant_memory_and_linear_time(runner_com
     # does not see what else the machine was doing.
     each = np.diff(log.elapsed)
     assert np.median(each[-steps // 10:]) < 1.5 * np.median(each[steps // 10:steps // 5])
+
+
+MATERIAL = {
+    "numberRodElements": 12, "constraintSolverSteps": 1, "guidewireLength": 300.0, "guidewireOffset": 0.0,
+    "proximalEnd": "clamped", "timeStep": 1e-3, "maxSimulationSteps": 40, "deltaThreshold": 0.0,
+    "tipForce": [0.0, 0.06, 0.0],
+}
+
+
+@pytest.mark.parametrize(("solver", "substeps", "outcome"), [
+    ("xpbd", 1, "finished"), ("xpbd", 20, "diverged"), ("explicit", 3000, "diverged"),
+])
+def test_material_run_that_went_wrong_says_so_wherever_one_looks(scratch, start, solver, substeps, outcome):
+    scene = scene_of(scratch, **MATERIAL, solver=solver, substeps=substeps)
+    process = start(scene, scratch / "out")
+    said, complained = process.communicate(timeout=60)
+    summary = json.loads((scratch / "out" / "summary.json").read_text())
+    assert summary["outcome"] == outcome, summary["reason"]
+    assert process.returncode == {"finished": 0, "diverged": 4}[outcome]
+    assert f"{outcome}: {summary['reason']} -> " in said and complained == ""
+    assert "raise substeps" in summary["reason"]
+    assert ("had not converged" in summary["reason"]) == (outcome == "finished")
+    text = (scratch / "out" / "positions.json").read_text()
+    assert "null" not in text and "NaN" not in text
+    assert np.all(np.isfinite(read_log(scratch / "out").positions))
+
+
+def test_material_run_that_went_well_has_no_doubt(scratch, start):
+    scene = scene_of(scratch, **MATERIAL, solver="xpbd", substeps=300)
+    process = start(scene, scratch / "out")
+    said, _ = process.communicate(timeout=60)
+    assert process.returncode == 0 and "finished: all 40 steps are done -> " in said

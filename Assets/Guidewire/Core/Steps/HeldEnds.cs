@@ -8,6 +8,8 @@ namespace Guidewire.Core
         private readonly RodStatics _statics;
         private readonly bool _holdsFirst;
         private readonly bool _holdsLast;
+        private double _proximalTurn = double.NaN;
+        private double _distalTurn = double.NaN;
 
         /// <summary>The ends of this scene.</summary>
         public HeldEnds(MaterialScene scene, RodStatics statics)
@@ -26,32 +28,48 @@ namespace Guidewire.Core
         public void Place(RodShape shape, double time)
         {
             RodSchedule schedule = _scene.Schedule;
-            int last = shape.ElementCount;
-            Vector3d first = _holdsFirst ? schedule.ProximalPositionAt(time) : shape.X[0];
-            Vector3d end = _holdsLast ? schedule.DistalPositionAt(time) : shape.X[last];
+            if (_holdsFirst)
+            {
+                Shift(shape, 0, 0, -0.5, schedule.ProximalPositionAt(time));
+            }
+            if (_holdsLast)
+            {
+                int last = shape.ElementCount;
+                Shift(shape, last, last - 1, 0.5, schedule.DistalPositionAt(time));
+            }
+            double proximalTurn = schedule.ProximalTurnAt(time);
+            double distalTurn = schedule.DistalTurnAt(time);
+            if (proximalTurn != _proximalTurn || distalTurn != _distalTurn)
+            {
+                Turn(shape, proximalTurn, distalTurn);
+            }
+        }
+
+        private void Shift(RodShape shape, int node, int element, double halfSign, in Vector3d to)
+        {
+            Vector3d move = to - shape.X[node];
+            if (move == Vector3d.Zero)
+            {
+                return;
+            }
+            Vector3d force = Force(shape, element);
+            shape.X[node] = to;
+            Work += halfSign * Vector3d.Dot(force + Force(shape, element), move);
+        }
+
+        private void Turn(RodShape shape, double proximalTurn, double distalTurn)
+        {
             Quaterniond proximal = shape.ProximalFrame;
             Quaterniond distal = shape.DistalFrame;
-            Vector3d firstMove = first - shape.X[0];
-            Vector3d endMove = end - shape.X[last];
-            bool shifts = firstMove != Vector3d.Zero || endMove != Vector3d.Zero;
-            Vector3d firstForce = shifts ? Force(shape, 0) : Vector3d.Zero;
-            Vector3d endForce = shifts ? Force(shape, last - 1) : Vector3d.Zero;
             Vector3d couple = _statics.Bending.ProximalCouple(shape);
             Vector3d endCouple = _statics.Bending.DistalCouple(shape);
-
-            schedule.TurnFrames(shape, schedule.ProximalTurnAt(time), schedule.DistalTurnAt(time));
-            shape.X[0] = first;
-            shape.X[last] = end;
-
-            if (shifts)
-            {
-                Work += 0.5 * (Vector3d.Dot(endForce + Force(shape, last - 1), endMove)
-                    - Vector3d.Dot(firstForce + Force(shape, 0), firstMove));
-            }
+            _proximalTurn = proximalTurn;
+            _distalTurn = distalTurn;
+            _scene.Schedule.TurnFrames(shape, proximalTurn, distalTurn);
             couple += _statics.Bending.ProximalCouple(shape);
             endCouple += _statics.Bending.DistalCouple(shape);
-            Work += 0.5 * (Vector3d.Dot(couple, Turn(proximal, shape.ProximalFrame))
-                + Vector3d.Dot(endCouple, Turn(distal, shape.DistalFrame)));
+            Work += 0.5 * (Vector3d.Dot(couple, Between(proximal, shape.ProximalFrame))
+                + Vector3d.Dot(endCouple, Between(distal, shape.DistalFrame)));
         }
 
         // What the element pulls its second node back with, in the world.
@@ -60,7 +78,7 @@ namespace Guidewire.Core
             return Quaterniond.Rotate(shape.Q[element], _statics.Stretch.Stress(shape, element, out _));
         }
 
-        private static Vector3d Turn(in Quaterniond before, in Quaterniond after)
+        private static Vector3d Between(in Quaterniond before, in Quaterniond after)
         {
             return Quaterniond.Rotate(before, RotationVector.Log(before.Conjugate * after));
         }
