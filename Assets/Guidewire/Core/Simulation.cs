@@ -136,8 +136,8 @@ namespace Guidewire.Core
         /// <summary>A run that goes on from this one's state with other parameters: steps and time go on counting, the
         /// displacement of the start is not made again.</summary>
         /// <param name="parameters">The other parameters, for a wire of as many elements. Their
-        /// <see cref="SimulationParameters.Start"/>, <see cref="SimulationParameters.Displacement"/> and, with gains, the
-        /// motion of the distal clamp are overwritten.</param>
+        /// <see cref="SimulationParameters.Start"/>, <see cref="SimulationParameters.Displacement"/> and, with gains,
+        /// the motion of the distal clamp are overwritten.</param>
         /// <exception cref="ArgumentException">As <see cref="Create"/>, and another number of elements.</exception>
         public Simulation Continue(SimulationParameters parameters)
         {

@@ -51,7 +51,8 @@ namespace Guidewire.Core
                     return new DirectStep(scene, statics, dynamics, drive, parameters.TimeStep, parameters.Damping,
                         report);
                 case Solver.Xpbd:
-                    return new CompliantStep(scene, statics, drive, parameters, parameters.ConstraintSolverSteps, report);
+                    return new CompliantStep(scene, statics, drive, parameters, parameters.ConstraintSolverSteps,
+                        report);
                 case Solver.Explicit:
                     return new ExplicitStep(scene, statics, drive, parameters, report);
                 default:

@@ -8,7 +8,8 @@ namespace Guidewire.Core.Tests
     public sealed class BlowUpTests
     {
         // The limit by the wire's highest mode: all elements turn to and fro. With a = turn, b = shift of the nodes
-        // between them, omega^2 is the largest eigenvalue of an endless chain, GA/(rho I) (1 + (r/l)^2) + 4 E/(rho l^2).
+        // between them, omega^2 is the largest eigenvalue of an endless chain, GA/(rho I) (1 + (r/l)^2) +
+        // 4 E/(rho l^2).
         private static double Limit(int n, double radius)
         {
             double l = Rods.Length / n;
