@@ -14,7 +14,7 @@ namespace Guidewire.Core
     /// 5 % wide, because the peak is known at the end only.</remarks>
     internal sealed class ConvergenceRecord
     {
-        /// <summary>Errors up to here count as converged. Errors of a whole motion were up to 2.3 times as
+        /// <summary>Errors up to here count as converged. Errors of a whole motion were up to 3.2 times as
         /// large.</summary>
         public const double Tolerance = 0.005;
 

@@ -76,7 +76,7 @@ namespace Guidewire.Core
             _directions = new DirectionError(scene, _inertia, _stretch, _bendTwist);
             _convergence = new ConvergenceRecord(scene.Rod.TotalLength);
             _ends = new HeldEnds(scene, statics);
-            _energy = new EnergyWatch(scene, statics, _inertia, _ends);
+            _energy = new EnergyWatch(scene, statics, _inertia, _ends, EnergyWatch.Room);
             Report = report;
         }
 

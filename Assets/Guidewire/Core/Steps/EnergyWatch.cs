@@ -8,17 +8,20 @@ namespace Guidewire.Core
     /// <remarks>With T of motion and V of the strains, T + V is at most what it was at the start plus the work W of
     /// loads and held ends; damping and implicit steps only take from it. V is no less than 0, so T never exceeds the
     /// largest sum that start and W have had. T alone is compared: strains that too few sweeps have not yet closed
-    /// hold energy on paper only, and such a wire is wrong but not lost. The room of a factor 4 is for explicit steps
-    /// h, whose velocities in a mode of frequency omega are too high by 1/sqrt(1 - (omega h/2)^2).</remarks>
+    /// hold energy on paper only, and such a wire is wrong but not lost. There is room for a factor of 4, and more for
+    /// explicit steps h near their limit, where T of a mode is too high by 1/(1 - (omega h/2)^2).</remarks>
     internal sealed class EnergyWatch
     {
-        private const double Room = 4.0;
+        /// <summary>What T may be over the energy put in.</summary>
+        public const double Room = 4.0;
+
         private const double Rounding = 1e-9;   // of EI/L
         private readonly MaterialScene _scene;
         private readonly RodStatics _statics;
         private readonly NodalInertia _inertia;
         private readonly HeldEnds _ends;
         private readonly Vector3d[] _before;
+        private readonly double _room;
         private readonly double _start;         // J
         private Quaterniond _tipBefore;
         private double _loadWork;               // J
@@ -26,8 +29,10 @@ namespace Guidewire.Core
         private int _step;
 
         /// <summary>A watch on this scene, at its start.</summary>
-        public EnergyWatch(MaterialScene scene, RodStatics statics, NodalInertia inertia, HeldEnds ends)
+        /// <param name="room">What T may be over the energy put in, at least <see cref="Room"/>.</param>
+        public EnergyWatch(MaterialScene scene, RodStatics statics, NodalInertia inertia, HeldEnds ends, double room)
         {
+            _room = room;
             _scene = scene;
             _statics = statics;
             _inertia = inertia;
@@ -55,9 +60,9 @@ namespace Guidewire.Core
                 RotationVector.Log(_tipBefore.Conjugate * shape.Q[last]));
             _tipBefore = shape.Q[last];
             double motion = Motion();
-            double putIn = _start + _loadWork + _ends.Work;
+            double putIn = _start + _loadWork + _ends.MostWork;
             // A NaN fails every comparison, so the question is asked for the good case.
-            if (motion <= Room * Math.Max(_mostPutIn, putIn))
+            if (motion <= _room * Math.Max(_mostPutIn, putIn))
             {
                 _mostPutIn = Math.Max(_mostPutIn, putIn);
                 return null;

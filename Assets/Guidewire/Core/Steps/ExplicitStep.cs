@@ -42,8 +42,10 @@ namespace Guidewire.Core
             _substeps = parameters.Material.Substeps;
             _kept = Math.Pow(1.0 - parameters.Damping, 1.0 / _substeps);
             _ends = new HeldEnds(scene, statics);
-            _energy = new EnergyWatch(scene, statics, _inertia, _ends);
             _stable = StableTimeStep(scene.Rod, scene.Supports);
+            double part = _timeStep / _substeps / _stable;
+            double room = part < 1.0 ? Math.Max(EnergyWatch.Room, 2.0 / (1.0 - part * part)) : EnergyWatch.Room;
+            _energy = new EnergyWatch(scene, statics, _inertia, _ends, room);
             Report = report;
             Record = record;
         }

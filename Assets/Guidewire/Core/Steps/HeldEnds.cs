@@ -1,3 +1,5 @@
+using System;
+
 namespace Guidewire.Core
 {
     /// <summary>Puts the held ends of a material rod and the clamps' frames where the schedule wants them, and counts
@@ -24,6 +26,9 @@ namespace Guidewire.Core
         /// times the move, which is exact while the stress is proportional to it.</summary>
         public double Work { get; private set; }
 
+        /// <summary>The most that <see cref="Work"/> has been, J.</summary>
+        public double MostWork { get; private set; }
+
         /// <summary>Places and frames of this time.</summary>
         public void Place(RodShape shape, double time)
         {
@@ -43,6 +48,7 @@ namespace Guidewire.Core
             {
                 Turn(shape, proximalTurn, distalTurn);
             }
+            MostWork = Math.Max(MostWork, Work);
         }
 
         private void Shift(RodShape shape, int node, int element, double halfSign, in Vector3d to)

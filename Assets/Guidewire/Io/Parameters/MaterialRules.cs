@@ -139,7 +139,8 @@ namespace Guidewire.Io
         {
             if (material.ProximalEnd == ProximalEnd.Free)
             {
-                Refuse(given, "proximalEnd", "\"held\" or \"clamped\" with solver pbd; drive \"force\" frees sphere 0");
+                Refuse(given, "proximalEnd",
+                    "\"held\" or \"clamped\" with solver pbd; drive \"force\" frees sphere 0");
             }
             if (material.DistalEnd == DistalEnd.Sliding)
             {
