@@ -1,0 +1,58 @@
+using System;
+using System.Collections.Generic;
+using System.Diagnostics;
+
+namespace Guidewire.Benchmarks
+{
+    /// <summary>Two pieces of work timed in turns, because what else a machine does changes within seconds: the ratio
+    /// of neighbours holds where the times themselves do not.</summary>
+    internal sealed class Interleaved
+    {
+        private const int Rounds = 60;
+        private const int WarmUp = 5;
+
+        /// <summary>Times both, some 60 times in turns.</summary>
+        public Interleaved(Action first, Action second)
+        {
+            var ratios = new List<double>();
+            var firsts = new List<double>();
+            var seconds = new List<double>();
+            for (int round = -WarmUp; round < Rounds; round++)
+            {
+                double a = Time(first);
+                double b = Time(second);
+                if (round >= 0)
+                {
+                    ratios.Add(a / b);
+                    firsts.Add(a);
+                    seconds.Add(b);
+                }
+            }
+            Ratio = Median(ratios);
+            First = Median(firsts);
+            Second = Median(seconds);
+        }
+
+        /// <summary>Median of the first's time over the second's, measured right after it.</summary>
+        public double Ratio { get; }
+
+        /// <summary>Median time of the first, ns.</summary>
+        public double First { get; }
+
+        /// <summary>Median time of the second, ns.</summary>
+        public double Second { get; }
+
+        private static double Time(Action work)
+        {
+            long start = Stopwatch.GetTimestamp();
+            work();
+            return 1e9 * (Stopwatch.GetTimestamp() - start) / Stopwatch.Frequency;
+        }
+
+        private static double Median(List<double> values)
+        {
+            values.Sort();
+            return values[values.Count / 2];
+        }
+    }
+}
