@@ -6,8 +6,8 @@ With x_0 and the clamp's frame given, R_j the frame of element j and theta the r
 
 K_s = diag(GA, GA, EA), K_j = diag(EI, EI, GJ)/(w_j l) with Gregory's weights w = 3/8, 7/6, 23/24 at the clamp. Nothing
 is differentiated by hand: gradients come from the energy by complex steps, exact to rounding, second derivatives by
-central differences of gradients. A couple m along the tip's own axes adds -m to the last element's gradient, wherever
-that element has turned to.
+central differences of gradients. A couple m along the axes of the wire's end adds -m, told along those of the last
+element, to that element's gradient, wherever it has turned to.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from analysis.validation.wire import Wire
 
@@ -107,8 +108,10 @@ class ChainEnergy:
 
     @property
     def scaled_moment(self) -> np.ndarray:
-        """m L/EI along the tip's axes, shape (3,)."""
-        return self.wire.length / self.wire.bending * np.asarray(self.moment, dtype=float)
+        """m L/EI along the last element's axes, shape (3,): half an element's curvature B^-1 m before the end."""
+        moment, wire = np.asarray(self.moment, dtype=float), self.wire
+        half = 0.5 * wire.length / self.count * moment / [wire.bending, wire.bending, wire.torsion]
+        return wire.length / wire.bending * Rotation.from_rotvec(half).apply(moment)
 
     def residual(self) -> np.ndarray:
         """What is out of balance at the shape itself, the couple included, shape (n, 6)."""

@@ -35,7 +35,7 @@ namespace Guidewire.Core
         /// <summary>When the tip force ends, s; it acts up to and including this time.</summary>
         public double TipForceReleaseTime { get; set; } = 1e9;
 
-        /// <summary>Couple on the last element along its own axes, N m: it turns with the tip.</summary>
+        /// <summary>Couple at the wire's end along the axes there, N m: it turns with them.</summary>
         public Vector3d TipMoment { get; set; }
 
         /// <summary>How the run starts.</summary>

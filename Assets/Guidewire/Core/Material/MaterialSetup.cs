@@ -15,7 +15,7 @@ namespace Guidewire.Core
             var scene = new MaterialScene(parameters);
             MaterialParameters material = parameters.Material;
             var statics = new RodStatics(scene.Rod, scene.Supports);
-            statics.Moment.Moment = material.TipMoment;
+            statics.Moment.ActAtEnd(scene.Rod, material.TipMoment);
             var report = new SolverReport();
             failure = null;
             if (material.InitialState == InitialState.Equilibrium)

@@ -33,7 +33,7 @@ namespace Guidewire.Io
             new NumberEntry("tipForceReleaseTime", "s", NumberRange.NotNegative, "when the tip force ends",
                 p => Of(p).TipForceReleaseTime, (p, v) => Of(p).TipForceReleaseTime = v),
             new VectorEntry("tipMoment", "N m", true,
-                "couple on the last element along its own axes; it turns with the tip; direct and explicit only",
+                "couple at the wire's end along the axes there, with which it turns; direct and explicit only",
                 p => Of(p).TipMoment, (p, v) => Of(p).TipMoment = v),
             new ChoiceEntry<InitialState>("initialState",
                 "start in the start shape, or in the rest shape under gravity, tip loads and supports; with"

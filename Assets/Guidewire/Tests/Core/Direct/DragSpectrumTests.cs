@@ -104,6 +104,29 @@ namespace Guidewire.Core.Tests
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
         }
 
+        [Test]
+        public void CoupleAtTheEnd_IsOfSecondOrderInN()
+        {
+            // Bending, twisting and a force at once, so that the frame turns in space along the last element.
+            double[] tip = new double[4];
+            for (int k = 0; k < tip.Length; k++)
+            {
+                SimulationParameters parameters = CoupleInSpace(2.0);
+                parameters.NumberRodElements = 20 << k;
+                parameters.MaxSimulationSteps = 0;
+                parameters.Material.InitialState = InitialState.Equilibrium;
+                parameters.Material.TipForce = Rods.BendForce * new Vector3d(1.0, -2.0, 0.0);
+                Simulation rest = Simulation.Create(parameters);
+                Assert.That(rest.Outcome, Is.EqualTo(Outcome.Converged), rest.Reason);
+                tip[k] = rest.State.Positions[20 << k].Y;
+            }
+            double coarse = tip[1] - tip[0];
+            double middle = tip[2] - tip[1];
+            double fine = tip[3] - tip[2];
+            Assert.That(Math.Log(coarse / middle, 2.0), Is.EqualTo(2.0).Within(0.2));
+            Assert.That(Math.Log(middle / fine, 2.0), Is.EqualTo(2.0).Within(0.1));
+        }
+
         private static SimulationParameters CoupleInSpace(double couple)
         {
             var parameters = new SimulationParameters
