@@ -15,7 +15,7 @@ from experiments import checking
 @pytest.fixture(scope="module")
 def fast_report(tmp_path_factory: pytest.TempPathFactory, runner_command: list[str]) -> Report:
     done = checking.run_checks(
-        "validation", FAST, runner_command, tmp_path_factory.mktemp("validation"), 1, lambda *_: None
+        "validation", FAST, runner_command, tmp_path_factory.mktemp("validation"), 2, lambda *_: None
     )
     assert done.failures == []
     return Report({check: replay(check, done.folder) for check in FAST})
