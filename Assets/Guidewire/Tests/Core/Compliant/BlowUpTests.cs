@@ -112,21 +112,9 @@ namespace Guidewire.Core.Tests
 
         private static SimulationParameters Wire(Solver solver, int n, double radius, double step, int steps)
         {
-            var parameters = new SimulationParameters
-            {
-                Solver = solver,
-                NumberRodElements = n,
-                GuidewireLength = 1e3 * Rods.Length,
-                GuidewireOffset = 0.0,
-                Displacement = 0.0,
-                TimeStep = step,
-                MaxSimulationSteps = steps,
-                ConstraintSolverSteps = 1,
-                DeltaThreshold = 0.0,
-                Gravity = new Vector3d(0.0, -9.81, 0.0),
-            };
+            SimulationParameters parameters = Rods.Clamped(n, solver, step, steps);
+            parameters.Gravity = new Vector3d(0.0, -9.81, 0.0);
             parameters.Material.WireRadius = radius;
-            parameters.Material.ProximalEnd = ProximalEnd.Clamped;
             return parameters;
         }
     }

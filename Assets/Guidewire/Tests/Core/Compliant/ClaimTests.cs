@@ -80,26 +80,16 @@ namespace Guidewire.Core.Tests
             int sweeps = new[] { 1, 2, 3, 6, 12, 30 }[random.Next(6)];
             double step = 0.04 / omega;
             int substeps = (int)Math.Ceiling(step / substep);
-            var parameters = new SimulationParameters
-            {
-                Solver = Solver.Xpbd,
-                NumberRodElements = n,
-                GuidewireLength = 1e3 * Rods.Length,
-                GuidewireOffset = 0.0,
-                Displacement = 0.0,
-                TimeStep = step,
-                Damping = damped ? 2.0 * omega * step : 0.0,
-                MaxSimulationSteps = (int)((damped ? Settled : 2.0 * Math.PI) / (omega * step)),
-                ConstraintSolverSteps = sweeps,
-                DeltaThreshold = 0.0,
-            };
+            SimulationParameters parameters = Rods.Clamped(n, Solver.Xpbd, step,
+                (int)((damped ? Settled : 2.0 * Math.PI) / (omega * step)));
+            parameters.Damping = damped ? 2.0 * omega * step : 0.0;
+            parameters.ConstraintSolverSteps = sweeps;
             MaterialParameters material = parameters.Material;
             material.WireRadius = radius;
             material.YoungsModulus = young;
             material.ShearModulus = shear;
             material.Substeps = substeps;
             material.MassRule = MassRule.Lumped;
-            material.ProximalEnd = ProximalEnd.Clamped;
             material.RestCurvature = random.Next(2) == 0 ? Vector3d.Zero : 2.0 / Rods.Length * Wires.Any(random);
             double load = 0.1 * Math.Pow(20.0, random.NextDouble());
             int kind = random.Next(3);

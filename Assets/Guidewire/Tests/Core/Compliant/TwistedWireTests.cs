@@ -77,23 +77,12 @@ namespace Guidewire.Core.Tests
         private static SimulationParameters Damped(int n, int sweeps, double twist)
         {
             double sound = Rods.Length / n / Math.Sqrt(Rods.Young / Rods.Density);
-            var parameters = new SimulationParameters
-            {
-                Solver = Solver.Xpbd,
-                NumberRodElements = n,
-                GuidewireLength = 1e3 * Rods.Length,
-                GuidewireOffset = 0.0,
-                Displacement = 0.0,
-                TimeStep = 4e-5,
-                MaxSimulationSteps = 2000,
-                ConstraintSolverSteps = sweeps,
-                DeltaThreshold = 0.0,
-                Damping = 3e-3,
-            };
+            SimulationParameters parameters = Rods.Clamped(n, Solver.Xpbd, 4e-5, 2000);
+            parameters.ConstraintSolverSteps = sweeps;
+            parameters.Damping = 3e-3;
             MaterialParameters material = parameters.Material;
             material.WireRadius = Radius;
             material.Substeps = (int)Math.Ceiling(parameters.TimeStep / (0.35 * Math.Sqrt(sweeps) * sound));
-            material.ProximalEnd = ProximalEnd.Clamped;
             material.DistalEnd = DistalEnd.Clamped;
             material.ClampRule = ClampRule.HalfElement;
             material.DistalRotation = twist;

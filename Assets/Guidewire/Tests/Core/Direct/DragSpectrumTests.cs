@@ -129,19 +129,8 @@ namespace Guidewire.Core.Tests
 
         private static SimulationParameters CoupleInSpace(double couple)
         {
-            var parameters = new SimulationParameters
-            {
-                Solver = Solver.Direct,
-                Integrator = Integrator.ImplicitEuler,
-                GuidewireLength = 300.0,
-                GuidewireOffset = 0.0,
-                Displacement = 0.0,
-                NumberRodElements = 30,
-                TimeStep = 5e-3,
-                MaxSimulationSteps = 400,
-                DeltaThreshold = 0.0,
-            };
-            parameters.Material.ProximalEnd = ProximalEnd.Clamped;
+            SimulationParameters parameters = Rods.Clamped(30, Solver.Direct, 5e-3, 400);
+            parameters.Integrator = Integrator.ImplicitEuler;
             Vector3d axis = Vector3d.Normalize(new Vector3d(1.0, 0.0, 0.5));
             parameters.Material.TipMoment = couple * Rods.BendStiffness / Rods.Length * axis;
             return parameters;

@@ -243,21 +243,9 @@ namespace Guidewire.Core.Tests
         /// <summary>The wire, clamped at one end, under gravity, in millimetres.</summary>
         private static SimulationParameters Cantilever(int n, Solver solver, Integrator scheme, double step, int steps)
         {
-            var parameters = new SimulationParameters
-            {
-                Solver = solver,
-                Integrator = scheme,
-                NumberRodElements = n,
-                GuidewireLength = 1e3 * Rods.Length,
-                GuidewireOffset = 0.0,
-                Displacement = 0.0,
-                TimeStep = step,
-                MaxSimulationSteps = steps,
-                ConstraintSolverSteps = 1,
-                DeltaThreshold = 0.0,
-                Gravity = new Vector3d(0.0, -9.81, 0.0),
-            };
-            parameters.Material.ProximalEnd = ProximalEnd.Clamped;
+            SimulationParameters parameters = Rods.Clamped(n, solver, step, steps);
+            parameters.Integrator = scheme;
+            parameters.Gravity = new Vector3d(0.0, -9.81, 0.0);
             return parameters;
         }
     }

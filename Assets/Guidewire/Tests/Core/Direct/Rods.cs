@@ -28,6 +28,26 @@ namespace Guidewire.Core.Tests
             return MaterialRod.Round(n, Length, Radius, Young, Shear, Density);
         }
 
+        /// <summary>A run of the wire in millimetres, straight along z from the origin and clamped there; xpbd with one
+        /// sweep a substep.</summary>
+        public static SimulationParameters Clamped(int n, Solver solver, double step, int steps)
+        {
+            var parameters = new SimulationParameters
+            {
+                Solver = solver,
+                NumberRodElements = n,
+                GuidewireLength = 1e3 * Length,
+                GuidewireOffset = 0.0,
+                Displacement = 0.0,
+                TimeStep = step,
+                MaxSimulationSteps = steps,
+                ConstraintSolverSteps = 1,
+                DeltaThreshold = 0.0,
+            };
+            parameters.Material.ProximalEnd = ProximalEnd.Clamped;
+            return parameters;
+        }
+
         /// <summary>The wire, straight along z from the origin.</summary>
         public static RodShape Straight(MaterialRod rod)
         {
