@@ -116,6 +116,11 @@ namespace Guidewire.Core
                         : Text("sphere {0} has no finite position at step {1}", i, step);
                     return true;
                 }
+                if (!state.Velocities[i].IsFinite)
+                {
+                    Reason = Text("sphere {0} has no finite velocity at step {1}", i, step);
+                    return true;
+                }
                 if (i > 0)
                 {
                     double strain = Math.Abs(Vector3d.Distance(x[i], x[i - 1]) / l - 1.0);

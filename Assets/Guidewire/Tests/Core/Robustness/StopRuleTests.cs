@@ -31,6 +31,17 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void VelocityBeyondAllNumbers_IsDiverged()
+        {
+            // A correction of units in the shortest step that a double can hold.
+            SimulationParameters parameters = Wires.Transversal(10);
+            parameters.TimeStep = 2.3e-308;
+            Simulation run = Wires.Run(parameters);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Diverged));
+            Assert.That(run.Reason, Does.Contain("no finite velocity"));
+        }
+
+        [Test]
         public void LongitudinalMotion_BreaksDownBeyond213()
         {
             SimulationParameters held = Wires.Longitudinal(600);
