@@ -52,7 +52,7 @@ namespace Guidewire.Core
         /// outside the vessel.</exception>
         public static Simulation Create(SimulationParameters parameters)
         {
-            if (parameters.DisplacementDirection.Length == 0.0)
+            if (parameters.Drive.DisplacementDirection.Length == 0.0)
             {
                 throw new ArgumentException("the displacement has no direction");
             }
@@ -62,16 +62,16 @@ namespace Guidewire.Core
                 throw new ArgumentException(complaint);
             }
             RodState state = StartOf(parameters);
-            if (parameters.Steering != null && parameters.Solver != Solver.Pbd)
+            if (parameters.Drive.Steering != null && parameters.Method.Solver != Solver.Pbd)
             {
                 throw new ArgumentException("solver: a hand steers wires with gains only, solver pbd");
             }
             string? failure = null;
-            ITimeStep step = parameters.Solver == Solver.Pbd ? GainSetup.Create(parameters, state)
+            ITimeStep step = parameters.Method.Solver == Solver.Pbd ? GainSetup.Create(parameters, state)
                 : MaterialSetup.Create(parameters, state, out failure);
-            var stopRule = new StopRule(parameters.DeltaThreshold, parameters.SteadyStateHold,
-                parameters.MaxSimulationSteps, state);
-            var simulation = new Simulation(state, step, stopRule, parameters.TimeStep)
+            var stopRule = new StopRule(parameters.Method.DeltaThreshold, parameters.Method.SteadyStateHold,
+                parameters.Method.MaxSimulationSteps, state);
+            var simulation = new Simulation(state, step, stopRule, parameters.Method.TimeStep)
             {
                 Contacts = (step as IContactStep)?.Record,
             };
@@ -79,8 +79,8 @@ namespace Guidewire.Core
             {
                 simulation.End(Outcome.Failed, failure);
             }
-            else if (parameters.Solver != Solver.Pbd && parameters.MaxSimulationSteps == 0
-                && parameters.Material.InitialState == InitialState.Equilibrium)
+            else if (parameters.Method.Solver != Solver.Pbd && parameters.Method.MaxSimulationSteps == 0
+                && parameters.Scene.InitialState == InitialState.Equilibrium)
             {
                 simulation.End(Outcome.Converged, "the wire is at rest");
             }
@@ -90,11 +90,11 @@ namespace Guidewire.Core
         /// <summary>The wire as the parameters start it, before any displacement.</summary>
         internal static RodState StartOf(SimulationParameters parameters)
         {
-            var state = new RodState(parameters.NumberRodElements, parameters.GuidewireLength, parameters.TotalMass,
-                parameters.GuidewireOffset);
-            if (parameters.Start != null)
+            var state = new RodState(parameters.Scene.NumberRodElements, parameters.Scene.GuidewireLength,
+                parameters.Gains.TotalMass, parameters.Scene.GuidewireOffset);
+            if (parameters.Scene.Start != null)
             {
-                state.Load(parameters.Start);
+                state.Load(parameters.Scene.Start);
             }
             return state;
         }
@@ -143,16 +143,15 @@ namespace Guidewire.Core
         public Simulation Continue(SimulationParameters parameters)
         {
             SimulationParameters continued = parameters.Copy();
-            continued.Start = new RodStart(State.Positions, State.Orientations, State.Velocities,
+            continued.Scene.Start = new RodStart(State.Positions, State.Orientations, State.Velocities,
                 State.AngularVelocities);
-            continued.Displacement = 0.0;
-            if (continued.Solver == Solver.Pbd)
+            continued.Drive.Displacement = 0.0;
+            if (continued.Method.Solver == Solver.Pbd)
             {
-                MaterialParameters ends = continued.Material;
-                double left = ends.DistalRampTime > Time ? 1.0 - Time / ends.DistalRampTime : 0.0;
-                ends.DistalRotation *= left;
-                ends.DistalDisplacement *= left;
-                ends.DistalRampTime *= left;
+                double left = continued.Scene.DistalRampTime > Time ? 1.0 - Time / continued.Scene.DistalRampTime : 0.0;
+                continued.Scene.DistalRotation *= left;
+                continued.Scene.DistalDisplacement *= left;
+                continued.Scene.DistalRampTime *= left;
             }
             Simulation next = Create(continued);
             next.StepCount = StepCount;

@@ -72,11 +72,13 @@ namespace Guidewire.Benchmarks
         {
             var parameters = new SimulationParameters
             {
-                NumberRodElements = Elements,
-                GuidewireLength = 300.0,
-                SphereRadius = SphereRadius,
-                CollisionMargin = 0.5,
-                Walls = new ContactShape[] { new MeshShape(BentTube(around, along)) },
+                Scene =
+                {
+                    NumberRodElements = Elements,
+                    GuidewireLength = 300.0,
+                    Walls = new ContactShape[] { new MeshShape(BentTube(around, along)) },
+                },
+                Contact = { SphereRadius = SphereRadius, CollisionMargin = 0.5 },
             };
             var state = new RodState(Elements, 300.0, 1.0, 0.0);
             _rule = new ContactRule(state, parameters);

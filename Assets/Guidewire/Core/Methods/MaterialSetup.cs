@@ -13,15 +13,14 @@ namespace Guidewire.Core
         public static ITimeStep Create(SimulationParameters parameters, RodState state, out string? failure)
         {
             var scene = new MaterialScene(parameters);
-            MaterialParameters material = parameters.Material;
             var statics = new RodStatics(scene.Rod, scene.Supports);
-            statics.Moment.ActAtEnd(scene.Rod, material.TipMoment);
+            statics.Moment.ActAtEnd(scene.Rod, parameters.Scene.TipMoment);
             var report = new SolverReport();
             failure = null;
-            if (material.InitialState == InitialState.Equilibrium)
+            if (parameters.Scene.InitialState == InitialState.Equilibrium)
             {
-                failure = RestShape.Find(scene, statics, scene.Shape, Math.Min(material.SolverTolerance, 1e-9),
-                    EquilibriumFactor * material.MaxNewtonIterations, report);
+                failure = RestShape.Find(scene, statics, scene.Shape, Math.Min(parameters.Method.SolverTolerance, 1e-9),
+                    EquilibriumFactor * parameters.Method.MaxNewtonIterations, report);
             }
             else if (scene.Supports.Proximal != ProximalEnd.Free)
             {
@@ -40,24 +39,25 @@ namespace Guidewire.Core
         private static ITimeStep CreateStep(SimulationParameters parameters, MaterialScene scene, RodStatics statics,
             SolverReport report)
         {
-            MaterialParameters material = parameters.Material;
             var drive = new MaterialDrive(parameters, scene.Schedule);
-            ContactRecord? record = parameters.StatesReactions ? new ContactRecord(scene.Shape.X.Length) : null;
-            switch (parameters.Solver)
+            ContactRecord? record = parameters.Method.StatesReactions ? new ContactRecord(scene.Shape.X.Length) : null;
+            switch (parameters.Method.Solver)
             {
                 case Solver.Direct:
                     var dynamics = new RodDynamics(scene.Rod, scene.Supports, statics, scene.Schedule, scene.Shape,
-                        Scheme(parameters.Integrator), material.SolverTolerance, material.MaxNewtonIterations);
-                    dynamics.Begin(scene.Velocities, scene.Spins, material.InitialState == InitialState.Equilibrium);
-                    return new DirectStep(scene, statics, dynamics, drive, parameters.TimeStep, parameters.Damping,
-                        report, record);
+                        Scheme(parameters.Method.Integrator), parameters.Method.SolverTolerance,
+                        parameters.Method.MaxNewtonIterations);
+                    dynamics.Begin(scene.Velocities, scene.Spins,
+                        parameters.Scene.InitialState == InitialState.Equilibrium);
+                    return new DirectStep(scene, statics, dynamics, drive, parameters.Method.TimeStep,
+                        parameters.Method.Damping, report, record);
                 case Solver.Xpbd:
-                    return new CompliantStep(scene, statics, drive, parameters, parameters.ConstraintSolverSteps,
+                    return new CompliantStep(scene, statics, drive, parameters, parameters.Method.ConstraintSolverSteps,
                         report);
                 case Solver.Explicit:
                     return new ExplicitStep(scene, statics, drive, parameters, report, record);
                 default:
-                    throw new ArgumentException("unknown solver " + parameters.Solver);
+                    throw new ArgumentException("unknown solver " + parameters.Method.Solver);
             }
         }
 

@@ -13,9 +13,9 @@ namespace Guidewire.Core
         public MaterialDrive(SimulationParameters parameters, RodSchedule schedule)
         {
             _schedule = schedule;
-            _drive = parameters.Drive;
-            _direction = Vector3d.Normalize(parameters.DisplacementDirection);
-            _speed = parameters.Material.MetresPerUnit * parameters.DisplacementPerStep / parameters.TimeStep;
+            _drive = parameters.Drive.Kind;
+            _direction = Vector3d.Normalize(parameters.Drive.DisplacementDirection);
+            _speed = parameters.Scene.MetresPerUnit * parameters.Drive.DisplacementPerStep / parameters.Method.TimeStep;
         }
 
         /// <summary>Sets where node 0 is and how fast it goes, from this time on.</summary>

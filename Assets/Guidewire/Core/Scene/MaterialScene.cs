@@ -10,48 +10,47 @@ namespace Guidewire.Core
         /// <exception cref="ArgumentException">The start has another number of elements than the wire.</exception>
         public MaterialScene(SimulationParameters parameters)
         {
-            MaterialParameters material = parameters.Material;
-            Metres = material.MetresPerUnit;
+            Metres = parameters.Scene.MetresPerUnit;
             Rod = CreateRod(parameters);
             int n = Rod.ElementCount;
             Shape = new RodShape(n);
             Velocities = new Vector3d[n + 1];
             Spins = new Vector3d[n];
-            var start = new Vector3d(0.0, 0.0, Metres * parameters.GuidewireOffset);
-            SetStartShape(material, start);
-            if (parameters.Start != null)
+            var start = new Vector3d(0.0, 0.0, Metres * parameters.Scene.GuidewireOffset);
+            SetStartShape(parameters.Scene, start);
+            if (parameters.Scene.Start != null)
             {
-                Load(parameters.Start);
+                Load(parameters.Scene.Start);
             }
             Supports = new RodSupports
             {
-                Proximal = parameters.Drive == Drive.Force ? ProximalEnd.Free : material.ProximalEnd,
-                Distal = material.DistalEnd,
+                Proximal = parameters.Drive.Kind == Drive.Force ? ProximalEnd.Free : parameters.Scene.ProximalEnd,
+                Distal = parameters.Scene.DistalEnd,
                 SlidingAxis = Shape.DistalFrame.Director3,
-                Clamp = material.ClampRule,
-                Mass = material.MassRule,
-                Bend = material.BendLaw,
+                Clamp = parameters.Material.ClampRule,
+                Mass = parameters.Material.MassRule,
+                Bend = parameters.Material.BendLaw,
             };
             Schedule = new RodSchedule
             {
-                Gravity = parameters.Gravity,
-                TipForce = material.TipForce,
-                TipForceReleaseTime = material.TipForceReleaseTime,
-                AxialForce = material.DistalEnd == DistalEnd.Sliding ? material.AxialForce : 0.0,
-                ProximalForce = parameters.Drive == Drive.Force ? parameters.ExternalForce : Vector3d.Zero,
+                Gravity = parameters.Scene.Gravity,
+                TipForce = parameters.Scene.TipForce,
+                TipForceReleaseTime = parameters.Scene.TipForceReleaseTime,
+                AxialForce = parameters.Scene.DistalEnd == DistalEnd.Sliding ? parameters.Scene.AxialForce : 0.0,
+                ProximalForce = parameters.Drive.Kind == Drive.Force ? parameters.Drive.ExternalForce : Vector3d.Zero,
                 ProximalPosition = Shape.X[0],
                 ProximalFrame = Shape.ProximalFrame,
-                ProximalTwistRate = parameters.TwistPerStep / parameters.TimeStep,
+                ProximalTwistRate = parameters.Drive.TwistPerStep / parameters.Method.TimeStep,
                 DistalPosition = Shape.X[n],
                 DistalFrame = Shape.DistalFrame,
-                DistalDisplacement = Metres * material.DistalDisplacement,
-                DistalRotation = material.DistalRotation,
-                DistalRampTime = material.DistalRampTime,
+                DistalDisplacement = Metres * parameters.Scene.DistalDisplacement,
+                DistalRotation = parameters.Scene.DistalRotation,
+                DistalRampTime = parameters.Scene.DistalRampTime,
             };
-            if (parameters.Drive == Drive.Hold)
+            if (parameters.Drive.Kind == Drive.Hold)
             {
-                Displacement = (Metres * parameters.Displacement)
-                    * Vector3d.Normalize(parameters.DisplacementDirection);
+                Displacement = (Metres * parameters.Drive.Displacement)
+                    * Vector3d.Normalize(parameters.Drive.DisplacementDirection);
                 Schedule.ProximalPosition += Displacement;
             }
         }
@@ -97,20 +96,20 @@ namespace Guidewire.Core
 
         private static MaterialRod CreateRod(SimulationParameters parameters)
         {
-            MaterialParameters material = parameters.Material;
-            int n = parameters.NumberRodElements;
-            double metres = material.MetresPerUnit;
-            MaterialRod rod = MaterialRod.Round(n, metres * parameters.GuidewireLength, material.WireRadius,
-                material.YoungsModulus, material.ShearModulus, material.Density);
+            int n = parameters.Scene.NumberRodElements;
+            double metres = parameters.Scene.MetresPerUnit;
+            MaterialRod rod = MaterialRod.Round(n, metres * parameters.Scene.GuidewireLength,
+                parameters.Material.WireRadius, parameters.Material.YoungsModulus, parameters.Material.ShearModulus,
+                parameters.Material.Density);
             for (int j = 0; j < n; j++)
             {
-                double radius = material.WireRadius;
-                double young = material.YoungsModulus;
-                double shear = material.ShearModulus;
-                double density = material.Density;
-                Vector3d curvature = material.RestCurvature;
-                double middle = (j + 0.5) / n * parameters.GuidewireLength;
-                foreach (WireSection section in material.Sections)
+                double radius = parameters.Material.WireRadius;
+                double young = parameters.Material.YoungsModulus;
+                double shear = parameters.Material.ShearModulus;
+                double density = parameters.Material.Density;
+                Vector3d curvature = parameters.Material.RestCurvature;
+                double middle = (j + 0.5) / n * parameters.Scene.GuidewireLength;
+                foreach (WireSection section in parameters.Material.Sections)
                 {
                     if (middle >= section.From && middle < section.To)
                     {
@@ -127,15 +126,15 @@ namespace Guidewire.Core
             return rod;
         }
 
-        private void SetStartShape(MaterialParameters material, in Vector3d start)
+        private void SetStartShape(SceneParameters scene, in Vector3d start)
         {
-            switch (material.StartShape)
+            switch (scene.StartShape)
             {
                 case StartShape.Ring:
                     StartShapes.Ring(Shape, start, Rod.Length);
                     break;
                 case StartShape.Helix:
-                    StartShapes.Helix(Shape, start, Rod.Length, Metres * material.StartRadius, material.StartTurns);
+                    StartShapes.Helix(Shape, start, Rod.Length, Metres * scene.StartRadius, scene.StartTurns);
                     break;
                 default:
                     Shape.SetStraight(start, Quaterniond.Identity, Rod.Length);

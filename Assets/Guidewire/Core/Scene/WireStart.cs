@@ -9,14 +9,14 @@ namespace Guidewire.Core
         /// <summary>What is wrong with the start that the parameters describe, in one phrase, or null.</summary>
         public static string? Complaint(SimulationParameters parameters)
         {
-            if (parameters.Walls.Length == 0)
+            if (parameters.Scene.Walls.Length == 0)
             {
                 return null;
             }
             RodState state = Simulation.StartOf(parameters);
             for (int j = 0; j < state.ElementCount; j++)
             {
-                foreach (ContactShape wall in parameters.Walls)
+                foreach (ContactShape wall in parameters.Scene.Walls)
                 {
                     int hint = -1;
                     wall.Nearest(state.Positions[j], state.Positions[j + 1], double.PositiveInfinity, ref hint,
@@ -38,9 +38,9 @@ namespace Guidewire.Core
         internal static Vector3d Displaced(SimulationParameters parameters, RodState state, in Vector3d asked)
         {
             Vector3d from = state.Positions[0];
-            double clearance = SweptGuard.ClearanceFor(parameters.SphereRadius);
+            double clearance = SweptGuard.ClearanceFor(parameters.Contact.SphereRadius);
             double part = 1.0;
-            foreach (ContactShape wall in parameters.Walls)
+            foreach (ContactShape wall in parameters.Scene.Walls)
             {
                 double own = wall.Sweep(from, from, asked, asked, clearance, out _);
                 double shared = wall.Sweep(

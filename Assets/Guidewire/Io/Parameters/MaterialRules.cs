@@ -26,7 +26,7 @@ namespace Guidewire.Io
         public static void Apply(RunParameters values, Dictionary<string, (JToken Value, string Source)> given)
         {
             SimulationParameters simulation = values.Simulation;
-            bool gains = simulation.Solver == Solver.Pbd;
+            bool gains = simulation.Method.Solver == Solver.Pbd;
             foreach (ParameterEntry entry in MaterialEntries.Material)
             {
                 if (gains && Array.IndexOf(EndKeys, entry.Key) < 0)
@@ -42,17 +42,17 @@ namespace Guidewire.Io
                 }
                 if (!given.ContainsKey("displacement"))
                 {
-                    simulation.Displacement = 0.0;
+                    simulation.Drive.Displacement = 0.0;
                 }
                 if (!given.ContainsKey("constraintSolverSteps"))
                 {
-                    simulation.ConstraintSolverSteps = 1;
+                    simulation.Method.ConstraintSolverSteps = 1;
                 }
             }
             ChooseIntegrator(simulation, given);
             if (gains)
             {
-                CheckEndsWithGains(simulation.Material, given);
+                CheckEndsWithGains(simulation.Scene, given);
             }
             else
             {
@@ -63,9 +63,10 @@ namespace Guidewire.Io
         private static void ChooseIntegrator(SimulationParameters simulation,
             Dictionary<string, (JToken Value, string Source)> given)
         {
-            bool direct = simulation.Solver == Solver.Direct;
-            bool implicitScheme = simulation.Integrator >= Integrator.ImplicitEuler;
-            if (direct == implicitScheme || simulation.Solver == Solver.Xpbd || simulation.Solver == Solver.Explicit)
+            bool direct = simulation.Method.Solver == Solver.Direct;
+            bool implicitScheme = simulation.Method.Integrator >= Integrator.ImplicitEuler;
+            if (direct == implicitScheme || simulation.Method.Solver == Solver.Xpbd
+                || simulation.Method.Solver == Solver.Explicit)
             {
                 return;
             }
@@ -77,15 +78,14 @@ namespace Guidewire.Io
                     : "one of \"verlet\", \"euler\", \"orientationVerlet\", \"eulerOrientationVerlet\""
                     + " with solver \"pbd\"");
             }
-            simulation.Integrator = Integrator.Sdirk3;
+            simulation.Method.Integrator = Integrator.Sdirk3;
         }
 
         private static void CheckTogether(SimulationParameters simulation,
             Dictionary<string, (JToken Value, string Source)> given)
         {
-            MaterialParameters material = simulation.Material;
-            bool freeStart = simulation.Drive == Drive.Force || material.ProximalEnd == ProximalEnd.Free;
-            bool clamped = material.ProximalEnd == ProximalEnd.Clamped && !freeStart;
+            bool freeStart = simulation.Drive.Kind == Drive.Force || simulation.Scene.ProximalEnd == ProximalEnd.Free;
+            bool clamped = simulation.Scene.ProximalEnd == ProximalEnd.Clamped && !freeStart;
             foreach (string key in WallKeys)
             {
                 if (given.TryGetValue(key, out var wall) && wall.Value.HasValues)
@@ -94,37 +94,38 @@ namespace Guidewire.Io
                         "solver pbd: a wire with a material meets no walls");
                 }
             }
-            if (simulation.TwistPerStep != 0.0 && !clamped)
+            if (simulation.Drive.TwistPerStep != 0.0 && !clamped)
             {
                 Refuse(given, "twistPerStep", "proximalEnd \"clamped\" in a run with a material");
             }
-            if (material.InitialState == InitialState.Equilibrium && !clamped && material.DistalEnd == DistalEnd.Free)
+            if (simulation.Scene.InitialState == InitialState.Equilibrium && !clamped
+                && simulation.Scene.DistalEnd == DistalEnd.Free)
             {
                 Refuse(given, "initialState", "a clamped end: a wire that turns freely has no single rest shape");
             }
-            if (simulation.Solver == Solver.Xpbd && material.TipMoment != Vector3d.Zero)
+            if (simulation.Method.Solver == Solver.Xpbd && simulation.Scene.TipMoment != Vector3d.Zero)
             {
                 Refuse(given, "tipMoment", "solver direct or explicit: xpbd has no couples");
             }
-            if (simulation.Solver != Solver.Direct && material.DistalEnd == DistalEnd.Sliding)
+            if (simulation.Method.Solver != Solver.Direct && simulation.Scene.DistalEnd == DistalEnd.Sliding)
             {
                 Refuse(given, "distalEnd", "solver direct: the others cannot slide");
             }
-            if (simulation.Solver != Solver.Direct)
+            if (simulation.Method.Solver != Solver.Direct)
             {
-                CheckTurn(material, given);
+                CheckTurn(simulation.Scene, given);
             }
-            if (simulation.Solver == Solver.Xpbd && material.BendLaw == BendLaw.Darboux)
+            if (simulation.Method.Solver == Solver.Xpbd && simulation.Material.BendLaw == BendLaw.Darboux)
             {
                 Refuse(given, "bendLaw", "solver direct or explicit: xpbd has the rotation vector only");
             }
-            if (material.StartShape == StartShape.Helix && 2.0 * Math.PI * Math.Abs(material.StartTurns)
-                * material.StartRadius >= simulation.GuidewireLength)
+            if (simulation.Scene.StartShape == StartShape.Helix && 2.0 * Math.PI * Math.Abs(simulation.Scene.StartTurns)
+                * simulation.Scene.StartRadius >= simulation.Scene.GuidewireLength)
             {
                 Refuse(given, "startTurns",
                     "a helix shorter than guidewireLength: 2 pi startTurns startRadius is more");
             }
-            if (simulation.Drive == Drive.Hold || simulation.Drive == Drive.Force)
+            if (simulation.Drive.Kind == Drive.Hold || simulation.Drive.Kind == Drive.Force)
             {
                 return;
             }
@@ -134,27 +135,27 @@ namespace Guidewire.Io
             }
         }
 
-        private static void CheckEndsWithGains(MaterialParameters material,
+        private static void CheckEndsWithGains(SceneParameters scene,
             Dictionary<string, (JToken Value, string Source)> given)
         {
-            if (material.ProximalEnd == ProximalEnd.Free)
+            if (scene.ProximalEnd == ProximalEnd.Free)
             {
                 Refuse(given, "proximalEnd",
                     "\"held\" or \"clamped\" with solver pbd; drive \"force\" frees sphere 0");
             }
-            if (material.DistalEnd == DistalEnd.Sliding)
+            if (scene.DistalEnd == DistalEnd.Sliding)
             {
                 Refuse(given, "distalEnd", "\"free\" or \"clamped\" with solver pbd; sliding takes solver direct");
             }
-            CheckTurn(material, given);
+            CheckTurn(scene, given);
         }
 
         // The last joint sees a turn at once as one by less than half a turn, and the shorter way round.
-        private static void CheckTurn(MaterialParameters material,
+        private static void CheckTurn(SceneParameters scene,
             Dictionary<string, (JToken Value, string Source)> given)
         {
-            if (material.DistalEnd == DistalEnd.Clamped && Math.Abs(material.DistalRotation) > 1.0
-                && material.DistalRampTime == 0.0)
+            if (scene.DistalEnd == DistalEnd.Clamped && Math.Abs(scene.DistalRotation) > 1.0
+                && scene.DistalRampTime == 0.0)
             {
                 Refuse(given, "distalRotation",
                     "solver direct, or a distalRampTime > 0: turned at once by more than 1 rad");

@@ -112,15 +112,15 @@ namespace Guidewire.Io
                 CheckTwins(older, newer);
             }
             SimulationParameters simulation = Values.Simulation;
-            if (_given.ContainsKey("SteadyState") && simulation.Drive == Drive.Displace
+            if (_given.ContainsKey("SteadyState") && simulation.Drive.Kind == Drive.Displace
                 && !_given.ContainsKey("displacementPerStep"))
             {
-                simulation.DisplacementPerStep = simulation.Displacement;
+                simulation.Drive.DisplacementPerStep = simulation.Drive.Displacement;
             }
             MaterialRules.Apply(Values, _given);
             if (Values.StartFile.Length > 0)
             {
-                simulation.Start = ReadStart(simulation.NumberRodElements);
+                simulation.Scene.Start = ReadStart(simulation.Scene.NumberRodElements);
             }
             ReadWalls(simulation);
             Warn();
@@ -131,7 +131,7 @@ namespace Guidewire.Io
         {
             string vessel = _given.TryGetValue("vessel", out var named) ? named.Source : "";
             string obstacles = _given.TryGetValue("obstacles", out var given) ? given.Source : "";
-            simulation.Walls = WallReader.Read(Values, vessel, obstacles);
+            simulation.Scene.Walls = WallReader.Read(Values, vessel, obstacles);
             string? complaint = WireStart.Complaint(simulation);
             if (complaint != null)
             {
@@ -177,25 +177,25 @@ namespace Guidewire.Io
         private void Warn()
         {
             SimulationParameters simulation = Values.Simulation;
-            double l = simulation.GuidewireLength / simulation.NumberRodElements;
+            double l = simulation.Scene.GuidewireLength / simulation.Scene.NumberRodElements;
             if (_given.TryGetValue("rodElementLength", out var length) && Math.Abs((double)length.Value - l) > 1e-9 * l)
             {
                 AddWarning("{0}: rodElementLength = {1} is not guidewireLength / numberRodElements = {2}, which counts",
                     length.Source, (double)length.Value, l);
             }
-            if (simulation.Solver != Solver.Pbd)
+            if (simulation.Method.Solver != Solver.Pbd)
             {
                 return;
             }
-            if (simulation.StretchStiffness >= 2.0)
+            if (simulation.Gains.StretchStiffness >= 2.0)
             {
                 AddWarning("stretchStiffness = {0} is at or beyond 2, where transversal motion breaks down",
-                    simulation.StretchStiffness);
+                    simulation.Gains.StretchStiffness);
             }
-            if (simulation.BendStiffness > l)
+            if (simulation.Gains.BendStiffness > l)
             {
                 AddWarning("bendStiffness = {0} is beyond the element length {1}, where bending breaks down",
-                    simulation.BendStiffness, l);
+                    simulation.Gains.BendStiffness, l);
             }
         }
 

@@ -11,16 +11,18 @@ namespace Guidewire.Core.Tests
         {
             return new SimulationParameters
             {
-                DisplacementDirection = Vector3d.UnitY,
-                DeltaThreshold = 0.0,
-                MaxSimulationSteps = maxSteps,
+                Drive = { DisplacementDirection = Vector3d.UnitY },
+                Method = { DeltaThreshold = 0.0, MaxSimulationSteps = maxSteps },
             };
         }
 
         /// <summary>Thesis table 4.1, displaced along z, with no steady state to end it.</summary>
         public static SimulationParameters Longitudinal(int maxSteps)
         {
-            return new SimulationParameters { DeltaThreshold = 0.0, MaxSimulationSteps = maxSteps };
+            return new SimulationParameters
+            {
+                Method = { DeltaThreshold = 0.0, MaxSimulationSteps = maxSteps },
+            };
         }
 
         /// <summary>A bent and twisted start at rest with velocities, from a seed.</summary>

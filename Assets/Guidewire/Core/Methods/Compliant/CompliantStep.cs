@@ -69,9 +69,9 @@ namespace Guidewire.Core
             _turn = new Vector3d[_shape.ElementCount];
             _velocities = scene.Velocities;
             _spins = scene.Spins;
-            _timeStep = parameters.TimeStep;
-            _kept = Math.Pow(1.0 - parameters.Damping, 1.0 / parameters.Material.Substeps);
-            _substeps = parameters.Material.Substeps;
+            _timeStep = parameters.Method.TimeStep;
+            _kept = Math.Pow(1.0 - parameters.Method.Damping, 1.0 / parameters.Method.Substeps);
+            _substeps = parameters.Method.Substeps;
             _sweeps = sweeps;
             _directions = new DirectionError(scene, _inertia, _stretch, _bendTwist);
             _convergence = new ConvergenceRecord(scene.Rod.TotalLength);

@@ -38,9 +38,9 @@ namespace Guidewire.Core
             _velocities = scene.Velocities;
             _spins = scene.Spins;
             _gradient = new RodVector[_shape.ElementCount + 2];
-            _timeStep = parameters.TimeStep;
-            _substeps = parameters.Material.Substeps;
-            _kept = Math.Pow(1.0 - parameters.Damping, 1.0 / _substeps);
+            _timeStep = parameters.Method.TimeStep;
+            _substeps = parameters.Method.Substeps;
+            _kept = Math.Pow(1.0 - parameters.Method.Damping, 1.0 / _substeps);
             _ends = new HeldEnds(scene, statics);
             _stable = StableTimeStep(scene.Rod, scene.Supports);
             double part = _timeStep / _substeps / _stable;

@@ -11,30 +11,31 @@ namespace Guidewire.Core
         {
             Vector3d origin = state.Positions[0];
             IDriveMotion? drive = CreateDrive(parameters, state);
-            bool euler = parameters.Integrator == Integrator.Euler
-                || parameters.Integrator == Integrator.EulerOrientationVerlet;
+            bool euler = parameters.Method.Integrator == Integrator.Euler
+                || parameters.Method.Integrator == Integrator.EulerOrientationVerlet;
             IPositionPrediction prediction = euler
-                ? (IPositionPrediction)new EulerPrediction(parameters.Damping, parameters.Gravity)
-                : new VerletPrediction(parameters.Damping, parameters.Gravity);
-            bool orientationVerlet = parameters.Integrator == Integrator.OrientationVerlet
-                || parameters.Integrator == Integrator.EulerOrientationVerlet;
+                ? (IPositionPrediction)new EulerPrediction(parameters.Method.Damping, parameters.Scene.Gravity)
+                : new VerletPrediction(parameters.Method.Damping, parameters.Scene.Gravity);
+            bool orientationVerlet = parameters.Method.Integrator == Integrator.OrientationVerlet
+                || parameters.Method.Integrator == Integrator.EulerOrientationVerlet;
             IOrientationPrediction orientationPrediction = orientationVerlet
-                ? (IOrientationPrediction)new OrientationVerletPrediction(parameters.NumberRodElements)
+                ? (IOrientationPrediction)new OrientationVerletPrediction(parameters.Scene.NumberRodElements)
                 : new OrientationEulerPrediction();
-            IContactRule? rule = parameters.Walls.Length == 0 ? null
-                : parameters.ElementContact == ElementContact.Seed ? new SeedContactRule(state, parameters)
+            IContactRule? rule = parameters.Scene.Walls.Length == 0 ? null
+                : parameters.Contact.ElementContact == ElementContact.Seed ? new SeedContactRule(state, parameters)
                 : (IContactRule)new ContactRule(state, parameters);
-            var solver = new GaussSeidelSolver(state, parameters.ConstraintSolverSteps, parameters.StretchStiffness,
-                parameters.BendStiffness, parameters.SweepOrder, rule);
+            var solver = new GaussSeidelSolver(state, parameters.Method.ConstraintSolverSteps,
+                parameters.Gains.StretchStiffness, parameters.Gains.BendStiffness, parameters.Method.SweepOrder, rule);
             if (rule == null)
             {
-                return new PositionBasedStep(parameters.TimeStep, prediction, orientationPrediction, drive, solver);
+                return new PositionBasedStep(parameters.Method.TimeStep, prediction, orientationPrediction, drive,
+                    solver);
             }
             var step = new ContactStep(state, parameters, prediction, orientationPrediction, drive, solver, rule);
-            if (parameters.Drive == Drive.Hold)
+            if (parameters.Drive.Kind == Drive.Hold)
             {
-                Vector3d asked = origin + parameters.Displacement * Direction(parameters);
-                step.Record.DriveAsked = Math.Abs(parameters.Displacement);
+                Vector3d asked = origin + parameters.Drive.Displacement * Direction(parameters);
+                step.Record.DriveAsked = Math.Abs(parameters.Drive.Displacement);
                 step.Record.DriveShortfall = Vector3d.Distance(state.Positions[0], asked);
             }
             return step;
@@ -43,43 +44,43 @@ namespace Guidewire.Core
         private static IDriveMotion? CreateDrive(SimulationParameters parameters, RodState state)
         {
             IDriveMotion? drive = null;
-            switch (parameters.Drive)
+            switch (parameters.Drive.Kind)
             {
                 case Drive.Hold:
                     state.InverseMasses[0] = 0.0;
-                    Vector3d asked = state.Positions[0] + parameters.Displacement * Direction(parameters);
+                    Vector3d asked = state.Positions[0] + parameters.Drive.Displacement * Direction(parameters);
                     state.Place(0, WireStart.Displaced(parameters, state, asked));
                     break;
                 case Drive.Displace:
                     state.InverseMasses[0] = 0.0;
-                    drive = new FixedAxisDrive(Direction(parameters), parameters.DisplacementPerStep);
+                    drive = new FixedAxisDrive(Direction(parameters), parameters.Drive.DisplacementPerStep);
                     break;
                 case Drive.Push:
                     state.InverseMasses[0] = 0.0;
-                    drive = new PushDrive(parameters.DisplacementPerStep);
+                    drive = new PushDrive(parameters.Drive.DisplacementPerStep);
                     break;
                 case Drive.Force:
-                    state.Forces[0] = parameters.ExternalForce;
+                    state.Forces[0] = parameters.Drive.ExternalForce;
                     break;
                 default:
-                    throw new ArgumentException("unknown drive " + parameters.Drive);
+                    throw new ArgumentException("unknown drive " + parameters.Drive.Kind);
             }
-            if (parameters.Material.ProximalEnd == ProximalEnd.Clamped && parameters.Drive != Drive.Force)
+            if (parameters.Scene.ProximalEnd == ProximalEnd.Clamped && parameters.Drive.Kind != Drive.Force)
             {
                 HoldFrame(state, 0);
             }
-            if (parameters.TwistPerStep != 0.0)
+            if (parameters.Drive.TwistPerStep != 0.0)
             {
                 state.OrientationWeights[0] = 0.0;
-                drive = new TwistDrive(drive, parameters.TwistPerStep);
+                drive = new TwistDrive(drive, parameters.Drive.TwistPerStep);
             }
-            if (parameters.Steering != null)
+            if (parameters.Drive.Steering != null)
             {
                 state.InverseMasses[0] = 0.0;
                 state.OrientationWeights[0] = 0.0;
-                drive = new SteeredDrive(parameters.Steering);
+                drive = new SteeredDrive(parameters.Drive.Steering);
             }
-            if (parameters.Material.DistalEnd == DistalEnd.Clamped)
+            if (parameters.Scene.DistalEnd == DistalEnd.Clamped)
             {
                 state.InverseMasses[state.ElementCount] = 0.0;
                 HoldFrame(state, state.ElementCount - 1);
@@ -97,7 +98,7 @@ namespace Guidewire.Core
 
         private static Vector3d Direction(SimulationParameters parameters)
         {
-            return Vector3d.Normalize(parameters.DisplacementDirection);
+            return Vector3d.Normalize(parameters.Drive.DisplacementDirection);
         }
     }
 }

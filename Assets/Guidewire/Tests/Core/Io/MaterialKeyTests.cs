@@ -12,8 +12,8 @@ namespace Guidewire.Core.Tests
         public void MaterialRun_ChoosesItsOwnDefaults()
         {
             RunParameters values = Load(("solver", "direct"));
-            Assert.That(values.Simulation.Integrator, Is.EqualTo(Integrator.Sdirk3));
-            Assert.That(values.Simulation.Displacement, Is.Zero);
+            Assert.That(values.Simulation.Method.Integrator, Is.EqualTo(Integrator.Sdirk3));
+            Assert.That(values.Simulation.Drive.Displacement, Is.Zero);
         }
 
         [TestCase("stretchStiffness", 0.5)]
@@ -35,8 +35,8 @@ namespace Guidewire.Core.Tests
         [Test]
         public void EndsOfTheWire_AreTakenWithGainsToo()
         {
-            MaterialParameters ends = Load(("proximalEnd", "clamped"), ("distalEnd", "clamped"),
-                ("distalRotation", 3.0), ("distalRampTime", 0.1)).Simulation.Material;
+            SceneParameters ends = Load(("proximalEnd", "clamped"), ("distalEnd", "clamped"),
+                ("distalRotation", 3.0), ("distalRampTime", 0.1)).Simulation.Scene;
             Assert.That(ends.ProximalEnd, Is.EqualTo(ProximalEnd.Clamped));
             Assert.That(ends.DistalEnd, Is.EqualTo(DistalEnd.Clamped));
             Assert.That(ends.DistalRotation, Is.EqualTo(3.0));

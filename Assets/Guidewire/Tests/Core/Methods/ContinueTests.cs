@@ -13,10 +13,8 @@ namespace Guidewire.Core.Tests
         {
             return new SimulationParameters
             {
-                DisplacementDirection = Vector3d.UnitY,
-                ConstraintSolverSteps = 50,
-                DeltaThreshold = 0.0,
-                MaxSimulationSteps = 100,
+                Drive = { DisplacementDirection = Vector3d.UnitY },
+                Method = { ConstraintSolverSteps = 50, DeltaThreshold = 0.0, MaxSimulationSteps = 100 },
             };
         }
 
@@ -53,7 +51,7 @@ namespace Guidewire.Core.Tests
             Simulation first = Simulation.Create(Transversal());
             Step(first, 10);
             SimulationParameters finer = Transversal();
-            finer.TimeStep = 0.001;
+            finer.Method.TimeStep = 0.001;
             Simulation second = first.Continue(finer);
             Step(second, 5);
             Assert.That(second.Time, Is.EqualTo(10 * 0.01 + 5 * 0.001).Within(1e-12));
@@ -74,10 +72,10 @@ namespace Guidewire.Core.Tests
         {
             Simulation first = Simulation.Create(Transversal());
             SimulationParameters parameters = Transversal();
-            double displacement = parameters.Displacement;
+            double displacement = parameters.Drive.Displacement;
             first.Continue(parameters);
-            Assert.That(parameters.Start, Is.Null);
-            Assert.That(parameters.Displacement, Is.EqualTo(displacement).And.Not.Zero);
+            Assert.That(parameters.Scene.Start, Is.Null);
+            Assert.That(parameters.Drive.Displacement, Is.EqualTo(displacement).And.Not.Zero);
         }
 
         [Test]
@@ -85,7 +83,7 @@ namespace Guidewire.Core.Tests
         {
             Simulation first = Simulation.Create(Transversal());
             SimulationParameters longer = Transversal();
-            longer.NumberRodElements = 31;
+            longer.Scene.NumberRodElements = 31;
             Assert.Throws<ArgumentException>(() => first.Continue(longer));
         }
     }

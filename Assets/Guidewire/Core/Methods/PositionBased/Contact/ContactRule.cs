@@ -33,18 +33,18 @@ namespace Guidewire.Core
         /// <param name="parameters">Radius, margin, gain, and whether elements touch.</param>
         public ContactRule(RodState state, SimulationParameters parameters)
         {
-            _walls = parameters.Walls;
-            _radius = parameters.SphereRadius;
-            _reach = parameters.SphereRadius + parameters.CollisionMargin;
+            _walls = parameters.Scene.Walls;
+            _radius = parameters.Contact.SphereRadius;
+            _reach = parameters.Contact.SphereRadius + parameters.Contact.CollisionMargin;
 
             // What comes within half a radius more may be pushed into reach by the other constraints.
             _range = _reach + 0.5 * _radius;
-            _gain = parameters.CollisionStiffness;
-            _clearance = SweptGuard.ClearanceFor(parameters.SphereRadius);
+            _gain = parameters.Contact.CollisionStiffness;
+            _clearance = SweptGuard.ClearanceFor(parameters.Contact.SphereRadius);
             int capacity = ContactsPerSphere * _walls.Length * state.SphereCount;
             _spheres = new SphereContactConstraint(state, capacity);
             _sphereStops = new SphereContactConstraint(state, capacity);
-            if (parameters.ElementContact == ElementContact.Barycentric)
+            if (parameters.Contact.ElementContact == ElementContact.Barycentric)
             {
                 _elements = new ElementContactConstraint(state, capacity);
                 _elementStops = new ElementContactConstraint(state, capacity);

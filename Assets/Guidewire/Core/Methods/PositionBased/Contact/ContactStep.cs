@@ -38,16 +38,16 @@ namespace Guidewire.Core
             IOrientationPrediction orientationPrediction, IDriveMotion? drive, IConstraintSolver solver,
             IContactRule rule)
         {
-            _timeStep = parameters.TimeStep;
+            _timeStep = parameters.Method.TimeStep;
             _prediction = prediction;
             _orientationPrediction = orientationPrediction;
             _drive = drive;
             _solver = solver;
             _rule = rule;
-            _guard = new SweptGuard(parameters.Walls, rule, state.SphereCount, parameters.SphereRadius);
-            _passages = new PassageCount(parameters.Walls, state.ElementCount, parameters.SphereRadius);
+            _guard = new SweptGuard(parameters.Scene.Walls, rule, state.SphereCount, parameters.Contact.SphereRadius);
+            _passages = new PassageCount(parameters.Scene.Walls, state.ElementCount, parameters.Contact.SphereRadius);
             _longestPart = rule.GuardsSpheres
-                ? Math.Min(0.5 * state.ElementLength, parameters.SphereRadius) : double.PositiveInfinity;
+                ? Math.Min(0.5 * state.ElementLength, parameters.Contact.SphereRadius) : double.PositiveInfinity;
             _target = new Vector3d[state.SphereCount];
             _safe = new Vector3d[state.SphereCount];
             _unshortened = new Vector3d[state.SphereCount];

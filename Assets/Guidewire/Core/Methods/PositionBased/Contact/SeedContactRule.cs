@@ -18,10 +18,11 @@ namespace Guidewire.Core
         /// <param name="parameters">Radius, margin and gain.</param>
         public SeedContactRule(RodState state, SimulationParameters parameters)
         {
-            _walls = parameters.Walls;
-            _radius = parameters.SphereRadius;
+            _walls = parameters.Scene.Walls;
+            _radius = parameters.Contact.SphereRadius;
             _contacts = new SeedContactConstraint(state, ContactsPerSphere * _walls.Length * state.SphereCount,
-                parameters.SphereRadius + parameters.CollisionMargin, parameters.CollisionStiffness);
+                parameters.Contact.SphereRadius + parameters.Contact.CollisionMargin,
+                parameters.Contact.CollisionStiffness);
             _elementHint = new int[_walls.Length * state.ElementCount];
             _sphereHint = new int[_walls.Length * state.SphereCount];
             Array.Fill(_elementHint, -1);

@@ -17,14 +17,14 @@ namespace Guidewire.Core
         {
             int last = state.ElementCount - 1;
             _motion = motion;
-            _timeStep = parameters.TimeStep;
+            _timeStep = parameters.Method.TimeStep;
             _schedule = new RodSchedule
             {
                 DistalPosition = state.Positions[last + 1],
                 DistalFrame = state.Orientations[last],
-                DistalDisplacement = parameters.Material.DistalDisplacement,
-                DistalRotation = parameters.Material.DistalRotation,
-                DistalRampTime = parameters.Material.DistalRampTime,
+                DistalDisplacement = parameters.Scene.DistalDisplacement,
+                DistalRotation = parameters.Scene.DistalRotation,
+                DistalRampTime = parameters.Scene.DistalRampTime,
             };
         }
 

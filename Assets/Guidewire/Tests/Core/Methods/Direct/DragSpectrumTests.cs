@@ -86,11 +86,11 @@ namespace Guidewire.Core.Tests
             // Another way to the same shape: 5 s of overdamped motion, each stage solved with its inertia. Damped less,
             // the wire would flutter: eigenvalues a + ib grow in a motion unless the damping exceeds b/sqrt(a).
             SimulationParameters parameters = CoupleInSpace(3.0);
-            parameters.Damping = 0.5;
-            parameters.MaxSimulationSteps = 1000;
+            parameters.Method.Damping = 0.5;
+            parameters.Method.MaxSimulationSteps = 1000;
             RodState moved = Wires.Run(parameters).State;
-            parameters.MaxSimulationSteps = 0;
-            parameters.Material.InitialState = InitialState.Equilibrium;
+            parameters.Method.MaxSimulationSteps = 0;
+            parameters.Scene.InitialState = InitialState.Equilibrium;
             Simulation rest = Simulation.Create(parameters);
             Assert.That(rest.Outcome, Is.EqualTo(Outcome.Converged), rest.Reason);
             Assert.That(Wires.Distance(moved, rest.State), Is.LessThan(1e-5 * 300.0));
@@ -112,10 +112,10 @@ namespace Guidewire.Core.Tests
             for (int k = 0; k < tip.Length; k++)
             {
                 SimulationParameters parameters = CoupleInSpace(2.0);
-                parameters.NumberRodElements = 20 << k;
-                parameters.MaxSimulationSteps = 0;
-                parameters.Material.InitialState = InitialState.Equilibrium;
-                parameters.Material.TipForce = Rods.BendForce * new Vector3d(1.0, -2.0, 0.0);
+                parameters.Scene.NumberRodElements = 20 << k;
+                parameters.Method.MaxSimulationSteps = 0;
+                parameters.Scene.InitialState = InitialState.Equilibrium;
+                parameters.Scene.TipForce = Rods.BendForce * new Vector3d(1.0, -2.0, 0.0);
                 Simulation rest = Simulation.Create(parameters);
                 Assert.That(rest.Outcome, Is.EqualTo(Outcome.Converged), rest.Reason);
                 tip[k] = rest.State.Positions[20 << k].Y;
@@ -130,9 +130,9 @@ namespace Guidewire.Core.Tests
         private static SimulationParameters CoupleInSpace(double couple)
         {
             SimulationParameters parameters = Rods.Clamped(30, Solver.Direct, 5e-3, 400);
-            parameters.Integrator = Integrator.ImplicitEuler;
+            parameters.Method.Integrator = Integrator.ImplicitEuler;
             Vector3d axis = Vector3d.Normalize(new Vector3d(1.0, 0.0, 0.5));
-            parameters.Material.TipMoment = couple * Rods.BendStiffness / Rods.Length * axis;
+            parameters.Scene.TipMoment = couple * Rods.BendStiffness / Rods.Length * axis;
             return parameters;
         }
 

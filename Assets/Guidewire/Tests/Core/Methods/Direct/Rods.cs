@@ -34,17 +34,18 @@ namespace Guidewire.Core.Tests
         {
             var parameters = new SimulationParameters
             {
-                Solver = solver,
-                NumberRodElements = n,
-                GuidewireLength = 1e3 * Length,
-                GuidewireOffset = 0.0,
-                Displacement = 0.0,
-                TimeStep = step,
-                MaxSimulationSteps = steps,
-                ConstraintSolverSteps = 1,
-                DeltaThreshold = 0.0,
+                Method =
+                {
+                    Solver = solver,
+                    TimeStep = step,
+                    MaxSimulationSteps = steps,
+                    ConstraintSolverSteps = 1,
+                    DeltaThreshold = 0.0,
+                },
+                Scene = { NumberRodElements = n, GuidewireLength = 1e3 * Length, GuidewireOffset = 0.0 },
+                Drive = { Displacement = 0.0 },
             };
-            parameters.Material.ProximalEnd = ProximalEnd.Clamped;
+            parameters.Scene.ProximalEnd = ProximalEnd.Clamped;
             return parameters;
         }
 

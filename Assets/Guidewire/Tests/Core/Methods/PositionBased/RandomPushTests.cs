@@ -111,14 +111,21 @@ namespace Guidewire.Core.Tests
             {
                 Simulation simulation = Simulation.Create(new SimulationParameters
                 {
-                    NumberRodElements = 1, GuidewireLength = 10.0, GuidewireOffset = 0.0, SphereRadius = 1.0,
-                    Drive = Drive.Force, Gravity = new Vector3d(0.0, -10.0, 0.0), CollisionStiffness = 0.5,
-                    ConstraintSolverSteps = 20, DeltaThreshold = 0.0, MaxSimulationSteps = 200, ElementContact = rule,
-                    Walls = new ContactShape[]
+                    Scene =
+                    {
+                        NumberRodElements = 1,
+                        GuidewireLength = 10.0,
+                        GuidewireOffset = 0.0,
+                        Gravity = new Vector3d(0.0, -10.0, 0.0),
+                        Walls = new ContactShape[]
                     {
                         ConvexObstacle.Capsule(
                             new Vector3d(-5.0, -3.0, 5.0), new Vector3d(5.0, -3.0, 5.0), 0.5),
                     },
+                    },
+                    Contact = { SphereRadius = 1.0, CollisionStiffness = 0.5, ElementContact = rule },
+                    Drive = { Kind = Drive.Force },
+                    Method = { ConstraintSolverSteps = 20, DeltaThreshold = 0.0, MaxSimulationSteps = 200 },
                 });
                 while (simulation.Outcome == Outcome.Running && simulation.State.Positions[0].Y > -8.0)
                 {
@@ -137,26 +144,37 @@ namespace Guidewire.Core.Tests
             var random = new RandomGeometry(seed);
             var p = new SimulationParameters
             {
-                NumberRodElements = 5 + random.Index(56),
-                ConstraintSolverSteps = 50 + random.Index(451),
-                StretchStiffness = random.Number(0.1, 1.5),
-                BendStiffness = Math.Pow(10.0, random.Number(-2.0, 0.3)),
-                Gravity = random.Number(0.0, 10.0) * random.Direction(),
-                SphereRadius = random.Number(1.0, 5.0),
-                CollisionStiffness = Math.Pow(10.0, random.Number(-3.0, 0.0)),
-                CollisionMargin = random.Number(0.0, 1.0),
-                Damping = random.Number(0.0, 0.3),
-                TimeStep = Math.Pow(10.0, random.Number(-4.0, -1.0)),
-                TotalMass = Math.Pow(10.0, random.Number(-3.0, 0.0)),
-                GuidewireOffset = -310.0,
-                Drive = Drive.Push,
-                ElementContact = rule,
-                DeltaThreshold = 0.0,
-                TwistPerStep = random.Index(2) == 0 ? 0.0 : random.Number(-0.5, 0.5),
-                Walls = new ContactShape[] { Vessel },
+                Scene =
+                {
+                    NumberRodElements = 5 + random.Index(56),
+                    Gravity = random.Number(0.0, 10.0) * random.Direction(),
+                    GuidewireOffset = -310.0,
+                    Walls = new ContactShape[] { Vessel },
+                },
+                Method =
+                {
+                    ConstraintSolverSteps = 50 + random.Index(451),
+                    Damping = random.Number(0.0, 0.3),
+                    TimeStep = Math.Pow(10.0, random.Number(-4.0, -1.0)),
+                    DeltaThreshold = 0.0,
+                },
+                Gains =
+                {
+                    StretchStiffness = random.Number(0.1, 1.5),
+                    BendStiffness = Math.Pow(10.0, random.Number(-2.0, 0.3)),
+                    TotalMass = Math.Pow(10.0, random.Number(-3.0, 0.0)),
+                },
+                Contact =
+                {
+                    SphereRadius = random.Number(1.0, 5.0),
+                    CollisionStiffness = Math.Pow(10.0, random.Number(-3.0, 0.0)),
+                    CollisionMargin = random.Number(0.0, 1.0),
+                    ElementContact = rule,
+                },
+                Drive = { Kind = Drive.Push, TwistPerStep = random.Index(2) == 0 ? 0.0 : random.Number(-0.5, 0.5) },
             };
-            p.DisplacementPerStep = random.Number(0.05, 20.0) * p.SphereRadius;
-            p.MaxSimulationSteps = (int)Math.Ceiling(Asked / p.DisplacementPerStep);
+            p.Drive.DisplacementPerStep = random.Number(0.05, 20.0) * p.Contact.SphereRadius;
+            p.Method.MaxSimulationSteps = (int)Math.Ceiling(Asked / p.Drive.DisplacementPerStep);
             Simulation simulation = Simulation.Create(p);
             var push = new Push(simulation);
             var start = (Vector3d[])simulation.State.Positions.Clone();
@@ -177,9 +195,11 @@ namespace Guidewire.Core.Tests
                 push.Reached += Vector3d.Distance(start[i], simulation.State.Positions[i])
                     / (simulation.Contacts.DriveAsked * start.Length);
             }
-            push.Words = "seed " + seed + ": n " + p.NumberRodElements + ", m " + p.ConstraintSolverSteps + ", r "
-                + p.SphereRadius.ToString("F2") + ", kC " + p.CollisionStiffness.ToString("F4") + ", per step "
-                + p.DisplacementPerStep.ToString("F1") + ", " + simulation.Outcome + " after " + simulation.StepCount
+            push.Words = "seed " + seed + ": n " + p.Scene.NumberRodElements + ", m "
+                + p.Method.ConstraintSolverSteps + ", r "
+                + p.Contact.SphereRadius.ToString("F2") + ", kC "
+                + p.Contact.CollisionStiffness.ToString("F4") + ", per step "
+                + p.Drive.DisplacementPerStep.ToString("F1") + ", " + simulation.Outcome + " after " + simulation.StepCount
                 + ", passages " + simulation.Contacts.Passages + ", outside " + push.Outside + ", reached "
                 + push.Reached.ToString("F3") + ", driven " + push.Driven.ToString("F3") + ", advance "
                 + push.Advance.ToString("F3") + ", taken up " + push.TakenUp.ToString("F3")

@@ -27,9 +27,12 @@ namespace Guidewire.Core.Tests
         [Test]
         public void Stretch_KeepsCentreOfMass_WhenNoSphereIsHeld()
         {
-            var parameters = new SimulationParameters { NumberRodElements = 12, Start = Wires.Random(12, 300.0, 5) };
+            var parameters = new SimulationParameters
+            {
+                Scene = { NumberRodElements = 12, Start = Wires.Random(12, 300.0, 5) },
+            };
             var state = new RodState(12, 300.0, 0.5, 0.0);
-            state.Load(parameters.Start);
+            state.Load(parameters.Scene.Start);
             Vector3d before = Sum(state.Positions);
             new StretchConstraint(state, 0.7).Sweep(state.Positions, state.Orientations,
                 SweepOrders.Indices(SweepOrder.Naive, 12));
