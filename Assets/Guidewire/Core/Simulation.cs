@@ -6,15 +6,15 @@ namespace Guidewire.Core
     /// same parameters give the same bits on the same runtime.</summary>
     public sealed class Simulation
     {
-        private readonly ITimeStep _step;
+        private readonly TimeStepper _step;
         private readonly StopRule _stopRule;
         private readonly double _timeStep;
         private int _firstStep;
         private double _firstTime;    // s
         private string? _ownReason;
-        private string? _doubt;
+        private string? _warning;
 
-        private Simulation(RodState state, ITimeStep step, StopRule stopRule, double timeStep)
+        private Simulation(RodState state, TimeStepper step, StopRule stopRule, double timeStep)
         {
             State = state;
             _step = step;
@@ -38,7 +38,7 @@ namespace Guidewire.Core
         public Outcome Outcome { get; private set; }
 
         /// <summary>One line that says why the run ended, and what is wrong with it; empty while it runs.</summary>
-        public string Reason => (_ownReason ?? _stopRule.Reason) + (_doubt == null ? "" : ", but " + _doubt);
+        public string Reason => (_ownReason ?? _stopRule.Reason) + (_warning == null ? "" : ", but " + _warning);
 
         /// <summary>First step of the steady state, or -1.</summary>
         public int SteadyStateStep => _stopRule.SteadyStateStep;
@@ -56,7 +56,7 @@ namespace Guidewire.Core
             {
                 throw new ArgumentException("the displacement has no direction");
             }
-            string? complaint = WireStart.Complaint(parameters);
+            string? complaint = WireStart.FindProblem(parameters);
             if (complaint != null)
             {
                 throw new ArgumentException(complaint);
@@ -67,13 +67,13 @@ namespace Guidewire.Core
                 throw new ArgumentException("solver: a hand steers wires with gains only, solver pbd");
             }
             string? failure = null;
-            ITimeStep step = parameters.Method.Solver == Solver.Pbd ? GainSetup.Create(parameters, state)
+            TimeStepper step = parameters.Method.Solver == Solver.Pbd ? GainSetup.Create(parameters, state)
                 : MaterialSetup.Create(parameters, state, out failure);
             var stopRule = new StopRule(parameters.Method.DeltaThreshold, parameters.Method.SteadyStateHold,
                 parameters.Method.MaxSimulationSteps, state);
             var simulation = new Simulation(state, step, stopRule, parameters.Method.TimeStep)
             {
-                Contacts = (step as IContactStep)?.Record,
+                Contacts = step.Contacts,
             };
             if (failure != null)
             {
@@ -102,9 +102,7 @@ namespace Guidewire.Core
         /// <summary>What the solver says of itself, for a run with a material; null with gains.</summary>
         public SolverReport? CompleteReport()
         {
-            var reporting = _step as IReportingStep;
-            reporting?.CompleteReport();
-            return reporting?.Report;
+            return _step.Report();
         }
 
         /// <summary>One step. Does nothing once the run has ended.</summary>
@@ -121,16 +119,15 @@ namespace Guidewire.Core
                 End(Outcome.Failed, _step.Failure);
                 return;
             }
-            string? divergence = (_step as IWatchedStep)?.Divergence;
-            if (divergence != null)
+            if (_step.Divergence != null)
             {
-                End(Outcome.Diverged, divergence);
+                End(Outcome.Diverged, _step.Divergence);
                 return;
             }
-            Outcome = _stopRule.Judge(State, StepCount, PredictionError);
+            Outcome = _stopRule.Check(State, StepCount, PredictionError);
             if (Outcome == Outcome.Finished || Outcome == Outcome.Converged)
             {
-                _doubt = (_step as IWatchedStep)?.Doubt;
+                _warning = _step.AccuracyWarning;
             }
         }
 
@@ -165,7 +162,7 @@ namespace Guidewire.Core
         /// <param name="reason">One line.</param>
         public void End(Outcome outcome, string reason)
         {
-            _doubt = outcome == Outcome.Interrupted ? (_step as IWatchedStep)?.Doubt : null;
+            _warning = outcome == Outcome.Interrupted ? _step.AccuracyWarning : null;
             Outcome = outcome;
             _ownReason = reason;
         }

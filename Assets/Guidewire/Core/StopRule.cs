@@ -52,11 +52,11 @@ namespace Guidewire.Core
         /// <summary>The first of the steps that make the steady state, or -1 before there is one.</summary>
         public int SteadyStateStep { get; private set; } = -1;
 
-        /// <summary>One line that says why, once <see cref="Judge"/> answers anything but Running.</summary>
+        /// <summary>One line that says why, once <see cref="Check"/> answers anything but Running.</summary>
         public string Reason { get; private set; } = "";
 
         /// <summary>The outcome after <paramref name="step"/> steps.</summary>
-        public Outcome Judge(RodState state, int step, double predictionError)
+        public Outcome Check(RodState state, int step, double predictionError)
         {
             if (IsLost(state, step, out double strain))
             {

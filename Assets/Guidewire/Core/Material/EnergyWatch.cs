@@ -13,7 +13,7 @@ namespace Guidewire.Core
     internal sealed class EnergyWatch
     {
         /// <summary>What T may be over the energy put in.</summary>
-        public const double Room = 4.0;
+        public const double Allowance = 4.0;
 
         private const double Rounding = 1e-9;   // of EI/L
         private readonly MaterialScene _scene;
@@ -21,7 +21,7 @@ namespace Guidewire.Core
         private readonly NodalInertia _inertia;
         private readonly HeldEnds _ends;
         private readonly Vector3d[] _before;
-        private readonly double _room;
+        private readonly double _allowance;
         private readonly double _start;         // J
         private Quaterniond _tipBefore;
         private double _loadWork;               // J
@@ -29,10 +29,11 @@ namespace Guidewire.Core
         private int _step;
 
         /// <summary>A watch on this scene, at its start.</summary>
-        /// <param name="room">What T may be over the energy put in, at least <see cref="Room"/>.</param>
-        public EnergyWatch(MaterialScene scene, RodStatics statics, NodalInertia inertia, HeldEnds ends, double room)
+        /// <param name="allowance">What T may be over the energy put in, at least <see cref="Allowance"/>.</param>
+        public EnergyWatch(MaterialScene scene, RodStatics statics, NodalInertia inertia, HeldEnds ends,
+            double allowance)
         {
-            _room = room;
+            _allowance = allowance;
             _scene = scene;
             _statics = statics;
             _inertia = inertia;
@@ -46,7 +47,7 @@ namespace Guidewire.Core
 
         /// <summary>Takes the wire after a step that these loads acted in; one line where it has blown up, else
         /// null.</summary>
-        public string? Judge(DeadLoads loads)
+        public string? Blowup(DeadLoads loads)
         {
             RodShape shape = _scene.Shape;
             int last = shape.ElementCount - 1;
@@ -62,7 +63,7 @@ namespace Guidewire.Core
             double motion = Motion();
             double putIn = _start + _loadWork + _ends.MostWork;
             // A NaN fails every comparison, so the question is asked for the good case.
-            if (motion <= _room * Math.Max(_mostPutIn, putIn))
+            if (motion <= _allowance * Math.Max(_mostPutIn, putIn))
             {
                 _mostPutIn = Math.Max(_mostPutIn, putIn);
                 return null;

@@ -10,7 +10,7 @@ namespace Guidewire.Core
 
         /// <summary>Sets the state to the start and returns the step.</summary>
         /// <param name="failure">Why there is no start, or null.</param>
-        public static ITimeStep Create(SimulationParameters parameters, RodState state, out string? failure)
+        public static TimeStepper Create(SimulationParameters parameters, RodState state, out string? failure)
         {
             var scene = new MaterialScene(parameters);
             var statics = new RodStatics(scene.Rod, scene.Supports);
@@ -36,7 +36,7 @@ namespace Guidewire.Core
             return CreateStep(parameters, scene, statics, report);
         }
 
-        private static ITimeStep CreateStep(SimulationParameters parameters, MaterialScene scene, RodStatics statics,
+        private static TimeStepper CreateStep(SimulationParameters parameters, MaterialScene scene, RodStatics statics,
             SolverReport report)
         {
             var drive = new MaterialDrive(parameters, scene.Schedule);

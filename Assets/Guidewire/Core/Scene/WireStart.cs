@@ -7,7 +7,7 @@ namespace Guidewire.Core
     public static class WireStart
     {
         /// <summary>What is wrong with the start that the parameters describe, in one phrase, or null.</summary>
-        public static string? Complaint(SimulationParameters parameters)
+        public static string? FindProblem(SimulationParameters parameters)
         {
             if (parameters.Scene.Walls.Length == 0)
             {

@@ -49,7 +49,7 @@ namespace Guidewire.Io
         /// none.</summary>
         internal virtual JToken? FromText(string text)
         {
-            if (StrictJson.Complaint(text) != null)
+            if (StrictJson.FindError(text) != null)
             {
                 return null;
             }

@@ -132,7 +132,7 @@ namespace Guidewire.Io
             string vessel = _given.TryGetValue("vessel", out var named) ? named.Source : "";
             string obstacles = _given.TryGetValue("obstacles", out var given) ? given.Source : "";
             simulation.Scene.Walls = WallReader.Read(Values, vessel, obstacles);
-            string? complaint = WireStart.Complaint(simulation);
+            string? complaint = WireStart.FindProblem(simulation);
             if (complaint != null)
             {
                 throw new ParameterException((vessel.Length > 0 ? vessel : obstacles) + ": " + complaint);

@@ -25,7 +25,7 @@ namespace Guidewire.Core
     /// How far the sweeps were from convergence is measured in substeps 1, 2, 4, 8 .. and the last of each step, each
     /// for the time since the one before, because what a step changes is over in its first substeps; see <see
     /// cref="ConvergenceRecord"/>.</remarks>
-    internal sealed class CompliantStep : ITimeStep, IReportingStep, IWatchedStep
+    internal sealed class CompliantStep : TimeStepper
     {
         private const double LargestStart = 0.1;    // radians, or of an element's length
 
@@ -49,6 +49,7 @@ namespace Guidewire.Core
         private readonly ConvergenceRecord _convergence;
         private readonly HeldEnds _ends;
         private readonly EnergyWatch _energy;
+        private readonly SolverReport _report;
         private Vector3d _predictedTip;
         private double _time;
 
@@ -76,27 +77,15 @@ namespace Guidewire.Core
             _directions = new DirectionError(scene, _inertia, _stretch, _bendTwist);
             _convergence = new ConvergenceRecord(scene.Rod.TotalLength);
             _ends = new HeldEnds(scene, statics);
-            _energy = new EnergyWatch(scene, statics, _inertia, _ends, EnergyWatch.Room);
-            Report = report;
+            _energy = new EnergyWatch(scene, statics, _inertia, _ends, EnergyWatch.Allowance);
+            _report = report;
         }
 
         /// <inheritdoc/>
-        public double PredictionError { get; private set; }
+        public override string? AccuracyWarning => _convergence.Warning;
 
         /// <inheritdoc/>
-        public string? Failure => null;
-
-        /// <inheritdoc/>
-        public string? Divergence { get; private set; }
-
-        /// <inheritdoc/>
-        public string? Doubt => _convergence.Doubt;
-
-        /// <inheritdoc/>
-        public SolverReport Report { get; }
-
-        /// <inheritdoc/>
-        public void Advance(RodState state)
+        public override void Advance(RodState state)
         {
             double h = _timeStep / _substeps;
             var residual = default(SweepResidual);
@@ -114,7 +103,7 @@ namespace Guidewire.Core
             }
             _time += _timeStep;
             _convergence.Add(residual);
-            Divergence = _energy.Judge(_loads);
+            Divergence = _energy.Blowup(_loads);
             if (Divergence != null)
             {
                 Divergence += "; raise substeps or constraintSolverSteps";
@@ -125,12 +114,13 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public void CompleteReport()
+        public override SolverReport? Report()
         {
-            Report.Method = "Gauss-Seidel with compliance; each substep is one of implicit Euler where it has"
+            _report.Method = "Gauss-Seidel with compliance; each substep is one of implicit Euler where it has"
                 + " converged";
-            Report.LargestError = _convergence.LargestError;
-            Report.StepsNotConverged = _convergence.StepsAbove;
+            _report.LargestError = _convergence.LargestError;
+            _report.StepsNotConverged = _convergence.StepsAbove;
+            return _report;
         }
 
         private void Substep(double time, double h, bool isMeasured)

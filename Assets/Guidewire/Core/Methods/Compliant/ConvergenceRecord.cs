@@ -65,7 +65,7 @@ namespace Guidewire.Core
 
         /// <summary>How many steps had not converged and what is wrong by how much, in one line; null where all
         /// have.</summary>
-        public string? Doubt
+        public string? Warning
         {
             get
             {

@@ -4,13 +4,15 @@ namespace Guidewire.Core
 {
     /// <summary>One step of the direct solver: the drive's motion, then all stages of the scheme, each an exact
     /// minimisation over the whole rod.</summary>
-    internal sealed class DirectStep : ITimeStep, IReportingStep, IContactStep
+    internal sealed class DirectStep : TimeStepper
     {
         private readonly MaterialScene _scene;
         private readonly RodStatics _statics;
         private readonly RodDynamics _dynamics;
         private readonly MaterialDrive _drive;
         private readonly double _timeStep;
+        private readonly SolverReport _report;
+        private readonly long _startFactorisations;  // of the rest shape
         private readonly double _kept;  // share of its velocity that the wire keeps a step
 
         /// <summary>A step for this scene.</summary>
@@ -27,25 +29,17 @@ namespace Guidewire.Core
             _drive = drive;
             _timeStep = timeStep;
             _kept = 1.0 - damping;
-            Report = report;
-            Record = record;
+            _report = report;
+            _startFactorisations = report.Factorisations;
+            Contacts = record;
             dynamics.TracksReactions = record != null;
         }
 
         /// <inheritdoc/>
-        public double PredictionError { get; private set; }
+        public override ContactRecord? Contacts { get; }
 
         /// <inheritdoc/>
-        public string? Failure { get; private set; }
-
-        /// <inheritdoc/>
-        public SolverReport Report { get; }
-
-        /// <inheritdoc/>
-        public ContactRecord? Record { get; }
-
-        /// <inheritdoc/>
-        public void Advance(RodState state)
+        public override void Advance(RodState state)
         {
             int last = state.ElementCount;
             _drive.Prepare(_dynamics.Shape, _dynamics.Time);
@@ -63,26 +57,27 @@ namespace Guidewire.Core
                 return;
             }
             PredictionError = Vector3d.Distance(free, _dynamics.Shape.X[last]) / _scene.Metres;
-            if (Record != null)
+            if (Contacts != null)
             {
-                Record.Reaction = _dynamics.MeanReaction;
+                Contacts.Reaction = _dynamics.MeanReaction;
             }
             _scene.Write(state, _dynamics.Shape, _dynamics.Velocities, _dynamics.Spins);
         }
 
         /// <inheritdoc/>
-        public void CompleteReport()
+        public override SolverReport? Report()
         {
-            Report.Factorisations += _dynamics.Solver.Factorisations;
-            Report.KeptSolutions = _dynamics.Solver.KeptSolutions;
-            Report.Searches = _dynamics.Solver.Searches;
-            Report.Energy = _dynamics.Energy;
+            _report.Factorisations = _startFactorisations + _dynamics.Solver.Factorisations;
+            _report.KeptSolutions = _dynamics.Solver.KeptSolutions;
+            _report.Searches = _dynamics.Solver.Searches;
+            _report.Energy = _dynamics.Energy;
             RodShape shape = _dynamics.Shape;
-            Report.ProximalForce = _dynamics.ReactionAt(0);
-            Report.DistalForce = _scene.Supports.HasDistalJoint ? _dynamics.ReactionAt(shape.ElementCount)
+            _report.ProximalForce = _dynamics.ReactionAt(0);
+            _report.DistalForce = _scene.Supports.HasDistalJoint ? _dynamics.ReactionAt(shape.ElementCount)
                 : Vector3d.Zero;
-            Report.ProximalMoment = _statics.Bending.ProximalCouple(shape);
-            Report.DistalMoment = _statics.Bending.DistalCouple(shape);
+            _report.ProximalMoment = _statics.Bending.ProximalCouple(shape);
+            _report.DistalMoment = _statics.Bending.DistalCouple(shape);
+            return _report;
         }
 
         private void Damp()

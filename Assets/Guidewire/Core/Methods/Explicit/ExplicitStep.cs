@@ -7,7 +7,7 @@ namespace Guidewire.Core
     /// other half (position Verlet, order 2), on lumped masses and the wire's own rotary inertia.</summary>
     /// <remarks>Stable below 2/omega_max. The largest frequency is that of elements turning against their shear,
     /// sqrt(GA/(rho I)) = 2 sqrt(G/rho)/r, however coarse the wire is.</remarks>
-    internal sealed class ExplicitStep : ITimeStep, IReportingStep, IWatchedStep, IContactStep
+    internal sealed class ExplicitStep : TimeStepper
     {
         private readonly MaterialScene _scene;
         private readonly RodStatics _statics;
@@ -23,6 +23,7 @@ namespace Guidewire.Core
         private readonly HeldEnds _ends;
         private readonly EnergyWatch _energy;
         private readonly double _stable;    // s
+        private readonly SolverReport _report;
         private double _time;
 
         /// <summary>A step for this scene.</summary>
@@ -44,33 +45,22 @@ namespace Guidewire.Core
             _ends = new HeldEnds(scene, statics);
             _stable = StableTimeStep(scene.Rod, scene.Supports);
             double part = _timeStep / _substeps / _stable;
-            double room = part < 1.0 ? Math.Max(EnergyWatch.Room, 2.0 / (1.0 - part * part)) : EnergyWatch.Room;
-            _energy = new EnergyWatch(scene, statics, _inertia, _ends, room);
-            Report = report;
-            Record = record;
+            double allowance = part < 1.0
+                ? Math.Max(EnergyWatch.Allowance, 2.0 / (1.0 - part * part)) : EnergyWatch.Allowance;
+            _energy = new EnergyWatch(scene, statics, _inertia, _ends, allowance);
+            _report = report;
+            Contacts = record;
         }
 
         /// <inheritdoc/>
-        public double PredictionError { get; private set; }
-
-        /// <inheritdoc/>
-        public string? Failure => null;
-
-        /// <inheritdoc/>
-        public string? Divergence { get; private set; }
-
-        /// <inheritdoc/>
-        public string? Doubt => _timeStep / _substeps <= _stable ? null
+        public override string? AccuracyWarning => _timeStep / _substeps <= _stable ? null
             : Text("the substep of {0:G4} s is above {1:G4} s, where explicit steps become unstable; raise substeps");
 
         /// <inheritdoc/>
-        public SolverReport Report { get; }
+        public override ContactRecord? Contacts { get; }
 
         /// <inheritdoc/>
-        public ContactRecord? Record { get; }
-
-        /// <inheritdoc/>
-        public void Advance(RodState state)
+        public override void Advance(RodState state)
         {
             int last = _shape.ElementCount;
             double h = _timeStep / _substeps;
@@ -86,24 +76,25 @@ namespace Guidewire.Core
                 Drift(0.5 * h, start + h);
             }
             _time += _timeStep;
-            Divergence = _energy.Judge(_statics.Loads);
+            Divergence = _energy.Blowup(_statics.Loads);
             if (Divergence != null)
             {
                 Divergence += Text(": a substep of {0:G4} s, in its rest shape stable below {1:G4} s; raise substeps");
                 return;
             }
             PredictionError = Vector3d.Distance(free, _shape.X[last]) / _scene.Metres;
-            if (Record != null)
+            if (Contacts != null)
             {
-                Record.Reaction = reaction / _substeps;
+                Contacts.Reaction = reaction / _substeps;
             }
             _scene.Write(state, _shape, _velocities, _spins);
         }
 
         /// <inheritdoc/>
-        public void CompleteReport()
+        public override SolverReport? Report()
         {
-            Report.Method = Text("explicit; stable below a substep of {1:G4} s");
+            _report.Method = Text("explicit; stable below a substep of {1:G4} s");
+            return _report;
         }
 
         /// <summary>2/omega_max of the wire in its rest shape, s; the true limit of an even wire is no

@@ -1,6 +1,7 @@
 namespace Guidewire.Core
 {
-    /// <summary>What makes a wire of gains (solver pbd): it has no material, and its mass is given as a whole.</summary>
+    /// <summary>What makes a wire of gains (solver pbd): it has no material, and its mass is given as a
+    /// whole.</summary>
     public sealed class GainParameters
     {
         /// <summary>k_A, gain of the stretch constraint, dimensionless: at 2 the sweep breaks down.</summary>

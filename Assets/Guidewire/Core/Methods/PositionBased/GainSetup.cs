@@ -7,7 +7,7 @@ namespace Guidewire.Core
     {
         /// <summary>Sets the state to the start, sphere 0 displaced, and returns the step.</summary>
         /// <exception cref="ArgumentException">A drive that is not known.</exception>
-        public static ITimeStep Create(SimulationParameters parameters, RodState state)
+        public static TimeStepper Create(SimulationParameters parameters, RodState state)
         {
             Vector3d origin = state.Positions[0];
             IDriveMotion? drive = CreateDrive(parameters, state);
@@ -35,8 +35,8 @@ namespace Guidewire.Core
             if (parameters.Drive.Kind == Drive.Hold)
             {
                 Vector3d asked = origin + parameters.Drive.Displacement * Direction(parameters);
-                step.Record.DriveAsked = Math.Abs(parameters.Drive.Displacement);
-                step.Record.DriveShortfall = Vector3d.Distance(state.Positions[0], asked);
+                step.Contacts.DriveAsked = Math.Abs(parameters.Drive.Displacement);
+                step.Contacts.DriveShortfall = Vector3d.Distance(state.Positions[0], asked);
             }
             return step;
         }

@@ -2,7 +2,7 @@ namespace Guidewire.Core
 {
     /// <summary>One step of position-and-orientation-based dynamics (thesis 2.1.3): prediction, the drive's motion,
     /// constraint solver, velocity update.</summary>
-    internal sealed class PositionBasedStep : ITimeStep
+    internal sealed class PositionBasedStep : TimeStepper
     {
         private readonly double _timeStep;
         private readonly IPositionPrediction _prediction;
@@ -26,13 +26,7 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public double PredictionError { get; private set; }
-
-        /// <inheritdoc/>
-        public string? Failure => null;
-
-        /// <inheritdoc/>
-        public void Advance(RodState state)
+        public override void Advance(RodState state)
         {
             _prediction.Predict(state, _timeStep);
             _orientationPrediction.Predict(state, _timeStep);

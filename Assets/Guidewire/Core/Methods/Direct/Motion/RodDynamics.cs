@@ -267,7 +267,7 @@ namespace Guidewire.Core
             }
             Vector3d end = _schedule.DistalPositionAt(time);
             _before.CopyFrom(Shape);
-            RodStep.Lay(_supports, Shape, _predicted, start, end);
+            RodStep.PlaceElements(_supports, Shape, _predicted, start, end);
             double loads = _schedule.LoadAt(time, _mass);
             if (!_solver.Iterate(Shape, h, loads))
             {
@@ -310,7 +310,7 @@ namespace Guidewire.Core
         private string? Search(double h, double loads, in Vector3d start, in Vector3d end)
         {
             Shape.CopyFrom(_before);
-            RodStep.Lay(_supports, Shape, Shape.Q, start, end);
+            RodStep.PlaceElements(_supports, Shape, Shape.Q, start, end);
             string? failure = _solver.Search(Shape);
             if (failure == null)
             {

@@ -8,7 +8,7 @@ namespace Guidewire.Core
     /// an element or a radius is done in parts, each with its own detection and solve; a part after which something
     /// would have passed a wall is solved again against the places where it met it, then halved, and at the end
     /// shortened. What the drive did not get is reported.</remarks>
-    internal sealed class ContactStep : ITimeStep, IContactStep
+    internal sealed class ContactStep : TimeStepper
     {
         private const int Resolves = 2;
         private const double SmallestPart = 1.0 / 256.0;
@@ -53,20 +53,14 @@ namespace Guidewire.Core
             _unshortened = new Vector3d[state.SphereCount];
             _targetTurn = new Quaterniond[state.ElementCount];
             _safeTurn = new Quaterniond[state.ElementCount];
-            Record = new ContactRecord(state.SphereCount);
+            Contacts = new ContactRecord(state.SphereCount);
         }
 
         /// <inheritdoc/>
-        public ContactRecord Record { get; }
+        public override ContactRecord Contacts { get; }
 
         /// <inheritdoc/>
-        public double PredictionError { get; private set; }
-
-        /// <inheritdoc/>
-        public string? Failure => null;
-
-        /// <inheritdoc/>
-        public void Advance(RodState state)
+        public override void Advance(RodState state)
         {
             _prediction.Predict(state, _timeStep);
             _orientationPrediction.Predict(state, _timeStep);
@@ -75,12 +69,12 @@ namespace Guidewire.Core
             Array.Copy(state.PredictedOrientations, _targetTurn, _targetTurn.Length);
             Array.Copy(state.Positions, _safe, _safe.Length);
             Array.Copy(state.Orientations, _safeTurn, _safeTurn.Length);
-            Record.StartStep();
+            Contacts.StartStep();
             MoveInParts(state);
             PredictionError = Vector3d.Distance(_target[state.ElementCount], _safe[state.ElementCount]);
             _passages.EndStep(state.Positions, state.PredictedPositions);
-            Record.Passages = _passages.Total;
-            Record.EndStep(state, _target, _timeStep);
+            Contacts.Passages = _passages.Total;
+            Contacts.EndStep(state, _target, _timeStep);
             VelocityUpdate.Apply(state, _timeStep);
         }
 
@@ -88,7 +82,7 @@ namespace Guidewire.Core
         {
             bool driven = state.InverseMasses[0] == 0.0;
             double asked = driven ? Vector3d.Distance(_target[0], state.Positions[0]) : 0.0;
-            Record.DriveAsked += asked;
+            Contacts.DriveAsked += asked;
             double part = 1.0 / Math.Max(1.0, Math.Ceiling(asked / _longestPart));
             double left = 1.0;
             while (left > 0.5 * SmallestPart)
@@ -130,11 +124,11 @@ namespace Guidewire.Core
             }
             if (state.InverseMasses[0] == 0.0)
             {
-                Record.DriveShortfall += Vector3d.Distance(driveTo, p[0]);
+                Contacts.DriveShortfall += Vector3d.Distance(driveTo, p[0]);
             }
             _passages.AddPart(_safe, p, _rule);
-            _rule.AddImpulses(Record.Impulses);
-            Record.MaxPenetration = Math.Max(Record.MaxPenetration, _rule.Penetration(p));
+            _rule.AddImpulses(Contacts.Impulses);
+            Contacts.MaxPenetration = Math.Max(Contacts.MaxPenetration, _rule.Penetration(p));
             Array.Copy(p, _safe, p.Length);
             Array.Copy(state.PredictedOrientations, _safeTurn, _safeTurn.Length);
             return true;
@@ -164,7 +158,7 @@ namespace Guidewire.Core
             {
                 if (state.InverseMasses[i] > 0.0)
                 {
-                    Record.Impulses[i] += (1.0 / state.InverseMasses[i]) * (p[i] - _unshortened[i]);
+                    Contacts.Impulses[i] += (1.0 / state.InverseMasses[i]) * (p[i] - _unshortened[i]);
                 }
             }
         }

@@ -31,7 +31,7 @@ namespace Guidewire.Core.Tests
 
         [TestCase(30, 0.5e-3)]
         [TestCase(20, 2e-3)]
-        public void ExplicitStepsBelowTheirLimit_EndFinishedWithoutADoubt(int n, double radius)
+        public void ExplicitStepsBelowTheirLimit_EndFinishedWithoutAWarning(int n, double radius)
         {
             Simulation run = Explicit(n, radius, 0.98 * Limit(n, radius));
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
@@ -39,7 +39,7 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        public void ExplicitStepsAboveTheirLimit_AreDoubtful_WhereNothingMovesYet()
+        public void ExplicitStepsAboveTheirLimit_WarnOfIt_WhereNothingMovesYet()
         {
             SimulationParameters parameters = Wire(Solver.Explicit, 30, Rods.Radius, 3e-7, 10);
             parameters.Scene.Gravity = Vector3d.Zero;

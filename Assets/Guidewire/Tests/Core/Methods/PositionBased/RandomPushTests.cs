@@ -199,7 +199,8 @@ namespace Guidewire.Core.Tests
                 + p.Method.ConstraintSolverSteps + ", r "
                 + p.Contact.SphereRadius.ToString("F2") + ", kC "
                 + p.Contact.CollisionStiffness.ToString("F4") + ", per step "
-                + p.Drive.DisplacementPerStep.ToString("F1") + ", " + simulation.Outcome + " after " + simulation.StepCount
+                + p.Drive.DisplacementPerStep.ToString("F1") + ", " + simulation.Outcome + " after "
+                + simulation.StepCount
                 + ", passages " + simulation.Contacts.Passages + ", outside " + push.Outside + ", reached "
                 + push.Reached.ToString("F3") + ", driven " + push.Driven.ToString("F3") + ", advance "
                 + push.Advance.ToString("F3") + ", taken up " + push.TakenUp.ToString("F3")
