@@ -23,6 +23,16 @@ namespace Guidewire.Core
         /// <summary>How it is simulated.</summary>
         public MethodParameters Method { get; private set; } = new MethodParameters();
 
+        /// <summary>The defaults of a method: those of the thesis, but where they would mean something else to
+        /// it.</summary>
+        public static SimulationParameters DefaultsOf(Solver solver)
+        {
+            var parameters = new SimulationParameters();
+            parameters.Method.Solver = solver;
+            MethodTable.Of(solver).SetDefaults(parameters);
+            return parameters;
+        }
+
         /// <summary>The same values; lists, walls and steering are shared.</summary>
         internal SimulationParameters Copy()
         {

@@ -139,10 +139,11 @@ namespace Guidewire.Core
         /// <summary>A section that means something only to a reader made like its writer: written whole, and read where
         /// the reader's key is the writer's (method, scheme, step size), else left out.</summary>
         /// <param name="key">What both must agree in.</param>
+        /// <param name="timeStep">The step size, s, in which they must agree too; 0 where it means nothing.</param>
         /// <param name="content">Exchanges the section's numbers.</param>
         /// <returns>False where a reader leaves it out: what it would have taken over is then as it was made.</returns>
         /// <exception cref="InvalidOperationException">The section is read otherwise than it was written.</exception>
-        public bool Section(string key, Action<Snapshot> content)
+        public bool Section(string key, double timeStep, Action<Snapshot> content)
         {
             if (IsWritten)
             {
@@ -150,6 +151,7 @@ namespace Guidewire.Core
                 long end = 0;
                 Exchange(ref end);
                 Exchange(key);
+                Exchange(ref timeStep);
                 content(this);
                 _bits[start] = _count;
                 return true;
@@ -157,6 +159,9 @@ namespace Guidewire.Core
             long next = 0;
             Exchange(ref next);
             bool agrees = Exchange(key);
+            double own = timeStep;
+            Exchange(ref timeStep);
+            agrees &= timeStep == own;
             if (agrees)
             {
                 content(this);

@@ -37,5 +37,13 @@ namespace Guidewire.Core
         public virtual void Exchange(Snapshot snapshot)
         {
         }
+
+        /// <summary>The same for <see cref="PredictionError"/>.</summary>
+        protected void ExchangePredictionError(Snapshot snapshot)
+        {
+            double error = PredictionError;
+            snapshot.Exchange(ref error);
+            PredictionError = error;
+        }
     }
 }

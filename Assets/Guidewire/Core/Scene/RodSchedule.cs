@@ -103,6 +103,18 @@ namespace Guidewire.Core
             return DistalFrame * Quaterniond.FromAxisAngle(Vector3d.UnitZ, DistalTurnAt(time));
         }
 
+        /// <summary>Writes into a snapshot, or takes over from one, where the distal clamp was before it
+        /// moved.</summary>
+        public void ExchangeDistalClamp(Snapshot snapshot)
+        {
+            Vector3d position = DistalPosition;
+            Quaterniond frame = DistalFrame;
+            snapshot.Exchange(ref position);
+            snapshot.Exchange(ref frame);
+            DistalPosition = position;
+            DistalFrame = frame;
+        }
+
         private double Ramp(double time)
         {
             return DistalRampTime > 0.0 ? Math.Min(1.0, Math.Max(0.0, time / DistalRampTime)) : 1.0;

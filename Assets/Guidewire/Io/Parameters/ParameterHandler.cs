@@ -26,12 +26,17 @@ namespace Guidewire.Io
 
         private readonly List<string> _warnings = new List<string>();
 
+        private readonly List<string> _ignored = new List<string>();
+
         private ParameterHandler()
         {
         }
 
         /// <summary>The effective values.</summary>
-        public RunParameters Values { get; } = new RunParameters();
+        public RunParameters Values { get; private set; } = new RunParameters(Solver.Pbd);
+
+        /// <summary>Keys that a file holds and the method does not take: they were passed over.</summary>
+        public IReadOnlyList<string> Ignored => _ignored;
 
         /// <summary>What is allowed but most likely not meant, one line each.</summary>
         public IReadOnlyList<string> Warnings => _warnings;
@@ -72,11 +77,12 @@ namespace Guidewire.Io
             return handler;
         }
 
-        /// <summary>All effective values; a parameter file that repeats the run.</summary>
+        /// <summary>All effective values of the keys that the method takes; a parameter file that repeats the
+        /// run.</summary>
         public JObject ToJson()
         {
             var json = new JObject();
-            foreach (ParameterEntry entry in ParameterTable.Entries)
+            foreach (ParameterEntry entry in Taken())
             {
                 json[entry.Key] = entry.Write(Values);
             }
@@ -94,8 +100,24 @@ namespace Guidewire.Io
             _given[key] = (value, source);
         }
 
+        private Solver Method => Values.Simulation.Method.Solver;
+
+        private IEnumerable<ParameterEntry> Taken()
+        {
+            foreach (ParameterEntry entry in ParameterTable.Entries)
+            {
+                if (entry.IsTakenBy(Method))
+                {
+                    yield return entry;
+                }
+            }
+        }
+
         private void Apply()
         {
+            ApplyKey(ParameterTable.SolverKey);
+            Values = new RunParameters(Method);
+            PassOver();
             foreach ((string older, string _) in Twins)
             {
                 ApplyKey(older);
@@ -117,7 +139,11 @@ namespace Guidewire.Io
             {
                 simulation.Drive.DisplacementPerStep = simulation.Drive.Displacement;
             }
-            MaterialRules.Apply(Values, _given);
+            ParameterConflict? conflict = ParameterConflict.Find(simulation);
+            if (conflict != null)
+            {
+                throw Refused(conflict.Key, conflict.Needed);
+            }
             if (Values.StartFile.Length > 0)
             {
                 simulation.Scene.Start = ReadStart(simulation.Scene.NumberRodElements);
@@ -125,6 +151,50 @@ namespace Guidewire.Io
             ReadWalls(simulation);
             Warn();
             Hash = ComputeHash();
+        }
+
+        // Takes out what the method does not take: refuses it from the command line, notes it from a file.
+        private void PassOver()
+        {
+            foreach (ParameterEntry entry in ParameterTable.Entries)
+            {
+                if (entry.IsTakenBy(Method) || !_given.TryGetValue(entry.Key, out var given))
+                {
+                    continue;
+                }
+                if (!entry.TryRead(new RunParameters(Method), given.Value))
+                {
+                    throw new ParameterException(given.Source, entry.Key, given.Value.ToString(Formatting.None),
+                        entry.Allowed);
+                }
+                if (given.Source == CommandLineHandler.Source
+                    || (entry.IsRefusedElsewhere && AsksForMore(entry, given)))
+                {
+                    throw Refused(entry.Key, "solver " + entry.MethodWords + "; this run has solver "
+                        + ChoiceEntry<Solver>.Word(Method.ToString()));
+                }
+                _ignored.Add(entry.Key);
+                _given.Remove(entry.Key);
+            }
+            if (_ignored.Count > 0)
+            {
+                AddWarning("solver {0} does not take {1}: passed over", ChoiceEntry<Solver>.Word(Method.ToString()),
+                    string.Join(", ", _ignored));
+            }
+        }
+
+        private bool AsksForMore(ParameterEntry entry, (JToken Value, string Source) given)
+        {
+            var read = new RunParameters(Method);
+            entry.TryRead(read, given.Value);
+            return !JToken.DeepEquals(entry.Write(read), entry.Write(new RunParameters(Method)));
+        }
+
+        private ParameterException Refused(string key, string needed)
+        {
+            return _given.TryGetValue(key, out var given)
+                ? new ParameterException(given.Source, key, given.Value.ToString(Formatting.None), needed)
+                : new ParameterException("defaults: " + key + " needs " + needed);
         }
 
         private void ReadWalls(SimulationParameters simulation)
@@ -183,7 +253,7 @@ namespace Guidewire.Io
                 AddWarning("{0}: rodElementLength = {1} is not guidewireLength / numberRodElements = {2}, which counts",
                     length.Source, (double)length.Value, l);
             }
-            if (simulation.Method.Solver != Solver.Pbd)
+            if (Method != Solver.Pbd)
             {
                 return;
             }
@@ -207,7 +277,7 @@ namespace Guidewire.Io
         private string ComputeHash()
         {
             var text = new StringBuilder();
-            foreach (ParameterEntry entry in ParameterTable.Entries)
+            foreach (ParameterEntry entry in Taken())
             {
                 if (!entry.IsOutputPath && entry.Key != "startFile" && entry.Key != "vessel")
                 {

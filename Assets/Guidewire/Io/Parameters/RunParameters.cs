@@ -16,8 +16,14 @@ namespace Guidewire.Io
     /// <summary>All that a parameter file says: what is simulated, and what is written of it.</summary>
     public sealed class RunParameters
     {
+        /// <summary>The defaults of a method.</summary>
+        public RunParameters(Solver solver)
+        {
+            Simulation = SimulationParameters.DefaultsOf(solver);
+        }
+
         /// <summary>What Core is told.</summary>
-        public SimulationParameters Simulation { get; } = new SimulationParameters();
+        public SimulationParameters Simulation { get; }
 
         /// <summary>Folder of the results; empty where the command line must name it.</summary>
         public string LogFilePath { get; set; } = "";

@@ -46,6 +46,22 @@ namespace Guidewire.Core.Tests
             return new RodStart(positions, orientations, velocities, spins);
         }
 
+        /// <summary>The straight wire of these parameters, in units.</summary>
+        public static RodState Straight(SimulationParameters parameters)
+        {
+            return new RodState(parameters.Scene.NumberRodElements, parameters.Scene.GuidewireLength,
+                parameters.Gains.TotalMass, parameters.Scene.GuidewireOffset);
+        }
+
+        /// <summary>Gives a wire another start.</summary>
+        public static void Load(RodState state, RodStart start)
+        {
+            state.Load(new Scene(new SimulationParameters
+            {
+                Scene = { NumberRodElements = state.ElementCount, Start = start },
+            }));
+        }
+
         /// <summary>Runs to its end.</summary>
         public static Simulation Run(SimulationParameters parameters)
         {

@@ -2,70 +2,83 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Builds the step of a run with gains, once, from its parameters.</summary>
+    /// <summary>Builds a run with gains, once, from its parameters.</summary>
     internal static class GainSetup
     {
-        /// <summary>Sets the state to the start, sphere 0 displaced, and returns the step.</summary>
-        /// <exception cref="ArgumentException">A drive that is not known.</exception>
-        public static TimeStepper Create(SimulationParameters parameters, RodState state)
+        /// <summary>The wire at its start, sphere 0 displaced, and its stepper.</summary>
+        /// <exception cref="ArgumentException">A wire that starts outside the vessel.</exception>
+        public static MethodStart Build(SimulationParameters parameters, Scene scene)
         {
-            Vector3d origin = state.Positions[0];
-            IDriveMotion? drive = CreateDrive(parameters, state);
-            bool euler = parameters.Method.Integrator == Integrator.Euler
-                || parameters.Method.Integrator == Integrator.EulerOrientationVerlet;
-            IPositionPrediction prediction = euler
-                ? (IPositionPrediction)new EulerPrediction(parameters.Method.Damping, parameters.Scene.Gravity)
-                : new VerletPrediction(parameters.Method.Damping, parameters.Scene.Gravity);
-            bool orientationVerlet = parameters.Method.Integrator == Integrator.OrientationVerlet
-                || parameters.Method.Integrator == Integrator.EulerOrientationVerlet;
-            IOrientationPrediction orientationPrediction = orientationVerlet
-                ? (IOrientationPrediction)new OrientationVerletPrediction(parameters.Scene.NumberRodElements)
-                : new OrientationEulerPrediction();
-            IContactRule? rule = parameters.Scene.Walls.Length == 0 ? null
+            string? problem = WireStart.FindProblem(scene);
+            if (problem != null)
+            {
+                throw new ArgumentException(problem);
+            }
+            var state = new RodState(parameters.Scene.NumberRodElements, parameters.Scene.GuidewireLength,
+                parameters.Gains.TotalMass, parameters.Scene.GuidewireOffset);
+            state.Load(scene);
+            Vector3d asked = state.Positions[0] + scene.Displacement;
+            IDriveMotion? drive = CreateDrive(parameters, scene, state);
+            IPositionPrediction prediction = CreatePrediction(parameters);
+            IOrientationPrediction orientationPrediction = CreateOrientationPrediction(parameters);
+            IContactRule? rule = scene.Walls.Length == 0 ? null
                 : parameters.Contact.ElementContact == ElementContact.Seed ? new SeedContactRule(state, parameters)
                 : (IContactRule)new ContactRule(state, parameters);
             var solver = new GaussSeidelSolver(state, parameters.Method.ConstraintSolverSteps,
                 parameters.Gains.StretchStiffness, parameters.Gains.BendStiffness, parameters.Method.SweepOrder, rule);
             if (rule == null)
             {
-                return new PositionBasedStep(parameters.Method.TimeStep, prediction, orientationPrediction, drive,
-                    solver);
+                return new MethodStart(state, new PositionBasedStep(parameters.Method.TimeStep, prediction,
+                    orientationPrediction, drive, solver));
             }
             var step = new ContactStep(state, parameters, prediction, orientationPrediction, drive, solver, rule);
             if (parameters.Drive.Kind == Drive.Hold)
             {
-                Vector3d asked = origin + parameters.Drive.Displacement * Direction(parameters);
                 step.Contacts.DriveAsked = Math.Abs(parameters.Drive.Displacement);
                 step.Contacts.DriveShortfall = Vector3d.Distance(state.Positions[0], asked);
             }
-            return step;
+            return new MethodStart(state, step);
         }
 
-        private static IDriveMotion? CreateDrive(SimulationParameters parameters, RodState state)
+        private static IPositionPrediction CreatePrediction(SimulationParameters parameters)
+        {
+            bool euler = parameters.Method.Integrator == Integrator.Euler
+                || parameters.Method.Integrator == Integrator.EulerOrientationVerlet;
+            return euler
+                ? (IPositionPrediction)new EulerPrediction(parameters.Method.Damping, parameters.Scene.Gravity)
+                : new VerletPrediction(parameters.Method.Damping, parameters.Scene.Gravity);
+        }
+
+        private static IOrientationPrediction CreateOrientationPrediction(SimulationParameters parameters)
+        {
+            bool verlet = parameters.Method.Integrator == Integrator.OrientationVerlet
+                || parameters.Method.Integrator == Integrator.EulerOrientationVerlet;
+            return verlet ? (IOrientationPrediction)new OrientationVerletPrediction(parameters.Scene.NumberRodElements)
+                : new OrientationEulerPrediction();
+        }
+
+        private static IDriveMotion? CreateDrive(SimulationParameters parameters, Scene scene, RodState state)
         {
             IDriveMotion? drive = null;
-            switch (parameters.Drive.Kind)
+            bool isFree = parameters.Drive.Kind == Drive.Force;
+            if (isFree)
             {
-                case Drive.Hold:
-                    state.InverseMasses[0] = 0.0;
-                    Vector3d asked = state.Positions[0] + parameters.Drive.Displacement * Direction(parameters);
-                    state.Place(0, WireStart.Displaced(parameters, state, asked));
-                    break;
-                case Drive.Displace:
-                    state.InverseMasses[0] = 0.0;
-                    drive = new FixedAxisDrive(Direction(parameters), parameters.Drive.DisplacementPerStep);
-                    break;
-                case Drive.Push:
-                    state.InverseMasses[0] = 0.0;
-                    drive = new PushDrive(parameters.Drive.DisplacementPerStep);
-                    break;
-                case Drive.Force:
-                    state.Forces[0] = parameters.Drive.ExternalForce;
-                    break;
-                default:
-                    throw new ArgumentException("unknown drive " + parameters.Drive.Kind);
+                state.Forces[0] = scene.Schedule.ProximalForce;
             }
-            if (parameters.Scene.ProximalEnd == ProximalEnd.Clamped && parameters.Drive.Kind != Drive.Force)
+            else
+            {
+                state.InverseMasses[0] = 0.0;
+            }
+            if (scene.Drive != null)
+            {
+                drive = new ProximalDrive(scene.Drive, parameters.Drive.DisplacementPerStep);
+            }
+            else if (parameters.Drive.Kind == Drive.Hold)
+            {
+                Vector3d asked = state.Positions[0] + scene.Displacement;
+                state.Place(0, Reachable(scene.Walls, parameters.Contact.SphereRadius, state, asked));
+            }
+            if (parameters.Scene.ProximalEnd == ProximalEnd.Clamped && !isFree)
             {
                 HoldFrame(state, 0);
             }
@@ -74,17 +87,19 @@ namespace Guidewire.Core
                 state.OrientationWeights[0] = 0.0;
                 drive = new TwistDrive(drive, parameters.Drive.TwistPerStep);
             }
-            if (parameters.Drive.Steering != null)
+            if (scene.Steering != null)
             {
                 state.InverseMasses[0] = 0.0;
                 state.OrientationWeights[0] = 0.0;
-                drive = new SteeredDrive(parameters.Drive.Steering);
+                drive = new SteeredDrive(scene.Steering);
             }
             if (parameters.Scene.DistalEnd == DistalEnd.Clamped)
             {
-                state.InverseMasses[state.ElementCount] = 0.0;
-                HoldFrame(state, state.ElementCount - 1);
-                drive = new DistalClampDrive(drive, state, parameters);
+                int last = state.ElementCount - 1;
+                state.InverseMasses[last + 1] = 0.0;
+                HoldFrame(state, last);
+                scene.Schedule.DistalFrame = state.Orientations[last];
+                drive = new DistalClampDrive(drive, scene.Schedule, parameters.Method.TimeStep);
             }
             return drive;
         }
@@ -96,9 +111,20 @@ namespace Guidewire.Core
             state.AngularVelocities[element] = Vector3d.Zero;
         }
 
-        private static Vector3d Direction(SimulationParameters parameters)
+        // Sphere 0 after its first displacement: as far as the walls let it and its element go.
+        private static Vector3d Reachable(ContactShape[] walls, double radius, RodState state, in Vector3d asked)
         {
-            return Vector3d.Normalize(parameters.Drive.DisplacementDirection);
+            Vector3d from = state.Positions[0];
+            Vector3d next = state.Positions[1];
+            double clearance = SweptGuard.ClearanceFor(radius);
+            double part = 1.0;
+            foreach (ContactShape wall in walls)
+            {
+                double own = wall.Sweep(from, from, asked, asked, clearance, out _);
+                double shared = wall.Sweep(from, next, asked, next, clearance, out _);
+                part = Math.Min(part, Math.Min(own, shared));
+            }
+            return part >= 1.0 ? asked : Vector3d.Lerp(from, asked, part);
         }
     }
 }

@@ -36,5 +36,14 @@ namespace Guidewire.Core
             PredictionError = Vector3d.Distance(predictedTip, state.PredictedPositions[state.ElementCount]);
             VelocityUpdate.Apply(state, _timeStep);
         }
+
+        /// <inheritdoc/>
+        public override void Exchange(Snapshot snapshot)
+        {
+            ExchangePredictionError(snapshot);
+            _drive?.Exchange(snapshot);
+            _prediction.Exchange(snapshot, _timeStep);
+            _orientationPrediction.Exchange(snapshot, _timeStep);
+        }
     }
 }

@@ -44,7 +44,7 @@ namespace Guidewire.Core.Tests
 
         [TestCase("distalEnd", "sliding", "direct")]
         [TestCase("proximalEnd", "free", "force")]
-        [TestCase("axialForce", 1.0, "not a material")]
+        [TestCase("axialForce", 1.0, "solver direct")]
         public void EndsThatGainsDoNotKnow_AreRefused(string key, object value, string needed)
         {
             Assert.That(() => Load((key, JToken.FromObject(value))),

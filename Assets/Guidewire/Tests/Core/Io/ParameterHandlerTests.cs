@@ -153,7 +153,13 @@ namespace Guidewire.Core.Tests
                 Assert.That(entry.Help, Is.Not.Empty, entry.Key);
                 Assert.That(entry.Allowed, Is.Not.Empty, entry.Key);
                 Assert.That(ParameterTable.Find(entry.Key), Is.SameAs(entry));
-                Assert.DoesNotThrow(() => Load("{\"" + entry.Key + "\": " + entry.Default + "}"), entry.Key);
+                foreach (Solver method in entry.Methods)
+                {
+                    string text = entry.Key == "solver" ? "{\"solver\": " + entry.Default(method) + "}"
+                        : "{\"solver\": \"" + method.ToString().ToLowerInvariant() + "\", \"" + entry.Key + "\": "
+                        + entry.Default(method) + "}";
+                    Assert.That(Load(text).Ignored, Is.Empty, entry.Key);
+                }
             }
         }
 

@@ -35,7 +35,7 @@ namespace Guidewire.Core.Tests
                 SimulationParameters parameters = Case(random, damped);
                 Simulation run = Simulation.Create(parameters);
                 double error = go(parameters, run);
-                SolverReport report = run.CompleteReport()!;
+                SolverReport report = run.Report()!;
                 string name = "case " + i + ": " + run.Outcome + ", " + run.Reason;
                 if (run.Outcome == Outcome.Diverged)
                 {
@@ -127,7 +127,7 @@ namespace Guidewire.Core.Tests
             Simulation exact = Simulation.Create(parameters);
             Assert.That(exact.Outcome, Is.EqualTo(Outcome.Converged), exact.Reason);
             return Wires.Distance(exact.State, run.State)
-                / Wires.Distance(exact.State, Simulation.StartOf(parameters));
+                / Wires.Distance(exact.State, Wires.Straight(parameters));
         }
 
         // The same at any step against implicit Euler with time steps of one substep.
@@ -140,7 +140,7 @@ namespace Guidewire.Core.Tests
             parameters.Method.TimeStep /= substeps;
             parameters.Method.MaxSimulationSteps = int.MaxValue;
             Simulation exact = Simulation.Create(parameters);
-            RodState start = Simulation.StartOf(parameters);
+            RodState start = Wires.Straight(parameters);
             double error = 0.0;
             double moved = 0.0;
             while (run.Outcome == Outcome.Running)

@@ -34,7 +34,7 @@ namespace Guidewire.Core.Tests
             Simulation run = Simulation.Create(parameters);
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Converged));
             Assert.That(run.State.Positions[30].Y, Is.EqualTo(300.0 * 0.301720774).Within(0.3));
-            SolverReport report = run.CompleteReport()!;
+            SolverReport report = run.Report()!;
             // The clamp carries the load, and the couple F times the tip's distance along z.
             Assert.That(report.ProximalForce.Y, Is.EqualTo(-Rods.BendForce).Within(1e-6 * Rods.BendForce));
             double couple = Rods.BendForce * 1e-3 * run.State.Positions[30].Z;
@@ -101,7 +101,7 @@ namespace Guidewire.Core.Tests
             other.Material.MassRule = MassRule.Lumped;
             other.Method.ConstraintSolverSteps = 60;
             Simulation run = Wires.Run(other);
-            Assert.That(run.CompleteReport()!.StepsNotConverged, Is.Zero);
+            Assert.That(run.Report()!.StepsNotConverged, Is.Zero);
             double fall = 0.5 * 9810.0 * 2e-4 * 2e-4;
             Assert.That(Wires.Distance(Wires.Run(direct).State, run.State), Is.LessThan(1e-3 * fall));
         }
@@ -111,7 +111,7 @@ namespace Guidewire.Core.Tests
         {
             SimulationParameters parameters = Cantilever(30, Solver.Xpbd, Integrator.ImplicitEuler, 1e-3, 5);
             parameters.Method.ConstraintSolverSteps = 5;
-            Assert.That(Wires.Run(parameters).CompleteReport()!.StepsNotConverged, Is.EqualTo(5));
+            Assert.That(Wires.Run(parameters).Report()!.StepsNotConverged, Is.EqualTo(5));
         }
 
         [TestCase(0.05)]
@@ -211,7 +211,7 @@ namespace Guidewire.Core.Tests
             {
                 angle = Math.Max(angle, Math.Acos(q.Director3.Z) * 180.0 / Math.PI);
             }
-            SolverReport report = run.CompleteReport()!;
+            SolverReport report = run.Report()!;
             double ratio = report.DistalMoment.Z / (2.0 * Math.Sqrt(B * report.DistalForce.Z));
             Assert.That(angle, Is.EqualTo(47.65).Within(0.05 * 47.65));
             Assert.That(ratio, Is.EqualTo(0.914778).Within(0.05 * 0.914778));

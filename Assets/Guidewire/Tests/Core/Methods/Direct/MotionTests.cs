@@ -130,7 +130,7 @@ namespace Guidewire.Core.Tests
                 Quaterniond r = k == 0 ? Quaterniond.Identity : turn;
                 MaterialRod rod = Rods.Wire(N);
                 var shape = new RodShape(N);
-                shape.SetStraight(k == 0 ? Vector3d.Zero : offset, r, rod.Length);
+                shape.SetStraight(k == 0 ? Vector3d.Zero : offset, r, Rods.Stations(rod));
                 var schedule = new RodSchedule
                 {
                     Gravity = Quaterniond.Rotate(r, new Vector3d(3.0, -9.81, 1.0)),

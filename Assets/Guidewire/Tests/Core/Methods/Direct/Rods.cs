@@ -53,8 +53,19 @@ namespace Guidewire.Core.Tests
         public static RodShape Straight(MaterialRod rod)
         {
             var shape = new RodShape(rod.ElementCount);
-            shape.SetStraight(Vector3d.Zero, Quaterniond.Identity, rod.Length);
+            shape.SetStraight(Vector3d.Zero, Quaterniond.Identity, Stations(rod));
             return shape;
+        }
+
+        /// <summary>How far each node is from node 0 along the straight wire.</summary>
+        public static double[] Stations(MaterialRod rod)
+        {
+            var stations = new double[rod.ElementCount + 1];
+            for (int j = 0; j < rod.ElementCount; j++)
+            {
+                stations[j + 1] = stations[j] + rod.Length[j];
+            }
+            return stations;
         }
 
         /// <summary>A shape bent, twisted and strained at random.</summary>

@@ -88,11 +88,8 @@ namespace Guidewire.Core.Tests
         [Test]
         public void WireWithAMaterial_IsNotSteered()
         {
-            var parameters = new SimulationParameters
-            {
-                Method = { Solver = Solver.Direct },
-                Drive = { Steering = _hand },
-            };
+            SimulationParameters parameters = SimulationParameters.DefaultsOf(Solver.Direct);
+            parameters.Drive.Steering = _hand;
             Assert.That(() => Simulation.Create(parameters), Throws.ArgumentException.With.Message.Contains("pbd"));
         }
 
