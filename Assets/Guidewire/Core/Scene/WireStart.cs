@@ -38,7 +38,7 @@ namespace Guidewire.Core
         internal static Vector3d Displaced(SimulationParameters parameters, RodState state, in Vector3d asked)
         {
             Vector3d from = state.Positions[0];
-            double clearance = SweptGuard.ClearanceFor(parameters.SphereRadius);
+            double clearance = SweptSearch.ClearanceFor(parameters.SphereRadius);
             double part = 1.0;
             foreach (ContactShape wall in parameters.Walls)
             {

@@ -21,23 +21,48 @@ namespace Guidewire.Core
             IOrientationPrediction orientationPrediction = orientationVerlet
                 ? (IOrientationPrediction)new OrientationVerletPrediction(parameters.NumberRodElements)
                 : new OrientationEulerPrediction();
-            IContactRule? rule = parameters.Walls.Length == 0 ? null
-                : parameters.ElementContact == ElementContact.Seed ? new SeedContactRule(state, parameters)
-                : (IContactRule)new ContactRule(state, parameters);
-            var solver = new GaussSeidelSolver(state, parameters.ConstraintSolverSteps, parameters.StretchStiffness,
-                parameters.BendStiffness, parameters.SweepOrder, rule);
-            if (rule == null)
+            IContactSearch? search = CreateSearch(parameters, state);
+            IContactResponse? response = search == null ? null : CreateResponse(parameters, state);
+            IConstraintSolver solver = new GaussSeidelSolver(state, parameters.ConstraintSolverSteps,
+                parameters.StretchStiffness, parameters.BendStiffness, parameters.SweepOrder, response);
+            ContactRecord? record = null;
+            if (search != null)
             {
-                return new PositionBasedStep(parameters.TimeStep, prediction, orientationPrediction, drive, solver);
+                record = new ContactRecord(state.SphereCount);
+                solver = new ContactSolver(state, parameters.TimeStep, solver, search, response!, record);
+                if (parameters.Drive == Drive.Hold)
+                {
+                    Vector3d asked = origin + parameters.Displacement * Direction(parameters);
+                    record.DriveAsked = Math.Abs(parameters.Displacement);
+                    record.DriveShortfall = Vector3d.Distance(state.Positions[0], asked);
+                }
             }
-            var step = new ContactStep(state, parameters, prediction, orientationPrediction, drive, solver, rule);
-            if (parameters.Drive == Drive.Hold)
+            return new PositionBasedStep(
+                parameters.TimeStep, prediction, orientationPrediction, drive, solver, record);
+        }
+
+        private static IContactSearch? CreateSearch(SimulationParameters parameters, RodState state)
+        {
+            if (parameters.Walls.Length == 0)
             {
-                Vector3d asked = origin + parameters.Displacement * Direction(parameters);
-                step.Record.DriveAsked = Math.Abs(parameters.Displacement);
-                step.Record.DriveShortfall = Vector3d.Distance(state.Positions[0], asked);
+                return null;
             }
-            return step;
+            double radius = parameters.SphereRadius;
+            return parameters.ElementContact == ElementContact.Seed
+                ? (IContactSearch)new SeedContactSearch(parameters.Walls, state.ElementCount, radius)
+                : new ContactSearch(parameters.Walls, state.ElementCount, state.ElementLength, radius,
+                    radius + parameters.CollisionMargin, parameters.ElementContact == ElementContact.Barycentric);
+        }
+
+        private static IContactResponse CreateResponse(SimulationParameters parameters, RodState state)
+        {
+            int walls = parameters.Walls.Length;
+            double radius = parameters.SphereRadius;
+            double reach = radius + parameters.CollisionMargin;
+            double gain = parameters.CollisionStiffness;
+            return parameters.ElementContact == ElementContact.Seed
+                ? (IContactResponse)new SeedContactResponse(state, walls, radius, reach, gain)
+                : new ContactResponse(state, walls, radius, reach, gain);
         }
 
         private static IDriveMotion? CreateDrive(SimulationParameters parameters, RodState state)

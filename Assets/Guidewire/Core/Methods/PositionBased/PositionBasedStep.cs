@@ -2,7 +2,7 @@ namespace Guidewire.Core
 {
     /// <summary>One step of position-and-orientation-based dynamics (thesis 2.1.3): prediction, the drive's motion,
     /// constraint solver, velocity update.</summary>
-    internal sealed class PositionBasedStep : ITimeStep
+    internal sealed class PositionBasedStep : ITimeStep, IContactStep
     {
         private readonly double _timeStep;
         private readonly IPositionPrediction _prediction;
@@ -15,15 +15,21 @@ namespace Guidewire.Core
         /// <param name="orientationPrediction">How orientations are predicted.</param>
         /// <param name="drive">What moves sphere 0 each step, or null where nothing does.</param>
         /// <param name="solver">What corrects the prediction.</param>
+        /// <param name="contacts">What the solver notes of its contacts, or null in a scene without walls.</param>
         public PositionBasedStep(double timeStep, IPositionPrediction prediction,
-            IOrientationPrediction orientationPrediction, IDriveMotion? drive, IConstraintSolver solver)
+            IOrientationPrediction orientationPrediction, IDriveMotion? drive, IConstraintSolver solver,
+            ContactRecord? contacts)
         {
             _timeStep = timeStep;
             _prediction = prediction;
             _orientationPrediction = orientationPrediction;
             _drive = drive;
             _solver = solver;
+            Record = contacts;
         }
+
+        /// <inheritdoc/>
+        public ContactRecord? Record { get; }
 
         /// <inheritdoc/>
         public double PredictionError { get; private set; }
