@@ -21,23 +21,43 @@ namespace Guidewire.Core
             IDriveMotion? drive = CreateDrive(parameters, scene, state);
             IPositionPrediction prediction = CreatePrediction(parameters);
             IOrientationPrediction orientationPrediction = CreateOrientationPrediction(parameters);
-            IContactRule? rule = scene.Walls.Length == 0 ? null
-                : parameters.Contact.ElementContact == ElementContact.Seed ? new SeedContactRule(state, parameters)
-                : (IContactRule)new ContactRule(state, parameters);
-            var solver = new GaussSeidelSolver(state, parameters.Method.ConstraintSolverSteps,
-                parameters.Gains.StretchStiffness, parameters.Gains.BendStiffness, parameters.Method.SweepOrder, rule);
-            if (rule == null)
+            IConstraintSolver solver = CreateSolver(parameters, scene, state, out ContactRecord? contacts);
+            if (contacts != null && parameters.Drive.Kind == Drive.Hold)
             {
-                return new MethodStart(state, new PositionBasedStep(parameters.Method.TimeStep, prediction,
-                    orientationPrediction, drive, solver));
+                contacts.DriveAsked = Math.Abs(parameters.Drive.Displacement);
+                contacts.DriveShortfall = Vector3d.Distance(state.Positions[0], asked);
             }
-            var step = new ContactStep(state, parameters, prediction, orientationPrediction, drive, solver, rule);
-            if (parameters.Drive.Kind == Drive.Hold)
+            return new MethodStart(state, new PositionBasedStep(parameters.Method.TimeStep, prediction,
+                orientationPrediction, drive, solver, contacts));
+        }
+
+        private static IConstraintSolver CreateSolver(SimulationParameters parameters, Scene scene, RodState state,
+            out ContactRecord? record)
+        {
+            MethodParameters method = parameters.Method;
+            GainParameters gains = parameters.Gains;
+            ContactParameters contact = parameters.Contact;
+            record = null;
+            if (scene.Walls.Length == 0)
             {
-                step.Contacts.DriveAsked = Math.Abs(parameters.Drive.Displacement);
-                step.Contacts.DriveShortfall = Vector3d.Distance(state.Positions[0], asked);
+                return new GaussSeidelSolver(state, method.ConstraintSolverSteps, gains.StretchStiffness,
+                    gains.BendStiffness, method.SweepOrder, null);
             }
-            return new MethodStart(state, step);
+            int walls = scene.Walls.Length;
+            double radius = contact.SphereRadius;
+            double reach = radius + contact.CollisionMargin;
+            bool asPublished = contact.ElementContact == ElementContact.Seed;
+            IContactSearch search = asPublished
+                ? (IContactSearch)new SeedContactSearch(scene.Walls, state.ElementCount, radius)
+                : new ContactSearch(scene.Walls, state.ElementCount, state.ElementLength, radius, reach,
+                    contact.ElementContact == ElementContact.Barycentric);
+            IContactResponse response = asPublished
+                ? (IContactResponse)new SeedContactResponse(state, walls, radius, reach, contact.CollisionStiffness)
+                : new ContactResponse(state, walls, radius, reach, contact.CollisionStiffness);
+            var sweeps = new GaussSeidelSolver(state, method.ConstraintSolverSteps, gains.StretchStiffness,
+                gains.BendStiffness, method.SweepOrder, response);
+            record = new ContactRecord(state.SphereCount);
+            return new ContactSolver(state, method.TimeStep, sweeps, search, response, record);
         }
 
         private static IPositionPrediction CreatePrediction(SimulationParameters parameters)
@@ -116,7 +136,7 @@ namespace Guidewire.Core
         {
             Vector3d from = state.Positions[0];
             Vector3d next = state.Positions[1];
-            double clearance = SweptGuard.ClearanceFor(radius);
+            double clearance = SweptSearch.ClearanceFor(radius);
             double part = 1.0;
             foreach (ContactShape wall in walls)
             {

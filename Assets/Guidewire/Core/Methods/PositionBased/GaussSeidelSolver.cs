@@ -10,7 +10,7 @@ namespace Guidewire.Core
         private readonly BendTwistConstraint _bendTwist;
         private readonly int[] _elements;
         private readonly int[] _joints;
-        private readonly IContactRule? _contacts;
+        private readonly IContactResponse? _contacts;
 
         /// <param name="state">The wire, with its final masses and weights.</param>
         /// <param name="iterations">m, 0 or more.</param>
@@ -19,7 +19,7 @@ namespace Guidewire.Core
         /// <param name="order">The order of each sweep.</param>
         /// <param name="contacts">Contacts, or null in a scene without walls.</param>
         public GaussSeidelSolver(RodState state, int iterations, double stretchGain, double bendGain, SweepOrder order,
-            IContactRule? contacts)
+            IContactResponse? contacts)
         {
             _iterations = iterations;
             _contacts = contacts;
@@ -40,6 +40,11 @@ namespace Guidewire.Core
                 _bendTwist.Sweep(q, _joints);
                 _contacts?.Sweep(x);
             }
+        }
+
+        /// <inheritdoc/>
+        public void Exchange(Snapshot snapshot)
+        {
         }
     }
 }

@@ -15,15 +15,21 @@ namespace Guidewire.Core
         /// <param name="orientationPrediction">How orientations are predicted.</param>
         /// <param name="drive">What moves sphere 0 each step, or null where nothing does.</param>
         /// <param name="solver">What corrects the prediction.</param>
+        /// <param name="contacts">What the solver notes of its contacts, or null in a scene without walls.</param>
         public PositionBasedStep(double timeStep, IPositionPrediction prediction,
-            IOrientationPrediction orientationPrediction, IDriveMotion? drive, IConstraintSolver solver)
+            IOrientationPrediction orientationPrediction, IDriveMotion? drive, IConstraintSolver solver,
+            ContactRecord? contacts)
         {
             _timeStep = timeStep;
             _prediction = prediction;
             _orientationPrediction = orientationPrediction;
             _drive = drive;
             _solver = solver;
+            Contacts = contacts;
         }
+
+        /// <inheritdoc/>
+        public override ContactRecord? Contacts { get; }
 
         /// <inheritdoc/>
         public override void Advance(RodState state)
@@ -42,6 +48,7 @@ namespace Guidewire.Core
         {
             ExchangePredictionError(snapshot);
             _drive?.Exchange(snapshot);
+            _solver.Exchange(snapshot);
             _prediction.Exchange(snapshot, _timeStep);
             _orientationPrediction.Exchange(snapshot, _timeStep);
         }

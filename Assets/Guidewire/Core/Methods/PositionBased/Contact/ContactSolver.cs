@@ -2,23 +2,23 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>One step of position-and-orientation-based dynamics between walls (thesis 2.1.3): prediction, the
-    /// drive's motion, collision detection, constraint solver with contacts, swept test, velocity update.</summary>
+    /// <summary>Corrects a predicted state between walls (thesis 2.1.3, 3.1.2): collision detection, constraint solver
+    /// with contacts, swept test.</summary>
     /// <remarks>A contact plane holds near the place where it was found. So a step whose drive moves farther than half
     /// an element or a radius is done in parts, each with its own detection and solve; a part after which something
     /// would have passed a wall is solved again against the places where it met it, then halved, and at the end
     /// shortened. What the drive did not get is reported.</remarks>
-    internal sealed class ContactStep : TimeStepper
+    internal sealed class ContactSolver : IConstraintSolver
     {
         private const int Resolves = 2;
         private const double SmallestPart = 1.0 / 256.0;
         private readonly double _timeStep;
-        private readonly IPositionPrediction _prediction;
-        private readonly IOrientationPrediction _orientationPrediction;
-        private readonly IDriveMotion? _drive;
         private readonly IConstraintSolver _solver;
-        private readonly IContactRule _rule;
-        private readonly SweptGuard _guard;
+        private readonly IContactSearch _search;
+        private readonly IContactResponse _response;
+        private readonly ContactRecord _record;
+        private readonly SweptSearch _swept;
+        private readonly ShortenedMotion _shortened;
         private readonly PassageCount _passages;
         private readonly double _longestPart;
         private readonly Vector3d[] _target;
@@ -28,61 +28,60 @@ namespace Guidewire.Core
         private readonly Quaterniond[] _safeTurn;
 
         /// <param name="state">The wire.</param>
-        /// <param name="parameters">dt, radius, walls.</param>
-        /// <param name="prediction">How positions are predicted.</param>
-        /// <param name="orientationPrediction">How orientations are predicted.</param>
-        /// <param name="drive">What moves sphere 0 each step, or null where nothing does.</param>
-        /// <param name="solver">What corrects the prediction; its sweeps include the rule's.</param>
-        /// <param name="rule">What contacts there are and what they do.</param>
-        public ContactStep(RodState state, SimulationParameters parameters, IPositionPrediction prediction,
-            IOrientationPrediction orientationPrediction, IDriveMotion? drive, IConstraintSolver solver,
-            IContactRule rule)
+        /// <param name="timeStep">dt in s.</param>
+        /// <param name="solver">What corrects each part; its sweeps include the response.</param>
+        /// <param name="search">Which contacts there are.</param>
+        /// <param name="response">What they do.</param>
+        /// <param name="record">Takes down what they came to.</param>
+        public ContactSolver(RodState state, double timeStep, IConstraintSolver solver, IContactSearch search,
+            IContactResponse response, ContactRecord record)
         {
-            _timeStep = parameters.Method.TimeStep;
-            _prediction = prediction;
-            _orientationPrediction = orientationPrediction;
-            _drive = drive;
+            _timeStep = timeStep;
             _solver = solver;
-            _rule = rule;
-            _guard = new SweptGuard(parameters.Scene.Walls, rule, state.SphereCount, parameters.Contact.SphereRadius);
-            _passages = new PassageCount(parameters.Scene.Walls, state.ElementCount, parameters.Contact.SphereRadius);
-            _longestPart = rule.GuardsSpheres
-                ? Math.Min(0.5 * state.ElementLength, parameters.Contact.SphereRadius) : double.PositiveInfinity;
+            _search = search;
+            _response = response;
+            _record = record;
+            _swept = new SweptSearch(search, state.SphereCount);
+            _shortened = new ShortenedMotion(_swept, state.SphereCount);
+            _passages = new PassageCount(search, state.ElementCount);
+            _longestPart = search.GuardsSpheres
+                ? Math.Min(0.5 * state.ElementLength, search.Radius) : double.PositiveInfinity;
             _target = new Vector3d[state.SphereCount];
             _safe = new Vector3d[state.SphereCount];
             _unshortened = new Vector3d[state.SphereCount];
             _targetTurn = new Quaterniond[state.ElementCount];
             _safeTurn = new Quaterniond[state.ElementCount];
-            Contacts = new ContactRecord(state.SphereCount);
         }
 
         /// <inheritdoc/>
-        public override ContactRecord Contacts { get; }
-
-        /// <inheritdoc/>
-        public override void Advance(RodState state)
+        public void Solve(RodState state)
         {
-            _prediction.Predict(state, _timeStep);
-            _orientationPrediction.Predict(state, _timeStep);
-            _drive?.Move(state);
             Array.Copy(state.PredictedPositions, _target, _target.Length);
             Array.Copy(state.PredictedOrientations, _targetTurn, _targetTurn.Length);
             Array.Copy(state.Positions, _safe, _safe.Length);
             Array.Copy(state.Orientations, _safeTurn, _safeTurn.Length);
-            Contacts.StartStep();
+            _record.StartStep();
             MoveInParts(state);
-            PredictionError = Vector3d.Distance(_target[state.ElementCount], _safe[state.ElementCount]);
             _passages.EndStep(state.Positions, state.PredictedPositions);
-            Contacts.Passages = _passages.Total;
-            Contacts.EndStep(state, _target, _timeStep);
-            VelocityUpdate.Apply(state, _timeStep);
+            _record.Passages = _passages.Total;
+            _record.EndStep(state, _target, _timeStep);
+        }
+
+        /// <inheritdoc/>
+        public void Exchange(Snapshot snapshot)
+        {
+            snapshot.Section("contact", 0.0, sums =>
+            {
+                _passages.Exchange(sums);
+                _record.Exchange(sums);
+            });
         }
 
         private void MoveInParts(RodState state)
         {
             bool driven = state.InverseMasses[0] == 0.0;
             double asked = driven ? Vector3d.Distance(_target[0], state.Positions[0]) : 0.0;
-            Contacts.DriveAsked += asked;
+            _record.DriveAsked += asked;
             double part = 1.0 / Math.Max(1.0, Math.Ceiling(asked / _longestPart));
             double left = 1.0;
             while (left > 0.5 * SmallestPart)
@@ -104,12 +103,14 @@ namespace Guidewire.Core
             Vector3d[] p = state.PredictedPositions;
             PredictPart(state, part, isLast);
             Vector3d driveTo = p[0];
-            _rule.Detect(_safe, p);
+            _search.Find(_safe, p);
+            _response.Start(_search, p);
             _solver.Solve(state);
-            for (int round = 0; _guard.FindImpacts(_safe, p); round++)
+            for (int round = 0; _swept.Find(_safe, p); round++)
             {
                 if (round < Resolves)
                 {
+                    _response.Stop(_swept.Impacts);
                     _solver.Solve(state);
                 }
                 else if (!shorten)
@@ -124,11 +125,11 @@ namespace Guidewire.Core
             }
             if (state.InverseMasses[0] == 0.0)
             {
-                Contacts.DriveShortfall += Vector3d.Distance(driveTo, p[0]);
+                _record.DriveShortfall += Vector3d.Distance(driveTo, p[0]);
             }
-            _passages.AddPart(_safe, p, _rule);
-            _rule.AddImpulses(Contacts.Impulses);
-            Contacts.MaxPenetration = Math.Max(Contacts.MaxPenetration, _rule.Penetration(p));
+            _passages.AddPart(_safe, p);
+            _response.AddImpulses(_record.Impulses);
+            _record.MaxPenetration = Math.Max(_record.MaxPenetration, _response.Penetration(p));
             Array.Copy(p, _safe, p.Length);
             Array.Copy(state.PredictedOrientations, _safeTurn, _safeTurn.Length);
             return true;
@@ -153,12 +154,12 @@ namespace Guidewire.Core
         private void ShortenPart(RodState state, Vector3d[] p)
         {
             Array.Copy(p, _unshortened, p.Length);
-            _guard.Shorten(_safe, p);
+            _shortened.Shorten(_safe, p);
             for (int i = 0; i < p.Length; i++)
             {
                 if (state.InverseMasses[i] > 0.0)
                 {
-                    Contacts.Impulses[i] += (1.0 / state.InverseMasses[i]) * (p[i] - _unshortened[i]);
+                    _record.Impulses[i] += (1.0 / state.InverseMasses[i]) * (p[i] - _unshortened[i]);
                 }
             }
         }
