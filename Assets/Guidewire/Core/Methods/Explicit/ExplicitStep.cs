@@ -104,6 +104,7 @@ namespace Guidewire.Core
         public void CompleteReport()
         {
             Report.Method = Text("explicit; stable below a substep of {1:G4} s");
+            Report.StableSubstep = _stable;
         }
 
         /// <summary>2/omega_max of the wire in its rest shape, s; the true limit of an even wire is no
