@@ -24,6 +24,7 @@ from matplotlib.figure import Figure
 
 from analysis.runs import Run, read_run
 from analysis.validation.scenes import SCENE
+from studies.keys import Value
 from studies.table import Case, Rounds
 
 
@@ -153,3 +154,8 @@ def read_cases(cases: Sequence[Case], folder: Path) -> dict[str, Run]:
         case.key: read_run(folder / case.folder(), case.key, variant=case.variant, values=case.values)
         for case in cases
     }
+
+
+def by_point(runs: Mapping[str, Run]) -> dict[tuple[Value, ...], Run]:
+    """Runs of a grid by variant, where it has variants, and the values of its axes in their order."""
+    return {(*([run.variant] if run.variant else []), *run.values.values()): run for run in runs.values()}

@@ -12,12 +12,12 @@ import numpy as np
 from analysis.figures.wording import number, percent, span
 from analysis.logs import read_log
 from analysis.validation import beam, elastica, pictures, scenes, spatial
-from analysis.validation.check import Check, Finding, Plan, Result
+from analysis.validation.check import Check, Finding, Plan, Result, by_point
 from analysis.validation.dynamics import RELEASE_TIME, release, release_error, release_reference, rms_error
 from analysis.validation.states import last_state, solver_report, tip_at, wall_time, wall_time_per_second
 from analysis.validation.wire import BASE, STURDY, Wire
 from studies.keys import run_key, value_text
-from studies.table import Case
+from studies.table import Axis, Case, Grid
 
 SECTION = "Independence"
 GATE = 2e-2
@@ -66,17 +66,14 @@ def _statics() -> list[_Static]:
 
 def _elements() -> Plan:
     statics = _statics()
-    cases = {
-        (k, n): Case(f"{k}-n={n}", scenes.at_rest({**static.parameters, "numberRodElements": n}))
-        for k, static in enumerate(statics) for n in _COUNTS
-    }
-    runs = yield list(cases.values())
+    shapes = {f"shape-{k}": scenes.at_rest(static.parameters) for k, static in enumerate(statics)}
+    runs = by_point((yield Grid((Axis("numberRodElements", _COUNTS),), variants=shapes).cases()))
     results, series = [], {}
-    for k, static in enumerate(statics):
+    for name, static in zip(shapes, statics):
         size = float(np.linalg.norm(static.tip))
         errors = []
         for n in _COUNTS:
-            run = runs[cases[k, n].key]
+            run = runs[name, n]
             tip = last_state(run).positions[-1]
             errors.append(float(np.linalg.norm(tip - static.tip)) / size)
             results.append(Result(f"{static.title}, n = {n}: distance of the tip from the root", "direct",
@@ -239,12 +236,10 @@ def _gains() -> Plan:
         "dt": ("timeStep", (0.02, 0.01, 0.005, 0.0025)),
     }
 
-    def case(name: str, key: str, value: float) -> Case:
-        overrides = {**base, key: value}
-        steps = round(_GAIN_TIME / overrides["timeStep"])
-        return Case(run_key("", {name: value}), {**overrides, "maxSimulationSteps": steps})
-
-    cases = {(name, value): case(name, key, value) for name, (key, values) in varied.items() for value in values}
+    cases = {
+        (name, case.values[key]): case for name, (key, values) in varied.items()
+        for case in Grid((Axis(key, values),), base, duration=_GAIN_TIME).cases()
+    }
     runs = yield list(cases.values())
     default = None
     places: dict[str, list[float]] = {name: [] for name in varied}
