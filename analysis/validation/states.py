@@ -8,7 +8,7 @@ import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 
 from analysis.logs import read_entries, read_log
-from analysis.runs import Run, read_run
+from analysis.runs import Run, read_repeats
 
 
 @dataclass(frozen=True)
@@ -98,7 +98,7 @@ def solver_report(run: Run, name: str) -> float | np.ndarray:
 def wall_time(run: Run, repeats: int = 0) -> float:
     """Wall time of a run's steps in s, or of finding its rest shape where it has none: the median of the timed repeats,
     if any."""
-    runs = [read_run(run.folder / f"repeat-{k}") for k in range(1, repeats + 1)] or [run]
+    runs = read_repeats(run, repeats) or [run]
     return float(np.median([r.measured("computationTime" if r.measured("steps") else "setUpTime") for r in runs]))
 
 

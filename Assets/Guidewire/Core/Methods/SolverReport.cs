@@ -32,6 +32,9 @@ namespace Guidewire.Core
         /// <summary>Steps whose error was above the tolerance.</summary>
         public long StepsNotConverged { get; internal set; }
 
+        /// <summary>Longest substep, s, with which explicit steps are stable about the wire's rest shape.</summary>
+        public double StableSubstep { get; internal set; } = double.NaN;
+
         /// <summary>Force of the proximal support on the wire at the end, N.</summary>
         public Vector3d ProximalForce { get; internal set; }
 

@@ -88,6 +88,7 @@ namespace Guidewire.Io
                 ["smallestEigenvalue"] = Finite(report.SmallestEigenvalue),
                 ["largestError"] = Finite(report.LargestError),
                 ["stepsNotConverged"] = report.StepsNotConverged,
+                ["stableSubstep"] = Finite(report.StableSubstep),
                 ["proximalForce"] = Vector(report.ProximalForce),
                 ["proximalMoment"] = Vector(report.ProximalMoment),
                 ["distalForce"] = Vector(report.DistalForce),

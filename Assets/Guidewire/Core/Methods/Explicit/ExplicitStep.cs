@@ -94,6 +94,7 @@ namespace Guidewire.Core
         public override SolverReport? Report()
         {
             _report.Method = Text("explicit; stable below a substep of {1:G4} s");
+            _report.StableSubstep = _stable;
             return _report;
         }
 
