@@ -32,7 +32,7 @@ namespace Guidewire.Benchmarks
         public static RunResult Measure(RunRequest request, ParameterHandler handler)
         {
             SimulationParameters parameters = handler.Values.Simulation;
-            if (string.IsNullOrEmpty(request.Out) || parameters.MaxSimulationSteps == 0)
+            if (string.IsNullOrEmpty(request.Out) || parameters.Method.MaxSimulationSteps == 0)
             {
                 throw new ParameterException("request: a motion's cost needs a folder and at least one step");
             }
