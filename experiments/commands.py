@@ -12,7 +12,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from experiments import runner
+from experiments import building
 from experiments.prepare import DRAWING, ROOT, TESTING, PreparationError
 from experiments.runner import INTERNAL_ERROR, INTERRUPTED, Answer
 from experiments.studies import STUDIES
@@ -181,7 +181,7 @@ def _tell(drawn: Gallery) -> int:
 
 
 def _bench(_: argparse.Namespace) -> int:
-    return _hand_to(runner.build("Guidewire.Benchmarks"))
+    return _hand_to(building.build(building.BENCHMARKS, _tell_building))
 
 
 def _unity_check(arguments: argparse.Namespace) -> int:
@@ -208,8 +208,11 @@ def _runner_of(arguments: argparse.Namespace) -> list[str]:
 
 
 def _build_runner() -> list[str]:
-    print("building the runner", file=sys.stderr, flush=True)
-    return runner.build("Guidewire.Cli")
+    return building.build(building.RUNNER, _tell_building)
+
+
+def _tell_building(line: str) -> None:
+    print(line, file=sys.stderr, flush=True)
 
 
 def _run_study(name: str, command: list[str], out: Path, jobs: int) -> SweepResult:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from experiments import runner
+from experiments import building
 
 
 # A shell that starts us in the background leaves Ctrl-C ignored, for us and for every program that we start; the tests
@@ -35,4 +35,4 @@ def fake(tmp_path):
 @pytest.fixture(scope="session")
 def runner_command():
     """The real runner's command."""
-    return runner.build("Guidewire.Cli")
+    return building.build(building.RUNNER, print)

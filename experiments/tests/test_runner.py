@@ -10,7 +10,6 @@ from pathlib import Path
 import pytest
 
 from experiments import runner
-from experiments.prepare import PreparationError
 from experiments.runner import Request, run_all
 
 
@@ -113,20 +112,3 @@ def test_no_process_is_left_behind(fake, tmp_path):
     for process, *_ in fake.calls():
         with pytest.raises(ProcessLookupError):
             os.kill(process, 0)
-
-
-def test_a_missing_dotnet_is_one_clear_line(monkeypatch):
-    monkeypatch.setenv("PATH", "")
-    with pytest.raises(PreparationError, match="the .NET SDK is missing: install the .NET SDK 10.0") as caught:
-        runner.build("Guidewire.Cli")
-    assert "\n" not in str(caught.value)
-
-
-@pytest.mark.parametrize("listed, said", [("8.0.100 [/usr/lib]", "only 8.x"), ("", "no SDK")])
-def test_an_old_dotnet_is_one_clear_line(tmp_path, monkeypatch, listed, said):
-    program = tmp_path / "dotnet"
-    program.write_text(f"#!/bin/sh\necho '{listed}'\n")
-    program.chmod(0o755)
-    monkeypatch.setenv("PATH", str(tmp_path))
-    with pytest.raises(PreparationError, match=said):
-        runner.dotnet()
