@@ -1,4 +1,4 @@
-"""Builds the programs of the headless solution, where what is there was made from something else.
+"""Builds the programs of the headless solution, where they were made from something else than what is there now.
 
 After a build a stamp says what each program came from and what it is: the content of every file that a build can read,
 the .NET SDKs, and size and time of the files written. Where all three are as stamped, nothing is built.
@@ -19,8 +19,8 @@ import hashlib
 import json
 import os
 import shutil
-import signal
 import subprocess
+import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -66,28 +66,27 @@ class Stamp:
     finished: float
 
 
-def build(project: str, tell: Callable[[str], None], seconds: float | None = None) -> list[str]:
+def build(project: str, tell: Callable[[str], None]) -> list[str]:
     """Build one program of the solution (Release) if need be, and return the command that starts it.
 
     Parameters
     ----------
     project : its folder below experiments/headless.
     tell : called with a line when something is built or waited for.
-    seconds : how long the build may take; None: as long as it likes.
 
     Raises
     ------
     PreparationError : with the first compiler error where it does not build; all output is in results/build.log.
     """
     program, sdks = dotnet()
-    _bring_up_to_date(program, sdks, HEADLESS / project / f"{project}.csproj", (project,), tell, seconds)
+    _bring_up_to_date(program, sdks, HEADLESS / project / f"{project}.csproj", (project,), tell)
     return [program, str(_output(project) / f"{project}.dll")]
 
 
-def build_solution(tell: Callable[[str], None], seconds: float | None = None) -> None:
+def build_solution(tell: Callable[[str], None]) -> None:
     """Build every program of the solution if need be; parameters and errors as of `build`."""
     program, sdks = dotnet()
-    _bring_up_to_date(program, sdks, HEADLESS / SOLUTION, (RUNNER, BENCHMARKS, *DOTNET_TESTS), tell, seconds)
+    _bring_up_to_date(program, sdks, HEADLESS / SOLUTION, (RUNNER, BENCHMARKS, *DOTNET_TESTS), tell)
 
 
 def dotnet() -> tuple[str, str]:
@@ -109,7 +108,7 @@ def dotnet() -> tuple[str, str]:
 
 
 def _bring_up_to_date(
-    program: str, sdks: str, target: Path, projects: Sequence[str], tell: Callable[[str], None], seconds: float | None
+    program: str, sdks: str, target: Path, projects: Sequence[str], tell: Callable[[str], None]
 ) -> None:
     """Build a project or solution file unless the stamps of all its projects hold."""
     if _all_hold(projects, sdks, _sources()):
@@ -123,7 +122,7 @@ def _bring_up_to_date(
             _stamp_path(project).unlink(missing_ok=True)
         tell(f"building {target.stem}")
         command = [program, "build", "-c", "Release", "--nologo", str(target), *(["--no-incremental"] if anew else [])]
-        _compile(command, lock, target.stem, seconds)
+        _compile(command, lock, target.stem)
         finished = time.time()
         if _sources() == sources:
             for project in projects:
@@ -210,34 +209,42 @@ def _lock(tell: Callable[[str], None]) -> Iterator[int]:
         yield file.fileno()
 
 
-def _compile(command: list[str], lock: int, name: str, seconds: float | None) -> None:
+def _compile(command: list[str], lock: int, name: str) -> None:
     """Run the compiler, its output in results/build.log.
 
     Where we are killed and it goes on, a shell that waits for it goes on holding the lock, as its standard input. The
     compiler itself must not: it leaves servers behind, which would hold it for minutes.
     """
-    log = ROOT / "results" / "build.log"
+    log = _log()
     log.parent.mkdir(parents=True, exist_ok=True)
     if os.name != "nt":
         # Without the second command a shell may replace itself by the first, and drop the lock.
         command = ["sh", "-c", '"$@" </dev/null; exit $?', "sh", *command]
     with log.open("wb") as output:
-        process = subprocess.Popen(
-            command, cwd=HEADLESS, stdin=lock, stdout=output, stderr=subprocess.STDOUT, start_new_session=True,
-        )
-        try:
-            code = process.wait(timeout=seconds)
-        except BaseException as error:    # too late, or Ctrl-C
-            os.killpg(process.pid, signal.SIGKILL)
-            process.wait()
-            if isinstance(error, subprocess.TimeoutExpired):
-                raise PreparationError(f"{name} was not built in {seconds:.0f} s (log: {_shown(log)})") from error
-            raise
+        code = subprocess.run(
+            command, cwd=HEADLESS, stdin=lock, stdout=output, stderr=subprocess.STDOUT, check=False
+        ).returncode
     if code != 0:
         errors = [line.strip() for line in log.read_text("utf-8", "replace").splitlines() if "error" in line]
         first = errors[0] if errors else f"dotnet build ended with {code}"
-        raise PreparationError(f"{name} does not build: {first} (log: {_shown(log)})")
+        raise PreparationError(f"{name} does not build: {first} (log: {os.path.relpath(log)})")
 
 
-def _shown(path: Path) -> str:
-    return os.path.relpath(path)
+def _log() -> Path:
+    return ROOT / "results" / "build.log"
+
+
+def main() -> int:
+    """Build the solution, as `python -m experiments.building`; the compiler's output is shown where it fails."""
+    try:
+        build_solution(print)
+    except PreparationError as error:
+        if _log().exists():
+            print(_log().read_text("utf-8", "replace"))
+        print(error)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -15,6 +15,10 @@ from experiments import building
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
+def pytest_configure(config):
+    config.addinivalue_line("markers", "timed: measures or sleeps; run with nothing beside it")
+
+
 class FakeRunner:
     """The command of the fake runner, and what it noted."""
 

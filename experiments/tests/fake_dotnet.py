@@ -1,9 +1,9 @@
 """A stand-in for the dotnet program: it compiles nothing, and ends as the files in its folder wish.
 
 `sdks` is what it lists. A build joins the texts of all sources into the program's file, the first half of it at once;
-where the file `hold` is there, it waits until that is gone and then reads the sources again. Where `fail` is there, a build ends with
-that text and exit code 1. `journal` has a line for each build that began, its arguments, and a line "done" for each
-that ended well.
+where the file `hold` is there, it waits until that is gone and then reads the sources again. Where `fail` is there, a
+build ends with that text and exit code 1. `journal` has a line for each build that began, its arguments, and a line
+"done" for each that ended well.
 """
 
 import sys

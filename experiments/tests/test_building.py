@@ -269,15 +269,6 @@ def test_of_two_at_once_one_builds_and_the_other_waits_and_uses_it(shop: Worksho
     assert len(shop.builds()) == 1
 
 
-def test_a_build_that_takes_too_long_is_stopped(shop: Workshop) -> None:
-    (shop.bench / "hold").touch()
-    with pytest.raises(PreparationError, match="not built in 1 s"):
-        building.build(PROJECT, shop.told.append, seconds=1.0)
-    (shop.bench / "hold").unlink()
-    shop.build()
-    assert len(shop.builds()) == 2 and "waiting" not in " ".join(shop.told)
-
-
 def test_every_program_of_the_solution_has_a_stamp() -> None:
     solution = (building.HEADLESS / building.SOLUTION).read_text(encoding="utf-8-sig")
     projects = re.findall(r'= "([^"]+)", "[^"]+\.csproj"', solution)

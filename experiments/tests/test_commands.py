@@ -60,7 +60,8 @@ def test_a_run_writes_its_three_files_and_takes_parameters_from_the_command_line
 def test_a_run_of_what_is_built_starts_no_compiler_and_says_nothing_of_it(runner_command, tmp_path):
     log = ROOT / "results" / "build.log"
     before = log.stat().st_mtime_ns
-    done = guidewire("run", ROOT / "params" / "default.json", "--set", "maxSimulationSteps=2", "--out", tmp_path / "out")
+    scene = ROOT / "params" / "default.json"
+    done = guidewire("run", scene, "--set", "maxSimulationSteps=2", "--out", tmp_path / "out")
     assert (done.returncode, done.stderr) == (0, "")
     assert log.stat().st_mtime_ns == before
 

@@ -31,6 +31,7 @@ def test_every_run_is_answered_once(fake, tmp_path):
     assert {(a.exit_code, a.outcome, a.reused) for a in answers.values()} == {(0, "converged", False)}
 
 
+@pytest.mark.timed
 def test_runs_overlap_with_two_jobs_and_never_with_one(fake, tmp_path):
     for jobs, overlapping in ((1, False), (2, True)):
         fake.journal.unlink(missing_ok=True)
@@ -90,6 +91,7 @@ def test_a_runner_that_ends_at_once_fails_every_run(tmp_path):
     assert "exit code 3" in answers["run-0"].message
 
 
+@pytest.mark.timed
 def test_ctrl_c_ends_the_runs_under_way_and_starts_no_other(fake, tmp_path):
     answers = {}
     # A second after the start both runs are under way; they would last 60 s.
