@@ -1,7 +1,7 @@
 """A stand-in for the dotnet program: it compiles nothing, and ends as the files in its folder wish.
 
-`sdks` is what it lists. A build joins the texts of all sources into the program's file, the first half of it at once;
-where the file `hold` is there, it waits until that is gone and then reads the sources again. Where `fail` is there, a
+A build joins the texts of all sources into the program's file, the first half of it at once; where the file `hold` is
+there, it waits until that is gone and then reads the sources again. Where `fail` is there, a
 build ends with that text and exit code 1. `journal` has a line for each build that began, its arguments, and a line
 "done" for each that ended well.
 """
@@ -14,9 +14,6 @@ _PATIENCE = 60.0
 
 
 def main(folder, *arguments):
-    if arguments == ("--list-sdks",):
-        print((folder / "sdks").read_text(), end="")
-        return 0
     note(folder, " ".join(arguments))
     if (folder / "fail").exists():
         print((folder / "fail").read_text())

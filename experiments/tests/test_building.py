@@ -44,7 +44,10 @@ class Workshop:
         bench.mkdir(exist_ok=True)
         (bench / "sdks").write_text(sdks)
         program = bench / "dotnet"
-        program.write_text(f'#!/bin/sh\nexec "{sys.executable}" -S "{FAKE}" "{self.bench}" "$@"\n')
+        program.write_text(
+            f'#!/bin/sh\n[ "$1" = --list-sdks ] && exec cat "{bench}/sdks"\n'
+            f'exec "{sys.executable}" -S "{FAKE}" "{self.bench}" "$@"\n'
+        )
         program.chmod(0o755)
 
     def put(self, path: str, text: str) -> Path:
