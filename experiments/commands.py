@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from experiments import runner
+from experiments import building
 from experiments.prepare import DRAWING, ROOT, TESTING, PreparationError
 from experiments.runner import INTERNAL_ERROR, INTERRUPTED, Answer
 from experiments.sweep import SweepResult, sweep
@@ -184,7 +184,7 @@ def _tell(drawn: Gallery) -> int:
 
 
 def _bench(_: argparse.Namespace) -> int:
-    return _hand_to(runner.build("Guidewire.Benchmarks"))
+    return _hand_to(building.build(building.BENCHMARKS, _tell_building))
 
 
 def _unity_check(arguments: argparse.Namespace) -> int:
@@ -211,8 +211,11 @@ def _runner_of(arguments: argparse.Namespace) -> list[str]:
 
 
 def _build_runner() -> list[str]:
-    print("building the runner", file=sys.stderr, flush=True)
-    return runner.build("Guidewire.Cli")
+    return building.build(building.RUNNER, _tell_building)
+
+
+def _tell_building(line: str) -> None:
+    print(line, file=sys.stderr, flush=True)
 
 
 def _make(name: str, sources: Sequence[Source], command: list[str], out: Path, jobs: int) -> SweepResult:

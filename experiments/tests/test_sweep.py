@@ -81,6 +81,7 @@ def test_a_failed_run_is_told_and_the_others_are_made(fake, tmp_path):
         assert 0 not in {row["exitCode"] for row in table_of(tmp_path / bad.name)["runs"]}
 
 
+@pytest.mark.timed
 def test_after_ctrl_c_study_json_says_what_was_done(fake, tmp_path):
     long = study_of("long", Axis("sleep", (0.01, 60.0)), repeats=1)
     timer = threading.Timer(1.5, os.kill, (os.getpid(), signal.SIGINT))
