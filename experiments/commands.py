@@ -184,7 +184,7 @@ def _tell(drawn: Gallery) -> int:
 
 
 def _bench(_: argparse.Namespace) -> int:
-    return _hand_to(building.build(building.BENCHMARKS, _tell_building))
+    return _hand_to(_build_benchmarks())
 
 
 def _unity_check(arguments: argparse.Namespace) -> int:
@@ -210,6 +210,10 @@ def _runner_of(arguments: argparse.Namespace) -> list[str]:
     return unity_runner.adapter(unity)
 
 
+def _build_benchmarks() -> list[str]:
+    return building.build(building.BENCHMARKS, _tell_building)
+
+
 def _build_runner() -> list[str]:
     return building.build(building.RUNNER, _tell_building)
 
@@ -220,7 +224,7 @@ def _tell_building(line: str) -> None:
 
 def _make(name: str, sources: Sequence[Source], command: list[str], out: Path, jobs: int) -> SweepResult:
     """Make the runs that studies or checks ask for and say what failed."""
-    result = sweep(sources, command, out, jobs, _progress_of(name))
+    result = sweep(sources, command, out, jobs, _progress_of(name), _build_benchmarks)
     if sys.stderr.isatty():
         print(file=sys.stderr)
     for answer in result.failures:

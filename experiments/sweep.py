@@ -13,8 +13,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from experiments import building
 from experiments.prepare import ROOT
-from experiments.runner import Answer, Request, build, run_all
+from experiments.runner import Answer, Request, run_all
 from studies.keys import TABLE
 from studies.table import Case, Rounds, Source
 
@@ -32,8 +33,8 @@ class SweepResult:
 
 
 def build_stopwatch() -> list[str]:
-    """The program that measures a motion's cost in turns with sweeps."""
-    return build("Guidewire.Benchmarks")
+    """The program that measures a motion's cost in turns with sweeps, built without a word."""
+    return building.build(building.BENCHMARKS, lambda _: None)
 
 
 def sweep(
@@ -54,7 +55,7 @@ def sweep(
     out : folder above those of the sources.
     jobs : number of untimed runs at once.
     progress : called after each run with the number of runs that ended, of those asked for so far, and the answer.
-    stopwatch : gives the program that measures costs; called where a case is to be measured in turns.
+    stopwatch : gives the program that measures a motion's cost in turns with sweeps; called where a case is to be measured in turns.
 
     Raises
     ------

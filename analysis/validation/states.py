@@ -10,6 +10,8 @@ from scipy.interpolate import CubicHermiteSpline
 from analysis.logs import read_entries, read_log
 from analysis.runs import Run, read_repeats
 
+_MILLIMETRE = 1e-3  # m; the unit of runs with gains here, which have none of their own
+
 
 @dataclass(frozen=True)
 class State:
@@ -108,7 +110,7 @@ def wall_time_per_second(run: Run, repeats: int = 0) -> float:
 
 
 def _metres(run: Run) -> float:
-    return run.number("metresPerUnit")
+    return run.number("metresPerUnit") if "metresPerUnit" in run.parameters else _MILLIMETRE
 
 
 def _state(entry: dict, metres: float) -> State:
