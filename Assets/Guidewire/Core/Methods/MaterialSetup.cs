@@ -13,13 +13,12 @@ namespace Guidewire.Core
         public static TimeStepper Create(SimulationParameters parameters, RodState state, out string? failure)
         {
             var scene = new MaterialScene(parameters);
-            var statics = new RodStatics(scene.Rod, scene.Supports);
-            statics.Moment.ActAtEnd(scene.Rod, parameters.Scene.TipMoment);
+            var terms = new RodTerms(scene.Rod, scene.Supports, parameters.Scene);
             var report = new SolverReport();
             failure = null;
             if (parameters.Scene.InitialState == InitialState.Equilibrium)
             {
-                failure = RestShape.Find(scene, statics, scene.Shape, Math.Min(parameters.Method.SolverTolerance, 1e-9),
+                failure = RestShape.Find(scene, terms, scene.Shape, Math.Min(parameters.Method.SolverTolerance, 1e-9),
                     EquilibriumFactor * parameters.Method.MaxNewtonIterations, report);
             }
             else if (scene.Supports.Proximal != ProximalEnd.Free)
@@ -33,10 +32,10 @@ namespace Guidewire.Core
             // Both the current and the previous state are the start.
             scene.Write(state, scene.Shape, scene.Velocities, scene.Spins);
             scene.Write(state, scene.Shape, scene.Velocities, scene.Spins);
-            return CreateStep(parameters, scene, statics, report);
+            return CreateStep(parameters, scene, terms, report);
         }
 
-        private static TimeStepper CreateStep(SimulationParameters parameters, MaterialScene scene, RodStatics statics,
+        private static TimeStepper CreateStep(SimulationParameters parameters, MaterialScene scene, RodTerms terms,
             SolverReport report)
         {
             var drive = new MaterialDrive(parameters, scene.Schedule);
@@ -44,18 +43,16 @@ namespace Guidewire.Core
             switch (parameters.Method.Solver)
             {
                 case Solver.Direct:
-                    var dynamics = new RodDynamics(scene.Rod, scene.Supports, statics, scene.Schedule, scene.Shape,
+                    var dynamics = new RodDynamics(terms, scene.Schedule, scene.Shape,
                         Scheme(parameters.Method.Integrator), parameters.Method.SolverTolerance,
                         parameters.Method.MaxNewtonIterations);
                     dynamics.Begin(scene.Velocities, scene.Spins,
                         parameters.Scene.InitialState == InitialState.Equilibrium);
-                    return new DirectStep(scene, statics, dynamics, drive, parameters.Method.TimeStep,
-                        parameters.Method.Damping, report, record);
+                    return new DirectStep(scene, dynamics, drive, parameters.Method, report, record);
                 case Solver.Xpbd:
-                    return new CompliantStep(scene, statics, drive, parameters, parameters.Method.ConstraintSolverSteps,
-                        report);
+                    return new CompliantStep(scene, terms, drive, parameters.Method, report);
                 case Solver.Explicit:
-                    return new ExplicitStep(scene, statics, drive, parameters, report, record);
+                    return new ExplicitStep(scene, terms, drive, parameters.Method, report, record);
                 default:
                     throw new ArgumentException("unknown solver " + parameters.Method.Solver);
             }

@@ -52,10 +52,10 @@ namespace Guidewire.Core
         public double DistalRampTime { get; set; }
 
         /// <summary>Sets the forces of this time.</summary>
-        public void SetLoads(MaterialRod rod, MassRule rule, DeadLoads loads, double time)
+        public void SetLoads(DeadLoads loads, double time)
         {
             Vector3d axial = AxialForce * DistalFrame.Director3;
-            loads.Set(rod, rule, Gravity, time <= TipForceReleaseTime ? TipForce + axial : axial);
+            loads.Set(Gravity, time <= TipForceReleaseTime ? TipForce + axial : axial);
             loads.Force[0] += ProximalForce;
         }
 

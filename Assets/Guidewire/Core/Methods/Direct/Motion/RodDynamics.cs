@@ -12,9 +12,8 @@ namespace Guidewire.Core
         private const double LargestFrameTurn = 0.5;  // radians a stage; more is taken in parts
         private const double LargestPredictedTurn = 1.0;
 
-        private readonly MaterialRod _rod;
         private readonly RodSupports _supports;
-        private readonly RodStatics _statics;
+        private readonly RodTerms _terms;
         private readonly RodSchedule _schedule;
         private readonly InertiaEnergy _inertia;
         private readonly StageSolver _solver;
@@ -39,26 +38,25 @@ namespace Guidewire.Core
         private double _distalTurn;
 
         /// <summary>A rod at rest in this shape.</summary>
-        /// <param name="statics">The rod's energies and loads.</param>
+        /// <param name="terms">The rod's energies and loads.</param>
         /// <param name="shape">Where it starts; the rod moves it from then on.</param>
         /// <param name="scheme">A Runge-Kutta scheme, or null for BDF2.</param>
         /// <param name="tolerance">On each stage's error: radians, or displacement over L; and on what a step may leave
         /// of the balance of forces, over the largest force in the rod.</param>
         /// <param name="mostIterations">Newton iterations of a stage.</param>
-        public RodDynamics(MaterialRod rod, RodSupports supports, RodStatics statics, RodSchedule schedule,
-            RodShape shape, RungeKuttaScheme? scheme, double tolerance, int mostIterations)
+        public RodDynamics(RodTerms terms, RodSchedule schedule, RodShape shape, RungeKuttaScheme? scheme,
+            double tolerance, int mostIterations)
         {
-            int n = rod.ElementCount;
-            _rod = rod;
-            _supports = supports;
-            _statics = statics;
+            int n = shape.ElementCount;
+            _supports = terms.Supports;
+            _terms = terms;
             _schedule = schedule;
             _scheme = scheme;
             Shape = shape;
             Velocities = new Vector3d[n + 1];
             Spins = new Vector3d[n];
-            _inertia = new InertiaEnergy(rod, supports.Mass);
-            _solver = new StageSolver(rod, supports, statics, _inertia)
+            _inertia = new InertiaEnergy(terms.Mass);
+            _solver = new StageSolver(terms, _inertia)
             {
                 Tolerance = tolerance,
                 Balance = tolerance / (2.0 * (scheme == null ? 1.0 : scheme.WeightSum)),
@@ -66,7 +64,7 @@ namespace Guidewire.Core
             };
             _before = new RodShape(n);
             _predicted = new Quaterniond[n];
-            _mass = _inertia.TotalMass;
+            _mass = terms.Mass.Total;
             _startPositions = new Vector3d[n + 1];
             _velocityHistory = new Vector3d[n + 1];
             int stages = scheme == null ? 1 : scheme.StageCount;
@@ -89,6 +87,9 @@ namespace Guidewire.Core
             Array.Copy(spins, Spins, Spins.Length);
             _distalTurn = isTurned ? _schedule.DistalTurnAt(0.0) : 0.0;
         }
+
+        /// <summary>The rod's energies and loads.</summary>
+        public RodTerms Terms => _terms;
 
         /// <summary>Positions and orientations.</summary>
         public RodShape Shape { get; }
@@ -126,17 +127,16 @@ namespace Guidewire.Core
         public Vector3d MeanLoad { get; private set; }
 
         /// <summary>Linear momentum, kg m/s.</summary>
-        public Vector3d Momentum => _inertia.Momentum(Velocities);
+        public Vector3d Momentum => _terms.Mass.Momentum(Velocities);
 
         /// <summary>Elastic plus kinetic energy less the work of the loads, J.</summary>
-        public double Energy => _inertia.KineticEnergy(Velocities, Spins) + _statics.Stretch.Value(Shape)
-            + _statics.Bending.Value(Shape) + _statics.Loads.Value(Shape);
+        public double Energy => _terms.Mass.KineticEnergy(Velocities, Spins) + _terms.Potential(Shape);
 
         /// <summary>Force of the supports on a node as the rod is now, N.</summary>
         public Vector3d ReactionAt(int node)
         {
-            _schedule.SetLoads(_rod, _supports.Mass, _statics.Loads, Time);
-            RodVector g = Time > 0.0 ? _solver.Reactions(Shape)[node] : _solver.StaticReactions(Shape, _inertia)[node];
+            _terms.SetTime(_schedule, Time);
+            RodVector g = Time > 0.0 ? _solver.Reactions(Shape)[node] : _solver.StaticReactions(Shape)[node];
             return new Vector3d(g.X1, g.X2, g.X3);
         }
 
@@ -146,7 +146,11 @@ namespace Guidewire.Core
         public string? Step(double dt)
         {
             Array.Copy(Shape.X, _startPositions, _startPositions.Length);
-            _inertia.BeginStep(Shape.Q);
+            _inertia.BeginStep(Shape, dt);
+            foreach (EnergyTerm term in _terms.All)
+            {
+                term.BeginStep(Shape, dt);
+            }
             MeanReaction = Vector3d.Zero;
             MeanDistalReaction = Vector3d.Zero;
             MeanLoad = Vector3d.Zero;
@@ -252,7 +256,7 @@ namespace Guidewire.Core
         /// derivatives.</summary>
         private string? SolveStage(double time, double h, int stage, in StagePredictor predictor, double weight)
         {
-            _schedule.SetLoads(_rod, _supports.Mass, _statics.Loads, time);
+            _terms.SetTime(_schedule, time);
             string? failure = TurnFrames(time, out bool inParts);
             if (failure != null)
             {
@@ -288,12 +292,7 @@ namespace Guidewire.Core
                 _acceleration[stage][i] = a;
                 _velocity[stage][i] = _velocityHistory[i] + h * a;
             }
-            for (int j = 0; j < Spins.Length; j++)
-            {
-                Vector3d spin = _solver.GradientIsCurrent ? _inertia.LastSpin[j] : _inertia.Spin(Shape.Q[j], j);
-                _turnRate[stage][j] = perStage * (_inertia.LastTurn[j] - _inertia.TurnHistory[j]);
-                _spinRate[stage][j] = perStage * (spin - _inertia.SpinHistory[j]);
-            }
+            _inertia.SetRates(Shape, _turnRate[stage], _spinRate[stage]);
             if (_last == 0 && Time == 0.0)
             {
                 // The first step stands for the one before it too.
@@ -336,7 +335,7 @@ namespace Guidewire.Core
                 Vector3d rate = first[j] + share * (second[j] - first[j]);
                 Vector3d turn = _inertia.TurnHistory[j] + h * (_inertia.SpinHistory[j] + h * rate);
                 _predicted[j] = _inertia.Start[j] * RotationVector.Exp(turn);
-                largest = Math.Max(largest, (turn - _inertia.LastTurn[j]).LengthSquared);
+                largest = Math.Max(largest, _inertia.SquaredChange(turn, j));
             }
             return Math.Sqrt(largest);
         }
@@ -394,7 +393,7 @@ namespace Guidewire.Core
             int last = _startPositions.Length - 1;
             MeanReaction += weight * new Vector3d(gradient[0].X1, gradient[0].X2, gradient[0].X3);
             MeanDistalReaction += weight * new Vector3d(gradient[last].X1, gradient[last].X2, gradient[last].X3);
-            foreach (Vector3d force in _statics.Loads.Force)
+            foreach (Vector3d force in _terms.Loads.Force)
             {
                 MeanLoad += weight * force;
             }
