@@ -9,8 +9,6 @@ namespace Guidewire.Core
         public RodMass(MaterialRod rod, MassRule rule)
         {
             int n = rod.ElementCount;
-            Rule = rule;
-            Element = new double[n];
             Nodal = new double[n + 1];
             Diagonal = new double[n + 1];
             Coupling = new double[n];
@@ -19,7 +17,6 @@ namespace Guidewire.Core
             {
                 double mass = rod.LineDensity[j] * rod.Length[j];
                 double share = rule == MassRule.Consistent ? mass / 3.0 : 0.5 * mass;
-                Element[j] = mass;
                 Nodal[j] += 0.5 * mass;
                 Nodal[j + 1] += 0.5 * mass;
                 Diagonal[j] += share;
@@ -37,12 +34,6 @@ namespace Guidewire.Core
 
         /// <summary>kg.</summary>
         public double Total { get; }
-
-        /// <summary>The rule.</summary>
-        public MassRule Rule { get; }
-
-        /// <summary>Mass of each element, kg, n.</summary>
-        public double[] Element { get; }
 
         /// <summary>What each node weighs, kg, n+1: half of each element beside it, or its even share.</summary>
         public double[] Nodal { get; }

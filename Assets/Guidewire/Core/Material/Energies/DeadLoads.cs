@@ -22,12 +22,7 @@ namespace Guidewire.Core
         {
             for (int i = 0; i < Force.Length; i++)
             {
-                Force[i] = _mass.Rule == MassRule.Uniform ? _mass.Nodal[i] * gravity : Vector3d.Zero;
-            }
-            for (int j = 0; j < _mass.Element.Length && _mass.Rule != MassRule.Uniform; j++)
-            {
-                Force[j] += (0.5 * _mass.Element[j]) * gravity;
-                Force[j + 1] += (0.5 * _mass.Element[j]) * gravity;
+                Force[i] = _mass.Nodal[i] * gravity;
             }
             Force[Force.Length - 1] += tipForce;
         }
