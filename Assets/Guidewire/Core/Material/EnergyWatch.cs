@@ -22,7 +22,7 @@ namespace Guidewire.Core
         private readonly HeldEnds _ends;
         private readonly RodShape _before;
         private readonly double _allowance;
-        private readonly double _start;         // J
+        private double _start;                  // J, with what changes of the material have put in
         private double _loadWork;               // J
         private double _mostPutIn;              // J
         private int _step;
@@ -38,8 +38,7 @@ namespace Guidewire.Core
             _inertia = inertia;
             _ends = ends;
             _before = new RodShape(scene.Shape.ElementCount);
-            _before.CopyFrom(scene.Shape);
-            _start = Motion() + terms.ElasticEnergy(scene.Shape);
+            Start();
             _mostPutIn = Rounding * scene.Rod.BendStiffness[0] / scene.Rod.TotalLength;
         }
 
@@ -66,6 +65,34 @@ namespace Guidewire.Core
             return string.Format(CultureInfo.InvariantCulture,
                 "the wire moves with {0:G3} times the energy that was put into it (step {1})",
                 motion / Math.Max(_mostPutIn, putIn), _step);
+        }
+
+        /// <summary>The wire as it is now is the start.</summary>
+        public void Start()
+        {
+            _before.CopyFrom(_scene.Shape);
+            _start = Motion() + _terms.ElasticEnergy(_scene.Shape);
+        }
+
+        /// <summary>Writes or takes over the energies so far. A reader's wire is in place; where it is heavier or
+        /// stiffer than the writer's was, the same motion in the same shape holds more, and that was put in.</summary>
+        public void Exchange(Snapshot snapshot)
+        {
+            double ownMotion = Motion();
+            double ownElastic = _terms.ElasticEnergy(_scene.Shape);
+            double motion = ownMotion;
+            double elastic = ownElastic;
+            snapshot.Exchange(ref motion);
+            snapshot.Exchange(ref elastic);
+            snapshot.Exchange(ref _start);
+            snapshot.Exchange(ref _loadWork);
+            snapshot.Exchange(ref _mostPutIn);
+            snapshot.Exchange(ref _step);
+            if (!snapshot.IsWritten)
+            {
+                _start += Math.Max(0.0, ownMotion - motion) + Math.Max(0.0, ownElastic - elastic);
+                _before.CopyFrom(_scene.Shape);
+            }
         }
 
         // T, J.

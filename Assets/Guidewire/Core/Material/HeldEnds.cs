@@ -10,8 +10,8 @@ namespace Guidewire.Core
         private readonly RodSchedule _schedule;
         private readonly bool _holdsFirst;
         private readonly bool _holdsLast;
-        private double _proximalTurn = double.NaN;
-        private double _distalTurn = double.NaN;
+        private double _proximalTurn;  // that the frames have made, radians
+        private double _distalTurn;
 
         /// <summary>The ends of this rod, held by this schedule.</summary>
         public HeldEnds(RodTerms terms, RodSchedule schedule)
@@ -47,6 +47,24 @@ namespace Guidewire.Core
                 Turn(shape, proximalTurn, distalTurn);
             }
             MostWork = Math.Max(MostWork, Work);
+        }
+
+        /// <summary>Writes or takes over the turns that the frames have made.</summary>
+        public void ExchangeTurns(Snapshot snapshot)
+        {
+            snapshot.Exchange(ref _proximalTurn);
+            snapshot.Exchange(ref _distalTurn);
+        }
+
+        /// <summary>Writes or takes over the work.</summary>
+        public void ExchangeWork(Snapshot snapshot)
+        {
+            double work = Work;
+            double most = MostWork;
+            snapshot.Exchange(ref work);
+            snapshot.Exchange(ref most);
+            Work = work;
+            MostWork = most;
         }
 
         private void Shift(RodShape shape, int node, in Vector3d to)

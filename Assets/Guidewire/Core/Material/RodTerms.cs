@@ -155,6 +155,15 @@ namespace Guidewire.Core
             return new Vector3d(g.X1, g.X2, g.X3);
         }
 
+        /// <summary>Writes or takes over what the terms keep from step to step.</summary>
+        public void Exchange(Snapshot snapshot)
+        {
+            foreach (EnergyTerm term in All)
+            {
+                term.Exchange(snapshot);
+            }
+        }
+
         private static void AddGradient(EnergyTerm[] terms, RodShape shape, RodVector[] gradient)
         {
             var measured = default(GradientMeasures);

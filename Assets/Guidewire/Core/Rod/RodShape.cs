@@ -38,6 +38,19 @@ namespace Guidewire.Core
             DistalFrame = other.DistalFrame;
         }
 
+        /// <summary>Writes this shape into a snapshot, or takes over one of the same n.</summary>
+        public void Exchange(Snapshot snapshot)
+        {
+            snapshot.Exchange(X);
+            snapshot.Exchange(Q);
+            Quaterniond proximal = ProximalFrame;
+            Quaterniond distal = DistalFrame;
+            snapshot.Exchange(ref proximal);
+            snapshot.Exchange(ref distal);
+            ProximalFrame = proximal;
+            DistalFrame = distal;
+        }
+
         /// <summary>A straight rod of elements of the given lengths along d3 of <paramref name="frame"/>.</summary>
         public void SetStraight(in Vector3d start, in Quaterniond frame, double[] lengths)
         {

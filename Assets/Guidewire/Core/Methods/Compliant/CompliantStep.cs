@@ -1,4 +1,5 @@
 using System;
+using System.Globalization;
 
 namespace Guidewire.Core
 {
@@ -122,6 +123,34 @@ namespace Guidewire.Core
             _report.LargestError = _convergence.LargestError;
             _report.StepsNotConverged = _convergence.StepsAbove;
             return _report;
+        }
+
+        /// <inheritdoc/>
+        public override void Exchange(Snapshot snapshot)
+        {
+            MaterialSnapshot.Exchange(snapshot, _scene.Schedule, _shape, _velocities, _spins, ref _time);
+            _ends.ExchangeTurns(snapshot);
+            if (!snapshot.Section("xpbd", ExchangeOwn))
+            {
+                _energy.Start();
+            }
+        }
+
+        private void ExchangeOwn(Snapshot snapshot)
+        {
+            _terms.Exchange(snapshot);
+            _energy.Exchange(snapshot);
+            _ends.ExchangeWork(snapshot);
+            _convergence.Exchange(snapshot);
+            _report.Exchange(snapshot);
+            // A multiplier is a force times h^2.
+            snapshot.Section((_timeStep / _substeps).ToString("R", CultureInfo.InvariantCulture), ExchangeMultipliers);
+        }
+
+        private void ExchangeMultipliers(Snapshot snapshot)
+        {
+            _stretch.Exchange(snapshot);
+            _bendTwist.Exchange(snapshot);
         }
 
         private void Substep(double time, double h, bool isMeasured)

@@ -86,6 +86,15 @@ namespace Guidewire.Core
             Add(Stretch, perLength * step.Stretch, perLength * step.StretchStrain + 0.5 * step.BendStrain);
         }
 
+        /// <summary>Writes or takes over the steps so far.</summary>
+        public void Exchange(Snapshot snapshot)
+        {
+            snapshot.Exchange(_classes);
+            snapshot.Exchange(_largest);
+            snapshot.Exchange(_peak);
+            snapshot.Exchange(ref _steps);
+        }
+
         private void Add(int kind, double residual, double strain)
         {
             if (!(residual <= double.MaxValue))

@@ -11,7 +11,7 @@ namespace Guidewire.Core
         private readonly MaterialDrive _drive;
         private readonly double _timeStep;
         private readonly SolverReport _report;
-        private readonly long _startFactorisations;  // of the rest shape
+        private long _startFactorisations;  // of the rest shape
         private readonly double _remainingVelocity;  // share that the wire keeps a step
 
         /// <summary>A step for this scene.</summary>
@@ -74,6 +74,20 @@ namespace Guidewire.Core
             _report.ProximalMoment = _dynamics.Terms.Bending.ProximalCouple(shape);
             _report.DistalMoment = _dynamics.Terms.Bending.DistalCouple(shape);
             return _report;
+        }
+
+        /// <inheritdoc/>
+        public override void Exchange(Snapshot snapshot)
+        {
+            _dynamics.Exchange(snapshot);
+            snapshot.Section("direct", ExchangeOwn);
+        }
+
+        private void ExchangeOwn(Snapshot snapshot)
+        {
+            snapshot.Exchange(ref _startFactorisations);
+            _report.Exchange(snapshot);
+            _dynamics.ExchangeHistory(snapshot, _timeStep);
         }
 
         private void Damp()

@@ -97,6 +97,25 @@ namespace Guidewire.Core
             return _report;
         }
 
+        /// <inheritdoc/>
+        public override void Exchange(Snapshot snapshot)
+        {
+            MaterialSnapshot.Exchange(snapshot, _scene.Schedule, _shape, _velocities, _spins, ref _time);
+            _ends.ExchangeTurns(snapshot);
+            if (!snapshot.Section("explicit", ExchangeOwn))
+            {
+                _energy.Start();
+            }
+        }
+
+        private void ExchangeOwn(Snapshot snapshot)
+        {
+            _terms.Exchange(snapshot);
+            _energy.Exchange(snapshot);
+            _ends.ExchangeWork(snapshot);
+            _report.Exchange(snapshot);
+        }
+
         /// <summary>2/omega_max of the wire in its rest shape, s; the true limit of an even wire is no
         /// lower.</summary>
         /// <remarks>Elements that turn to and fro by turns strain shear and joints: omega^2 = GA/(rho I) +

@@ -104,6 +104,19 @@ namespace Guidewire.Core
             return (1.0 / StageLength) * RotationVector.TangentMap(turn, turn - TurnHistory[j]);
         }
 
+        /// <summary>Writes or takes over the last stage, by which forces are told between steps.</summary>
+        public override void Exchange(Snapshot snapshot)
+        {
+            double length = StageLength;
+            snapshot.Exchange(ref length);
+            StageLength = length;
+            snapshot.Exchange(Start);
+            snapshot.Exchange(FreePositions);
+            snapshot.Exchange(TurnHistory);
+            snapshot.Exchange(SpinHistory);
+            snapshot.Exchange(_countedTurn);
+        }
+
         /// <inheritdoc/>
         public override void Anchor(RodShape shape)
         {

@@ -1,4 +1,5 @@
 using System;
+using System.Globalization;
 
 namespace Guidewire.Core
 {
@@ -24,16 +25,13 @@ namespace Guidewire.Core
         private readonly Vector3d[][] _acceleration;  // v'
         private readonly Vector3d[][] _turnRate;      // phi'
         private readonly Vector3d[][] _spinRate;      // w', two or more
-        private readonly Vector3d[] _oldPositions;    // BDF2: one step ago
-        private readonly Vector3d[] _oldVelocities;
-        private readonly Quaterniond[] _oldOrientations;
-        private readonly Vector3d[] _oldSpins;
+        private readonly Bdf2History _history;
         private readonly RodShape _before;            // the last stage's
         private readonly Quaterniond[] _predicted;
         private readonly int _last;                   // index of the stage that ends a step
         private readonly double _mass;
         private Vector3d _oldMomentum;
-        private bool _hasHistory;
+        private bool _hasStepped;
         private double _proximalTurn;
         private double _distalTurn;
 
@@ -73,10 +71,7 @@ namespace Guidewire.Core
             _acceleration = Arrays(stages, n + 1);
             _turnRate = Arrays(stages, n);
             _spinRate = Arrays(Math.Max(stages, 2), n);
-            _oldPositions = new Vector3d[scheme == null ? n + 1 : 0];
-            _oldVelocities = new Vector3d[scheme == null ? n + 1 : 0];
-            _oldOrientations = new Quaterniond[scheme == null ? n : 0];
-            _oldSpins = new Vector3d[scheme == null ? n : 0];
+            _history = new Bdf2History(scheme == null ? n : 0);
         }
 
         /// <summary>Takes over the velocities of the start.</summary>
@@ -136,7 +131,7 @@ namespace Guidewire.Core
         public Vector3d ReactionAt(int node)
         {
             _terms.SetTime(_schedule, Time);
-            RodVector g = Time > 0.0 ? _solver.Reactions(Shape)[node] : _solver.StaticReactions(Shape)[node];
+            RodVector g = _hasStepped ? _solver.Reactions(Shape)[node] : _solver.StaticReactions(Shape)[node];
             return new Vector3d(g.X1, g.X2, g.X3);
         }
 
@@ -155,9 +150,10 @@ namespace Guidewire.Core
             MeanDistalReaction = Vector3d.Zero;
             MeanLoad = Vector3d.Zero;
             Vector3d momentum = TracksReactions ? Momentum : Vector3d.Zero;
-            bool isTwoStep = _scheme == null && _hasHistory;
+            bool isTwoStep = _scheme == null && _history.IsComplete;
             string? failure = _scheme == null ? StepByBdf2(dt) : StepByRungeKutta(_scheme, dt);
             Time += dt;
+            _hasStepped = true;
             if (TracksReactions)
             {
                 Vector3d change = Momentum - momentum;
@@ -165,6 +161,43 @@ namespace Guidewire.Core
                 _oldMomentum = momentum;
             }
             return failure;
+        }
+
+        /// <summary>Writes or takes over where the rod is and how it moves: what a motion by any scheme goes on
+        /// from.</summary>
+        public void Exchange(Snapshot snapshot)
+        {
+            double time = Time;
+            MaterialSnapshot.Exchange(snapshot, _schedule, Shape, Velocities, Spins, ref time);
+            Time = time;
+            snapshot.Exchange(ref _proximalTurn);
+            snapshot.Exchange(ref _distalTurn);
+        }
+
+        /// <summary>Writes or takes over what went before, as far as it means something to a motion by this scheme
+        /// and steps of dt (s).</summary>
+        public void ExchangeHistory(Snapshot snapshot, double dt)
+        {
+            _terms.Exchange(snapshot);
+            _solver.ExchangeCounts(snapshot);
+            string scheme = _scheme == null ? "BDF2" : _scheme.StageCount + " stages " + Text(_scheme.Diagonal);
+            snapshot.Section(scheme + " " + Text(dt), ExchangeStages);
+        }
+
+        private void ExchangeStages(Snapshot snapshot)
+        {
+            snapshot.Exchange(ref _hasStepped);
+            snapshot.Exchange(ref _oldMomentum);
+            snapshot.Exchange(_acceleration);
+            snapshot.Exchange(_spinRate);
+            _history.Exchange(snapshot);
+            _inertia.Exchange(snapshot);
+            _solver.ExchangeTrust(snapshot);
+        }
+
+        private static string Text(double value)
+        {
+            return value.ToString("R", CultureInfo.InvariantCulture);
         }
 
         private string? StepByRungeKutta(RungeKuttaScheme scheme, double dt)
@@ -213,41 +246,12 @@ namespace Guidewire.Core
 
         private string? StepByBdf2(double dt)
         {
-            double h = _hasHistory ? 2.0 / 3.0 * dt : dt;
-            _inertia.StageLength = h;
-            for (int i = 0; i < _startPositions.Length; i++)
-            {
-                Vector3d x = _startPositions[i];
-                Vector3d v = Velocities[i];
-                if (_hasHistory)
-                {
-                    x = (4.0 / 3.0) * x - (1.0 / 3.0) * _oldPositions[i];
-                    v = (4.0 / 3.0) * v - (1.0 / 3.0) * _oldVelocities[i];
-                }
-                _velocityHistory[i] = v;
-                _inertia.FreePositions[i] = x + h * v;
-                _oldPositions[i] = _startPositions[i];
-                _oldVelocities[i] = Velocities[i];
-            }
-            for (int j = 0; j < Spins.Length; j++)
-            {
-                Vector3d turn = Vector3d.Zero;
-                Vector3d spin = Spins[j];
-                if (_hasHistory)
-                {
-                    turn = (-1.0 / 3.0) * RotationVector.Log(_inertia.Start[j].Conjugate * _oldOrientations[j]);
-                    spin = (4.0 / 3.0) * spin - (1.0 / 3.0) * _oldSpins[j];
-                }
-                _inertia.TurnHistory[j] = turn;
-                _inertia.SpinHistory[j] = spin;
-                _oldOrientations[j] = _inertia.Start[j];
-                _oldSpins[j] = Spins[j];
-            }
+            double h = _history.Prepare(_inertia, _startPositions, Velocities, Spins, _velocityHistory, dt);
             string? failure = SolveStage(Time + dt, h, 0, StagePredictor.OneStage, 1.0);
             if (failure == null)
             {
                 Accept(h);
-                _hasHistory = true;
+                _history.Complete();
             }
             return failure;
         }
@@ -293,7 +297,7 @@ namespace Guidewire.Core
                 _velocity[stage][i] = _velocityHistory[i] + h * a;
             }
             _inertia.SetRates(Shape, _turnRate[stage], _spinRate[stage]);
-            if (_last == 0 && Time == 0.0)
+            if (_last == 0 && !_hasStepped)
             {
                 // The first step stands for the one before it too.
                 Array.Copy(_spinRate[0], _spinRate[1], Spins.Length);
@@ -329,7 +333,7 @@ namespace Guidewire.Core
             double largest = 0.0;
             Vector3d[] first = _spinRate[predictor.First];
             Vector3d[] second = _spinRate[predictor.Second];
-            double share = Time > 0.0 ? predictor.Share : 0.0;
+            double share = _hasStepped ? predictor.Share : 0.0;
             for (int j = 0; j < _predicted.Length; j++)
             {
                 Vector3d rate = first[j] + share * (second[j] - first[j]);

@@ -187,6 +187,43 @@ namespace Guidewire.Core
             return _gradient;
         }
 
+        /// <summary>Writes or takes over the counts.</summary>
+        public void ExchangeCounts(Snapshot snapshot)
+        {
+            long factorisations = Factorisations;
+            long kept = KeptSolutions;
+            long searches = Searches;
+            snapshot.Exchange(ref factorisations);
+            snapshot.Exchange(ref kept);
+            snapshot.Exchange(ref searches);
+            Factorisations = factorisations;
+            KeptSolutions = kept;
+            Searches = searches;
+        }
+
+        /// <summary>Writes or takes over what is expected of the next stage; a rod that answers otherwise than the
+        /// writer's is measured anew.</summary>
+        public void ExchangeTrust(Snapshot snapshot)
+        {
+            bool isSame = Agrees(snapshot, _stiffest) & Agrees(snapshot, _axialSpring) & Agrees(snapshot, _mass)
+                & Agrees(snapshot, _softestBendForce) & Agrees(snapshot, Tolerance) & Agrees(snapshot, Balance);
+            snapshot.Exchange(ref _largestForce);
+            snapshot.Exchange(ref _knownStep);
+            snapshot.Exchange(ref _knownForce);
+            snapshot.Exchange(ref _stagesOnTrust);
+            if (!isSame)
+            {
+                _knownForce = double.PositiveInfinity;
+            }
+        }
+
+        private static bool Agrees(Snapshot snapshot, double own)
+        {
+            double value = own;
+            snapshot.Exchange(ref value);
+            return value == own;
+        }
+
         /// <summary>The force that a full step of this length is expected to leave, N.</summary>
         private double Expected(double step)
         {
