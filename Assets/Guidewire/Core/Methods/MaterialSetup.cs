@@ -11,10 +11,10 @@ namespace Guidewire.Core
         /// <summary>What makes the stepper of a scene, its rest shape found.</summary>
         /// <param name="parameters">The run's.</param>
         /// <param name="scene">The rod at its start.</param>
-        /// <param name="statics">Its energies and loads.</param>
+        /// <param name="terms">Its energies and loads.</param>
         /// <param name="report">What the search for the rest shape came to.</param>
         internal delegate TimeStepper CreateStepper(SimulationParameters parameters, MaterialScene scene,
-            RodStatics statics, SolverReport report);
+            RodTerms terms, SolverReport report);
 
         /// <summary>Builds the wire at its start, in its rest shape where that is asked for, and its stepper.</summary>
         public static MethodStart Build(SimulationParameters parameters, Scene prescribed, CreateStepper create)
@@ -22,14 +22,13 @@ namespace Guidewire.Core
             var scene = new MaterialScene(parameters, prescribed);
             var state = new RodState(parameters.Scene.NumberRodElements, parameters.Scene.GuidewireLength,
                 parameters.Gains.TotalMass, parameters.Scene.GuidewireOffset);
-            var statics = new RodStatics(scene.Rod, scene.Supports);
-            statics.Moment.ActAtEnd(scene.Rod, parameters.Scene.TipMoment);
+            var terms = new RodTerms(scene.Rod, scene.Supports, parameters.Scene);
             var report = new SolverReport();
             bool isAtRest = parameters.Scene.InitialState == InitialState.Equilibrium;
             string? failure = null;
             if (isAtRest)
             {
-                failure = RestShape.Find(scene, statics, scene.Shape, Math.Min(parameters.Method.SolverTolerance, 1e-9),
+                failure = RestShape.Find(scene, terms, scene.Shape, Math.Min(parameters.Method.SolverTolerance, 1e-9),
                     EquilibriumFactor * parameters.Method.MaxNewtonIterations, report);
             }
             else if (scene.Supports.Proximal != ProximalEnd.Free)
@@ -43,7 +42,7 @@ namespace Guidewire.Core
             // Both the current and the previous state are the start.
             scene.Write(state, scene.Shape, scene.Velocities, scene.Spins);
             scene.Write(state, scene.Shape, scene.Velocities, scene.Spins);
-            return new MethodStart(state, create(parameters, scene, statics, report))
+            return new MethodStart(state, create(parameters, scene, terms, report))
             {
                 Failure = failure,
                 IsAtRest = isAtRest && failure == null,
@@ -51,31 +50,30 @@ namespace Guidewire.Core
         }
 
         /// <summary>Implicit steps by the direct solver.</summary>
-        public static TimeStepper Direct(SimulationParameters parameters, MaterialScene scene, RodStatics statics,
+        public static TimeStepper Direct(SimulationParameters parameters, MaterialScene scene, RodTerms terms,
             SolverReport report)
         {
-            var dynamics = new RodDynamics(scene.Rod, scene.Supports, statics, scene.Schedule, scene.Shape,
-                Scheme(parameters.Method.Integrator), parameters.Method.SolverTolerance,
-                parameters.Method.MaxNewtonIterations);
+            var dynamics = new RodDynamics(terms, scene.Schedule, scene.Shape, Scheme(parameters.Method.Integrator),
+                parameters.Method.SolverTolerance, parameters.Method.MaxNewtonIterations);
             dynamics.Begin(scene.Velocities, scene.Spins,
                 parameters.Scene.InitialState == InitialState.Equilibrium);
-            return new DirectStep(scene, statics, dynamics, scene.Drive, parameters.Method.TimeStep,
-                parameters.Method.Damping, report, Reactions(parameters, scene));
+            return new DirectStep(scene, dynamics, scene.Drive, parameters.Method, report,
+                Reactions(parameters, scene));
         }
 
         /// <summary>Sweeps over constraints with compliance.</summary>
-        public static TimeStepper Compliant(SimulationParameters parameters, MaterialScene scene, RodStatics statics,
+        public static TimeStepper Compliant(SimulationParameters parameters, MaterialScene scene, RodTerms terms,
             SolverReport report)
         {
-            return new CompliantStep(scene, statics, scene.Drive, parameters, parameters.Method.ConstraintSolverSteps,
-                report);
+            return new CompliantStep(scene, terms, scene.Drive, parameters.Method, report);
         }
 
         /// <summary>Explicit steps.</summary>
-        public static TimeStepper Explicit(SimulationParameters parameters, MaterialScene scene, RodStatics statics,
+        public static TimeStepper Explicit(SimulationParameters parameters, MaterialScene scene, RodTerms terms,
             SolverReport report)
         {
-            return new ExplicitStep(scene, statics, scene.Drive, parameters, report, Reactions(parameters, scene));
+            return new ExplicitStep(scene, terms, scene.Drive, parameters.Method, report,
+                Reactions(parameters, scene));
         }
 
         private static ContactRecord? Reactions(SimulationParameters parameters, MaterialScene scene)

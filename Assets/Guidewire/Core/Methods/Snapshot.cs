@@ -139,11 +139,11 @@ namespace Guidewire.Core
         /// <summary>A section that means something only to a reader made like its writer: written whole, and read where
         /// the reader's key is the writer's (method, scheme, step size), else left out.</summary>
         /// <param name="key">What both must agree in.</param>
-        /// <param name="timeStep">The step size, s, in which they must agree too; 0 where it means nothing.</param>
         /// <param name="content">Exchanges the section's numbers.</param>
+        /// <param name="timeStep">The step size, s, in which they must agree too; 0 where it means nothing.</param>
         /// <returns>False where a reader leaves it out: what it would have taken over is then as it was made.</returns>
         /// <exception cref="InvalidOperationException">The section is read otherwise than it was written.</exception>
-        public bool Section(string key, double timeStep, Action<Snapshot> content)
+        public bool Section(string key, Action<Snapshot> content, double timeStep = 0.0)
         {
             if (IsWritten)
             {

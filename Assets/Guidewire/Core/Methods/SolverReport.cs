@@ -49,5 +49,23 @@ namespace Guidewire.Core
 
         /// <summary>Energy stored in the wire and its motion, less the work of dead loads, J.</summary>
         public double Energy { get; internal set; } = double.NaN;
+
+        /// <summary>Writes or takes over what the rest shape of the start left here; the rest is stated anew by each
+        /// report.</summary>
+        internal void Exchange(Snapshot snapshot)
+        {
+            long factorisations = Factorisations;
+            int iterations = EquilibriumIterations;
+            double residual = EquilibriumResidual;
+            double eigenvalue = SmallestEigenvalue;
+            snapshot.Exchange(ref factorisations);
+            snapshot.Exchange(ref iterations);
+            snapshot.Exchange(ref residual);
+            snapshot.Exchange(ref eigenvalue);
+            Factorisations = factorisations;
+            EquilibriumIterations = iterations;
+            EquilibriumResidual = residual;
+            SmallestEigenvalue = eigenvalue;
+        }
     }
 }

@@ -38,6 +38,19 @@ namespace Guidewire.Core
             DistalFrame = other.DistalFrame;
         }
 
+        /// <summary>Writes this shape into a snapshot, or takes over one of the same n.</summary>
+        public void Exchange(Snapshot snapshot)
+        {
+            snapshot.Exchange(X);
+            snapshot.Exchange(Q);
+            Quaterniond proximal = ProximalFrame;
+            Quaterniond distal = DistalFrame;
+            snapshot.Exchange(ref proximal);
+            snapshot.Exchange(ref distal);
+            ProximalFrame = proximal;
+            DistalFrame = distal;
+        }
+
         /// <summary>A straight rod along d3 of <paramref name="frame"/>.</summary>
         /// <param name="start">Place of node 0.</param>
         /// <param name="frame">Orientation of every element.</param>

@@ -1,4 +1,5 @@
 using System;
+using System.Globalization;
 
 namespace Guidewire.Core
 {
@@ -31,7 +32,8 @@ namespace Guidewire.Core
 
         private readonly MaterialScene _scene;
         private readonly MaterialDrive _drive;
-        private readonly DeadLoads _loads;
+        private readonly RodTerms _terms;
+        private readonly RodVector[] _loadGradient;
         private readonly NodalInertia _inertia;
         private readonly CompliantStretch _stretch;
         private readonly CompliantBendTwist _bendTwist;
@@ -42,7 +44,7 @@ namespace Guidewire.Core
         private readonly Vector3d[] _shift;
         private readonly Vector3d[] _turn;
         private readonly double _timeStep;
-        private readonly double _kept;
+        private readonly double _remainingVelocity;
         private readonly int _substeps;
         private readonly int _sweeps;
         private readonly DirectionError _directions;
@@ -54,14 +56,14 @@ namespace Guidewire.Core
         private double _time;
 
         /// <summary>A step for this scene.</summary>
-        /// <param name="sweeps">m, sweeps a substep.</param>
-        public CompliantStep(MaterialScene scene, RodStatics statics, MaterialDrive drive,
-            SimulationParameters parameters, int sweeps, SolverReport report)
+        public CompliantStep(MaterialScene scene, RodTerms terms, MaterialDrive drive, MethodParameters method,
+            SolverReport report)
         {
             _scene = scene;
             _drive = drive;
-            _loads = new DeadLoads(scene.Rod.ElementCount);
-            _inertia = new NodalInertia(scene.Rod, scene.Supports);
+            _terms = terms;
+            _loadGradient = new RodVector[scene.Rod.ElementCount + 2];
+            _inertia = new NodalInertia(terms.Mass, terms.Supports);
             _stretch = new CompliantStretch(scene.Rod, _inertia.InverseMass, _inertia.InverseInertia);
             _bendTwist = new CompliantBendTwist(scene.Rod, scene.Supports, _inertia.InverseInertia);
             _shape = scene.Shape;
@@ -70,14 +72,14 @@ namespace Guidewire.Core
             _turn = new Vector3d[_shape.ElementCount];
             _velocities = scene.Velocities;
             _spins = scene.Spins;
-            _timeStep = parameters.Method.TimeStep;
-            _kept = Math.Pow(1.0 - parameters.Method.Damping, 1.0 / parameters.Method.Substeps);
-            _substeps = parameters.Method.Substeps;
-            _sweeps = sweeps;
+            _timeStep = method.TimeStep;
+            _remainingVelocity = Math.Pow(1.0 - method.Damping, 1.0 / method.Substeps);
+            _substeps = method.Substeps;
+            _sweeps = method.ConstraintSolverSteps;
             _directions = new DirectionError(scene, _inertia, _stretch, _bendTwist);
             _convergence = new ConvergenceRecord(scene.Rod.TotalLength);
-            _ends = new HeldEnds(scene, statics);
-            _energy = new EnergyWatch(scene, statics, _inertia, _ends, EnergyWatch.Allowance);
+            _ends = new HeldEnds(terms, scene.Schedule);
+            _energy = new EnergyWatch(scene, terms, _inertia, _ends, EnergyWatch.Allowance);
             _report = report;
         }
 
@@ -103,7 +105,7 @@ namespace Guidewire.Core
             }
             _time += _timeStep;
             _convergence.Add(residual);
-            Divergence = _energy.Blowup(_loads);
+            Divergence = _energy.Blowup();
             if (Divergence != null)
             {
                 Divergence += "; raise substeps or constraintSolverSteps";
@@ -123,14 +125,46 @@ namespace Guidewire.Core
             return _report;
         }
 
+        /// <inheritdoc/>
+        public override void Exchange(Snapshot snapshot)
+        {
+            MaterialSnapshot.Exchange(snapshot, _scene.Schedule, _shape, _velocities, _spins, ref _time);
+            _ends.ExchangeTurns(snapshot);
+            if (!snapshot.Section("xpbd", ExchangeOwn))
+            {
+                _energy.Start();
+            }
+        }
+
+        private void ExchangeOwn(Snapshot snapshot)
+        {
+            _terms.Exchange(snapshot);
+            _energy.Exchange(snapshot);
+            _ends.ExchangeWork(snapshot);
+            _convergence.Exchange(snapshot);
+            _report.Exchange(snapshot);
+            // A multiplier is a force times h^2.
+            snapshot.Section((_timeStep / _substeps).ToString("R", CultureInfo.InvariantCulture), ExchangeMultipliers);
+        }
+
+        private void ExchangeMultipliers(Snapshot snapshot)
+        {
+            _stretch.Exchange(snapshot);
+            _bendTwist.Exchange(snapshot);
+        }
+
         private void Substep(double time, double h, bool isMeasured)
         {
             int last = _shape.ElementCount;
             _old.CopyFrom(_shape);
-            _scene.Schedule.SetLoads(_scene.Rod, _scene.Supports.Mass, _loads, time);
+            _terms.SetTime(_scene.Schedule, time);
+            Array.Clear(_loadGradient, 0, _loadGradient.Length);
+            _terms.AddLoadGradient(_shape, _loadGradient);
             for (int i = 0; i <= last; i++)
             {
-                _velocities[i] = _kept * _velocities[i] + (h * _inertia.InverseMass[i]) * _loads.Force[i];
+                ref RodVector g = ref _loadGradient[i];
+                _velocities[i] = _remainingVelocity * _velocities[i]
+                    - (h * _inertia.InverseMass[i]) * new Vector3d(g.X1, g.X2, g.X3);
                 if (_inertia.InverseMass[i] > 0.0)
                 {
                     _shape.X[i] += h * _velocities[i];
@@ -138,7 +172,10 @@ namespace Guidewire.Core
             }
             for (int j = 0; j < last; j++)
             {
-                _spins[j] = _kept * _spins[j];
+                ref RodVector g = ref _loadGradient[j];
+                Vector3d inverse = _inertia.InverseInertia[j];
+                _spins[j] = _remainingVelocity * _spins[j]
+                    - h * new Vector3d(inverse.X * g.T1, inverse.Y * g.T2, inverse.Z * g.T3);
                 _shape.Q[j] = Quaterniond.Normalize(_shape.Q[j] * RotationVector.Exp(h * _spins[j]));
             }
             _ends.Place(_shape, time);

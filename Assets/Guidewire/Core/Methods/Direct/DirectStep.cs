@@ -7,28 +7,24 @@ namespace Guidewire.Core
     internal sealed class DirectStep : TimeStepper
     {
         private readonly MaterialScene _scene;
-        private readonly RodStatics _statics;
         private readonly RodDynamics _dynamics;
         private readonly MaterialDrive _drive;
         private readonly double _timeStep;
         private readonly SolverReport _report;
-        private readonly long _startFactorisations;  // of the rest shape
-        private readonly double _kept;  // share of its velocity that the wire keeps a step
+        private long _startFactorisations;  // of the rest shape
+        private readonly double _remainingVelocity;  // share that the wire keeps a step
 
         /// <summary>A step for this scene.</summary>
         /// <param name="dynamics">The motion, at its start.</param>
-        /// <param name="timeStep">dt, s.</param>
-        /// <param name="damping">Share of its velocity that the wire loses a step.</param>
         /// <param name="record">Takes the support's force after each step, or null.</param>
-        public DirectStep(MaterialScene scene, RodStatics statics, RodDynamics dynamics, MaterialDrive drive,
-            double timeStep, double damping, SolverReport report, ContactRecord? record)
+        public DirectStep(MaterialScene scene, RodDynamics dynamics, MaterialDrive drive, MethodParameters method,
+            SolverReport report, ContactRecord? record)
         {
             _scene = scene;
-            _statics = statics;
             _dynamics = dynamics;
             _drive = drive;
-            _timeStep = timeStep;
-            _kept = 1.0 - damping;
+            _timeStep = method.TimeStep;
+            _remainingVelocity = 1.0 - method.Damping;
             _report = report;
             _startFactorisations = report.Factorisations;
             Contacts = record;
@@ -43,7 +39,7 @@ namespace Guidewire.Core
         {
             int last = state.ElementCount;
             _drive.Prepare(_dynamics.Shape, _dynamics.Time);
-            if (_kept != 1.0)
+            if (_remainingVelocity != 1.0)
             {
                 Damp();
             }
@@ -75,20 +71,34 @@ namespace Guidewire.Core
             _report.ProximalForce = _dynamics.ReactionAt(0);
             _report.DistalForce = _scene.Supports.HasDistalJoint ? _dynamics.ReactionAt(shape.ElementCount)
                 : Vector3d.Zero;
-            _report.ProximalMoment = _statics.Bending.ProximalCouple(shape);
-            _report.DistalMoment = _statics.Bending.DistalCouple(shape);
+            _report.ProximalMoment = _dynamics.Terms.Bending.ProximalCouple(shape);
+            _report.DistalMoment = _dynamics.Terms.Bending.DistalCouple(shape);
             return _report;
+        }
+
+        /// <inheritdoc/>
+        public override void Exchange(Snapshot snapshot)
+        {
+            _dynamics.Exchange(snapshot);
+            snapshot.Section("direct", ExchangeOwn);
+        }
+
+        private void ExchangeOwn(Snapshot snapshot)
+        {
+            snapshot.Exchange(ref _startFactorisations);
+            _report.Exchange(snapshot);
+            _dynamics.ExchangeHistory(snapshot, _timeStep);
         }
 
         private void Damp()
         {
             for (int i = 0; i < _dynamics.Velocities.Length; i++)
             {
-                _dynamics.Velocities[i] = _kept * _dynamics.Velocities[i];
+                _dynamics.Velocities[i] = _remainingVelocity * _dynamics.Velocities[i];
             }
             for (int j = 0; j < _dynamics.Spins.Length; j++)
             {
-                _dynamics.Spins[j] = _kept * _dynamics.Spins[j];
+                _dynamics.Spins[j] = _remainingVelocity * _dynamics.Spins[j];
             }
         }
     }

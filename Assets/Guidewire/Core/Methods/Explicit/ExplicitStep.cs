@@ -10,7 +10,7 @@ namespace Guidewire.Core
     internal sealed class ExplicitStep : TimeStepper
     {
         private readonly MaterialScene _scene;
-        private readonly RodStatics _statics;
+        private readonly RodTerms _terms;
         private readonly MaterialDrive _drive;
         private readonly NodalInertia _inertia;
         private readonly RodShape _shape;
@@ -19,7 +19,7 @@ namespace Guidewire.Core
         private readonly RodVector[] _gradient;
         private readonly double _timeStep;
         private readonly int _substeps;
-        private readonly double _kept;
+        private readonly double _remainingVelocity;
         private readonly HeldEnds _ends;
         private readonly EnergyWatch _energy;
         private readonly double _stable;    // s
@@ -28,26 +28,26 @@ namespace Guidewire.Core
 
         /// <summary>A step for this scene.</summary>
         /// <param name="record">Takes the support's force after each step, or null.</param>
-        public ExplicitStep(MaterialScene scene, RodStatics statics, MaterialDrive drive,
-            SimulationParameters parameters, SolverReport report, ContactRecord? record)
+        public ExplicitStep(MaterialScene scene, RodTerms terms, MaterialDrive drive, MethodParameters method,
+            SolverReport report, ContactRecord? record)
         {
             _scene = scene;
-            _statics = statics;
+            _terms = terms;
             _drive = drive;
-            _inertia = new NodalInertia(scene.Rod, scene.Supports);
+            _inertia = new NodalInertia(terms.Mass, terms.Supports);
             _shape = scene.Shape;
             _velocities = scene.Velocities;
             _spins = scene.Spins;
             _gradient = new RodVector[_shape.ElementCount + 2];
-            _timeStep = parameters.Method.TimeStep;
-            _substeps = parameters.Method.Substeps;
-            _kept = Math.Pow(1.0 - parameters.Method.Damping, 1.0 / _substeps);
-            _ends = new HeldEnds(scene, statics);
+            _timeStep = method.TimeStep;
+            _substeps = method.Substeps;
+            _remainingVelocity = Math.Pow(1.0 - method.Damping, 1.0 / _substeps);
+            _ends = new HeldEnds(terms, scene.Schedule);
             _stable = StableTimeStep(scene.Rod, scene.Supports);
             double part = _timeStep / _substeps / _stable;
             double allowance = part < 1.0
                 ? Math.Max(EnergyWatch.Allowance, 2.0 / (1.0 - part * part)) : EnergyWatch.Allowance;
-            _energy = new EnergyWatch(scene, statics, _inertia, _ends, allowance);
+            _energy = new EnergyWatch(scene, terms, _inertia, _ends, allowance);
             _report = report;
             Contacts = record;
         }
@@ -76,7 +76,7 @@ namespace Guidewire.Core
                 Drift(0.5 * h, start + h);
             }
             _time += _timeStep;
-            Divergence = _energy.Blowup(_statics.Loads);
+            Divergence = _energy.Blowup();
             if (Divergence != null)
             {
                 Divergence += Text(": a substep of {0:G4} s, in its rest shape stable below {1:G4} s; raise substeps");
@@ -96,6 +96,25 @@ namespace Guidewire.Core
             _report.Method = Text("explicit; stable below a substep of {1:G4} s");
             _report.StableSubstep = _stable;
             return _report;
+        }
+
+        /// <inheritdoc/>
+        public override void Exchange(Snapshot snapshot)
+        {
+            MaterialSnapshot.Exchange(snapshot, _scene.Schedule, _shape, _velocities, _spins, ref _time);
+            _ends.ExchangeTurns(snapshot);
+            if (!snapshot.Section("explicit", ExchangeOwn))
+            {
+                _energy.Start();
+            }
+        }
+
+        private void ExchangeOwn(Snapshot snapshot)
+        {
+            _terms.Exchange(snapshot);
+            _energy.Exchange(snapshot);
+            _ends.ExchangeWork(snapshot);
+            _report.Exchange(snapshot);
         }
 
         /// <summary>2/omega_max of the wire in its rest shape, s; the true limit of an even wire is no
@@ -154,24 +173,21 @@ namespace Guidewire.Core
         private void Kick(double h, double time)
         {
             int n = _spins.Length;
-            _scene.Schedule.SetLoads(_scene.Rod, _scene.Supports.Mass, _statics.Loads, time);
+            _terms.SetTime(_scene.Schedule, time);
             Array.Clear(_gradient, 0, _gradient.Length);
-            _statics.Stretch.AddGradient(_shape, _gradient, 0, n + 1);
-            _statics.Bending.AddGradient(_shape, _gradient, 0, n + 1);
-            _statics.Loads.AddGradient(_shape, _gradient, 0, n + 1);
-            _statics.Moment.AddGradient(_shape, _gradient, 0, n + 1);
+            _terms.AddGradient(_shape, _gradient);
             for (int i = 0; i <= n; i++)
             {
                 ref RodVector g = ref _gradient[i];
-                _velocities[i] = _kept * _velocities[i]
+                _velocities[i] = _remainingVelocity * _velocities[i]
                     - (h * _inertia.InverseMass[i]) * new Vector3d(g.X1, g.X2, g.X3);
                 if (i < n)
                 {
                     Vector3d w = _spins[i];
                     Vector3d inverse = _inertia.InverseInertia[i];
                     // I' = diag(1, 1, 2): w x I w over I is (w2 w3, -w1 w3, 0).
-                    _spins[i] = _kept * w - h * new Vector3d(inverse.X * g.T1 + w.Y * w.Z, inverse.Y * g.T2 - w.X * w.Z,
-                        inverse.Z * g.T3);
+                    _spins[i] = _remainingVelocity * w - h * new Vector3d(inverse.X * g.T1 + w.Y * w.Z,
+                        inverse.Y * g.T2 - w.X * w.Z, inverse.Z * g.T3);
                 }
             }
         }

@@ -86,15 +86,18 @@ namespace Guidewire.Core
         }
 
         /// <summary>y := -gradient with the supports taken out; gradient itself keeps the reactions.</summary>
-        public void Gradient(EnergyTerm[] terms, RodShape shape, RodVector[] gradient, RodVector[] y)
+        /// <returns>What the terms found on the way.</returns>
+        public GradientMeasures Gradient(EnergyTerm[] terms, RodShape shape, RodVector[] gradient, RodVector[] y)
         {
+            var measured = default(GradientMeasures);
             Array.Clear(gradient, 0, gradient.Length);
             for (int k = 0; k < terms.Length; k++)
             {
-                terms[k].AddGradient(shape, gradient, 0, _count);
+                terms[k].AddGradient(shape, gradient, 0, _count, ref measured);
             }
             Array.Clear(y, 0, y.Length);
             Subtract(gradient, y, 0, _count);
+            return measured;
         }
 
         /// <summary>y := A^-1 y with the factorisation at hand.</summary>

@@ -70,7 +70,7 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public void Exchange(Snapshot snapshot)
         {
-            snapshot.Section("contact", 0.0, sums =>
+            snapshot.Section("contact", sums =>
             {
                 _passages.Exchange(sums);
                 _record.Exchange(sums);

@@ -34,7 +34,7 @@ namespace Guidewire.Core
         {
             _motion?.Exchange(snapshot);
             _clock.Exchange(snapshot);
-            _schedule.ExchangeDistalClamp(snapshot);
+            _schedule.Exchange(snapshot, _clock.Time);
         }
     }
 }

@@ -35,7 +35,7 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public void Exchange(Snapshot snapshot, double timeStep)
         {
-            snapshot.Section("Euler", 0.0, _ => { });
+            snapshot.Section("Euler", _ => { });
         }
     }
 }

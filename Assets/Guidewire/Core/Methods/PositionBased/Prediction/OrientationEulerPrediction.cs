@@ -18,7 +18,7 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public void Exchange(Snapshot snapshot, double timeStep)
         {
-            snapshot.Section("Euler, orientations", 0.0, _ => { });
+            snapshot.Section("Euler, orientations", _ => { });
         }
     }
 }

@@ -44,11 +44,11 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public void Exchange(Snapshot snapshot, double timeStep)
         {
-            snapshot.Section("Verlet, orientations", timeStep, history =>
+            snapshot.Section("Verlet, orientations", history =>
             {
                 history.Exchange(ref _started);
                 history.Exchange(_previous);
-            });
+            }, timeStep);
         }
     }
 }

@@ -40,7 +40,7 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public void Exchange(Snapshot snapshot, double timeStep)
         {
-            snapshot.Section("Verlet", timeStep, history => history.Exchange(ref _started));
+            snapshot.Section("Verlet", history => history.Exchange(ref _started), timeStep);
         }
     }
 }

@@ -61,9 +61,9 @@ namespace Guidewire.Core.Tests
             // 100 blocks are assembled in pieces of 32; the sum of A y over all of them must return the gradient.
             MaterialRod rod = Rods.Wire(99);
             var supports = new RodSupports();
-            var statics = new RodStatics(rod, supports);
-            statics.Loads.Set(rod, MassRule.Consistent, new Vector3d(0.0, -9.81, 0.0), Vector3d.Zero);
-            var terms = new EnergyTerm[] { statics.Stretch, statics.Bending, statics.Loads };
+            var rodTerms = new RodTerms(rod, supports);
+            rodTerms.Loads.Set(new Vector3d(0.0, -9.81, 0.0), Vector3d.Zero);
+            EnergyTerm[] terms = rodTerms.All;
             RodShape shape = Rods.Straight(rod);
             var system = new BlockTridiagonal(rod, supports);
             var gradient = new RodVector[system.VectorCount];
@@ -83,12 +83,12 @@ namespace Guidewire.Core.Tests
             rod = MaterialRod.Round(N, 1.0, 0.1, 300.0, 130.0, 2.0);
             Vector3d axis = Vector3d.Normalize(new Vector3d(1.0, 2.0, -1.0));
             supports = new RodSupports { Distal = distal, SlidingAxis = axis };
-            var statics = new RodStatics(rod, supports);
-            statics.Loads.Set(rod, MassRule.Consistent, new Vector3d(0.1, 0.2, 0.3), new Vector3d(0.0, 0.1, 0.0));
-            var inertia = new InertiaEnergy(rod, MassRule.Consistent) { StageLength = 2.0 };
-            terms = new EnergyTerm[] { statics.Stretch, statics.Bending, statics.Loads, inertia };
+            var rodTerms = new RodTerms(rod, supports);
+            rodTerms.Loads.Set(new Vector3d(0.1, 0.2, 0.3), new Vector3d(0.0, 0.1, 0.0));
+            var inertia = new InertiaEnergy(rodTerms.Mass) { StageLength = 2.0 };
+            terms = rodTerms.With(inertia);
             shape = Rods.Random(rod, angle, 0.1, 11);
-            inertia.BeginStep(shape.Q);
+            inertia.BeginStep(shape, 1.0);
         }
 
         private static double[,] Assembled(EnergyTerm[] terms, RodShape shape, MaterialRod rod, double shift)

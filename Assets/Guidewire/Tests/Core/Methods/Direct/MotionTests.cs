@@ -171,9 +171,8 @@ namespace Guidewire.Core.Tests
         internal static RodDynamics Start(MaterialRod rod, RodSupports supports, RodSchedule schedule, RodShape shape,
             Integrator scheme, double tolerance)
         {
-            var statics = new RodStatics(rod, supports);
-            return new RodDynamics(rod, supports, statics, schedule, shape, MaterialSetup.Scheme(scheme), tolerance,
-                100);
+            return new RodDynamics(new RodTerms(rod, supports), schedule, shape, MaterialSetup.Scheme(scheme),
+                tolerance, 100);
         }
 
         /// <summary>Error of orientation and angular velocity of one element that nothing holds: a symmetric top with

@@ -91,10 +91,10 @@ namespace Guidewire.Core.Tests
             in Vector3d tipMoment)
         {
             RodShape shape = Straight(rod);
-            var statics = new RodStatics(rod, supports);
-            statics.Loads.Set(rod, supports.Mass, gravity, tipForce);
-            statics.Moment.Moment = tipMoment;
-            EquilibriumResult result = statics.Solve(shape, 1e-10, 500);
+            var rodTerms = new RodTerms(rod, supports);
+            rodTerms.Loads.Set(gravity, tipForce);
+            rodTerms.Moment.Moment = tipMoment;
+            EquilibriumResult result = new RodStatics(rodTerms).Solve(shape, 1e-10, 500);
             if (!result.Converged)
             {
                 throw new InvalidOperationException(result.Reason);
