@@ -91,6 +91,21 @@ namespace Guidewire.Core
             value = new Quaterniond(x, y, z, w);
         }
 
+        /// <summary>A text.</summary>
+        public void Exchange(ref string value)
+        {
+            int length = value.Length;
+            Exchange(ref length);
+            char[] characters = IsWritten ? value.ToCharArray() : new char[length];
+            for (int i = 0; i < length; i++)
+            {
+                int character = characters[i];
+                Exchange(ref character);
+                characters[i] = (char)character;
+            }
+            value = new string(characters);
+        }
+
         /// <summary>Counts; a reader has as many.</summary>
         public void Exchange(long[] values)
         {
@@ -150,7 +165,7 @@ namespace Guidewire.Core
                 int start = _count;
                 long end = 0;
                 Exchange(ref end);
-                Exchange(key);
+                Exchange(ref key);
                 Exchange(ref timeStep);
                 content(this);
                 _bits[start] = _count;
@@ -158,10 +173,11 @@ namespace Guidewire.Core
             }
             long next = 0;
             Exchange(ref next);
-            bool agrees = Exchange(key);
-            double own = timeStep;
-            Exchange(ref timeStep);
-            agrees &= timeStep == own;
+            string written = key;
+            double writtenStep = timeStep;
+            Exchange(ref written);
+            Exchange(ref writtenStep);
+            bool agrees = written == key && writtenStep == timeStep;
             if (agrees)
             {
                 content(this);
@@ -171,21 +187,6 @@ namespace Guidewire.Core
                 }
             }
             _at = (int)next;
-            return agrees;
-        }
-
-        private bool Exchange(string text)
-        {
-            int length = text.Length;
-            Exchange(ref length);
-            bool agrees = length == text.Length;
-            for (int i = 0; i < length; i++)
-            {
-                int character = i < text.Length ? text[i] : 0;
-                int own = character;
-                Exchange(ref character);
-                agrees &= character == own;
-            }
             return agrees;
         }
     }

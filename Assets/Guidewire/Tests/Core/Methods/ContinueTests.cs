@@ -148,6 +148,7 @@ namespace Guidewire.Core.Tests
             Assert.That(a.Reason, Is.EqualTo(b.Reason), when);
             Assert.That(a.Contacts?.MaxPenetration, Is.EqualTo(b.Contacts?.MaxPenetration), when);
             Assert.That(a.Contacts?.DriveShortfall, Is.EqualTo(b.Contacts?.DriveShortfall), when);
+            Assert.That(a.Report()?.Method, Is.EqualTo(b.Report()?.Method), when);
             Assert.That(a.Contacts?.Reaction, Is.EqualTo(b.Contacts?.Reaction), when);
         }
 

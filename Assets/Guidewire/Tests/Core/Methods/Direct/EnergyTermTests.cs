@@ -105,7 +105,7 @@ namespace Guidewire.Core.Tests
             parameters.Method.Substeps = substeps;
             parameters.Method.ConstraintSolverSteps = 10;
             parameters.Drive.Kind = Drive.Force;
-            var scene = new MaterialScene(parameters);
+            var scene = new MaterialScene(parameters, new Scene(parameters));
             var terms = new RodTerms(scene.Rod, scene.Supports, parameters.Scene,
                 new PullingSpring(Elements, Stiffness, Speed));
             var state = new RodState(Elements, parameters.Scene.GuidewireLength, 1.0, 0.0);
@@ -166,18 +166,17 @@ namespace Guidewire.Core.Tests
         private static TimeStepper Stepper(Solver solver, SimulationParameters parameters, MaterialScene scene,
             RodTerms terms)
         {
-            var drive = new MaterialDrive(parameters, scene.Schedule);
             var report = new SolverReport();
             switch (solver)
             {
                 case Solver.Direct:
                     var dynamics = new RodDynamics(terms, scene.Schedule, scene.Shape,
                         MaterialSetup.Scheme(parameters.Method.Integrator), 1e-9, 50);
-                    return new DirectStep(scene, dynamics, drive, parameters.Method, report, null);
+                    return new DirectStep(scene, dynamics, scene.Drive, parameters.Method, report, null);
                 case Solver.Explicit:
-                    return new ExplicitStep(scene, terms, drive, parameters.Method, report, null);
+                    return new ExplicitStep(scene, terms, scene.Drive, parameters.Method, report, null);
                 default:
-                    return new CompliantStep(scene, terms, drive, parameters.Method, report);
+                    return new CompliantStep(scene, terms, scene.Drive, parameters.Method, report);
             }
         }
 
