@@ -18,6 +18,6 @@ def test_the_readme_opens_with_the_two_commands():
 def test_the_readme_shows_every_command_and_no_other(capsys):
     with pytest.raises(SystemExit):
         parse(["--help"])
-    known = re.findall(r"^    ([\w-]+) {2,}\S", capsys.readouterr().out, re.MULTILINE)
+    known = re.findall(r"^ {4}([\w-]+)(?: |$)", capsys.readouterr().out, re.MULTILINE)
     assert "sweep" in known
     assert set(re.findall(r"python3 guidewire.py ([\w-]+)", TEXT)) == set(known)
