@@ -1,7 +1,7 @@
 namespace Guidewire.Core
 {
-    /// <summary>What a solver for a material says of itself at the end of a run. A number that does not apply is NaN.
-    /// </summary>
+    /// <summary>What a solver for a material says of itself at the end of a run. A number that does not apply is NaN, a
+    /// force or couple that the method does not compute null. </summary>
     public sealed class SolverReport
     {
         /// <summary>How the method stands to the loads and the rule of convergence, in one line.</summary>
@@ -36,16 +36,16 @@ namespace Guidewire.Core
         public double StableSubstep { get; internal set; } = double.NaN;
 
         /// <summary>Force of the proximal support on the wire at the end, N.</summary>
-        public Vector3d ProximalForce { get; internal set; }
+        public Vector3d? ProximalForce { get; internal set; }
 
         /// <summary>Couple of the proximal clamp on the wire at the end, N m, along the world's axes.</summary>
-        public Vector3d ProximalMoment { get; internal set; }
+        public Vector3d? ProximalMoment { get; internal set; }
 
         /// <summary>Force of the distal support on the wire at the end, N.</summary>
-        public Vector3d DistalForce { get; internal set; }
+        public Vector3d? DistalForce { get; internal set; }
 
         /// <summary>Couple of the distal clamp on the wire at the end, N m, along the world's axes.</summary>
-        public Vector3d DistalMoment { get; internal set; }
+        public Vector3d? DistalMoment { get; internal set; }
 
         /// <summary>Energy stored in the wire and its motion, less the work of dead loads, J.</summary>
         public double Energy { get; internal set; } = double.NaN;

@@ -70,6 +70,10 @@ namespace Guidewire.Io
         {
             get
             {
+                if (Key == ParameterTable.SolverKey)
+                {
+                    return Default(new RunParameters(Solver.Pbd).Simulation.Method.Solver);
+                }
                 var text = new List<string>();
                 var methods = new List<List<string>>();
                 foreach (Solver method in Methods)

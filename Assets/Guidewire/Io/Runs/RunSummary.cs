@@ -97,9 +97,9 @@ namespace Guidewire.Io
             };
         }
 
-        private static JArray Vector(in Vector3d v)
+        private static JToken Vector(Vector3d? vector)
         {
-            return new JArray(Finite(v.X), Finite(v.Y), Finite(v.Z));
+            return vector is Vector3d v ? new JArray(Finite(v.X), Finite(v.Y), Finite(v.Z)) : (JToken)JValue.CreateNull();
         }
 
         /// <summary>The product's version.</summary>

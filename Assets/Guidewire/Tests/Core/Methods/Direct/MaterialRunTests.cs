@@ -36,9 +36,9 @@ namespace Guidewire.Core.Tests
             Assert.That(run.State.Positions[30].Y, Is.EqualTo(300.0 * 0.301720774).Within(0.3));
             SolverReport report = run.Report()!;
             // The clamp carries the load, and the couple F times the tip's distance along z.
-            Assert.That(report.ProximalForce.Y, Is.EqualTo(-Rods.BendForce).Within(1e-6 * Rods.BendForce));
+            Assert.That(report.ProximalForce!.Value.Y, Is.EqualTo(-Rods.BendForce).Within(1e-6 * Rods.BendForce));
             double couple = Rods.BendForce * 1e-3 * run.State.Positions[30].Z;
-            Assert.That(Math.Abs(report.ProximalMoment.X), Is.EqualTo(couple).Within(1e-3 * couple));
+            Assert.That(Math.Abs(report.ProximalMoment!.Value.X), Is.EqualTo(couple).Within(1e-3 * couple));
             Assert.That(report.SmallestEigenvalue, Is.GreaterThan(0.0));
         }
 
@@ -212,7 +212,7 @@ namespace Guidewire.Core.Tests
                 angle = Math.Max(angle, Math.Acos(q.Director3.Z) * 180.0 / Math.PI);
             }
             SolverReport report = run.Report()!;
-            double ratio = report.DistalMoment.Z / (2.0 * Math.Sqrt(B * report.DistalForce.Z));
+            double ratio = report.DistalMoment!.Value.Z / (2.0 * Math.Sqrt(B * report.DistalForce!.Value.Z));
             Assert.That(angle, Is.EqualTo(47.65).Within(0.05 * 47.65));
             Assert.That(ratio, Is.EqualTo(0.914778).Within(0.05 * 0.914778));
         }
