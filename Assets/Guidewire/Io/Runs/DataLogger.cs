@@ -184,7 +184,7 @@ namespace Guidewire.Io
                 return;
             }
             Reserve(NumberText.Longest);
-            _length += NumberText.Write(value, _bytes.AsSpan(_length));
+            _length += NumberText.Write(value, _bytes, _length);
         }
 
         private void Reserve(int count)

@@ -18,18 +18,19 @@ namespace Guidewire.Io
         private const int MostDigits = 17;    // every double survives its way through so many digits
         private const double SmallestNormal = 2.2250738585072014e-308;
 
-        /// <summary>Writes a finite number as ASCII.</summary>
+        /// <summary>Writes a finite number as ASCII from a place on.</summary>
         /// <returns>Bytes written, at most <see cref="Longest"/>.</returns>
-        public static int Write(double value, Span<byte> target)
+        public static int Write(double value, byte[] target, int start)
         {
 #if NET8_0_OR_GREATER
             if (!IsMiswritten(value))
             {
-                value.TryFormat(target, out int written, default, CultureInfo.InvariantCulture);
+                value.TryFormat(target.AsSpan(start), out int written, default, CultureInfo.InvariantCulture);
                 return written;
             }
 #endif
-            return Encoding.ASCII.GetBytes(Shortest(value), target);
+            string text = Shortest(value);
+            return Encoding.ASCII.GetBytes(text, 0, text.Length, target, start);
         }
 
         /// <summary>JSON on one line, its numbers by this rule.</summary>

@@ -94,7 +94,7 @@ namespace Guidewire.Core.Tests
             var bytes = new byte[NumberText.Longest];
             foreach (double number in Numbers())
             {
-                string logged = Encoding.ASCII.GetString(bytes, 0, NumberText.Write(number, bytes));
+                string logged = Encoding.ASCII.GetString(bytes, 0, NumberText.Write(number, bytes, 0));
                 if (logged != NumberText.Shortest(number))
                 {
                     Assert.Fail(logged + " instead of " + NumberText.Shortest(number));
