@@ -261,7 +261,9 @@ def _test_form(asmdef: Asmdef) -> Iterator[Violation]:
               ("nunit.framework.dll" in asmdef.strings("precompiledReferences"),
                "precompiledReferences needs nunit.framework.dll"),
               (TEST_RUNNERS <= set(asmdef.strings("references")), "references need both TestRunner assemblies"),
-              (asmdef.data.get("autoReferenced") is False, "autoReferenced must be false"))
+              (asmdef.data.get("autoReferenced") is False, "autoReferenced must be false"),
+              (asmdef.is_editor_only or asmdef.strings("includePlatforms") or "/Play/" in asmdef.path,
+               "includePlatforms must be Editor: outside a folder Play stand tests of the EditMode"))
     for holds, message in wanted:
         if not holds:
             yield Violation(asmdef.path, 0, "asmdef-test", message)

@@ -31,6 +31,11 @@ _ASSETS = {".mat": {"Material"}, ".shader": {"Shader"}, ".compute": {"ComputeSha
            ".png": {"Texture", "Texture2D", "Sprite"}}
 # Unity's own assets by number: what they are.
 _BUILTIN = ((10200, 10220, {"Mesh"}), (10302, 10306, {"Material"}), (10100, 10110, {"Font", "Material", "Shader"}))
+# Choices of Unity's own components: class, key, how many there are (the first is 0).
+_CHOICES = ((20, "m_ClearFlags", 5), (20, "orthographic", 2), (20, "m_projectionMatrixMode", 4), (20, "m_GateFitMode",
+                                                                                                  5),
+            (108, "m_Type", 8), (108, "m_RenderMode", 3), (108, "m_Lightmapping", 7), (104, "m_AmbientMode", 5),
+            (104, "m_FogMode", 4), (104, "m_Fog", 2))
 _BASES = {"Camera": {"Behaviour", "Component"}, "Light": {"Behaviour", "Component"},
           "Transform": {"Component"}, "MeshRenderer": {"Renderer", "Component"}, "MeshFilter": {"Component"},
           "LineRenderer": {"Renderer", "Component"}, "MeshCollider": {"Collider", "Component"},
@@ -39,7 +44,7 @@ _BASES = {"Camera": {"Behaviour", "Component"}, "Light": {"Behaviour", "Componen
 
 
 def check(project: Project) -> Iterator[Violation]:
-    """Rules scene-script, scene-needs, scene-camera, field-unknown, field-value, reference-class, reference-unset."""
+    """Rules scene-script, scene-needs, scene-camera, scene-light, field-unknown, field-value, reference-*."""
     for path in project.assets(".unity"):
         found, problem = documents(project, path)
         if problem is None:
@@ -60,6 +65,14 @@ class _Scene:
         for document in self._seen.values():
             if document.file_id in self._scripts:
                 yield from self._fields(document, self._scripts[document.file_id])
+        for document in self._seen.values():
+            for class_id, key, count in _CHOICES:
+                value = document.data.get(key, "0")
+                if document.class_id == class_id and value not in [str(choice) for choice in range(count)]:
+                    yield self._violation(document, "field-value",
+                                          f"{document.type}.{key} is none of 0 to {count - 1}: '{value}'")
+            if "m_Enabled" in document.data and document.data["m_Enabled"] not in ("0", "1"):
+                yield self._violation(document, "field-value", f"{document.type}.m_Enabled is 0 or 1")
         yield from self._needs()
         yield from self._cameras()
 
@@ -205,6 +218,8 @@ class _Scene:
         return True
 
     def _needs(self) -> Iterator[Violation]:
+        if any(script.name in NEEDED for script in self._scripts.values()):
+            yield from self._lights()
         existing = {script.name for scripts in behaviours(self._project).values() for script in scripts}
         for name in NEEDED:
             if name not in existing:
@@ -236,6 +251,11 @@ class _Scene:
                                           f"{name} draws in its own coordinates: {key} must be "
                                           f"({', '.join(expected)})")
 
+    def _lights(self) -> Iterator[Violation]:
+        lights = [document for document in self._seen.values() if document.class_id == 108]
+        if not any(self._is_live(light) and number(light.data.get("m_Intensity", 1)) > 0.0 for light in lights):
+            yield Violation(self._path, 0, "scene-light", "has no light that is switched on")
+
     def _cameras(self) -> Iterator[Violation]:
         cameras = [document for document in self._seen.values() if document.class_id == 20]
         if not any(map(self._is_live, cameras)):
@@ -253,7 +273,9 @@ class _Scene:
         bits = number(mask.get("m_Bits", 2**32 - 1)) if isinstance(mask, dict) else 2.0**32 - 1
         rect = data.get("m_NormalizedViewPortRect")
         sizes = [number(rect.get(key, 1)) for key in ("width", "height")] if isinstance(rect, dict) else [1.0]
-        reason = "near and far clip plane must be 0 < near < far" if not 0.0 < near < far else \
+        size = number(data.get("orthographic size", 5)) if data.get("orthographic") == "1" else 5.0
+        reason = "its orthographic size must be positive" if not size > 0.0 else \
+            "near and far clip plane must be 0 < near < far" if not 0.0 < near < far else \
             "field of view must be between 0 and 180" if not 0.0 < angle < 180.0 else \
             "its culling mask leaves out a layer of the scene" if bits != bits or any(
                 not int(bits) >> layer & 1 for layer in layers) else \

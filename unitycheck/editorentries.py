@@ -39,8 +39,9 @@ def methods(project: Project) -> dict[str, list[tuple[str, Method]]]:
 
 
 def check(project: Project) -> Iterator[Violation]:
-    """Rules menu-item, execute-method, guide."""
+    """Rules menu-item, editor-drawer, execute-method, guide."""
     yield from _menus(project)
+    yield from _drawers(project)
     for path in CALLERS:
         if project.is_file(path):
             for number, line in enumerate(project.text(path).splitlines(), 1):
@@ -52,6 +53,18 @@ def check(project: Project) -> Iterator[Violation]:
     for path in GUIDES:
         if project.is_file(path):
             yield from _guide(project, path)
+
+
+def _drawers(project: Project) -> Iterator[Violation]:
+    for path, declared in types(project).items():
+        for declaration in declared:
+            for base, needed in (("PropertyDrawer", "CustomPropertyDrawer"), ("DecoratorDrawer",
+                                                                              "CustomPropertyDrawer"),
+                                 ("Editor", "CustomEditor")):
+                is_drawer = base in declaration.bases and "abstract" not in declaration.modifiers
+                if is_drawer and not declaration.has(needed):
+                    yield Violation(path, declaration.line, "editor-drawer",
+                                    f"{declaration.name} draws nothing without [{needed}]")
 
 
 def _menus(project: Project) -> Iterator[Violation]:
@@ -97,10 +110,29 @@ def _target(project: Project, path: str, number: int, target: str) -> Iterator[V
             yield Violation(path, number, "execute-method", f"{target} stands in no editor-only assembly")
 
 
+def _words(project: Project, path: str) -> Iterator[Violation]:
+    """The word behind which a run's arguments stand, and the menu, are what the guide calls them."""
+    text = project.text(path)
+    for declared in types(project).values():
+        for declaration in declared:
+            for item in declaration.fields:
+                words = [token.value for token in item.value]
+                if item.name == "Marker" and "const" in item.modifiers and words and words[0] not in text:
+                    yield Violation(path, 0, "guide", f"the word before a run's arguments is {words[0]}")
+    menus = {token.value.partition("/")[0] for declared in types(project).values() for declaration in declared
+             for method in declaration.methods for attribute in method.attributes if attribute.name == "MenuItem"
+             for token in attribute.arguments if token.kind == "text"}
+    for name in re.findall(r"the menu \*(\w+)\*", text):
+        if name not in menus:
+            yield Violation(path, 0, "guide", f"there is no menu {name}")
+
+
 def _guide(project: Project, path: str) -> Iterator[Violation]:
     players = {token.value for source in project.assets("PlayerBuild.cs") for token in tokens(project.text(source))
                if token.kind == "text" and _PLAYER.fullmatch(token.value)}
     names = {asmdef.name for asmdef in assemblies(project)}
+    if path == "docs/unity.md":
+        yield from _words(project, path)
     scenes = {scene.rpartition("/")[2][:-len(".unity")] for scene in project.assets(".unity")}
     for number, line in enumerate(project.text(path).splitlines(), 1):
         for place in _PATH.findall(line):

@@ -107,8 +107,8 @@ def _standard(path: str, line: int, data: dict[str, Any]) -> Iterator[Violation]
     if keywords & _ALPHA != ({keyword} if keyword else set()):
         yield Violation(path, line, "material-keyword",
                         f"_Mode {mode:g} goes with {keyword or 'no alpha keyword'}, not {sorted(keywords & _ALPHA)}")
-    for name, expected in (("_SrcBlend", source), ("_DstBlend", target), ("_ZWrite", writes)):
-        if name in floats and floats[name] != expected:
+    for name, expected, usual in (("_SrcBlend", source, 1), ("_DstBlend", target, 0), ("_ZWrite", writes, 1)):
+        if floats.get(name, usual) != expected:
             yield Violation(path, line, "material-mode", f"_Mode {mode:g} goes with {name} {expected}")
     asked = str(data.get("m_CustomRenderQueue", "-1"))
     if not re.match(r"^-?\d{1,5}$",

@@ -58,6 +58,7 @@ def check(project: Project) -> Iterator[Violation]:
             yield from _roots(path, seen)
             yield from _labels(project, path, seen)
             for document in found:
+                yield from _keys(path, document)
                 if document.class_id == 81 and "com.unity.modules.audio" not in dependencies(project):
                     yield Violation(path, document.line, "module-missing",
                                     "AudioListener needs com.unity.modules.audio")
@@ -165,6 +166,22 @@ def _roots(path: str, seen: dict[int, Document]) -> Iterator[Violation]:
     ids = [local_id(item) for item in listed] if isinstance(listed, list) else []
     if len(ids) != len(set(ids)) or set(ids) != fathers:
         yield Violation(path, roots[0].line, "scene-roots", f"m_Roots must list exactly {sorted(fathers)}, not {ids}")
+
+
+# Keys that Unity always writes: where one is lost, what stands there is not what was saved.
+_KEYS = {1: ("m_Component", "m_Layer", "m_Name", "m_TagString", "m_IsActive"),
+         4: ("m_GameObject", "m_LocalRotation", "m_LocalPosition", "m_LocalScale", "m_Children", "m_Father"),
+         20: ("m_GameObject", "m_Enabled", "m_ClearFlags", "near clip plane", "far clip plane", "field of view",
+              "m_CullingMask"),
+         108: ("m_GameObject", "m_Enabled", "m_Type", "m_Color", "m_Intensity", "m_CullingMask"),
+         114: ("m_GameObject", "m_Enabled", "m_Script")}
+
+
+def _keys(path: str, document: Document) -> Iterator[Violation]:
+    is_whole = "m_ObjectHideFlags" in document.data and "m_PrefabInstance" in document.data
+    for key in _KEYS.get(document.class_id, ()) if is_whole else ():
+        if key not in document.data:
+            yield Violation(path, document.line, "scene-key", f"{document.type} &{document.file_id} has no '{key}'")
 
 
 def number(value: Any) -> float:

@@ -15,6 +15,7 @@ EDITOR = "ProjectSettings/EditorSettings.asset"
 VERSION = "ProjectSettings/ProjectVersion.txt"
 LOCK = "Packages/packages-lock.json"
 PLAYER = f"{GUIDEWIRE}/Editor/PlayerBuild.cs"
+DRAWER = f"{GUIDEWIRE}/Editor/ParameterDrawer.cs"
 ENTRY = f"{GUIDEWIRE}/Editor/BatchEntry.cs"
 GUIDE = "docs/unity.md"
 META = f"{VECTOR}.meta"
@@ -52,6 +53,7 @@ BREAKAGES = {
     "colour without alpha": edit(WIRE, r"b: 1, a: 1\}", "b: 1}", "material-property"),
     "word for a number": edit(WIRE, "_Metallic: 0", "_Metallic: none", "material-property"),
     "mode of another blending": edit(VESSEL, "_DstBlend: 10", "_DstBlend: 0", "material-mode"),
+    "blending left to the default": edit(VESSEL, r"    - _DstBlend: 10\n", "", "material-mode"),
     "mode that is none": edit(VESSEL, "_Mode: 3", "_Mode: 7", "material-mode"),
     "depth written by what is translucent": edit(VESSEL, "_ZWrite: 0", "_ZWrite: 1", "material-mode"),
     "translucent before the opaque": edit(VESSEL, "m_CustomRenderQueue: 3000", "m_CustomRenderQueue: 2000",
@@ -156,6 +158,12 @@ BREAKAGES = {
     "menu entry that returns": edit(PLAYER, r"static void Windows\(\)", "static int Windows()", "menu-item"),
     "menu check that returns nothing": edit(PLAYER, r'"Guidewire/Build player for Windows"',
                                             '"Guidewire/Build player for Windows", true', "menu-item"),
+    "drawer without its attribute": edit(DRAWER, r"    \[CustomPropertyDrawer\([^]]*\]\n", "", "editor-drawer"),
+    "menu of the guide": edit(PLAYER, "Guidewire/Build player for (Linux.*)Guidewire/Build",
+                              r"Wire/Build player for \1Wire/Build",
+                              "guide", GUIDE),
+    "marker of a run's arguments": edit(f"{GUIDEWIRE}/Runtime/Batch/BatchRun.cs", '"-guidewire"', '"-wire"', "guide",
+                                        GUIDE),
     "batch method renamed": edit(ENTRY, r"void Run\(\)", "void Go()", "execute-method", GUIDE),
     "batch method not static": edit(ENTRY, r"public static void Run\(\)", "public void Run()", "execute-method", GUIDE),
     "batch method with a parameter": edit(ENTRY, r"void Run\(\)", "void Run(string[] a)", "execute-method", GUIDE),

@@ -96,6 +96,10 @@ BREAKAGES = {
                                  "scene-place"),
     "root listed twice": scene(r"(  - \{fileID: 401\}\n)", r"\1\1", "scene-roots"),
     "root of another number": scene(r"&9223372036854775807", "&9223372036854775806", "scene-roots"),
+    "object without its switch": scene(r"(--- !u!1 &400\n.*?)  m_IsActive: 1\n", r"\1", "scene-key"),
+    "transform without a scale": scene(TRANSFORM_301 + r"  m_LocalScale: \{x: 1, y: 1, z: 1\}\n", r"\1", "scene-key"),
+    "component without its switch": scene(LOOP_302 + r"  m_Enabled: 1\n", r"\1", "scene-key"),
+    "camera without a far plane": scene("  far clip plane: 10000\n", "", "scene-key"),
     # Cameras
     "no camera": scene(r"  - component: \{fileID: 102\}\n(.*)--- !u!20 &102\n.*?(?=--- )", r"\1", "scene-camera"),
     "camera switched off": scene(r"(--- !u!20 &102\n.*?)m_Enabled: 1", r"\1m_Enabled: 0", "scene-camera"),
@@ -107,6 +111,11 @@ BREAKAGES = {
     "camera on the second display": scene("m_TargetDisplay: 0", "m_TargetDisplay: 1", "scene-camera"),
     "camera apart from its orbit": scene(r"  - component: \{fileID: 102\}\n(.*?  - component: \{fileID: 202\}\n)",
                                          r"\1  - component: {fileID: 102}\n", "scene-component"),
+    "light switched off": scene(r"(--- !u!108 &202\n.*?)m_Enabled: 1", r"\1m_Enabled: 0", "scene-light"),
+    "light of no intensity": scene("m_Intensity: 1", "m_Intensity: 0", "scene-light"),
+    "camera's clear flags": scene("m_ClearFlags: 2", "m_ClearFlags: 7", "field-value"),
+    "light of no type": scene(r"(--- !u!108 &202\n.*?)m_Type: 1", r"\1m_Type: 9", "field-value"),
+    "component switched to 2": scene(r"(--- !u!20 &102\n.*?)m_Enabled: 1", r"\1m_Enabled: 2", "field-value"),
     # Values
     "enum beyond its values": scene("_colouring: 2", "_colouring: 4", "field-value"),
     "enum below its values": scene("_colouring: 2", "_colouring: -1", "field-value"),

@@ -37,6 +37,8 @@ BREAKAGES = {
     "item at a place": lacks("Assert.That(new int[1], Has.ItemAt(0).EqualTo(0));"),
     "asynchronous that": lacks("Assert.ThatAsync(null, null);"),
     "classic assertions": lacks("ClassicAssert.AreEqual(1, 1);"),
+    "key with its value": lacks("Assert.That(new Dictionary<int, int>(), Contains.Key(1).WithValue(1));"),
+    "exactly one": lacks("Assert.That(new int[1], Has.One.EqualTo(0));"),
     "attachment": lacks('TestContext.AddTestAttachment("a");'),
     "progress": lacks('TestContext.Progress.WriteLine("a");'),
     "parallel switched off": Breakage(write(NEW, source("[Test, NonParallelizable] public void A() { }")), NEW,
