@@ -73,6 +73,9 @@ def check(project: Project) -> Iterator[Violation]:
         reported: set[str] = set()
         for line, namespace in usings(project.text(path)):
             yield from _package(project, path, line, namespace, asmdef)
+            homes = {where.name for (place, _), places in declared.items() if place == namespace for where, _ in places}
+            if homes and not homes & {where.name for where in seen[asmdef.name]}:
+                reported |= {min(homes)}
         own = {declaration.namespace for declaration in types(project)[path]}
         open_to = {namespace for _, namespace in usings(project.text(path))} | {
             ".".join(namespace.split(".")[:depth]) for namespace in own

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from unitycheck import (
     api, asmdefs, assemblyuse, compileroptions, components, editorentries, fields, language, materials, messages, metas,
-    nunit, packages, references, sceneparameters, scenes, scripts, settings, testshapes, textfiles,
+    names, nunit, packages, references, sceneparameters, scenes, scripts, settings, testshapes, textfiles,
 )
 from unitycheck.project import Project
 from unitycheck.violation import Violation
 
 MODULES = (metas, textfiles, packages, settings, asmdefs, assemblyuse, compileroptions, scripts, messages, fields,
-           references, scenes, components, sceneparameters, materials, editorentries, language, api, nunit, testshapes)
+           references, scenes, components, sceneparameters, names, materials, editorentries, language, api, nunit,
+           testshapes)
 
 
 def run(project: Project) -> list[Violation]:

@@ -92,6 +92,8 @@ def _refusal(project: Project, item: Field) -> str | None:
     if bare in _VALUES | OBJECTS or bare in descendants(project, ROOTS):
         return None
     for declaration in by_name(project).get(bare, []):
+        if declaration.kind == "enum" and {"long", "ulong"} & set(declaration.bases):
+            return f"{item.type} has 64 bits"
         if declaration.kind == "interface":
             return f"{item.type} is an interface (SerializeReference stores one)"
         if declaration.kind in ("class", "struct", "record") and not declaration.has("Serializable"):

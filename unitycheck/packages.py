@@ -149,6 +149,8 @@ def check(project: Project) -> Iterator[Violation]:
         if not isinstance(registry, dict) or not all(isinstance(registry.get(key), kind) for key, kind in
                                                      (("name", str), ("url", str), ("scopes", list))):
             yield Violation(MANIFEST, 0, "json", "an entry of scopedRegistries needs 'name', 'url' and 'scopes'")
+    for path in project.embedded_packages():
+        yield from _package(project, path, path.split("/")[1])
     if project.exists(LOCK):
         yield from _lock(project, manifest["dependencies"])
 

@@ -135,6 +135,14 @@ class Project:
         """Files that Unity imports whose names end in one of the suffixes."""
         return [path for path in self.asset_files if path.endswith(suffixes)]
 
+    def embedded_packages(self) -> list[str]:
+        """The package.json of each folder under Packages."""
+        folder = self.root / "Packages"
+        entries = folder.iterdir() if folder.is_dir() else ()
+        found = {f"Packages/{entry.name}/package.json" for entry in entries if (entry / "package.json").is_file()}
+        found |= {path for path in self._changes if path.startswith("Packages/") and path.endswith("/package.json")}
+        return sorted(path for path in found if self.exists(path) and path.count("/") == 2)
+
     def settings(self) -> list[str]:
         """Files directly under ProjectSettings."""
         return self._settings

@@ -207,7 +207,7 @@ def _place(path: str, document: Document) -> Iterator[Violation]:
 
 
 def _labels(project: Project, path: str, seen: dict[int, Document]) -> Iterator[Violation]:
-    tags, layers = _own_labels(project)
+    tags, layers = own_labels(project)
     for document in seen.values():
         if document.class_id != 1:
             continue
@@ -221,7 +221,8 @@ def _labels(project: Project, path: str, seen: dict[int, Document]) -> Iterator[
                             f"GameObject &{document.file_id}: there is no layer {document.data.get('m_Layer')}")
 
 
-def _own_labels(project: Project) -> tuple[set[str], set[int]]:
+def own_labels(project: Project) -> tuple[set[str], set[int]]:
+    """The tags and the numbers of the layers that the project has named."""
     path = "ProjectSettings/TagManager.asset"
     data = documents(project, path)[0] if project.is_file(path) else []
     tags, layers = (data[0].data.get(key) for key in ("tags", "layers")) if data else ((), ())

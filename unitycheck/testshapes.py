@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Iterator
 
 from unitycheck.asmdefs import assemblies, owner
@@ -32,9 +33,23 @@ def check(project: Project) -> Iterator[Violation]:
             if assembly is not None and not assembly.is_test:
                 yield Violation(path, declaration.line, "test-assembly",
                                 f"{declaration.name} holds tests, {assembly.name} is no test assembly")
+            yield from _values(project, path, declaration)
             yield from _fixture(path, declaration, bool(made_by_unity & {declaration.name, *declaration.bases}))
             for method in marked:
                 yield from _method(project, path, declaration, method)
+
+
+def _values(project: Project, path: str, declaration: Declaration) -> Iterator[Violation]:
+    """Sources that stand on parameters: each must be a static member."""
+    members = {member.name: member for base in chain(project, declaration) for member in [*base.fields, *base.methods]}
+    for match in re.finditer(r"\[ValueSource\((?:nameof\((\w+)\)|\"(\w+)\")\)\]", project.text(path)):
+        name = match.group(1) or match.group(2)
+        others = {member.name for other in types(project)[path] for member in [*other.fields, *other.methods]}
+        line = project.text(path).count("\n", 0, match.start()) + 1
+        if name not in members and name not in others:
+            yield Violation(path, line, "test-method", f"ValueSource: there is no source {name}")
+        elif name in members and not {"static", "const"} & members[name].modifiers:
+            yield Violation(path, line, "test-method", f"ValueSource: {name} must be static")
 
 
 def _fixture(path: str, declaration: Declaration, is_made_by_unity: bool) -> Iterator[Violation]:

@@ -44,6 +44,8 @@ BREAKAGES = {
     "reference to itself": asmdef(IO, '"Guidewire.Core"', '"Guidewire.Core", "Guidewire.Io"', "asmdef-reference"),
     "reference to a package that is not there": asmdef(PLAYER, '"Guidewire.Io"', '"Guidewire.Io", "Unity.Burst"',
                                                        "asmdef-reference"),
+    "namespace of an assembly that is not referenced": Breakage(
+        replace(LOOP, "^using UnityEngine;", "using Guidewire.Editor;\nusing UnityEngine;"), PLAYER, "asmdef-needed"),
     "reference missing": asmdef(PLAYER, r'"Guidewire.Core",\s*', "", "asmdef-needed"),
     "reference of the editor missing": asmdef(EDITOR, r',\s*"Guidewire.Runtime"', "", "asmdef-needed"),
     "reference of the tests missing": asmdef(TESTS, r'"Guidewire.Io",\s*', "", "asmdef-needed"),

@@ -93,6 +93,8 @@ BREAKAGES = {
     "manifest without dependencies": Breakage(write(MANIFEST, "{}\n"), MANIFEST, "json"),
     "manifest that is a list": Breakage(write(MANIFEST, "[]\n"), MANIFEST, "json"),
     "manifest gone": Breakage(remove(MANIFEST), MANIFEST, "json"),
+    "embedded package without a name": Breakage(write("Packages/own/package.json", "{}\n"), "Packages/own/package.json",
+                                                "package-file"),
     "registry without scopes": edit(MANIFEST, r"^\{", '{\n  "scopedRegistries": [{"name": "a", "url": "b"}],', "json"),
     "testables that are a word": edit(MANIFEST, r"^\{", '{\n  "testables": "a",', "json"),
     "conflict in the manifest": edit(MANIFEST, r"^\{", "<<<<<<< HEAD\n{", "text-conflict"),

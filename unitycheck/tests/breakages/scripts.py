@@ -143,6 +143,13 @@ BREAKAGES = {
     "SendMessage to nobody": odd('private void Start() { SendMessage("Blink"); }', "script-invoke"),
     "key control's message renamed": Breakage(replace(KEYS, r"void Update\(\)", "void Updates()"), KEYS,
                                               "script-message"),
+    "scene that is not there": odd("private void Start() { UnityEngine.SceneManagement.SceneManager.LoadScene("
+                                   '"Nowhere"); }', "name-unknown"),
+    "tag that is not there": odd('private void Start() { GameObject.FindWithTag("Wires"); }', "name-unknown"),
+    "layer that is not there": odd('private int L() { return LayerMask.NameToLayer("Wires"); }', "name-unknown"),
+    "axis that is not there": odd('private void Update() { Input.GetAxis("Horizontl"); }', "name-unknown"),
+    "resource that is not there": odd('private void Start() { Resources.Load<Mesh>("wire"); }', "name-unknown"),
+    "enum of 64 bits": stored("[SerializeField] private E _e; public enum E : long { A }"),
     "Unity's editor in a player": Breakage(insert(LOOP, "private void Log() { UnityEditor.AssetDatabase.Refresh(); }"),
                                            LOOP, "editor-in-player"),
     "editor under the wrong condition": Breakage(replace(

@@ -67,6 +67,7 @@ BREAKAGES = {
     "source by a name that is not there": method('[TestCaseSource("Bs")] public void A(int a) { }'),
     "source that is not static": method("private IEnumerable<int> Bs => new[] { 1 };"
                                         " [TestCaseSource(nameof(Bs))] public void A(int a) { }"),
+    "values that are not there": method("[Test] public void A([ValueSource(nameof(Bs))] int a) { }"),
     "set-up with a parameter": method("[Test] public void A() { } [SetUp] public void B(int a) { }"),
     "set-up that is private": method("[Test] public void A() { } [SetUp] private void B() { }"),
     "tear-down that returns": method("[Test] public void A() { } [TearDown] public int B() { return 1; }"),
