@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 from typing import Iterator
 
+from unitycheck.asmdefs import assemblies, owner
 from unitycheck.csharp import Token, tokens
 from unitycheck.project import Project
 from unitycheck.violation import Violation
@@ -42,6 +43,22 @@ MEMBERS = {
     ("RuntimeInformation", "RuntimeIdentifier"), ("CancellationTokenSource", "TryReset"),
 }
 
+# Static members of netstandard2.1 that .NET Framework, the profile that editor-only assemblies may get, does not have:
+# the difference of the two reference assemblies. One such call there stops all compilation.
+FRAMEWORK_LACKS = {
+    "Array": {"Fill"}, "BitConverter": {"Int32BitsToSingle", "SingleToInt32Bits", "TryWriteBytes"},
+    "Convert": {"TryFromBase64Chars", "TryFromBase64String", "TryToBase64Chars"},
+    "double": {"IsFinite", "IsNegative", "IsNormal", "IsSubnormal"},
+    "File": {"AppendAllLinesAsync", "AppendAllTextAsync", "ReadAllBytesAsync", "ReadAllLinesAsync", "ReadAllTextAsync",
+             "WriteAllBytesAsync", "WriteAllLinesAsync", "WriteAllTextAsync"},
+    "Path": {"GetRelativePath", "IsPathFullyQualified", "Join", "TryJoin"}, "Enumerable": {"SkipLast", "TakeLast"},
+    "Math": {"Acosh", "Asinh", "Atanh", "Cbrt", "Clamp"}, "string": {"Create"},
+    "StringComparer": {"FromComparison"}, "Interlocked": {"MemoryBarrierProcessWide"},
+    "Thread": {"GetCurrentProcessorId"}, "Type": {"MakeGenericMethodParameter"},
+}
+FRAMEWORK_LACKS |= {"float": FRAMEWORK_LACKS["double"], "Double": FRAMEWORK_LACKS["double"],
+                    "Single": FRAMEWORK_LACKS["double"], "String": FRAMEWORK_LACKS["string"]}
+
 NAMESPACES = (
     ("System", "Text", "Json"), ("System", "Runtime", "Intrinsics"), ("System", "Collections", "Immutable"),
     ("System", "Collections", "Frozen"), ("System", "Numerics", "Tensors"), ("System", "Threading", "Channels"),
@@ -73,7 +90,8 @@ def scan(source: str) -> list[tuple[int, str]]:
         name = token.text[:-len("Attribute")] if token.text.endswith("Attribute") else token.text
         if name in NAMES:
             found.append((token.line, name))
-        if after == "." and before != "." and (token.text, member) in MEMBERS:
+        is_outermost = before != "." or (i > 1 and items[i - 2].text == "System")
+        if after == "." and is_outermost and (token.text, member) in MEMBERS:
             found.append((token.line, f"{token.text}.{member}"))
         if token.text == "Unsafe" and after == ".":
             found.append((token.line, "System.Runtime.CompilerServices.Unsafe"))
@@ -85,8 +103,22 @@ def scan(source: str) -> list[tuple[int, str]]:
     return sorted(set(found))
 
 
+@functools.lru_cache(maxsize=4096)
+def framework_scan(source: str) -> list[tuple[int, str]]:
+    """(line, name) for every static member that .NET Framework lacks."""
+    items = tokens(source)
+    return [(token.line, f"{token.text}.{items[i + 2].text}") for i, token in enumerate(items[:-2])
+            if token.text in FRAMEWORK_LACKS and items[i + 1].text == "."
+            and items[i + 2].text in FRAMEWORK_LACKS[token.text]
+            and (not i or items[i - 1].text != "." or items[i - 2].text == "System")]
+
+
 def check(project: Project) -> Iterator[Violation]:
-    """Rule api: outside `#if NET8_0_OR_GREATER` only what netstandard2.1 has."""
+    """Rules api (outside `#if NET8_0_OR_GREATER` only what netstandard2.1 has) and api-editor."""
     for path in project.assets(".cs"):
         for line, name in scan(project.text(path)):
             yield Violation(path, line, "api", f"{name} is not in Unity's netstandard2.1")
+        assembly = owner(assemblies(project), path)
+        if assembly is not None and assembly.is_editor_only:
+            for line, name in framework_scan(project.text(path)):
+                yield Violation(path, line, "api-editor", f"{name} may be missing in an editor-only assembly")

@@ -21,14 +21,18 @@ _NEVER = re.compile(r"^(NET\d\w*|NETCOREAPP\w*|NETFRAMEWORK)$")
 
 @dataclass(frozen=True)
 class Token:
-    """One token. kind: word, number, char, text or mark; a text token's `text` is its opening quote with prefixes."""
+    """One token. kind: word, number, char, text or mark.
+
+    A text token's `text` is its opening quote with prefixes, and `value` what stands between the quotes, as written.
+    """
 
     kind: str
     text: str
     line: int
+    value: str = ""
 
 
-def _truth(condition: str) -> bool | None:
+def _truth(condition: str, is_player: bool) -> bool | None:
     """The value of an #if condition in Unity; None where it depends on the platform."""
     words = re.findall(r"\w+|&&|\|\||[!()=]=?", condition)
     position = 0
@@ -46,7 +50,7 @@ def _truth(condition: str) -> bool | None:
             return value
         if word == "true":
             return True
-        return False if word == "false" or _NEVER.match(word) else None
+        return False if word == "false" or _NEVER.match(word) or (is_player and word == "UNITY_EDITOR") else None
 
     def both() -> bool | None:
         nonlocal position
@@ -69,7 +73,7 @@ def _truth(condition: str) -> bool | None:
     return either()
 
 
-def unity_source(source: str) -> str:
+def unity_source(source: str, is_player: bool = False) -> str:
     """The source with directives, and branches that Unity never compiles, replaced by empty lines."""
     kept = []
     stack: list[tuple[bool, bool]] = []  # (this branch may be compiled, a branch before it always is)
@@ -79,13 +83,13 @@ def unity_source(source: str) -> str:
             word, condition = directive.groups()
             condition = condition.split("//")[0]
             if word == "if":
-                value = _truth(condition)
+                value = _truth(condition, is_player)
                 stack.append((value is not False, value is True))
             elif stack and word == "endif":
                 stack.pop()
             elif stack:
                 done = stack[-1][1]
-                value = True if word == "else" else _truth(condition)
+                value = True if word == "else" else _truth(condition, is_player)
                 stack[-1] = (not done and value is not False, done or value is True)
         is_directive = directive or re.match(r"\s*#\s*\w+", line)
         kept.append("" if is_directive or not all(live for live, _ in stack) else line)
@@ -155,7 +159,8 @@ def _scan(source: str, start: int, end: int, line: int) -> Iterator[Token]:
             stop, holes = _string_end(source, position, text)
             if text.count('"') % 2 == 0 and text.count('"') < 3:
                 text = text[:-1]
-            yield Token("text", text, line)
+            opening = match.end() - (len(match.group()) - len(text))
+            yield Token("text", text, line, source[opening:max(opening, stop - text.count('"'))])
             for hole_start, hole_end in holes:
                 hole_line = line + source.count("\n", position, hole_start)
                 # A colon outside brackets starts the format, which is no code.
@@ -179,10 +184,13 @@ def _format_start(source: str, start: int, end: int) -> int:
     return end
 
 
-@functools.lru_cache(maxsize=2048)
-def tokens(source: str) -> list[Token]:
-    """The tokens that Unity's compiler could see. Every rule reads the same list: none may change it."""
-    source = unity_source(source)
+@functools.lru_cache(maxsize=8192)
+def tokens(source: str, is_player: bool = False) -> list[Token]:
+    """The tokens that Unity's compiler could see, for players only or for editor and players.
+
+    Every rule reads the same list: none may change it.
+    """
+    source = unity_source(source, is_player)
     return list(_scan(source, 0, len(source), 1))
 
 

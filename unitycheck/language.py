@@ -253,8 +253,12 @@ def scan(source: str) -> list[tuple[int, str]]:
     return sorted(set(found))
 
 
-def _init_rules(path: str, source: str) -> Iterator[tuple[int, str]]:
-    items = tokens(source)
+@functools.lru_cache(maxsize=4096)
+def _init_rules(source: str) -> tuple[tuple[int, str], ...]:
+    return tuple(_inits(tokens(source)))
+
+
+def _inits(items: list[Token]) -> Iterator[tuple[int, str]]:
     for i, token in enumerate(items):
         after = items[i + 1].text if i + 1 < len(items) else ""
         before = items[i - 1].text if i else ""
@@ -273,5 +277,5 @@ def check(project: Project) -> Iterator[Violation]:
         for line, feature in scan(project.text(path)):
             yield Violation(path, line, "language", f"{feature} is C# {_VERSION[feature]}; Unity compiles C# 9")
         if not has_init:
-            for line, feature in _init_rules(path, project.text(path)):
+            for line, feature in _init_rules(project.text(path)):
                 yield Violation(path, line, "init-accessor", f"{feature} needs a class IsExternalInit; Unity has none")

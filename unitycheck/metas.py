@@ -14,20 +14,36 @@ GUID = re.compile(r"^[0-9a-f]{32}$")
 KNOWN_GUIDS = "unitycheck/known_guids.txt"
 
 _TRAILER = "  userData: \n  assetBundleName: \n  assetBundleVariant: \n"
-_TEXT = {".json", ".txt", ".md", ".csv", ".xml", ".html", ".yaml", ".bytes"}
+# The importers that Unity itself names for an extension. What is in no table is taken as Unity wrote it.
+_IMPORTERS = {
+    "DefaultImporter": ".unity .rsp .csproj .sln .blend1",
+    "TextScriptImporter": ".json .txt .md .csv .xml .html .htm .yaml .bytes .fnt",
+    "MonoImporter": ".cs", "AssemblyDefinitionImporter": ".asmdef", "AssemblyDefinitionReferenceImporter": ".asmref",
+    "NativeFormatImporter": ".mat .asset .anim .controller .overrideController .mask .playable .renderTexture "
+                            ".cubemap .flare .guiskin .physicMaterial .physicsMaterial2D .terrainlayer .lighting "
+                            ".mixer .shadervariants .preset .brush .giparams .spriteatlas",
+    "PrefabImporter": ".prefab", "PluginImporter": ".dll .so .dylib .bundle .aar .jar .a",
+    "TextureImporter": ".png .jpg .jpeg .tga .psd .bmp .tif .tiff .gif .exr .hdr .pict .iff .webp",
+    "ShaderImporter": ".shader", "ComputeShaderImporter": ".compute",
+    "ShaderIncludeImporter": ".hlsl .cginc .glslinc",
+    "ModelImporter": ".fbx .obj .dae .3ds .dxf .blend .max .ma .mb",
+    "AudioImporter": ".wav .mp3 .ogg .aif .aiff .flac .mod .it .s3m .xm", "TrueTypeFontImporter": ".ttf .otf .dfont",
+    "VideoClipImporter": ".mp4 .mov .webm .avi .m4v", "SpriteAtlasImporter": ".spriteatlasv2",
+    "ScriptedImporter": ".uxml .uss .tss .inputactions .shadergraph .shadersubgraph",
+}
+_IMPORTER_OF = {suffix: name for name, suffixes in _IMPORTERS.items() for suffix in suffixes.split()}
+_RESERVED = {"0" * 32, "0000000000000000e000000000000000", "0000000000000000f000000000000000",
+             "0000000000000000d000000000000000", "0000000000000000c000000000000000"}
 
 
-def importer(path: str, is_folder: bool) -> str:
-    """The name of the importer that Unity uses for a path."""
-    suffix = PurePosixPath(path).suffix
+def importer(path: str, is_folder: bool) -> str | None:
+    """The name of the importer that Unity uses for a path; None where the extension is in no table."""
     if is_folder:
         return "DefaultImporter"
     if PurePosixPath(path).name == "package.json":
         return "PackageManifestImporter"
-    if suffix in _TEXT:
-        return "TextScriptImporter"
-    return {".cs": "MonoImporter", ".asmdef": "AssemblyDefinitionImporter", ".mat": "NativeFormatImporter",
-            ".asset": "NativeFormatImporter"}.get(suffix, "DefaultImporter")
+    suffix = PurePosixPath(path).suffix
+    return _IMPORTER_OF.get(suffix, _IMPORTER_OF.get(suffix.lower())) if suffix else "DefaultImporter"
 
 
 def stable_guid(path: str) -> str:
@@ -37,7 +53,7 @@ def stable_guid(path: str) -> str:
 
 def meta_text(path: str, is_folder: bool) -> str:
     """The whole .meta file of a new asset."""
-    name = importer(path, is_folder)
+    name = importer(path, is_folder) or "DefaultImporter"
     text = f"fileFormatVersion: 2\nguid: {stable_guid(path)}\n"
     if is_folder:
         text += "folderAsset: yes\n"
@@ -79,7 +95,7 @@ def guid_of(project: Project, path: str) -> str:
 
 def guids(project: Project) -> dict[str, str]:
     """Asset path by GUID, for everything that has a .meta."""
-    return {guid_of(project, path): path for path, _ in _assets(project)}
+    return project.derived("guids", lambda p: {guid_of(p, path): path for path, _ in _assets(p)})
 
 
 def _known(project: Project) -> set[tuple[str, str]]:
@@ -103,11 +119,17 @@ def check(project: Project) -> Iterator[Violation]:
             yield Violation(meta, 1, "meta-form", "must start with 'fileFormatVersion: 2', then 'guid: '")
             continue
         guid = guid_of(project, path)
+        if text.count("\nguid:") > 1:
+            yield Violation(meta, 3, "meta-form", "more than one 'guid:'")
+        if guid in _RESERVED:
+            yield Violation(meta, 2, "guid-form", f"guid '{guid}' is one of Unity's own")
+            continue
         if not GUID.match(guid):
             yield Violation(meta, 2, "guid-form", f"guid '{guid}' is not 32 lowercase hexadecimal digits")
             continue
         if guid in seen:
             yield Violation(meta, 2, "guid-twice", f"guid {guid} also belongs to {seen[guid]}")
+            yield Violation(f"{seen[guid]}.meta", 2, "guid-twice", f"guid {guid} also belongs to {path}")
         seen[guid] = path
         if guid != stable_guid(path) and (path, guid) not in known:
             yield Violation(meta, 2, "guid-changed", f"guid {guid} is not that of this path ({stable_guid(path)}); "
@@ -126,5 +148,6 @@ def _importer_rules(path: str, is_folder: bool, meta: str, text: str) -> Iterato
     blocks = [line[:-1] for line in lines if re.match(r"^\w+Importer:$", line)]
     expected = importer(path, is_folder)
     # Unity 6 writes new scripts' metas without any importer block.
-    if blocks != [expected] and not (path.endswith(".cs") and not blocks):
+    is_short = path.endswith(".cs") and not blocks
+    if (expected is not None or len(blocks) != 1) and blocks != [expected] and not is_short:
         yield Violation(meta, 3, "meta-importer", f"importer {', '.join(blocks) or 'missing'}, expected {expected}")

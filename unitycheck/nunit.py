@@ -9,12 +9,15 @@ from unitycheck.csharp import closing, tokens
 from unitycheck.project import Project
 from unitycheck.violation import Violation
 
-# Owner.Member, or a single name, that NUnit gained after 3.5.
+# Owner.Member, or a single name, that NUnit gained after 3.5: those of 3.6 to 3.14 by the difference of the libraries.
 MEMBERS = {("Assert", "Multiple"), ("Assert", "MultipleAsync"), ("Assert", "EnterMultipleScope"), ("Assert", "Warn"),
            ("Assert", "ThatAsync"), ("Is", "AnyOf"), ("Warn", "If"), ("Warn", "Unless"),
-           ("TestContext", "AddTestAttachment"), ("TestContext", "Progress")}
+           ("TestContext", "Progress"), ("Has", "One"), ("Is", "Default"),
+           ("Contains", "KeyValuePair")}
 NAMES = {"UsingPropertiesComparer", "DefaultFloatingPointTolerance", "NonParallelizable", "FixtureLifeCycle",
-         "CancelAfter", "SetArgDisplayNames", "AnyOf", "ClassicAssert", "ItemAt"}
+         "CancelAfter", "SetArgDisplayNames", "AnyOf", "ClassicAssert", "ItemAt", "WithValue", "IgnoreWhiteSpace",
+         "IgnoredTestCaseData", "CurrentRepeatCount", "DictionaryContainsKeyValuePairConstraint", "EmptyGuidConstraint",
+         "CountZeroConstraint", "AnyOfConstraint", "IndexerConstraint", "LifeCycle", "AddTestAttachment"}
 
 
 @functools.lru_cache(maxsize=2048)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import posixpath
+import re
 from typing import Any, Iterator
 
 from unitycheck.project import Project, strict_json
@@ -35,36 +37,99 @@ MODULE_OF = {
 }
 
 
+# Built-in modules of 6000.x.
+MODULES = {
+    "accessibility", "adaptiveperformance", "ai", "amd", "androidjni", "animation", "assetbundle", "audio", "cloth",
+    "clustering", "director", "hierarchycore", "imageconversion", "imgui", "jsonserialize", "nvidia", "particlesystem",
+    "physics", "physics2d", "physicscore2d", "screencapture", "subsystems", "terrain", "terrainphysics", "tilemap",
+    "ui", "uielements", "umbra", "unityanalytics", "unitywebrequest", "unitywebrequestassetbundle",
+    "unitywebrequestaudio", "unitywebrequesttexture", "unitywebrequestwww", "vectorgraphics", "vehicles", "video", "vr",
+    "virtualtexturing", "wind", "xr",
+}
+PINNED = (6000, 0, 58)
+_VERSION = re.compile(r"^\d{1,6}\.\d{1,6}\.\d{1,6}(-[\w.-]+)?(\+[\w.-]+)?$")
+_EDITOR = re.compile(r"^m_EditorVersion: (\d{1,6})\.(\d{1,6})\.(\d{1,6})")
+
+
 def parsed(project: Project, path: str) -> tuple[Any, Violation | None]:
     """The JSON of a file, or the violation that says why it is none."""
-    if not project.exists(path):
+    if not project.is_file(path):
         return None, Violation(path, 0, "json", "the file is missing")
     try:
         return strict_json(project.text(path)), None
     except ValueError as error:
         return None, Violation(path, getattr(error, "lineno", 0), "json", f"not strict JSON: {error}")
+    except RecursionError:
+        return None, Violation(path, 0, "json", "not strict JSON: nested too deep")
 
 
 def dependencies(project: Project) -> dict[str, str]:
     """The manifest's packages, empty if it cannot be read."""
-    manifest, _ = parsed(project, MANIFEST)
-    found = manifest.get("dependencies") if isinstance(manifest, dict) else None
-    return found if isinstance(found, dict) else {}
+
+    def make(p: Project) -> dict[str, str]:
+        manifest, _ = parsed(p, MANIFEST)
+        found = manifest.get("dependencies") if isinstance(manifest, dict) else None
+        return found if isinstance(found, dict) else {}
+
+    return project.derived("dependencies", make)
 
 
-def _version_rules(path: str, name: str, version: Any) -> Iterator[Violation]:
+def is_newer_editor(project: Project) -> bool:
+    """Whether the project was opened by a newer editor than the pinned one: it brings newer packages along."""
+    path = "ProjectSettings/ProjectVersion.txt"
+    found = _EDITOR.match(project.text(path)) if project.is_file(path) else None
+    return found is not None and tuple(map(int, found.groups())) > PINNED
+
+
+def _numbers(version: str) -> tuple[int, ...]:
+    return tuple(int(part) for part in version.partition("-")[0].partition("+")[0].split("."))
+
+
+def _version_rules(project: Project, path: str, name: str, version: Any) -> Iterator[Violation]:
     if not isinstance(version, str):
         yield Violation(path, 0, "package-version", f"{name}: the version must be a string")
-    elif name.startswith("com.unity.modules.") and version != "1.0.0":
-        yield Violation(path, 0, "package-version", f"{name} {version}: built-in modules are 1.0.0")
-    elif name in VERSIONS and version != VERSIONS[name]:
-        yield Violation(path, 0, "package-version", f"{name} {version}: the pinned editor has {VERSIONS[name]}")
-    elif not version.startswith("file:") and not name.startswith("com.unity.modules.") and name not in VERSIONS:
+    elif version.startswith("file:"):
+        yield from _local(project, path, name, version[len("file:"):])
+    elif name.startswith("com.unity.modules."):
+        if name.rpartition(".")[2] not in MODULES:
+            yield Violation(path, 0, "package-unknown", f"{name}: Unity has no such module")
+        elif version != "1.0.0":
+            yield Violation(path, 0, "package-version", f"{name} {version}: built-in modules are 1.0.0")
+    elif not _VERSION.match(version):
+        yield Violation(path, 0, "package-version", f"{name}: '{version}' is no version such as 1.2.3")
+    elif name not in VERSIONS:
         yield Violation(path, 0, "package-unknown", f"{name} is not in the table of packages that were checked")
+    elif is_newer_editor(project):
+        if _numbers(version) < _numbers(VERSIONS[name]):
+            yield Violation(path, 0, "package-version", f"{name} {version}: at least {VERSIONS[name]}")
+    elif version != VERSIONS[name]:
+        yield Violation(path, 0, "package-version", f"{name} {version}: the pinned editor has {VERSIONS[name]}")
+
+
+def _local(project: Project, path: str, name: str, place: str) -> Iterator[Violation]:
+    target = posixpath.normpath(posixpath.join("Packages", place))
+    if target.startswith(("..", "/")) or re.match(r"^[A-Za-z]:", place):
+        yield Violation(path, 0, "package-file", f"{name}: '{place}' is outside the repository")
+    elif place.endswith((".tgz", ".tar.gz")):
+        if not project.is_file(target):
+            yield Violation(path, 0, "package-file", f"{name}: there is no file {target}")
+    elif not project.is_file(f"{target}/package.json"):
+        yield Violation(path, 0, "package-file", f"{name}: there is no {target}/package.json")
+    else:
+        yield from _package(project, f"{target}/package.json", name)
+
+
+def _package(project: Project, path: str, name: str) -> Iterator[Violation]:
+    data, problem = parsed(project, path)
+    if problem:
+        yield problem
+    elif not isinstance(data, dict) or data.get("name") != name or not isinstance(data.get("version"), str) \
+            or not _VERSION.match(data["version"]):
+        yield Violation(path, 0, "package-file", f"needs an object with name '{name}' and a version such as 1.2.3")
 
 
 def check(project: Project) -> Iterator[Violation]:
-    """Rules json, package-version, package-unknown, package-missing."""
+    """Rules json, package-version, package-unknown, package-missing, package-file."""
     manifest, problem = parsed(project, MANIFEST)
     if problem:
         yield problem
@@ -73,15 +138,36 @@ def check(project: Project) -> Iterator[Violation]:
         yield Violation(MANIFEST, 0, "json", "needs an object 'dependencies'")
         return
     for name, version in manifest["dependencies"].items():
-        yield from _version_rules(MANIFEST, name, version)
+        yield from _version_rules(project, MANIFEST, name, version)
     for name in REQUIRED:
         if name not in manifest["dependencies"]:
             yield Violation(MANIFEST, 0, "package-missing", f"needs {name}")
+    for key, kind in (("scopedRegistries", list), ("testables", list), ("enableLockFile", bool)):
+        if not isinstance(manifest.get(key, kind()), kind):
+            yield Violation(MANIFEST, 0, "json", f"'{key}' must be a {kind.__name__}")
+    for registry in manifest["scopedRegistries"] if isinstance(manifest.get("scopedRegistries"), list) else []:
+        if not isinstance(registry, dict) or not all(isinstance(registry.get(key), kind) for key, kind in
+                                                     (("name", str), ("url", str), ("scopes", list))):
+            yield Violation(MANIFEST, 0, "json", "an entry of scopedRegistries needs 'name', 'url' and 'scopes'")
+    for path in project.embedded_packages():
+        yield from _package(project, path, path.split("/")[1])
     if project.exists(LOCK):
-        lock, problem = parsed(project, LOCK)
-        if problem:
-            yield problem
-            return
-        for name, entry in lock.get("dependencies", {}).items():
-            if name in VERSIONS:
-                yield from _version_rules(LOCK, name, entry.get("version"))
+        yield from _lock(project, manifest["dependencies"])
+
+
+def _lock(project: Project, asked: dict[str, Any]) -> Iterator[Violation]:
+    """The lock is Unity's to write; what it resolves may be newer than what is asked for, never older."""
+    lock, problem = parsed(project, LOCK)
+    if problem:
+        yield problem
+        return
+    entries = lock.get("dependencies") if isinstance(lock, dict) else None
+    if not isinstance(entries, dict) or not all(isinstance(entry, dict) and isinstance(entry.get("version"), str)
+                                                for entry in entries.values()):
+        yield Violation(LOCK, 0, "json", "needs an object 'dependencies' whose entries have a 'version'")
+        return
+    for name, entry in entries.items():
+        version, least = entry["version"], asked.get(name, VERSIONS.get(name))
+        if isinstance(least, str) and _VERSION.match(least) and _VERSION.match(version) \
+                and _numbers(version) < _numbers(least):
+            yield Violation(LOCK, 0, "package-version", f"{name} {version}: at least {least}")

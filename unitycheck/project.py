@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import copy
 import json
 from pathlib import Path
-from typing import Any, Iterator
+from typing import Any, Callable, Iterator, Mapping
 
 YAML_SUFFIXES = (".unity", ".mat", ".asset", ".prefab")
 TEXT_SUFFIXES = YAML_SUFFIXES + (".meta", ".cs", ".asmdef", ".json", ".rsp", ".txt", ".md")
@@ -43,9 +44,39 @@ class Project:
         self.root = root
         self.asset_files: list[str] = []
         self.asset_folders: list[str] = []
+        self._settings: list[str] = []
+        self._changes: dict[str, bytes | None] = {}
+        self._data: dict[str, bytes] = {}
         self._text: dict[str, str] = {}
+        self._exists: dict[str, bool] = {}
+        self._derived: dict[Any, Any] = {}
         for base in self._asset_roots():
             self._list(base)
+        if (root / "ProjectSettings").is_dir():
+            self._settings = [f"ProjectSettings/{entry.name}" for entry in sorted((root / "ProjectSettings").iterdir())
+                              if entry.is_file() and is_visible(entry.name)]
+
+    def with_changes(self, changes: Mapping[str, bytes | None]) -> Project:
+        """The same project with other bytes in some files, or (None) without them; nothing on disk is touched."""
+        other = copy.copy(self)
+        other._changes = {**self._changes, **changes}
+        other._text = {path: text for path, text in self._text.items() if path not in changes}
+        other._derived = {}
+        gone = {path for path, data in changes.items() if data is None}
+        new = {path for path, data in changes.items() if data is not None}
+        added = {path for path in new if path.startswith("Assets/") and all(map(is_visible, path.split("/")))}
+        other.asset_files = sorted((set(self.asset_files) - gone) | added)
+        folders = {path.rpartition("/")[0] for path in added} - {"Assets"}
+        other.asset_folders = sorted(set(self.asset_folders) | folders)
+        other._settings = sorted((set(self._settings) - gone) | {path for path in new
+                                                                 if path.startswith("ProjectSettings/")})
+        return other
+
+    def derived(self, name: str, make: Callable[[Project], Any]) -> Any:
+        """What is computed from the whole project once, whichever rule asks first. Nobody may change it."""
+        if name not in self._derived:
+            self._derived[name] = make(self)
+        return self._derived[name]
 
     def _asset_roots(self) -> Iterator[Path]:
         yield self.root / "Assets"
@@ -70,11 +101,29 @@ class Project:
 
     def exists(self, path: str) -> bool:
         """True if a file or folder stands at this repository path."""
-        return (self.root / path).exists()
+        if path in self._changes:
+            return self._changes[path] is not None
+        if any(data is not None and changed.startswith(f"{path}/") for changed, data in self._changes.items()):
+            return True
+        if path not in self._exists:
+            try:
+                self._exists[path] = (self.root / path).exists()
+            except (OSError, ValueError):  # a name that no file can have
+                self._exists[path] = False
+        return self._exists[path]
+
+    def is_file(self, path: str) -> bool:
+        """True if a file stands at this repository path."""
+        return self.exists(path) and (path in self._changes or (self.root / path).is_file())
 
     def data(self, path: str) -> bytes:
         """The bytes of a file."""
-        return (self.root / path).read_bytes()
+        changed = self._changes.get(path)
+        if changed is not None:
+            return changed
+        if path not in self._data:
+            self._data[path] = (self.root / path).read_bytes()
+        return self._data[path]
 
     def text(self, path: str) -> str:
         """The text of a file; bytes that are not UTF-8 become U+FFFD (the text rules report them)."""
@@ -86,13 +135,17 @@ class Project:
         """Files that Unity imports whose names end in one of the suffixes."""
         return [path for path in self.asset_files if path.endswith(suffixes)]
 
+    def embedded_packages(self) -> list[str]:
+        """The package.json of each folder under Packages."""
+        folder = self.root / "Packages"
+        entries = folder.iterdir() if folder.is_dir() else ()
+        found = {f"Packages/{entry.name}/package.json" for entry in entries if (entry / "package.json").is_file()}
+        found |= {path for path in self._changes if path.startswith("Packages/") and path.endswith("/package.json")}
+        return sorted(path for path in found if self.exists(path) and path.count("/") == 2)
+
     def settings(self) -> list[str]:
         """Files directly under ProjectSettings."""
-        folder = self.root / "ProjectSettings"
-        if not folder.is_dir():
-            return []
-        return [f"ProjectSettings/{entry.name}" for entry in sorted(folder.iterdir())
-                if entry.is_file() and is_visible(entry.name)]
+        return self._settings
 
     def yaml_files(self) -> list[str]:
         """Everything in Unity's YAML: scenes, materials and settings (metas have their own rules)."""

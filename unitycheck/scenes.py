@@ -1,33 +1,29 @@
-"""Scenes and materials: objects, components and references that agree with each other and with the scripts."""
+"""Scenes and materials: documents, objects, components and transforms that agree with each other."""
 
 from __future__ import annotations
 
+import math
 import re
 from typing import Any, Iterator
 
-from unitycheck.asmdefs import load, owner
-from unitycheck.metas import guids
+from unitycheck import classids
+from unitycheck.classids import CLASSES
 from unitycheck.packages import dependencies
 from unitycheck.project import Project
-from unitycheck.scripts import Field, behaviours
 from unitycheck.unityyaml import Document, FormError, parse
 from unitycheck.violation import Violation
 
-CLASSES = {1: "GameObject", 4: "Transform", 5: "TimeManager", 20: "Camera", 21: "Material", 23: "MeshRenderer",
-           29: "OcclusionCullingSettings", 33: "MeshFilter", 104: "RenderSettings", 108: "Light",
-           114: "MonoBehaviour", 120: "LineRenderer",
-           129: "PlayerSettings",
-           157: "LightmapSettings", 159: "EditorSettings", 196: "NavMeshSettings", 1045: "EditorBuildSettings",
-           890905787: "VersionControlSettings", 1660057539: "SceneRoots", 81: "AudioListener"}
 SETTINGS = {1: 29, 2: 104, 3: 157, 4: 196}
 ROOTS = 1660057539
-_OWN_KEYS = {"m_ObjectHideFlags", "m_CorrespondingSourceObject", "m_PrefabInstance", "m_PrefabAsset", "m_GameObject",
-             "m_Enabled", "m_EditorHideFlags", "m_Script", "m_Name", "m_EditorClassIdentifier"}
-_NUMBER = re.compile(r"^-?\d+(\.\d+)?(e[+-]?\d+)?$")
-_INTEGER = re.compile(r"^-?\d+$")
+TRANSFORMS = (4, 224)
+_SINGLE = (20, 23, 33, 81, 108, 120)    # components of which an object has one at most
+_INTEGER = re.compile(r"^-?\d{1,20}$")
+# Tags and layers that every project has.
+TAGS = {"Untagged", "Respawn", "Finish", "EditorOnly", "MainCamera", "Player", "GameController"}
+LAYERS = {0, 1, 2, 4, 5}
 
 
-def _id(reference: Any) -> int:
+def local_id(reference: Any) -> int:
     """The local file ID of a reference such as {fileID: 101}; 0 if it is none."""
     text = str(reference.get("fileID", "0")) if isinstance(reference, dict) else "0"
     return int(text) if _INTEGER.match(text) else 0
@@ -42,8 +38,7 @@ def documents(project: Project, path: str) -> tuple[list[Document], Violation | 
 
 
 def check(project: Project) -> Iterator[Violation]:
-    """Rules yaml-form, class-id, file-id, reference-local and, for scenes, scene-* and field-*."""
-    scripts = _Scripts(project)
+    """Rules yaml-form, class-id, file-id, reference-local and, for scenes, scene-*."""
     for path in project.yaml_files():
         found, problem = documents(project, path)
         if problem:
@@ -51,10 +46,7 @@ def check(project: Project) -> Iterator[Violation]:
             continue
         seen: dict[int, Document] = {}
         for document in found:
-            if CLASSES.get(document.class_id) != document.type:
-                expected = CLASSES.get(document.class_id, "not in the table of classes")
-                yield Violation(path, document.line, "class-id",
-                                f"class {document.class_id} is {expected}, not {document.type}")
+            yield from classids.check(path, document)
             if document.file_id in seen or document.file_id == 0 or not -2**63 <= document.file_id < 2**63:
                 yield Violation(path, document.line, "file-id",
                                 f"&{document.file_id} is zero, too large or used twice")
@@ -64,9 +56,9 @@ def check(project: Project) -> Iterator[Violation]:
             yield from _settings(path, found)
             yield from _hierarchy(path, seen)
             yield from _roots(path, seen)
+            yield from _labels(project, path, seen)
             for document in found:
-                if document.class_id == 114:
-                    yield from scripts.check(path, document)
+                yield from _keys(path, document)
                 if document.class_id == 81 and "com.unity.modules.audio" not in dependencies(project):
                     yield Violation(path, document.line, "module-missing",
                                     "AudioListener needs com.unity.modules.audio")
@@ -85,7 +77,7 @@ def _local_references(path: str, found: list[Document], seen: dict[int, Document
 
     for document in found:
         for reference in walk(document.data):
-            if not _INTEGER.match(str(reference["fileID"])) or (_id(reference) != 0 and _id(reference) not in seen):
+            if not _INTEGER.match(str(reference["fileID"])) or local_id(reference) not in {0, *seen}:
                 yield Violation(path, document.line, "reference-local",
                                 f"{document.type} &{document.file_id} points to fileID {reference['fileID']}, "
                                 "which is not in this file")
@@ -99,45 +91,66 @@ def _settings(path: str, found: list[Document]) -> Iterator[Violation]:
                             f"document {place + 1} must be {CLASSES[class_id]} &{file_id}")
 
 
+def components(game_object: Document) -> list[int]:
+    """The file IDs that a GameObject lists."""
+    listed = game_object.data.get("m_Component")
+    return [local_id(item.get("component")) for item in listed if isinstance(item, dict)] \
+        if isinstance(listed, list) else []
+
+
 def _hierarchy(path: str, seen: dict[int, Document]) -> Iterator[Violation]:
     listed: dict[int, int] = {}
     for document in seen.values():
         if document.class_id != 1:
             continue
-        components = document.data.get("m_Component")
-        ids = [_id(item.get("component")) for item in components if isinstance(item, dict)] \
-            if isinstance(components, list) else []
-        first = seen.get(ids[0]) if ids else None
-        if first is None or first.class_id != 4:
+        ids = components(document)
+        classes = [seen[number].class_id for number in ids if number in seen]
+        if classes[:1] not in ([4], [224]) or sum(classes.count(number) for number in TRANSFORMS) != 1:
             yield Violation(path, document.line, "scene-transform",
-                            f"GameObject &{document.file_id}: its first component must be a Transform")
+                            f"GameObject &{document.file_id}: its first component must be its only Transform")
+        for number in _SINGLE:
+            if classes.count(number) > 1:
+                yield Violation(path, document.line, "scene-component",
+                                f"GameObject &{document.file_id} has more than one {CLASSES[number]}")
         for component in ids:
             if component in listed:
                 yield Violation(path, document.line, "scene-component", f"&{component} is listed by two GameObjects")
             listed[component] = document.file_id
             target = seen.get(component)
-            if target is not None and _id(target.data.get("m_GameObject")) != document.file_id:
+            if target is not None and local_id(target.data.get("m_GameObject")) != document.file_id:
                 yield Violation(path, target.line, "scene-component",
                                 f"{target.type} &{component}: m_GameObject must be &{document.file_id}, which lists it")
     for document in seen.values():
         if "m_GameObject" in document.data and document.file_id not in listed:
             yield Violation(path, document.line, "scene-component",
                             f"{document.type} &{document.file_id} is in no m_Component list")
-        if document.class_id == 4:
+        if document.class_id in TRANSFORMS:
             yield from _family(path, document, seen)
+            yield from _place(path, document)
 
 
 def _family(path: str, document: Document, seen: dict[int, Document]) -> Iterator[Violation]:
     children = document.data.get("m_Children")
-    for child in (_id(item) for item in children) if isinstance(children, list) else ():
+    ids = [local_id(item) for item in children] if isinstance(children, list) else []
+    for child in ids:
         target = seen.get(child)
-        if target is not None and _id(target.data.get("m_Father")) != document.file_id:
+        if ids.count(child) > 1 or (target is not None and target.class_id not in TRANSFORMS):
+            yield Violation(path, document.line, "scene-parent",
+                            f"Transform &{document.file_id}: m_Children names &{child} twice, or no Transform")
+        if target is not None and local_id(target.data.get("m_Father")) != document.file_id:
             yield Violation(path, target.line, "scene-parent",
                             f"Transform &{child}: m_Father must be &{document.file_id}")
-    father = seen.get(_id(document.data.get("m_Father")))
+    above, ancestor = {document.file_id}, seen.get(local_id(document.data.get("m_Father")))
+    while ancestor is not None and ancestor.file_id not in above:
+        above.add(ancestor.file_id)
+        ancestor = seen.get(local_id(ancestor.data.get("m_Father")))
+    if ancestor is not None:
+        yield Violation(path, document.line, "scene-parent",
+                        f"Transform &{document.file_id}: its fathers go in a circle")
+    father = seen.get(local_id(document.data.get("m_Father")))
     if father is not None:
         listed = father.data.get("m_Children")
-        if not isinstance(listed, list) or document.file_id not in [_id(item) for item in listed]:
+        if not isinstance(listed, list) or document.file_id not in [local_id(item) for item in listed]:
             yield Violation(path, father.line, "scene-parent",
                             f"Transform &{father.file_id}: m_Children lacks &{document.file_id}")
 
@@ -145,68 +158,73 @@ def _family(path: str, document: Document, seen: dict[int, Document]) -> Iterato
 def _roots(path: str, seen: dict[int, Document]) -> Iterator[Violation]:
     roots = [document for document in seen.values() if document.class_id == ROOTS]
     fathers = {document.file_id for document in seen.values()
-               if document.class_id == 4 and _id(document.data.get("m_Father")) == 0}
+               if document.class_id in TRANSFORMS and local_id(document.data.get("m_Father")) == 0}
     if len(roots) != 1 or roots[0].file_id != 2**63 - 1:
         yield Violation(path, 0, "scene-roots", "needs one SceneRoots &9223372036854775807")
         return
     listed = roots[0].data.get("m_Roots")
-    ids = [_id(item) for item in listed] if isinstance(listed, list) else []
+    ids = [local_id(item) for item in listed] if isinstance(listed, list) else []
     if len(ids) != len(set(ids)) or set(ids) != fathers:
         yield Violation(path, roots[0].line, "scene-roots", f"m_Roots must list exactly {sorted(fathers)}, not {ids}")
 
 
-class _Scripts:
-    """What the scene's MonoBehaviours are checked against."""
-
-    def __init__(self, project: Project) -> None:
-        self._path_of = guids(project)
-        self._behaviours = behaviours(project)
-        self._asmdefs, _ = load(project)
-
-    def check(self, path: str, document: Document) -> Iterator[Violation]:
-        reference = document.data.get("m_Script")
-        guid = reference.get("guid", "") if isinstance(reference, dict) else ""
-        source = self._path_of.get(guid, "")
-        if not source.endswith(".cs"):
-            yield Violation(path, document.line, "scene-script",
-                            f"MonoBehaviour &{document.file_id}: m_Script is no script")
-            return
-        stem = source.rpartition("/")[2][:-len(".cs")]
-        script = next((script for script in self._behaviours.get(source, []) if script.name == stem), None)
-        if script is None:
-            yield Violation(path, document.line, "scene-script", f"{source} holds no MonoBehaviour {stem}")
-            return
-        assembly = owner(self._asmdefs, source)
-        if assembly is not None and assembly.is_editor_only:
-            yield Violation(path, document.line, "scene-script", f"{source} exists in the editor only")
-        fields = {stored.name: stored for stored in self._fields(script.name)}
-        for key, value in document.data.items():
-            if key in _OWN_KEYS:
-                continue
-            if key not in fields:
-                yield Violation(path, document.line, "field-unknown", f"{stem} stores no field '{key}' "
-                                f"(it stores {', '.join(sorted(fields)) or 'none'})")
-            else:
-                yield from _field_value(path, document, stem, fields[key], value)
-
-    def _fields(self, name: str) -> Iterator[Field]:
-        for scripts in self._behaviours.values():
-            for script in scripts:
-                if script.name == name:
-                    yield from script.fields
-                    for base in script.bases:
-                        yield from self._fields(base)
+# Keys that Unity always writes: where one is lost, what stands there is not what was saved.
+_KEYS = {1: ("m_Component", "m_Layer", "m_Name", "m_TagString", "m_IsActive"),
+         4: ("m_GameObject", "m_LocalRotation", "m_LocalPosition", "m_LocalScale", "m_Children", "m_Father"),
+         20: ("m_GameObject", "m_Enabled", "m_ClearFlags", "near clip plane", "far clip plane", "field of view",
+              "m_CullingMask"),
+         108: ("m_GameObject", "m_Enabled", "m_Type", "m_Color", "m_Intensity", "m_CullingMask"),
+         114: ("m_GameObject", "m_Enabled", "m_Script")}
 
 
-def _field_value(path: str, document: Document, stem: str, stored: Field, value: Any) -> Iterator[Violation]:
-    kind = stored.type.rstrip("?")
-    right = {"bool": value in ("0", "1"), "int": isinstance(value, str) and bool(_INTEGER.match(value)),
-             "float": isinstance(value, str) and bool(_NUMBER.match(value)),
-             "double": isinstance(value, str) and bool(_NUMBER.match(value)), "string": isinstance(value, str),
-             "Vector3": isinstance(value, dict) and set(value) == {"x", "y", "z"},
-             "Color": isinstance(value, dict) and set(value) == {"r", "g", "b", "a"},
-             "string[]": isinstance(value, list) and all(isinstance(item, str) for item in value)}
-    is_reference = isinstance(value, dict) and "fileID" in value
-    is_enum = isinstance(value, str) and bool(_INTEGER.match(value))
-    if not right.get(kind, is_reference or is_enum or isinstance(value, list)):
-        yield Violation(path, document.line, "field-value", f"{stem}.{stored.name} is a {kind}, not '{value}'")
+def _keys(path: str, document: Document) -> Iterator[Violation]:
+    is_whole = "m_ObjectHideFlags" in document.data and "m_PrefabInstance" in document.data
+    for key in _KEYS.get(document.class_id, ()) if is_whole else ():
+        if key not in document.data:
+            yield Violation(path, document.line, "scene-key", f"{document.type} &{document.file_id} has no '{key}'")
+
+
+def number(value: Any) -> float:
+    """A number as written; not a number where it is none."""
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        return math.nan
+
+
+def _place(path: str, document: Document) -> Iterator[Violation]:
+    """A transform's numbers: all finite, a rotation of length 1, no scale of 0."""
+    for key, axes in (("m_LocalPosition", "xyz"), ("m_LocalScale", "xyz"), ("m_LocalRotation", "xyzw")):
+        value = document.data.get(key)
+        if value is None:
+            continue
+        parts = [number(value.get(axis)) for axis in axes] if isinstance(value, dict) else [math.nan]
+        reason = "must be finite numbers" if not all(map(math.isfinite, parts)) else \
+            "may not be 0" if key == "m_LocalScale" and 0.0 in parts else \
+            "must have length 1" if key == "m_LocalRotation" and abs(math.hypot(*parts) - 1.0) > 1e-3 else None
+        if reason is not None:
+            yield Violation(path, document.line, "scene-place", f"Transform &{document.file_id}: {key} {reason}")
+
+
+def _labels(project: Project, path: str, seen: dict[int, Document]) -> Iterator[Violation]:
+    tags, layers = own_labels(project)
+    for document in seen.values():
+        if document.class_id != 1:
+            continue
+        tag = document.data.get("m_TagString", "Untagged")
+        if tag not in TAGS | tags:
+            yield Violation(path, document.line, "scene-tag",
+                            f"GameObject &{document.file_id}: there is no tag '{tag}'")
+        layer = number(document.data.get("m_Layer", "0"))
+        if layer not in LAYERS | layers:
+            yield Violation(path, document.line, "scene-layer",
+                            f"GameObject &{document.file_id}: there is no layer {document.data.get('m_Layer')}")
+
+
+def own_labels(project: Project) -> tuple[set[str], set[int]]:
+    """The tags and the numbers of the layers that the project has named."""
+    path = "ProjectSettings/TagManager.asset"
+    data = documents(project, path)[0] if project.is_file(path) else []
+    tags, layers = (data[0].data.get(key) for key in ("tags", "layers")) if data else ((), ())
+    return ({tag for tag in tags if isinstance(tag, str)} if isinstance(tags, list) else set(),
+            {place for place, name in enumerate(layers) if name} if isinstance(layers, list) else set())

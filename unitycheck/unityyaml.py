@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import functools
 import re
 from dataclasses import dataclass
 from typing import Any
 
-DOCUMENT = re.compile(r"^--- !u!(\d+) &(-?\d+)( stripped)?$")
+DOCUMENT = re.compile(r"^--- !u!(\d{1,10}) &(-?\d{1,20})( stripped)?$")
+_DEEPEST = 40  # nested blocks or braces
 
 
 class FormError(ValueError):
@@ -35,13 +37,15 @@ def flow(text: str, line: int) -> Any:
     """A value after a key: a string, or the map or list that braces or brackets hold."""
     if text[:1] not in ("{", "["):
         return text
-    value, end = _flow(text, 0, line)
+    value, end = _flow(text, 0, line, 0)
     if text[end:].strip():
         raise FormError(line, f"'{text[end:].strip()}' stands behind the closing bracket")
     return value
 
 
-def _flow(text: str, start: int, line: int) -> tuple[Any, int]:
+def _flow(text: str, start: int, line: int, depth: int) -> tuple[Any, int]:
+    if depth > _DEEPEST:
+        raise FormError(line, "nested too deep")
     is_map = text[start] == "{"
     closer = "}" if is_map else "]"
     result: Any = {} if is_map else []
@@ -62,7 +66,7 @@ def _flow(text: str, start: int, line: int) -> tuple[Any, int]:
             while position < len(text) and text[position] == " ":
                 position += 1
         if position < len(text) and text[position] in "{[":
-            value, position = _flow(text, position, line)
+            value, position = _flow(text, position, line, depth + 1)
         else:
             stop = position
             while stop < len(text) and text[stop] not in ",}]":
@@ -74,6 +78,7 @@ def _flow(text: str, start: int, line: int) -> tuple[Any, int]:
             result.append(value)
 
 
+@functools.lru_cache(maxsize=512)
 def parse(text: str) -> list[Document]:
     """All documents of a file; FormError where a line is of no known form."""
     documents = []
@@ -103,6 +108,8 @@ def _indent(line: str) -> int:
 def _block(body: list[tuple[int, str]], start: int, indent: int) -> tuple[dict[str, Any], int]:
     result: dict[str, Any] = {}
     position = start
+    if indent > 2 * _DEEPEST:
+        raise FormError(body[start][0], "nested too deep")
     while position < len(body):
         number, line = body[position]
         depth = _indent(line)
@@ -118,6 +125,10 @@ def _block(body: list[tuple[int, str]], start: int, indent: int) -> tuple[dict[s
             raise FormError(number, f"key '{key}' stands twice")
         position += 1
         if value:
+            # Unity breaks long texts: what is indented deeper behind a value goes on with it.
+            while position < len(body) and _indent(body[position][1]) > indent:
+                value += " " + body[position][1].strip()
+                position += 1
             result[key] = flow(value, number)
             continue
         following = body[position][1] if position < len(body) else ""

@@ -79,12 +79,17 @@ MonoBehaviour:
 GameObject:
   m_Component:
   - component: {fileID: 201}
+  - component: {fileID: 202}
   m_Name: Child
 --- !u!4 &201
 Transform:
   m_GameObject: {fileID: 200}
   m_Children: []
   m_Father: {fileID: 101}
+--- !u!20 &202
+Camera:
+  m_GameObject: {fileID: 200}
+  m_Enabled: 1
 --- !u!1660057539 &9223372036854775807
 SceneRoots:
   m_ObjectHideFlags: 0

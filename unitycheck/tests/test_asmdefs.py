@@ -79,8 +79,9 @@ def test_test_assembly_constraint(breakage) -> None:
     breakage(TESTS, '"UNITY_INCLUDE_TESTS"', "", "asmdef-test")
 
 
-def test_test_assembly_overrides(breakage) -> None:
-    breakage(TESTS, '"overrideReferences": true', '"overrideReferences": false', "asmdef-test")
+def test_test_assembly_overrides(sample) -> None:
+    sample.edit(TESTS, '"overrideReferences": true', '"overrideReferences": false')
+    assert {(TESTS, "asmdef-test"), (TESTS, "asmdef-precompiled")} <= sample.broken()
 
 
 def test_source_outside(sample) -> None:

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import pytest
 
-from unitycheck.scripts import classes
+from unitycheck.declarations import declarations
+from unitycheck.fields import is_stored, stored_name
 
 SPINNER = "Assets/Guidewire/Runtime/Spinner.cs"
 
 
 def fields(body: str) -> list[str]:
-    return [field.name for field in classes(f"public class A : MonoBehaviour {{ {body} }}")[0].fields]
+    declaration = declarations(f"public class A : MonoBehaviour {{ {body} }}")[0]
+    return [stored_name(field) for field in declaration.fields if is_stored(field)]
 
 
 @pytest.mark.parametrize("body, stored", [
@@ -21,7 +23,8 @@ def fields(body: str) -> list[str]:
     ("public int P { get; set; }", []), ("[field: SerializeField] public int P { get; set; } = 3;",
                                          ["<P>k__BackingField"]),
     ("public int P => 3;", []), ("public event System.Action E;", []),
-    ("[SerializeField] private Dictionary<int, float> _a = new Dictionary<int, float>();", ["_a"]),
+    ("[SerializeField] private List<int> _a = new List<int>(), _b;", ["_a", "_b"]),
+    ("[field: SerializeField] public int P { get; }", []), ("[SerializeField] private int P { get; set; }", []),
     ("void F() { int a; } public int B;", ["B"]), ("int F(int a) => a; public int B;", ["B"]),
     ("[Header(\"a\")] [Tooltip(\"b\")] [SerializeField] private string[] _names = { \"a\" };", ["_names"]),
     ("private struct P { public int X; } public int B;", ["B"]), ("public A() : this(3) { } public int B;", ["B"])])
@@ -31,7 +34,7 @@ def test_stored_fields(body: str, stored: list[str]) -> None:
 
 def test_types_of_stored_fields() -> None:
     source = "class A : MonoBehaviour { public int[] A; [SerializeField] private List<float> _b; public B.C D; }"
-    assert [(field.name, field.type) for field in classes(source)[0].fields] == [
+    assert [(field.name, field.type) for field in declarations(source)[0].fields if is_stored(field)] == [
         ("A", "int[]"), ("_b", "List<float>"), ("D", "B.C")]
 
 

@@ -39,6 +39,12 @@ namespace Guidewire.Unity.Tests
         public static void Open(string scene)
         {
             Engine.Reset(Root);
+            Enter(scene);
+        }
+
+        /// <summary>Opens a scene in a process that a test has made ready.</summary>
+        public static void Enter(string scene)
+        {
             Engine.Enter(SceneFile.Read(Root, scene, typeof(SimulationLoop).Assembly));
         }
 

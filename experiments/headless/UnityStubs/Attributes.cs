@@ -2,7 +2,7 @@ using System;
 
 namespace UnityEngine
 {
-    [AttributeUsage(AttributeTargets.Field)]
+    /// <summary>Unity's attribute goes on anything; what it cannot store it passes over without a word.</summary>
     public sealed class SerializeField : Attribute
     {
     }

@@ -48,6 +48,7 @@ namespace UnityStubs
             Input.Held.Clear();
             Input.Down.Clear();
             Input.Buttons.Clear();
+            Input.IsRefused = false;
             ExitCode = null;
             Click = null;
             Application.dataPath = System.IO.Path.Combine(projectRoot, "Assets");
@@ -142,6 +143,12 @@ namespace UnityStubs
             }
             Input.mousePosition = new Vector3(x, y, 0f);
             Input.mouseScrollDelta = new Vector2(0f, wheel);
+        }
+
+        /// <summary>Leaves input to the Input System package: every call of Input throws from here on.</summary>
+        public static void RefuseInput()
+        {
+            Input.IsRefused = true;
         }
 
         /// <summary>Destroys every object.</summary>

@@ -74,15 +74,34 @@ namespace UnityEngine
         internal static readonly HashSet<KeyCode> Down = new HashSet<KeyCode>();
         internal static readonly HashSet<int> Buttons = new HashSet<int>();
 
-        public static Vector3 mousePosition { get; internal set; }
+        /// <summary>Whether input is left to the Input System package, as the Player settings may say.</summary>
+        internal static bool IsRefused;
 
-        public static Vector2 mouseScrollDelta { get; internal set; }
+        private static Vector3 Position;
+        private static Vector2 Scroll;
 
-        public static bool GetKey(KeyCode key) => Held.Contains(key);
+        public static Vector3 mousePosition
+        {
+            get => Allowed(Position);
+            internal set => Position = value;
+        }
 
-        public static bool GetKeyDown(KeyCode key) => Down.Contains(key);
+        public static Vector2 mouseScrollDelta
+        {
+            get => Allowed(Scroll);
+            internal set => Scroll = value;
+        }
 
-        public static bool GetMouseButton(int button) => Buttons.Contains(button);
+        public static bool GetKey(KeyCode key) => Allowed(Held.Contains(key));
+
+        public static bool GetKeyDown(KeyCode key) => Allowed(Down.Contains(key));
+
+        public static bool GetMouseButton(int button) => Allowed(Buttons.Contains(button));
+
+        private static T Allowed<T>(T value)
+        {
+            return IsRefused ? throw new System.InvalidOperationException("input is the Input System package's") : value;
+        }
     }
 
     public sealed class GUIContent

@@ -281,8 +281,7 @@ namespace Guidewire.Io
             {
                 if (!entry.IsOutputPath && entry.Key != "startFile" && entry.Key != "vessel")
                 {
-                    text.Append(entry.Key).Append('=').Append(entry.Write(Values).ToString(Formatting.None))
-                        .Append('\n');
+                    text.Append(entry.Key).Append('=').Append(NumberText.Write(entry.Write(Values))).Append('\n');
                 }
             }
             if (Values.StartFile.Length > 0)
@@ -295,7 +294,7 @@ namespace Guidewire.Io
             {
                 string mesh = (string?)vessel["file"] ?? "";
                 vessel.Remove("file");
-                text.Append("vessel=").Append(vessel.ToString(Formatting.None)).Append('\n');
+                text.Append("vessel=").Append(NumberText.Write(vessel)).Append('\n');
                 text.Append(mesh.Length == 0 ? "" : Convert.ToBase64String(sha.ComputeHash(File.ReadAllBytes(mesh))));
             }
             byte[] digest = sha.ComputeHash(Encoding.UTF8.GetBytes(text.ToString()));

@@ -1,6 +1,5 @@
 using System;
 using System.IO;
-using System.Text;
 using Guidewire.Core;
 
 namespace Guidewire.Io
@@ -184,15 +183,8 @@ namespace Guidewire.Io
                 Append("null");
                 return;
             }
-            Reserve(40);
-#if NET8_0_OR_GREATER
-            value.TryFormat(_bytes.AsSpan(_length), out int written, default,
-                System.Globalization.CultureInfo.InvariantCulture);
-            _length += written;
-#else
-            _length += Encoding.ASCII.GetBytes(value.ToString("R", System.Globalization.CultureInfo.InvariantCulture),
-                _bytes.AsSpan(_length));
-#endif
+            Reserve(NumberText.Longest);
+            _length += NumberText.Write(value, _bytes, _length);
         }
 
         private void Reserve(int count)

@@ -18,6 +18,11 @@ namespace Guidewire.Runtime
         [SerializeField] private Hud _hud = null!;
         [SerializeField] private OrbitCamera _camera = null!;
 
+        private void Awake()
+        {
+            enabled = LegacyInput.IsThere();
+        }
+
         private void Update()
         {
             _loop.Push = Axis(KeyCode.W, KeyCode.UpArrow, KeyCode.S, KeyCode.DownArrow);

@@ -28,6 +28,7 @@ namespace Guidewire.Runtime
         private readonly List<string> _labels = new List<string>();
         private float _age = Every;
         private int _lines;
+        private bool _hasInput;
 
         /// <summary>Whether the keys are listed.</summary>
         [field: SerializeField] public bool ShowsHelp { get; set; } = true;
@@ -55,11 +56,17 @@ namespace Guidewire.Runtime
                 Append("STOPPED: {0}", _loop.Problem);
                 Append("R starts anew");
             }
+            if (!_hasInput)
+            {
+                Append("no keys, no mouse: set Project Settings > Player >");
+                Append("Active Input Handling to Input Manager (Old) or Both");
+            }
             Text = _builder.ToString();
         }
 
         private void Awake()
         {
+            _hasInput = LegacyInput.IsThere();
             foreach (string key in Switchable)
             {
                 ParameterEntry? entry = ParameterTable.Find(key);

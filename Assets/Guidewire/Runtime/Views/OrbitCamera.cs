@@ -24,20 +24,22 @@ namespace Guidewire.Runtime
         [SerializeField] private float _turnSpeed = 0.3f;
 
         private Vector3 _lastMouse;
+        private bool _hasMouse;
 
         /// <summary>Whether the tip of the wire is kept in the middle.</summary>
         public bool FollowsTip { get; set; }
 
+        private void Awake()
+        {
+            _hasMouse = LegacyInput.IsThere();
+        }
+
         private void LateUpdate()
         {
-            Vector3 mouse = Input.mousePosition;
-            if (Input.GetMouseButton(1))
+            if (_hasMouse)
             {
-                _yaw += _turnSpeed * (mouse.x - _lastMouse.x);
-                _pitch = Mathf.Clamp(_pitch - _turnSpeed * (mouse.y - _lastMouse.y), -89f, 89f);
+                FollowMouse(Input.mousePosition);
             }
-            _lastMouse = mouse;
-            _distance = Mathf.Clamp(_distance * Mathf.Exp(-0.1f * Input.mouseScrollDelta.y), 1f, 5000f);
             if (FollowsTip && _loop.Session != null)
             {
                 RodState state = _loop.Session.Simulation.State;
@@ -47,6 +49,17 @@ namespace Guidewire.Runtime
             Quaternion rotation = Quaternion.Euler(_pitch, _yaw, 0f);
             transform.position = _target - rotation * Vector3.forward * _distance;
             transform.rotation = rotation;
+        }
+
+        private void FollowMouse(Vector3 mouse)
+        {
+            if (Input.GetMouseButton(1))
+            {
+                _yaw += _turnSpeed * (mouse.x - _lastMouse.x);
+                _pitch = Mathf.Clamp(_pitch - _turnSpeed * (mouse.y - _lastMouse.y), -89f, 89f);
+            }
+            _lastMouse = mouse;
+            _distance = Mathf.Clamp(_distance * Mathf.Exp(-0.1f * Input.mouseScrollDelta.y), 1f, 5000f);
         }
     }
 }

@@ -37,7 +37,7 @@ namespace Guidewire.Core.Tests
         public void WhatIsNotAllowed_IsOneLine(string arguments, string expected)
         {
             ParameterException error = Assert.Throws<ParameterException>(
-                () => CommandLineHandler.Read(arguments.Split(' '), true))!;
+                () => CommandLineHandler.Read(arguments.Split(new[] { ' ' }), true))!;
             Assert.That(error.Message, Does.StartWith("command line: ").And.Contain(expected));
         }
 

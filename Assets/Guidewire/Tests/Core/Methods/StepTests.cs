@@ -25,12 +25,14 @@ namespace Guidewire.Core.Tests
             {
                 run.Step();
             }
-            long before = GC.GetAllocatedBytesForCurrentThread();
-            for (int step = 0; step < 500; step++)
+            long left = Garbage.LeftBy(() =>
             {
-                run.Step();
-            }
-            Assert.That(GC.GetAllocatedBytesForCurrentThread() - before, Is.Zero);
+                for (int step = 0; step < 500; step++)
+                {
+                    run.Step();
+                }
+            });
+            Assert.That(left, Is.Zero);
             Assert.That(run.StepCount, Is.EqualTo(550));
         }
 

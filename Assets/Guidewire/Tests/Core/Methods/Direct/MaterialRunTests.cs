@@ -230,12 +230,14 @@ namespace Guidewire.Core.Tests
             {
                 run.Step();
             }
-            long before = GC.GetAllocatedBytesForCurrentThread();
-            for (int i = 0; i < 100; i++)
+            long left = Garbage.LeftBy(() =>
             {
-                run.Step();
-            }
-            Assert.That(GC.GetAllocatedBytesForCurrentThread() - before, Is.Zero);
+                for (int i = 0; i < 100; i++)
+                {
+                    run.Step();
+                }
+            });
+            Assert.That(left, Is.Zero);
             Assert.That(run.StepCount, Is.EqualTo(200));
         }
 

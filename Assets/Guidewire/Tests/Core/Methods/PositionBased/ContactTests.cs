@@ -268,13 +268,14 @@ namespace Guidewire.Core.Tests
             {
                 simulation.Step();
             }
-            long before = GC.GetAllocatedBytesForCurrentThread();
-            for (int k = 0; k < 200; k++)
+            long left = Garbage.LeftBy(() =>
             {
-                simulation.Step();
-            }
-            long allocated = GC.GetAllocatedBytesForCurrentThread() - before;
-            Assert.That(allocated, Is.Zero);
+                for (int k = 0; k < 200; k++)
+                {
+                    simulation.Step();
+                }
+            });
+            Assert.That(left, Is.Zero);
             Assert.That(simulation.Contacts!.Total.Length, Is.GreaterThan(0.0));
         }
 

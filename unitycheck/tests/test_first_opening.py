@@ -1,0 +1,138 @@
+"""What Unity writes is right: the repository as it is, opened, opened by a newer editor, and things that users add."""
+
+from __future__ import annotations
+
+import hashlib
+import shutil
+from pathlib import Path
+
+import pytest
+
+from unitycheck import __main__, checks
+from unitycheck.project import Project
+from unitycheck.tests import firstopening
+from unitycheck.tests.breakages import GUIDEWIRE, HUD, LOOP, ODD, RUNTIME, Change, behaviour, both, insert, replace
+from unitycheck.tests.breakages import write
+from unitycheck.tests.test_mutations import ROOT, repository  # noqa: F401
+
+PARTS = ("Assets", "Packages", "ProjectSettings", "params", "docs")
+SINGLE = (".gitattributes", "unitycheck/known_guids.txt", "README.md", "experiments/unity_runner.py")
+TUBE = f"{GUIDEWIRE}/Tests/Unity/TubeMeshTests.cs"
+
+
+def with_meta(path: str, text: str, importer: str) -> Change:
+    """A new asset with the .meta that Unity gives it, and its guid among the known ones."""
+    guid = hashlib.md5(path.encode()).hexdigest()
+    meta = f"fileFormatVersion: 2\nguid: {guid}\n{importer}:\n  externalObjects: {{}}\n  userData: \n"
+    return both(both(write(path, text), write(f"{path}.meta", meta)),
+                lambda project: {"unitycheck/known_guids.txt": project.data("unitycheck/known_guids.txt")
+                                 + f"{path} {guid}\n".encode()})
+
+
+def script(body: str, name: str = "Odd") -> Change:
+    return with_meta(f"{RUNTIME}/{name}.cs", behaviour(body, name), "MonoImporter")
+
+
+def test_a_copy_that_unity_has_opened_passes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for name in PARTS:
+        shutil.copytree(ROOT / name, tmp_path / name)
+    for name in SINGLE:
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(ROOT / name, tmp_path / name)
+    for path, data in firstopening.files(Project(tmp_path)).items():
+        (tmp_path / path).write_bytes(data)
+    assert __main__.main([str(tmp_path)]) == 0, capsys.readouterr().out
+
+
+def test_all_class_numbers_are_there() -> None:
+    text = b"".join(firstopening.FILES.values()).decode()
+    assert all(f"!u!{number} &1" in text for number in (30, 387306366, 1386491679, 937362698, 78))
+    ends = firstopening.FILES["ProjectSettings/SceneTemplateSettings.json"]
+    assert not ends.endswith(b"\n")
+
+
+def test_a_newer_editor_passes(repository: Project) -> None:  # noqa: F811
+    assert [str(v) for v in checks.run(repository.with_changes(firstopening.newer(repository)))] == []
+
+
+# What is right and once was named wrong, or might be.
+RIGHT = {
+    "editor under its condition": replace(LOOP, "^using UnityEngine;", "#if UNITY_EDITOR\nusing UnityEditor;\n#endif\n"
+                                          "using UnityEngine;"),
+    "editor in a branch": insert(LOOP, "private void Save()\n        {\n#if UNITY_EDITOR\n            UnityEditor."
+                                 "AssetDatabase.Refresh();\n#endif\n        }\n\n        public void S2() { Save(); }"),
+    "coroutine as Start, full name": script("private System.Collections.IEnumerator Start() { yield return null; }"),
+    "method called by Invoke": script('private void Start() { Invoke("Blink", 1f); } private void Blink() { }'),
+    "method called by nameof": script("private void Start() { Invoke(nameof(Blink), 1f); } private void Blink() { }"),
+    "coroutine by name": script('private void Start() { StartCoroutine("Blink"); }'
+                                " private IEnumerator Blink() { yield return null; }"),
+    "coroutine by call": script("private void Start() { StartCoroutine(Blink()); }"
+                                " private IEnumerator Blink() { yield return null; }"),
+    "asynchronous Start": script("private async void Start() { await System.Threading.Tasks.Task.Delay(1); }"),
+    "messages of two dimensions": script("private void OnCollisionEnter2D(Collision2D c) { }"
+                                         " private void OnTriggerExit2D(Collider2D c) { }"),
+    "messages of particles and joints": script("private void OnParticleCollision(GameObject o) { }"
+                                               " private void OnJointBreak(float f) { }"
+                                               " private void OnAnimatorIK(int layer) { }"
+                                               " private void OnParticleSystemStopped() { }"),
+    "messages of sound and canvas": script("private void OnAudioFilterRead(float[] data, int channels) { }"
+                                           " private void OnRectTransformDimensionsChange() { }"),
+    "pause with its bool": script("private void OnApplicationPause(bool pause) { }"
+                                  " private void OnApplicationFocus(bool focus) { }"),
+    "context menu": script('[ContextMenu("Blink")] private void Blink() { }'),
+    "event of a delegate": script("private System.Action<string> _said;"
+                                  ' private void Start() { _said.Invoke("hello"); }'),
+    "value asked later": script("private readonly System.Func<float> _time = () => Time.time;"),
+    "fields of every kind": script(
+        "[SerializeField] private List<Vector3> _a; [SerializeField] private Pair[] _b; public AnimationCurve C;"
+        " [SerializeField] private Guidewire.Runtime.Colouring _d; [SerializeField, Range(0, 1)] private float _e, _f;"
+        " [SerializeField] private string? _g; [SerializeReference] private object _h; public LayerMask I;"
+        " [System.Serializable] private struct Pair { public int A; } public Dictionary<int, int> NotAsked;"),
+    "generic base with a static helper": script("private static int Count<T>(List<T> a) { return a.Count; }"
+                                                " public int N => Count(new List<int>());"),
+    "abstract behaviour": both(with_meta(ODD, behaviour("").replace("sealed", "abstract"), "MonoImporter"), replace(
+        LOOP, "SimulationLoop : MonoBehaviour", "SimulationLoop : Odd")),
+    "picture": with_meta(f"{GUIDEWIRE}/A.png", "", "TextureImporter"),
+    "library": with_meta(f"{GUIDEWIRE}/A.dll", "", "PluginImporter"),
+    "prefab": with_meta(f"{GUIDEWIRE}/A.prefab", firstopening.HEADER + "--- !u!1 &3\nGameObject:\n  m_Name: A\n",
+                        "PrefabImporter"),
+    "shader": with_meta(f"{GUIDEWIRE}/A.shader", 'Shader "Own/A"\n{\n}\n', "ShaderImporter"),
+    "own shader found": both(
+        with_meta(f"{GUIDEWIRE}/A.shader", 'Shader "Own/A"\n{\n}\n', "ShaderImporter"),
+        insert(HUD, 'private static Shader Own() { return Shader.Find("Own/A"); } public static Shader O2 => Own();')),
+    "assembly reference": with_meta(f"{RUNTIME}/Views/More/More.asmref", '{"reference": "Guidewire.Runtime"}',
+                                    "AssemblyDefinitionReferenceImporter"),
+    "unknown kind of file": with_meta(f"{GUIDEWIRE}/A.xyz", "", "SomeNewImporter"),
+    "definition without a line end": lambda project: {
+        f"{RUNTIME}/Guidewire.Runtime.asmdef": project.data(f"{RUNTIME}/Guidewire.Runtime.asmdef").rstrip()},
+    "define of a version": replace(f"{RUNTIME}/Guidewire.Runtime.asmdef", r'"versionDefines": \[\]',
+                                   '"versionDefines": [{"name": "com.unity.burst", "expression": "1.8", '
+                                   '"define": "HAS_BURST"}]'),
+    "constraint of this editor": replace(f"{RUNTIME}/Guidewire.Runtime.asmdef", r'"defineConstraints": \[\]',
+                                         '"defineConstraints": ["UNITY_6000_0_OR_NEWER", "!UNITY_ANDROID || DEBUG"]'),
+    "options that Unity takes": write(f"{RUNTIME}/csc.rsp", "# options\n-nullable:enable\n-nowarn:1701,1702\n"
+                                      "-define:GUIDEWIRE_ON\n-langversion:9.0\n-warnaserror+\n"),
+    "tag of the project": both(write("ProjectSettings/TagManager.asset", firstopening.FILES[
+        "ProjectSettings/TagManager.asset"].decode().replace("tags: []", "tags:\n  - Wire")), replace(
+            firstopening.SCENE, "m_TagString: Untagged", "m_TagString: Wire")),
+    "collider in a scene": lambda project: {firstopening.SCENE: project.text(firstopening.SCENE).replace(
+        "  - component: {fileID: 402}\n", "  - component: {fileID: 402}\n  - component: {fileID: 403}\n").replace(
+            "--- !u!1 &500\n", "--- !u!135 &403\nSphereCollider:\n  m_GameObject: {fileID: 400}\n  m_Enabled: 1\n"
+            "--- !u!1 &500\n").encode()},
+    "cases, sources and values": insert(
+        TUBE, "private static readonly int[] Counts = { 1, 2 };"
+              "\n[TestCaseSource(nameof(Counts))] public void A(int n) { }"
+              "\n[Test] public void B([Values(1, 2)] int n) { }"
+              "\n[TestCase(1, ExpectedResult = 1)] public int C(int n) { return n; }"),
+    "checked menu entry": insert(
+        f"{GUIDEWIRE}/Editor/BatchEntry.cs", '[MenuItem("Guidewire/One")] public static void One() { }'
+        '\n[MenuItem("Guidewire/One", true)] public static bool MayOne() { return true; }'),
+}
+
+
+@pytest.mark.parametrize("name", RIGHT)
+def test_what_is_right_passes(repository: Project, name: str) -> None:  # noqa: F811
+    changed = repository.with_changes(RIGHT[name](repository))
+    found = [str(v) for v in checks.run(changed)
+             if v.rule != "text-wide" and (v.rule, v.path) != ("meta-missing", f"{RUNTIME}/Views/More")]
+    assert found == []
