@@ -99,7 +99,8 @@ namespace Guidewire.Io
 
         private static JToken Vector(Vector3d? vector)
         {
-            return vector is Vector3d v ? new JArray(Finite(v.X), Finite(v.Y), Finite(v.Z)) : (JToken)JValue.CreateNull();
+            return vector is Vector3d v ? new JArray(Finite(v.X), Finite(v.Y), Finite(v.Z))
+                : (JToken)JValue.CreateNull();
         }
 
         /// <summary>The product's version.</summary>

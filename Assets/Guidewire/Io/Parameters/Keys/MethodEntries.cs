@@ -9,7 +9,7 @@ namespace Guidewire.Io
         public static ParameterGroup Group { get; } = new ParameterGroup(
             "method", "how it is simulated, and what ends the run", new ParameterEntry[]
         {
-            new ChoiceEntry<Solver>(ParameterTable.SolverKey,
+            new ChoiceEntry<Solver>("solver",
                 "the method: pbd takes gains; xpbd, direct and explicit take a material",
                 p => p.Simulation.Method.Solver, (p, v) => p.Simulation.Method.Solver = v),
             new NumberEntry("timeStep", "s", NumberRange.Positive, "dt",

@@ -106,7 +106,10 @@ namespace Guidewire.Core.Tests
             var y = new RodVector[system.VectorCount];
             var expected = new RodVector[reference.VectorCount];
             var reaction = new RodVector[reference.VectorCount];
-            Array.Fill(y, new RodVector { X1 = 1.0, T3 = 1.0 });
+            for (int i = 0; i < y.Length; i++)
+            {
+                y[i] = new RodVector { X1 = 1.0, T3 = 1.0 };
+            }
             Assert.That(system.Factorise(terms, shape, gradient, y, 0.0),
                 Is.EqualTo(reference.Factorise(own, shorter, reaction, expected, 0.0)), "eigenvalues");
             system.Back(y);

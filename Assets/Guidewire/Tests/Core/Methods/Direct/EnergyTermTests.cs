@@ -185,7 +185,10 @@ namespace Guidewire.Core.Tests
             var motion = new RodDynamics(terms, new RodSchedule(), Rods.Straight(terms.Rod),
                 MaterialSetup.Scheme(scheme), 1e-8, 100);
             var velocities = new Vector3d[N + 1];
-            Array.Fill(velocities, velocity);
+            for (int i = 0; i <= N; i++)
+            {
+                velocities[i] = velocity;
+            }
             motion.Begin(velocities, new Vector3d[N], false);
             return motion;
         }
