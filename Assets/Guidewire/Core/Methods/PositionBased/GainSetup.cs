@@ -24,8 +24,11 @@ namespace Guidewire.Core
             IContactRule? rule = parameters.Walls.Length == 0 ? null
                 : parameters.ElementContact == ElementContact.Seed ? new SeedContactRule(state, parameters)
                 : (IContactRule)new ContactRule(state, parameters);
-            var solver = new GaussSeidelSolver(state, parameters.ConstraintSolverSteps, parameters.StretchStiffness,
-                parameters.BendStiffness, parameters.SweepOrder, rule);
+            var scalar = new ScalarSweeps(new StretchConstraint(state, parameters.StretchStiffness),
+                new BendTwistConstraint(state, parameters.BendStiffness), parameters.SweepOrder);
+            int iterations = parameters.ConstraintSolverSteps;
+            ISweeps fastest = SweepChoice.Fastest(scalar, iterations);
+            var solver = new GaussSeidelSolver(iterations, scalar, fastest, rule);
             if (rule == null)
             {
                 return new PositionBasedStep(parameters.TimeStep, prediction, orientationPrediction, drive, solver);

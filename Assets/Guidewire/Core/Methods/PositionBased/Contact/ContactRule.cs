@@ -65,6 +65,10 @@ namespace Guidewire.Core
         public bool GuardsElements => _elements != null;
 
         /// <inheritdoc/>
+        public bool HasContacts =>
+            _spheres.Count + _sphereStops.Count + (_elements?.Count ?? 0) + (_elementStops?.Count ?? 0) > 0;
+
+        /// <inheritdoc/>
         public void Detect(Vector3d[] from, Vector3d[] to)
         {
             _spheres.Clear();

@@ -23,6 +23,10 @@ namespace Guidewire.Core
         /// it.</summary>
         double ClearanceOf(int j);
 
+        /// <summary>Whether there is anything to project: contacts found, or places where the swept test met the
+        /// wall.</summary>
+        bool HasContacts { get; }
+
         /// <summary>Projects all contacts once.</summary>
         void Sweep(Vector3d[] x);
 

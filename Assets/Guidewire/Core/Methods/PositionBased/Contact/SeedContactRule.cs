@@ -35,6 +35,9 @@ namespace Guidewire.Core
         public bool GuardsElements => false;
 
         /// <inheritdoc/>
+        public bool HasContacts => _contacts.Count > 0;
+
+        /// <inheritdoc/>
         public void Detect(Vector3d[] from, Vector3d[] to)
         {
             _contacts.Clear();
