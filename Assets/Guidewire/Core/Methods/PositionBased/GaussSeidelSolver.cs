@@ -11,9 +11,8 @@ namespace Guidewire.Core
         private readonly IContactRule? _contacts;
 
         /// <param name="iterations">m, 0 or more.</param>
-        /// <param name="scalar">What does each iteration where contacts follow it.</param>
-        /// <param name="sweeps">What does all iterations where nothing comes between them, bit for bit the
-        /// same.</param>
+        /// <param name="scalar">What does them where the others cannot take the contacts.</param>
+        /// <param name="sweeps">What does the iterations, bit for bit the same.</param>
         /// <param name="contacts">Contacts, or null in a scene without walls.</param>
         public GaussSeidelSolver(int iterations, ScalarSweeps scalar, ISweeps sweeps, IContactRule? contacts)
         {
@@ -26,17 +25,9 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public void Solve(RodState state)
         {
-            Vector3d[] x = state.PredictedPositions;
-            Quaterniond[] q = state.PredictedOrientations;
-            if (_contacts == null || !_contacts.HasContacts)
+            if (!_sweeps.Iterate(state.PredictedPositions, state.PredictedOrientations, _iterations, _contacts))
             {
-                _sweeps.Iterate(x, q, _iterations);
-                return;
-            }
-            for (int iteration = 0; iteration < _iterations; iteration++)
-            {
-                _scalar.Iterate(x, q, 1);
-                _contacts.Sweep(x);
+                _scalar.Iterate(state.PredictedPositions, state.PredictedOrientations, _iterations, _contacts);
             }
         }
     }

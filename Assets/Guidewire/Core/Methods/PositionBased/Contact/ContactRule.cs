@@ -1,4 +1,5 @@
 using System;
+using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
@@ -65,8 +66,8 @@ namespace Guidewire.Core
         public bool GuardsElements => _elements != null;
 
         /// <inheritdoc/>
-        public bool HasContacts =>
-            _spheres.Count + _sphereStops.Count + (_elements?.Count ?? 0) + (_elementStops?.Count ?? 0) > 0;
+        public int ContactCount =>
+            _spheres.Count + (_elements?.Count ?? 0) + (_elementStops?.Count ?? 0) + _sphereStops.Count;
 
         /// <inheritdoc/>
         public void Detect(Vector3d[] from, Vector3d[] to)
@@ -126,6 +127,22 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
+        public void SpheresOf(int k, out int first, out int last)
+        {
+            SphereContactConstraint? spheres = At(ref k, out ElementContactConstraint? elements);
+            first = spheres?.SphereOf(k) ?? elements!.ElementOf(k);
+            last = spheres != null ? first : first + 1;
+        }
+
+        /// <inheritdoc/>
+        [MethodImpl(Compiled.AtOnce)]
+        public bool Project(int k, Vector3d[] x)
+        {
+            SphereContactConstraint? spheres = At(ref k, out ElementContactConstraint? elements);
+            return spheres != null ? spheres.Project(k, x) : elements!.Project(k, x);
+        }
+
+        /// <inheritdoc/>
         public void AddImpulses(Vector3d[] impulses)
         {
             _spheres.AddImpulses(impulses);
@@ -139,6 +156,33 @@ namespace Guidewire.Core
         {
             double gap = Math.Max(_spheres.LargestGap(x), _elements?.LargestGap(x) ?? double.NegativeInfinity);
             return gap - (_reach - _radius);
+        }
+
+        // Where contact k of a sweep stands, and which it is there: spheres, or where that is null, elements.
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        private SphereContactConstraint? At(ref int k, out ElementContactConstraint? elements)
+        {
+            elements = null;
+            if (k < _spheres.Count)
+            {
+                return _spheres;
+            }
+            k -= _spheres.Count;
+            int ofElements = _elements?.Count ?? 0;
+            int ofElementStops = _elementStops?.Count ?? 0;
+            if (k < ofElements)
+            {
+                elements = _elements;
+                return null;
+            }
+            k -= ofElements;
+            if (k < ofElementStops)
+            {
+                elements = _elementStops;
+                return null;
+            }
+            k -= ofElementStops;
+            return _sphereStops;
         }
 
         // True where the element comes near the wall, or may have met it on its way.

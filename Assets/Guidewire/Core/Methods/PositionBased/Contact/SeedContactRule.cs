@@ -1,4 +1,5 @@
 using System;
+using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
@@ -35,7 +36,7 @@ namespace Guidewire.Core
         public bool GuardsElements => false;
 
         /// <inheritdoc/>
-        public bool HasContacts => _contacts.Count > 0;
+        public int ContactCount => _contacts.Count;
 
         /// <inheritdoc/>
         public void Detect(Vector3d[] from, Vector3d[] to)
@@ -82,6 +83,20 @@ namespace Guidewire.Core
         public void Sweep(Vector3d[] x)
         {
             _contacts.Sweep(x);
+        }
+
+        /// <inheritdoc/>
+        public void SpheresOf(int k, out int first, out int last)
+        {
+            first = last = _contacts.SphereOf(k);
+        }
+
+        /// <inheritdoc/>
+        [MethodImpl(Compiled.AtOnce)]
+        public bool Project(int k, Vector3d[] x)
+        {
+            _contacts.Project(k, x);
+            return true;
         }
 
         /// <inheritdoc/>

@@ -44,6 +44,9 @@ namespace Guidewire.Core
         /// <summary>Successive numbers in memory, the first in lane 0.</summary>
         static abstract T Load(ref double first);
 
+        /// <summary>Writes the numbers to successive places in memory, lane 0's first.</summary>
+        static abstract void Store(T a, ref double first);
+
         /// <summary>Each lane's number in the next lane; lane 0 gets the entering one.</summary>
         static abstract T Shift(T a, double entering);
 

@@ -103,6 +103,13 @@ namespace Guidewire.Core
 
         /// <inheritdoc/>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public static void Store(Lanes4 a, ref double first)
+        {
+            a._value.StoreUnsafe(ref first);
+        }
+
+        /// <inheritdoc/>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Lanes4 Shift(Lanes4 a, double entering)
         {
             return new Lanes4(Avx.Blend(Avx2.Permute4x64(a._value, 0b10_01_00_00), Vector256.Create(entering), 1));

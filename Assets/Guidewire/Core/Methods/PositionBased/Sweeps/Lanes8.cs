@@ -103,6 +103,13 @@ namespace Guidewire.Core
 
         /// <inheritdoc/>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public static void Store(Lanes8 a, ref double first)
+        {
+            a._value.StoreUnsafe(ref first);
+        }
+
+        /// <inheritdoc/>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Lanes8 Shift(Lanes8 a, double entering)
         {
             return new Lanes8(Avx512F.AlignRight64(

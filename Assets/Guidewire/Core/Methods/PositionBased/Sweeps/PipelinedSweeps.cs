@@ -19,7 +19,11 @@ namespace Guidewire.Core
         where T : struct, ILanes<T>
     {
         private const int Lag = LaneTable.Lag;
-        private const double CopyCost = 0.5;    // of a node in and out, in elements of a scalar sweep
+
+        // In elements of a scalar sweep: a node in and out; a contact more than it costs there.
+        private const double CopyCost = 0.5;
+        private const double ContactCost = 0.5;
+
         private const int JointLag = 2;    // places from a frame's stretch to the joint before it
 
         // Columns of the table. The first two mark places that have an element, and places that have a joint.
@@ -45,6 +49,7 @@ namespace Guidewire.Core
         private readonly double _darbouxScale;
         private readonly LaneTable _table;
         private readonly double[] _nodes;
+        private readonly PipelinedContacts _contacts;
         private readonly double[] _end;      // ticks after which each lane has no sweep left
 
         /// <param name="scalar">The sweeps to do, in the naive order.</param>
@@ -69,19 +74,27 @@ namespace Guidewire.Core
             _table.Write(RestZ, JointLag, Array.ConvertAll(bendTwist.Rest, omega => omega.Z));
             _nodes = new double[Node * _period];
             _end = new double[T.Count];
+            _contacts = new PipelinedContacts(_elements, _period, T.Count);
         }
 
         /// <inheritdoc/>
-        public void Iterate(Vector3d[] x, Quaterniond[] q, int iterations)
+        public bool Iterate(Vector3d[] x, Quaterniond[] q, int iterations, IContactRule? contacts)
         {
+            double contactCost = ContactCost * iterations * (contacts?.ContactCount ?? 0);
+            bool isSlower = contactCost > 0.0 && Cost(iterations) + contactCost > (double)_elements * iterations;
+            if (isSlower || !_contacts.TryPlan(contacts))
+            {
+                return false;
+            }
             for (int lane = 0; lane < T.Count; lane++)
             {
                 long sweeps = (iterations - lane + T.Count - 1L) / T.Count;
                 _end[lane] = Lag * lane + sweeps * _period;
             }
             Take(x, q);
-            Run(Ticks(iterations));
+            Run(Ticks(iterations), x);
             GiveBack(x, q);
+            return true;
         }
 
         /// <inheritdoc/>
@@ -93,7 +106,7 @@ namespace Guidewire.Core
         // The joint's block has the lines of BendTwistConstraint.Sweep, the element's those of StretchConstraint.Sweep.
         // A frame rests one place between the two, so that at one place neither waits for the other.
         [MethodImpl(Compiled.AtOnce)]
-        private void Run(long ticks)
+        private void Run(long ticks, Vector3d[] x)
         {
             T zero = T.Fill(0.0);
             T one = T.Fill(1.0);
@@ -121,9 +134,10 @@ namespace Guidewire.Core
             T doneX = zero, doneY = zero, doneZ = zero;
             T lateX = zero, lateY = zero, lateZ = zero;
 
+            int[] lanesInContact = _contacts.Lanes;
+            ref double held = ref _contacts.Held[0];
             int place = 0;
-            int lastElement = -Lag * (T.Count - 1);     // the last lane's place, negative before it starts
-            int lastJoint = lastElement - JointLag;
+            int leaving = -Lag * (T.Count - 1) - JointLag;    // the place of what leaves the last lane
             for (long tick = 0; tick < ticks; tick++)
             {
                 ref double entering = ref Unsafe.Add(ref nodes, Node * place);
@@ -209,25 +223,37 @@ namespace Guidewire.Core
                 rY = turnedY;
                 rZ = turnedZ;
                 rW = turnedW;
-                if (lastElement >= 0)
+                if (lanesInContact[place] != 0)
                 {
-                    int before = lastElement == 0 ? period - 1 : lastElement - 1;
-                    ref double sphere = ref Unsafe.Add(ref nodes, Node * before);
-                    sphere = T.Last(doneX);
-                    Unsafe.Add(ref sphere, 1) = T.Last(doneY);
-                    Unsafe.Add(ref sphere, 2) = T.Last(doneZ);
+                    T.Store(doneX, ref held);
+                    T.Store(doneY, ref Unsafe.Add(ref held, T.Count));
+                    T.Store(doneZ, ref Unsafe.Add(ref held, 2 * T.Count));
+                    T.Store(lateX, ref Unsafe.Add(ref held, 3 * T.Count));
+                    T.Store(lateY, ref Unsafe.Add(ref held, 4 * T.Count));
+                    T.Store(lateZ, ref Unsafe.Add(ref held, 5 * T.Count));
+                    if (_contacts.Project(place, tick, _end, x))
+                    {
+                        doneX = T.Load(ref held);
+                        doneY = T.Load(ref Unsafe.Add(ref held, T.Count));
+                        doneZ = T.Load(ref Unsafe.Add(ref held, 2 * T.Count));
+                        lateX = T.Load(ref Unsafe.Add(ref held, 3 * T.Count));
+                        lateY = T.Load(ref Unsafe.Add(ref held, 4 * T.Count));
+                        lateZ = T.Load(ref Unsafe.Add(ref held, 5 * T.Count));
+                    }
                 }
-                if (lastJoint >= 0)
+                if (leaving >= -1)
                 {
-                    ref double frame = ref Unsafe.Add(ref nodes, Node * lastJoint + NodeFrame);
-                    frame = T.Last(rX);
-                    Unsafe.Add(ref frame, 1) = T.Last(rY);
-                    Unsafe.Add(ref frame, 2) = T.Last(rZ);
-                    Unsafe.Add(ref frame, 3) = T.Last(rW);
+                    ref double node = ref Unsafe.Add(ref nodes, Node * (leaving < 0 ? period - 1 : leaving));
+                    node = T.Last(lateX);
+                    Unsafe.Add(ref node, 1) = T.Last(lateY);
+                    Unsafe.Add(ref node, 2) = T.Last(lateZ);
+                    Unsafe.Add(ref node, NodeFrame) = T.Last(rX);
+                    Unsafe.Add(ref node, NodeFrame + 1) = T.Last(rY);
+                    Unsafe.Add(ref node, NodeFrame + 2) = T.Last(rZ);
+                    Unsafe.Add(ref node, NodeFrame + 3) = T.Last(rW);
                 }
                 place = Next(place);
-                lastElement = Next(lastElement);
-                lastJoint = Next(lastJoint);
+                leaving = Next(leaving);
                 time += one;
             }
         }
@@ -262,7 +288,7 @@ namespace Guidewire.Core
             x[0] = new Vector3d(start[0], start[1], start[2]);
         }
 
-        // From the first lane's first place to the last lane's last, and one for q_{n-1}, which leaves after x_n.
+        // From the first lane's first place to the last lane's last, and one for x_n and q_{n-1}, which leave late.
         private long Ticks(int iterations)
         {
             long rounds = (iterations + T.Count - 1L) / T.Count;

@@ -28,13 +28,15 @@ namespace Guidewire.Core
         public SweepOrder Order { get; }
 
         /// <inheritdoc/>
-        public void Iterate(Vector3d[] x, Quaterniond[] q, int iterations)
+        public bool Iterate(Vector3d[] x, Quaterniond[] q, int iterations, IContactRule? contacts)
         {
             for (int iteration = 0; iteration < iterations; iteration++)
             {
                 Stretch.Sweep(x, q, _elements);
                 BendTwist.Sweep(q, _joints);
+                contacts?.Sweep(x);
             }
+            return true;
         }
 
         /// <inheritdoc/>

@@ -41,8 +41,8 @@ namespace Guidewire.Core.Tests
                 {
                     RodState expected = Bent(n, n + 100 * m, out ScalarSweeps scalar);
                     RodState state = Bent(n, n + 100 * m, out ScalarSweeps twin);
-                    scalar.Iterate(expected.PredictedPositions, expected.PredictedOrientations, m);
-                    InLanes(twin, lanes).Iterate(state.PredictedPositions, state.PredictedOrientations, m);
+                    scalar.Iterate(expected.PredictedPositions, expected.PredictedOrientations, m, null);
+                    InLanes(twin, lanes).Iterate(state.PredictedPositions, state.PredictedOrientations, m, null);
                     AssertSameBits(state, expected, "n = " + n + ", m = " + m);
                 }
             }
