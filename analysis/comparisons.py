@@ -142,11 +142,11 @@ def read_comparison(folder: Path, reference_folder: Path, key: str, proportional
     Raises
     ------
     LogError
-        A file cannot be read, or no run lasts as long as the reference.
+        A file cannot be read, the study varies more than ``key``, or no run lasts as long as the reference.
     """
     reference, *others = read_reference(reference_folder)
     study = read_study(folder)
-    wires = [read_wire(run) for run in study.untimed]
+    wires = [read_wire(run) for run in study.along(key)]
     missing = [f"{name}: not run" for name in study.missing]
     missing += [
         f"{wire.run.key}: {wire.run.outcome} at t = {wire.end:g} s" for wire in wires if not _lasts(wire, reference)

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from analysis.logs import LogError, find_log
+from studies.keys import TABLE, Value, repeat_folder
 
 PARAMETERS_NAME = "parameters.json"
 SUMMARY_NAME = "summary.json"
-STUDY_NAME = "study.json"
 
 
 @dataclass(frozen=True)
@@ -32,6 +32,8 @@ class Run:
     key, repeat : str, int or None
         From the study's table where the run belongs to one: the run's name, and the number of the timed repeat (None
         for a run that is not timed).
+    variant, values : str, mapping of str to number, bool or str
+        From the same: name of the variant, empty where there is none, and the values of the axes by key.
     """
 
     folder: Path
@@ -39,6 +41,8 @@ class Run:
     summary: Mapping[str, Any] | None
     key: str = ""
     repeat: int | None = None
+    variant: str = ""
+    values: Mapping[str, Value] = field(default_factory=dict)
 
     def value(self, key: str) -> Any:
         """The effective value of a parameter."""
@@ -100,6 +104,24 @@ class StudyRuns:
         """Runs made for their positions."""
         return tuple(run for run in self.runs if run.repeat is None)
 
+    @property
+    def axes(self) -> tuple[str, ...]:
+        """Keys of the parameters that the study varies, without those of its variants."""
+        return tuple(dict.fromkeys(key for run in self.runs for key in run.values))
+
+    def along(self, key: str) -> tuple[Run, ...]:
+        """Runs made for their positions, one for each value of ``key``.
+
+        Raises
+        ------
+        LogError
+            The study varies something else too, or instead.
+        """
+        varied = [*self.axes, *(["variants"] if len({run.variant for run in self.untimed}) > 1 else [])]
+        if self.runs and varied != [key]:
+            raise LogError(f"{self.folder / TABLE}: varies {', '.join(varied) or 'nothing'}, not {key} alone")
+        return self.untimed
+
     def timed(self, key: str) -> tuple[Run, ...]:
         """Timed repeats of the run named ``key`` that ended by themselves: a killed one has no step time."""
         return tuple(
@@ -107,7 +129,9 @@ class StudyRuns:
         )
 
 
-def read_run(folder: Path, key: str = "", repeat: int | None = None) -> Run:
+def read_run(
+    folder: Path, key: str = "", repeat: int | None = None, variant: str = "", values: Mapping[str, Value] | None = None
+) -> Run:
     """Reads a run folder's small files; the log is read by whoever needs it.
 
     Raises
@@ -117,24 +141,29 @@ def read_run(folder: Path, key: str = "", repeat: int | None = None) -> Run:
     """
     summary_file = folder / SUMMARY_NAME
     summary = _read_object(summary_file) if summary_file.is_file() else None
-    return Run(folder, _read_object(folder / PARAMETERS_NAME), summary, key, repeat)
+    return Run(folder, _read_object(folder / PARAMETERS_NAME), summary, key, repeat, variant, values or {})
+
+
+def read_repeats(run: Run, repeats: int) -> list[Run]:
+    """The timed repeats of a run that has so many."""
+    return [read_run(run.folder / repeat_folder(k), run.key, k, run.variant, run.values) for k in range(1, repeats + 1)]
 
 
 def read_study(folder: Path) -> StudyRuns:
     """Reads study.json and every run of it that left a log."""
-    table = _read_object(folder / STUDY_NAME)
+    table = _read_object(folder / TABLE)
     runs, missing = [], []
     for row in table.get("runs", []):
         try:
-            key, place, repeat = row["key"], folder / row["folder"], row["repeat"]
+            key, place, about = row["key"], folder / row["folder"], (row["repeat"], row["variant"], row["values"])
         except (KeyError, TypeError) as error:
-            raise LogError(f"{folder / STUDY_NAME}: a run lacks {error}") from error
+            raise LogError(f"{folder / TABLE}: a run lacks {error}") from error
         try:
             find_log(place)
         except LogError:
             missing.append(key)
         else:
-            runs.append(read_run(place, key, repeat))
+            runs.append(read_run(place, key, *about))
     return StudyRuns(str(table.get("study", folder.name)), folder, tuple(runs), tuple(missing))
 
 

@@ -103,7 +103,7 @@ class StudyTable:
 
 
 def read_table(folder: Path, key: str) -> StudyTable:
-    """Measures every run of a study that varies ``key``.
+    """Measures every run of a study that varies ``key`` alone.
 
     Parameters
     ----------
@@ -115,10 +115,10 @@ def read_table(folder: Path, key: str) -> StudyTable:
     Raises
     ------
     LogError
-        The study, or a file of one of its runs, cannot be read, or nothing of it was run.
+        The study, or a file of one of its runs, cannot be read, it varies more than ``key``, or nothing of it was run.
     """
     study = read_study(folder)
-    rows = [_measure(run, study.timed(run.key), run.number(key)) for run in study.untimed]
+    rows = [_measure(run, study.timed(run.key), run.number(key)) for run in study.along(key)]
     if not rows:
         raise LogError(f"{folder}: no run of this study left a log")
     return StudyTable(study.name, key, tuple(sorted(rows, key=lambda row: row.value)), study.missing)

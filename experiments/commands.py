@@ -8,18 +8,19 @@ import subprocess
 import sys
 import tempfile
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from experiments import runner
+from experiments import building
 from experiments.prepare import DRAWING, ROOT, TESTING, PreparationError
 from experiments.runner import INTERNAL_ERROR, INTERRUPTED, Answer
-from experiments.studies import STUDIES
-from experiments.sweep import SweepResult, run_study
+from experiments.sweep import SweepResult, sweep
+from studies.builtin import STUDIES
 
 if TYPE_CHECKING:
     from experiments.gallery import Gallery  # itself imported only where its packages are there
+    from studies.table import Source
 
 FAILED = 5  # as of a run: something that was asked for is not there
 _RUNNER_WORDS = ("parameters", "out", "repeat", "lines", "logFile")  # the runner's own arguments, like -KEY
@@ -124,12 +125,13 @@ def _demo(arguments: argparse.Namespace) -> int:
     from experiments import gallery
 
     command = _build_runner()
-    result = _run_study("default", command, arguments.out, jobs=1)
+    result = _make("default", [STUDIES["default"]], command, arguments.out, jobs=1)
     if result.failures:
         return FAILED
+    study = result.folder / "default"
     ids = [name for name, spec in figures.FIGURES.items() if set(spec.studies) == {"default"}]
-    drawn = gallery.draw(ids, {"default": result.folder}, arguments.out)
-    for line in gallery.describe_default_run(result.folder):
+    drawn = gallery.draw(ids, {"default": study}, arguments.out)
+    for line in gallery.describe_default_run(study):
         print(line)
     return _tell(drawn)
 
@@ -150,8 +152,8 @@ def _run(arguments: argparse.Namespace) -> int:
 
 def _sweep(arguments: argparse.Namespace) -> int:
     command = _runner_of(arguments)
-    result = _run_study(arguments.study, command, arguments.out, arguments.jobs)
-    print(f"runs: {os.path.relpath(result.folder)}")
+    result = _make(arguments.study, [STUDIES[arguments.study]], command, arguments.out, arguments.jobs)
+    print(f"runs: {os.path.relpath(result.folder / arguments.study)}")
     return FAILED if result.failures else 0
 
 
@@ -165,12 +167,13 @@ def _figures(arguments: argparse.Namespace) -> int:
     ids = arguments.ids or list(known)
     studies = {name for figure in ids for name in known[figure].studies}
     command = _build_runner()
-    results = {name: _run_study(name, command, arguments.out, arguments.jobs) for name in STUDIES if name in studies}
-    results |= {name: _run_checks(name, command, arguments.out, arguments.jobs)
-                for name in gallery.CHECKED if name in studies}
-    folders = {name: result.folder for name, result in results.items()}
+    asked: dict[str, tuple[Sequence[Source], Path]] = {name: ([STUDIES[name]], arguments.out) for name in STUDIES}
+    asked |= {name: (checks, arguments.out / name) for name, checks in gallery.CHECKED.items()}
+    results = [_make(name, sources, command, out, arguments.jobs)
+               for name, (sources, out) in asked.items() if name in studies]
+    folders = {name: (arguments.out / name).resolve() for name in studies}
     code = _tell(gallery.draw(ids, folders, arguments.out / "figures"))
-    return FAILED if any(result.failures for result in results.values()) else code
+    return FAILED if any(result.failures for result in results) else code
 
 
 def _tell(drawn: Gallery) -> int:
@@ -181,7 +184,7 @@ def _tell(drawn: Gallery) -> int:
 
 
 def _bench(_: argparse.Namespace) -> int:
-    return _hand_to(runner.build("Guidewire.Benchmarks"))
+    return _hand_to(_build_benchmarks())
 
 
 def _unity_check(arguments: argparse.Namespace) -> int:
@@ -207,22 +210,26 @@ def _runner_of(arguments: argparse.Namespace) -> list[str]:
     return unity_runner.adapter(unity)
 
 
+def _build_benchmarks() -> list[str]:
+    return building.build(building.BENCHMARKS, _tell_building)
+
+
 def _build_runner() -> list[str]:
-    print("building the runner", file=sys.stderr, flush=True)
-    return runner.build("Guidewire.Cli")
+    return building.build(building.RUNNER, _tell_building)
 
 
-def _run_study(name: str, command: list[str], out: Path, jobs: int) -> SweepResult:
-    """Run a study and say what failed."""
-    return _tell_failures(name, run_study(STUDIES[name], command, out, jobs, _progress_of(name)))
+def _tell_building(line: str) -> None:
+    print(line, file=sys.stderr, flush=True)
 
 
-def _run_checks(name: str, command: list[str], out: Path, jobs: int) -> SweepResult:
-    """Make the runs that a list of checks asks for and say what failed."""
-    from experiments import checking, gallery
-
-    checks = gallery.CHECKED[name]
-    return _tell_failures(name, checking.run_checks(name, checks, command, out, jobs, _progress_of(name)))
+def _make(name: str, sources: Sequence[Source], command: list[str], out: Path, jobs: int) -> SweepResult:
+    """Make the runs that studies or checks ask for and say what failed."""
+    result = sweep(sources, command, out, jobs, _progress_of(name), _build_benchmarks)
+    if sys.stderr.isatty():
+        print(file=sys.stderr)
+    for answer in result.failures:
+        print(f"guidewire: {answer.name}: {answer.message}", file=sys.stderr)
+    return result
 
 
 def _progress_of(name: str) -> Callable[[int, int, Answer], None]:
@@ -240,14 +247,6 @@ def _progress_of(name: str) -> Callable[[int, int, Answer], None]:
             print(f"{name}: {done}/{total} runs", file=sys.stderr, flush=True)
 
     return progress
-
-
-def _tell_failures(name: str, result: SweepResult) -> SweepResult:
-    if sys.stderr.isatty():
-        print(file=sys.stderr)
-    for answer in result.failures:
-        print(f"guidewire: {name}/{answer.name}: {answer.message}", file=sys.stderr)
-    return result
 
 
 def _hand_to(command: list[str], cwd: Path | None = None) -> int:

@@ -35,17 +35,17 @@ def _draw_validation(folders: Mapping[str, Path]) -> tuple[Figure, str]:
 
 
 def _draw_check(check: Check, folders: Mapping[str, Path]) -> tuple[Figure, str]:
-    finding = replay(check, folders[check.id])
+    finding = replay(check, folders[check.name])
     return draw_finding(finding), finding.caption
 
 
-CHECKED: dict[str, tuple[Check, ...]] = {VALIDATION: ROWS, **{check.id: (check,) for check in (CHART, INTEGRATORS)}}
+CHECKED: dict[str, tuple[Check, ...]] = {VALIDATION: ROWS, **{check.name: (check,) for check in (CHART, INTEGRATORS)}}
 
 SPECS: dict[str, FigureSpec] = {
     **FIGURES,
     VALIDATION: FigureSpec(VALIDATION, "validation of the material rod", (VALIDATION,), _draw_validation),
     **{
-        check.id: FigureSpec(check.id, check.title, (check.id,), partial(_draw_check, check))
+        check.name: FigureSpec(check.name, check.title, (check.name,), partial(_draw_check, check))
         for check in (CHART, INTEGRATORS)
     },
 }

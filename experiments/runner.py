@@ -1,4 +1,4 @@
-"""Builds the headless runner and lets it work: one run after another in each process, several processes at once.
+"""Lets the headless runner work: one run after another in each process, several processes at once.
 
 A runner started with `-lines` reads one JSON request a line and writes one JSON answer a line, so a sweep pays for
 no process start. A runner that dies takes one run with it, not the sweep: that run is answered here as failed, and
@@ -8,9 +8,7 @@ the next request gets a new process.
 from __future__ import annotations
 
 import json
-import os
 import queue
-import shutil
 import signal
 import subprocess
 import threading
@@ -19,10 +17,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from experiments.prepare import ROOT, PreparationError
-
-HEADLESS = ROOT / "experiments" / "headless"
-SDK_MAJOR = 10
 INTERNAL_ERROR = 70
 INTERRUPTED = 130
 _SECONDS_TO_END = 20.0
@@ -67,39 +61,6 @@ class Answer:
     outcome: str | None
     message: str
     reused: bool
-
-
-def dotnet() -> str:
-    """The dotnet program; raises PreparationError, one line, where it or a new enough SDK is missing."""
-    program = shutil.which("dotnet")
-    need = f"install the .NET SDK {SDK_MAJOR}.0 or newer so that 'dotnet' is on the PATH"
-    if program is None:
-        raise PreparationError(f"the .NET SDK is missing: {need}")
-    listed = subprocess.run([program, "--list-sdks"], capture_output=True, text=True, check=False).stdout
-    majors = [int(line.split(".")[0]) for line in listed.splitlines() if line.split(".")[0].isdigit()]
-    if max(majors, default=0) < SDK_MAJOR:
-        found = f"only {max(majors)}.x" if majors else "no SDK, only the runtime or nothing"
-        raise PreparationError(f"the .NET SDK is too old ({found} found): {need}")
-    return program
-
-
-def build(project: str) -> list[str]:
-    """Build one project of the headless solution (Release) and return the command that starts it.
-
-    Raises PreparationError with the first compiler error where it does not build; the whole output is in
-    results/build.log.
-    """
-    program = dotnet()
-    log = ROOT / "results" / "build.log"
-    log.parent.mkdir(parents=True, exist_ok=True)
-    command = [program, "build", "-c", "Release", "--nologo", str(HEADLESS / project / f"{project}.csproj")]
-    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
-    log.write_text(done.stdout, encoding="utf-8")
-    if done.returncode != 0:
-        errors = [line.strip() for line in done.stdout.splitlines() if "error" in line]
-        first = errors[0] if errors else f"dotnet build ended with {done.returncode}"
-        raise PreparationError(f"{project} does not build: {first} (log: {os.path.relpath(log)})")
-    return [program, str(HEADLESS / project / "bin" / "Release" / f"net{SDK_MAJOR}.0" / f"{project}.dll")]
 
 
 class Runner:
@@ -190,7 +151,7 @@ def run_all(
 
     Parameters
     ----------
-    command : the runner, as `build` returns it.
+    command : the runner, as `building.build` returns it.
     requests : the runs.
     jobs : number of processes.
     on_answer : called in the calling thread, once per request, in the order in which runs end.

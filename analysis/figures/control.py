@@ -175,7 +175,7 @@ def read_twists(folder: Path) -> list[TwistRow]:
         A file cannot be read, or nothing was run.
     """
     rows = [
-        TwistRow(run.key.split(",")[0], int(run.number("constraintSolverSteps")), read_twist(run))
+        TwistRow(run.variant, int(run.number("constraintSolverSteps")), read_twist(run))
         for run in read_study(folder).untimed
     ]
     if not rows:

@@ -15,6 +15,9 @@ from typing import Protocol
 
 import numpy as np
 
+from studies.keys import run_key
+from studies.table import Case
+
 EPSILON = 0.001  # units
 HOLD = 100  # steps
 
@@ -159,20 +162,21 @@ class WrittenRun(Protocol):
 
 def write_study(
     folder: Path, name: str, key: str | None, chains: Sequence[WrittenRun], repeats: int = 3,
-    labels: Sequence[str] = (),
+    variants: Sequence[str] = (),
 ) -> Path:
     """Writes a study folder: each run and timed repeats of it, of 2, 3, 4 ... ms a step, and study.json.
 
-    ``labels`` names the runs where a parameter does not tell them apart.
+    ``key`` is the study's axis; ``variants`` are the runs' where that does not tell them apart.
     """
     rows = []
     for index, chain in enumerate(chains):
-        label = labels[index] if labels else name if key is None else f"{key}={chain.parameters[key]}"
+        values = {} if key is None else {key: chain.parameters[key]}
+        case = Case(run_key(variants[index] if variants else "", values), values)
         for repeat in (None, *range(1, repeats + 1)):
-            place = label if repeat is None else f"{label}/repeat-{repeat}"
+            place = case.folder(repeat)
             chain.write(folder / place, 2.0 if repeat is None else 1.0 + repeat)
-            overrides = {} if key is None else {key: chain.parameters[key]}
-            rows.append({"key": label, "parameters": "params/default.json", "overrides": overrides, "folder": place,
+            rows.append({"key": case.key, "variant": variants[index] if variants else "", "values": values,
+                         "parameters": "params/default.json", "overrides": values, "folder": place,
                          "repeat": repeat, "outcome": "converged", "exitCode": 0})
     (folder / "study.json").write_text(json.dumps({"study": name, "runs": rows}))
     return folder

@@ -50,11 +50,15 @@ def studies(tmp_path_factory: pytest.TempPathFactory, default_study: Path) -> di
     }
     for name, vessel in made_of.items():
         waves = [gain_wave(rule, n, vessel) for rule in ("none", "barycentric", "seed") for n in (4, 8, 16)]
-        labels = [f"{wave.more['elementContact']},numberRodElements={wave.elements}" for wave in waves]
-        folders[name] = write_study(tmp_path_factory.mktemp(name), name, None, waves, labels=labels)
+        rules = [wave.more["elementContact"] for wave in waves]
+        folders[name] = write_study(tmp_path_factory.mktemp(name), name, "numberRodElements", waves, variants=rules)
     for name, named in NAMED_WAVES.items():
         folders[name] = write_study(tmp_path_factory.mktemp(name), name, None, list(named.values()), repeats=0,
-                                    labels=list(named))
+                                    variants=list(named))
+    folders["twist"] = write_study(
+        tmp_path_factory.mktemp("twist"), "twist", "constraintSolverSteps", list(TWISTED_WAVES.values()), repeats=0,
+        variants=[lumen for lumen, _ in TWISTED_WAVES],
+    )
     return folders
 
 
@@ -102,12 +106,10 @@ NAMED_WAVES: dict[str, dict[str, Wave]] = {
         key: Wave(length=100.0, more={"vessel": LUMEN}, displacement=size)
         for key, size in (("axis-published", 12.0), ("axis", 8.0), ("push", 2.0), ("force", 3.0))
     },
-    "twist": {
-        f"{lumen},constraintSolverSteps={m}": Wave(
-            steps=60, constraint_solver_steps=m, turning=True, more={"twistPerStep": 0.01, "vessel": LUMEN}
-        )
-        for lumen in ("straight", "bent") for m in (20, 100)
-    },
+}
+TWISTED_WAVES: dict[tuple[str, int], Wave] = {  # by lumen and solver steps
+    (lumen, m): Wave(steps=60, constraint_solver_steps=m, turning=True, more={"twistPerStep": 0.01, "vessel": LUMEN})
+    for lumen in ("straight", "bent") for m in (20, 100)
 }
 
 

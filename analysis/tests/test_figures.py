@@ -21,7 +21,7 @@ from analysis.figures.sweeps import VIEWS, draw_sweep
 from analysis.figures.wording import number, span
 from analysis.tables import StudyTable, read_table
 from analysis.tests.chain import EPSILON, Chain
-from experiments.studies import STUDIES
+from studies.builtin import STUDIES
 
 SWEEPS = {name: FIGURES[name].studies[0] for name in ("4.5", "4.6", "4.7", "4.8", "4.9")}
 
@@ -48,7 +48,8 @@ def test_every_figure_of_the_longitudinal_study_is_there() -> None:
     assert list(FIGURES)[:9] == [f"4.{k}" for k in range(1, 10)]
     for name, spec in FIGURES.items():
         assert spec.id == name and spec.title and set(spec.studies) <= set(STUDIES)
-    assert {VIEWS[name].key for name in SWEEPS} == {STUDIES[study].parameter for study in SWEEPS.values()}
+    for name, study in SWEEPS.items():
+        assert [axis.key for axis in STUDIES[study].grid.axes] == [VIEWS[name].key]
 
 
 @pytest.mark.parametrize("name", FIGURES)

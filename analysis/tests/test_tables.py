@@ -100,6 +100,24 @@ def test_log_of_the_last_sphere_alone_has_no_total_error(tmp_path: Path, chain: 
     assert row.total_error is None and row.relaxation is not None
 
 
+def test_curve_over_one_parameter_is_not_drawn_from_a_study_of_two(tmp_path: Path, chain: Chain) -> None:
+    folder = write_study(tmp_path, "map", "timeStep", [chain], repeats=0)
+    table = json.loads((folder / "study.json").read_text())
+    table["runs"][0]["values"]["totalMass"] = 0.01
+    (folder / "study.json").write_text(json.dumps(table))
+    assert read_study(folder).axes == ("timeStep", "totalMass")
+    with pytest.raises(LogError, match="study.json: varies timeStep, totalMass, not timeStep alone"):
+        read_table(folder, "timeStep")
+
+
+def test_curve_over_one_parameter_is_not_drawn_from_several_variants(tmp_path: Path, chain: Chain) -> None:
+    folder = write_study(tmp_path, "two", "timeStep", [chain, chain], repeats=0, variants=["a", "b"])
+    assert [(run.variant, dict(run.values)) for run in read_study(folder).untimed] == [
+        ("a", {"timeStep": chain.time_step}), ("b", {"timeStep": chain.time_step})]
+    with pytest.raises(LogError, match="varies timeStep, variants, not timeStep alone"):
+        read_table(folder, "timeStep")
+
+
 def test_runs_that_left_nothing_are_named(tmp_path: Path, chain: Chain) -> None:
     folder = write_study(tmp_path, "time-step", "timeStep", [chain], repeats=0)
     table = json.loads((folder / "study.json").read_text())

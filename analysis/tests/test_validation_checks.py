@@ -13,12 +13,13 @@ from analysis.figures.style import CAPTION_ID
 from analysis.runs import Run
 from analysis.validation import balance, chart, dynamics, pictures, ring, scenes, stability
 from analysis.validation.beam import mode_numbers
-from analysis.validation.check import Case, Check, Finding, Result, not_run
+from analysis.validation.check import Check, Finding, Result, not_run
 from analysis.validation.clamp import fit_frequency
 from analysis.validation.dynamics import rms_error
 from analysis.validation.report import ROWS, Report, as_csv, as_markdown, draw_finding, draw_overview
 from analysis.validation.states import State
 from analysis.validation.wire import BASE, Wire
+from studies.table import Case
 
 
 def drive(search: stability.Search) -> stability.Limit:
@@ -66,7 +67,7 @@ def test_search_passes_over_loads_whose_run_says_nothing() -> None:
 def push(limit: float) -> stability.Limit:
     """What `pushed` finds where a push doubles above the limit and is halved below it."""
     return drive(stability.pushed(
-        "load=", 2.0, lambda load: Case("", {"load": load}),
+        "load=", 2.0, lambda key, load: Case(key, {"load": load}),
         lambda run: stability.PUSH * (2.0 if run.number("load") > 2.0 * limit else 0.5)))
 
 
@@ -144,23 +145,43 @@ def test_twists_go_on_beyond_half_a_turn() -> None:
     np.testing.assert_allclose(State(0.0, np.zeros((21, 3)), np.zeros((21, 3)), frames).twists, turns)
 
 
-@pytest.mark.parametrize("solver", ["explicit", "xpbd"])
-def test_small_steps_are_below_the_limit_and_fill_the_step(solver: str) -> None:
+STABLE = 1.7e-7  # s, what a runner may state
+
+
+def answered(plan: scenes.Asking[dict], asked: list[Case]) -> dict:
+    """Drives a plan with runs that state `STABLE`; `asked` takes the cases."""
+    summary = {"solver": {"stableSubstep": STABLE}}
+    try:
+        cases = next(plan)
+        while True:
+            asked += cases
+            cases = plan.send({case.key: Run(Path(), case.overrides, summary) for case in cases})
+    except StopIteration as end:
+        return end.value
+
+
+@pytest.mark.parametrize("step", [1e-3, 1e-5])
+def test_explicit_substeps_are_below_the_limit_that_the_runner_states_and_fill_the_step(step: float) -> None:
+    asked: list[Case] = []
+    keys = {**scenes.wire_parameters(BASE), "numberRodElements": 12, "distalEnd": "clamped"}
+    method = answered(scenes.small_steps("explicit", BASE, step, keys), asked)
+    assert 0.7 * STABLE < step / method["substeps"] <= 0.75 * STABLE
+    (case,) = asked  # of the same wire and supports, and without a step
+    assert case.overrides == {**keys, "solver": "explicit", "maxSimulationSteps": 0}
+
+
+def test_xpbd_substeps_are_set_by_the_wire_alone() -> None:
     for wire in (BASE, Wire(radius=5e-3)):
-        method = scenes.small_steps(solver, wire, 1e-3)
-        substep = 1e-3 / method["substeps"]
-        longest = {"explicit": scenes.stable_substep(wire), "xpbd": 4.0 * scenes.shear_substep(wire)}[solver]
-        assert substep <= longest
+        asked: list[Case] = []
+        method = answered(scenes.small_steps("xpbd", wire, 1e-3, scenes.wire_parameters(wire)), asked)
+        assert asked == [] and 1e-3 / method["substeps"] <= 4.0 * scenes.shear_substep(wire)
 
 
-def test_stable_substep_is_that_of_neighbours_turning_against_each_other() -> None:
-    """Two elements whose nodes stay: shear GA l and joint EI/l act on rho I l each; the fast motion is the odd one."""
-    wire, n = Wire(radius=5e-3), 60
-    length = wire.length / n
-    inertia = wire.density * wire.second_moment * length
-    joints = 2.0 * wire.bending / length  # one on either side of each element, neighbours opposite
-    omega = math.sqrt((wire.shearing * length + 2.0 * joints) / inertia)
-    assert scenes.stable_substep(wire, n) == pytest.approx(2.0 / omega)
+def test_settled_motion_steps_as_the_runner_allows_and_takes_its_loads() -> None:
+    asked: list[Case] = []
+    found = answered(scenes.settled("explicit", BASE, {"tipForce": [0.0, -1.0, 0.0]}, name="limit"), asked)
+    assert [case.key for case in asked] == ["limit"] and found["tipForce"] == [0.0, -1.0, 0.0]
+    assert found["timeStep"] == 1000.0 * STABLE and found["timeStep"] / found["substeps"] <= 0.75 * STABLE
 
 
 def _report() -> Report:
@@ -203,13 +224,13 @@ def test_picture_shows_points_gate_and_caption() -> None:
 
 
 def test_every_check_has_its_own_name() -> None:
-    assert len({check.id for check in ROWS}) == len(ROWS)
+    assert len({check.name for check in ROWS}) == len(ROWS)
     assert {check.section for check in ROWS} == {
         "The clamp", "Statics", "Stability limits", "Dynamics", "Independence"}
 
 
 def test_gains_stand_in_every_panel_of_the_chart_between_the_same_ends() -> None:
-    twist = chart._twist_points(0.1)
+    twist = chart._twist_points(0.1, dict.fromkeys(chart._LIMITS, STABLE))
     assert {point.solver for point in twist} == {"pbd", "xpbd", "explicit", "direct"}
     for point in twist:
         assert point.case.overrides["distalEnd"] == "clamped" and "twistPerStep" not in point.case.overrides

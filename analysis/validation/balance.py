@@ -11,10 +11,11 @@ import numpy as np
 from analysis.figures.wording import number
 from analysis.runs import Run
 from analysis.validation import beam, pictures, scenes
-from analysis.validation.check import Case, Check, Finding, Plan, Result, not_run
+from analysis.validation.check import Check, Finding, Plan, Result, not_run
 from analysis.validation.dynamics import SCHEMES, SECTION
 from analysis.validation.states import reactions, read_states, wall_time_per_second
 from analysis.validation.wire import BASE, STURDY
+from studies.table import Case
 
 _PERIODS = 100
 _STEPS = 100  # a period, for the implicit schemes
@@ -53,8 +54,8 @@ def _energy() -> Plan:
     }
     methods: dict[str, dict[str, Any]] = {f"direct, {scheme}": {"integrator": scheme, "solverTolerance": 1e-11}
                                           for scheme in SCHEMES}
-    methods |= {solver: {"solver": solver, **scenes.small_steps(solver, STURDY, step, n)}
-                for solver in ("explicit", "xpbd")}
+    for solver in ("explicit", "xpbd"):
+        methods[solver] = {"solver": solver, **(yield from scenes.small_steps(solver, STURDY, step, common))}
     start = scenes.mode_start(STURDY, n, first, 1e-2)
     cases = {name: Case(name.replace(", ", "-"), {**common, **method}, start=start)
              for name, method in methods.items()}
@@ -118,7 +119,7 @@ def _force_balance(tight: bool) -> Plan:
     }
     if tight:
         cases["explicit"] = Case("explicit", {
-            **common, "solver": "explicit", **scenes.small_steps("explicit", BASE, step, n)})
+            **common, "solver": "explicit", **(yield from scenes.small_steps("explicit", BASE, step, common))})
     runs = yield list(cases.values())
     weight = BASE.line_density * BASE.length * np.array([0.0, -g, 0.0])
     results, drawn = [], {}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Generator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,10 +12,12 @@ import numpy as np
 from analysis.figures.wording import number, percent
 from analysis.runs import Run
 from analysis.validation import beam, elastica, pictures, scenes
-from analysis.validation.check import Case, Check, Finding, Plan, Result
+from analysis.validation.check import Check, Finding, Plan, Result
 from analysis.validation.dynamics import RELEASE_GATE, RELEASE_LOAD, RELEASE_TIME, release, release_error
 from analysis.validation.states import last_state, tip_motion, wall_time_per_second
 from analysis.validation.wire import BASE
+from studies.keys import run_key
+from studies.table import Case
 
 _GRAVITY = 9.81  # m/s^2
 _REPEATS = 3
@@ -62,14 +64,14 @@ def _sag(run: Run) -> float:
     return -float(tip[-1, 1]) / BASE.length
 
 
-def _tune(wanted: float) -> Generator[Sequence[Case], Mapping[str, Run], float]:
+def _tune(wanted: float) -> scenes.Asking[float]:
     """The gain with which pbd sags as the material does, at one m, n and dt: the interval that holds it is divided
     again and again, and the last one interpolated."""
     low, high = _GAIN_RANGE
     seen: dict[float, float] = {}
     for _ in range(_TUNING_ROUNDS):
         gains = [float(g) for g in np.geomspace(low, high, _TUNING_PARTS + 1)]
-        cases = {g: Case(f"tuning-{g:.10g}", _pbd_settled(g, {})) for g in gains if g not in seen}
+        cases = {g: Case(run_key("tuning", {"gain": g}), _pbd_settled(g, {})) for g in gains if g not in seen}
         runs = yield list(cases.values())
         seen |= {g: _sag(runs[case.key]) for g, case in cases.items()}
         low = max((g for g in gains if seen[g] >= wanted), default=math.nan)
@@ -80,8 +82,15 @@ def _tune(wanted: float) -> Generator[Sequence[Case], Mapping[str, Run], float]:
     return low * (high / low) ** share
 
 
-def _explicit(step: float, elements: int) -> dict[str, Any]:
-    return {"solver": "explicit", **scenes.small_steps("explicit", BASE, step, elements)}
+_EXPLICIT_COUNTS = (8, 15, 30)
+_RELEASE_COUNTS = (10, 20, 30)
+_LIMITS: dict[str, dict[str, Any]] = {
+    f"limit-{n}": {"numberRodElements": n} for n in (*_EXPLICIT_COUNTS, *_RELEASE_COUNTS)
+} | {f"limit-clamped-{n}": {"numberRodElements": n, "distalEnd": "clamped"} for n in _EXPLICIT_COUNTS}
+
+
+def _explicit(step: float, stable: float) -> dict[str, Any]:
+    return {"solver": "explicit", **scenes.explicit_steps(step, stable)}
 
 
 def _xpbd(substeps: int, sweeps: int) -> dict[str, Any]:
@@ -92,14 +101,15 @@ def _xpbd_name(elements: int, step: float, substeps: int, sweeps: int) -> str:
     return f"n = {elements}, substep {number(1e6 * step / substeps, 2)} µs, m = {sweeps}"
 
 
-def _static_points(gain: float) -> list[_Point]:
+def _static_points(gain: float, stable: Mapping[str, float]) -> list[_Point]:
     points = [
         ("direct", f"n = {n}, dt = {1e3 * dt:g} ms", {**_settled({"integrator": "implicitEuler"}, dt),
                                                     "numberRodElements": n})
         for n, dt in ((8, 4e-3), (15, 4e-3), (30, 4e-3), (60, 2e-3))
     ]
     points += [
-        ("explicit", f"n = {n}", _settled({**_explicit(2e-4, n), "numberRodElements": n}, 2e-4)) for n in (8, 15, 30)
+        ("explicit", f"n = {n}", _settled({**_explicit(2e-4, stable[f"limit-{n}"]), "numberRodElements": n}, 2e-4))
+        for n in _EXPLICIT_COUNTS
     ]
     points += [
         ("xpbd", _xpbd_name(n, 1e-3, k, m), _settled({**_xpbd(k, m), "numberRodElements": n}, 1e-3))
@@ -122,7 +132,7 @@ def _pbd_name(changed: Mapping[str, Any]) -> str:
     return ", ".join(f"{words[key]} = {value:g}" for key, value in changed.items()) or "as tuned"
 
 
-def _release_points(gain: float) -> list[_Point]:
+def _release_points(gain: float, stable: Mapping[str, float]) -> list[_Point]:
     points: list[tuple[str, str, dict[str, Any], Mapping[str, Any] | None]] = [
         ("direct", f"{scheme}, n = {n}, {1e3 * dt:g} ms", release(n, dt, {"integrator": scheme}), None)
         for scheme, n, dt in (
@@ -132,7 +142,7 @@ def _release_points(gain: float) -> list[_Point]:
         )
     ]
     points += [
-        ("explicit", f"n = {n}", release(n, 2e-4, _explicit(2e-4, n)), None) for n in (10, 20, 30)
+        ("explicit", f"n = {n}", release(n, 2e-4, _explicit(2e-4, stable[f"limit-{n}"])), None) for n in _RELEASE_COUNTS
     ]
     points += [
         ("xpbd", _xpbd_name(n, 2e-4, k, m), release(n, 2e-4, _xpbd(k, m)), None)
@@ -152,7 +162,7 @@ def _release_points(gain: float) -> list[_Point]:
             for k, (solver, setting, overrides, start) in enumerate(points)]
 
 
-def _twist_points(gain: float) -> list[_Point]:
+def _twist_points(gain: float, stable: Mapping[str, float]) -> list[_Point]:
     omega = 2.0 * math.pi * _TWIST_FREQUENCY
 
     def turned(method: Mapping[str, Any], step: float, n: int = scenes.ELEMENTS) -> dict[str, Any]:
@@ -164,7 +174,8 @@ def _twist_points(gain: float) -> list[_Point]:
 
     points = [("direct", f"n = {n}, dt = {1e6 * dt:g} µs", turned({"integrator": "implicitEuler"}, dt, n))
               for n, dt in ((8, 2e-5), (15, 2e-5), (30, 2e-5))]
-    points += [("explicit", f"n = {n}", turned(_explicit(4e-6, n), 4e-6, n)) for n in (8, 15, 30)]
+    points += [("explicit", f"n = {n}", turned(_explicit(4e-6, stable[f"limit-clamped-{n}"]), 4e-6, n))
+               for n in _EXPLICIT_COUNTS]
     points += [("xpbd", _xpbd_name(n, 4e-6, k, m), turned(_xpbd(k, m), 4e-6, n))
                for n, k, m in ((8, 1, 1), (15, 1, 1), (30, 1, 1), (30, 2, 1), (30, 4, 1), (30, 16, 1), (30, 1, 3),
                                (30, 1, 10))]
@@ -202,7 +213,8 @@ def _chart() -> Plan:
     load = BASE.line_density * _GRAVITY * BASE.length**3 / BASE.bending
     wanted = elastica.heavy(load, np.linspace(0.0, 1.0, 11)).tip[1]
     gain = yield from _tune(wanted)
-    points = [*_static_points(gain), *_release_points(gain), *_twist_points(gain)]
+    stable = yield from scenes.stable_substeps(_LIMITS)
+    points = [*_static_points(gain, stable), *_release_points(gain, stable), *_twist_points(gain, stable)]
     runs = yield [point.case for point in points]
     measure = {"static": lambda run: abs(_sag(run) / wanted - 1.0), "release": release_error, "twist": _twist_error}
     what = {"static": "own weight, damped to rest: deflection of the tip", "release": "cantilever let go, 0.2 s: RMS",

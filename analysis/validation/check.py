@@ -8,8 +8,8 @@ what it needs depends on what it saw, and returns what it found:
         ...
         return Finding(...)
 
-Whoever makes the runs drives it once, and whoever draws them drives it again over the folders that are there
-(`replay`).
+Whoever makes the runs drives it once (experiments/sweep.py), and whoever draws them drives it again over the folders
+that are there (`replay`).
 """
 
 from __future__ import annotations
@@ -23,32 +23,9 @@ from typing import Any
 from matplotlib.figure import Figure
 
 from analysis.runs import Run, read_run
-
-
-@dataclass(frozen=True)
-class Case:
-    """One run that a check asks for.
-
-    Attributes
-    ----------
-    key : str
-        Its name among the cases of the check, and its folder.
-    overrides : mapping of str to Any
-        Parameters laid over the scene.
-    repeats : int
-        Timed repeats, made with no other run beside them.
-    start : mapping of str to Any, or None
-        Positions, orientations and so on to start from, as a start file holds them.
-    """
-
-    key: str
-    overrides: Mapping[str, Any]
-    repeats: int = 0
-    start: Mapping[str, Any] | None = None
-
-    def repeat_folder(self, folder: Path, repeat: int) -> Path:
-        """Where timed repeat number ``repeat`` of a run in ``folder`` stands."""
-        return folder / f"repeat-{repeat}"
+from analysis.validation.scenes import SCENE
+from studies.keys import Value
+from studies.table import Case, Rounds
 
 
 @dataclass(frozen=True)
@@ -120,18 +97,35 @@ class Check:
 
     Attributes
     ----------
-    id : str
+    name : str
         Folder of its runs and name of its picture.
     section, title : str
         For the report.
     plan : callable
         Makes the generator described above.
+    scene : str
+        Parameter file that its cases are laid over.
+    results : tuple of str
+        Outcomes that count as a result: a solver that gives up with a reason is one too.
     """
 
-    id: str
+    name: str
     section: str
     title: str
     plan: Callable[[], Plan] = field(repr=False)
+    scene: str = SCENE
+    results: tuple[str, ...] = ("converged", "finished", "diverged", "failed")
+
+    def rounds(self, folder: Path) -> Rounds:
+        """Yields the cases that the plan asks for, gives it their runs in `folder`, and returns what it found."""
+        plan = self.plan()
+        try:
+            cases = next(plan)
+            while True:
+                yield cases
+                cases = plan.send(read_cases(cases, folder))
+        except StopIteration as end:
+            return end.value
 
 
 def replay(check: Check, folder: Path) -> Finding:
@@ -140,21 +134,28 @@ def replay(check: Check, folder: Path) -> Finding:
     Parameters
     ----------
     check : the check.
-    folder : folder of all checks; this one's cases stand below its id.
+    folder : folder of all checks; this one's cases stand below its name.
 
     Raises
     ------
     analysis.logs.LogError : a run is missing.
     """
-    plan = check.plan()
+    rounds = check.rounds(folder / check.name)
     try:
-        cases = next(plan)
         while True:
-            cases = plan.send(read_cases(cases, folder / check.id))
+            next(rounds)
     except StopIteration as end:
         return end.value
 
 
 def read_cases(cases: Sequence[Case], folder: Path) -> dict[str, Run]:
-    """Run folders of these cases, by key."""
-    return {case.key: read_run(folder / case.key, case.key, case.overrides) for case in cases}
+    """Runs of these cases, by key."""
+    return {
+        case.key: read_run(folder / case.folder(), case.key, variant=case.variant, values=case.values)
+        for case in cases
+    }
+
+
+def by_point(runs: Mapping[str, Run]) -> dict[tuple[Value, ...], Run]:
+    """Runs of a grid by variant, where it has variants, and the values of its axes in their order."""
+    return {(*([run.variant] if run.variant else []), *run.values.values()): run for run in runs.values()}

@@ -10,9 +10,10 @@ from scipy.optimize import least_squares
 
 from analysis.figures.wording import number
 from analysis.validation import beam, pictures, scenes
-from analysis.validation.check import Case, Check, Finding, Plan, Result
+from analysis.validation.check import Check, Finding, Plan, Result, by_point
 from analysis.validation.states import last_state, tip_motion, wall_time, wall_time_per_second
 from analysis.validation.wire import BASE
+from studies.table import Axis, Case, Grid
 
 SECTION = "The clamp"
 SMALL = 1e-4  # F L^2/EI and w L^3/EI, small enough for the linear beam
@@ -32,18 +33,17 @@ def _compliance() -> Plan:
     # Shear adds F L/GA and w L^2/(2 GA), which the chain takes into account too.
     shear = BASE.bending / (BASE.shearing * BASE.length**2)
     exact = {"tip-load": beam.tip_load_compliance() + shear, "own-weight": beam.own_weight_compliance() + 0.5 * shear}
-    cases = [
-        Case(f"{load}-{rule}-n={n}", scenes.at_rest({**keys, "clampRule": rule, "numberRodElements": n,
-                                                     "solverTolerance": 1e-13}))
-        for load, keys in loads.items() for rule in RULES for n in _COUNTS
-    ]
-    runs = yield cases
+    grid = Grid(
+        (Axis("clampRule", tuple(RULES)), Axis("numberRodElements", _COUNTS)),
+        scenes.at_rest({"solverTolerance": 1e-13}), loads,
+    )
+    runs = by_point((yield grid.cases()))
     results, series = [], {}
     for load in loads:
         for rule, (order, name) in RULES.items():
             errors = []
             for n in _COUNTS:
-                run = runs[f"{load}-{rule}-n={n}"]
+                run = runs[load, rule, n]
                 tip = -last_state(run).positions[-1, 1] / BASE.length / SMALL
                 errors.append(abs(tip / exact[load] - 1.0))
                 if n == scenes.ELEMENTS:

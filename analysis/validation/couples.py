@@ -11,10 +11,12 @@ import numpy as np
 from analysis.figures.wording import percent
 from analysis.runs import Run
 from analysis.validation import elastica, pictures, scenes
-from analysis.validation.check import Case, Check, Finding, Plan, Result, not_run
+from analysis.validation.check import Check, Finding, Plan, Result, not_run
 from analysis.validation.spatial import CurvedRod
 from analysis.validation.states import last_state, solver_method, wall_time
 from analysis.validation.wire import BASE, STURDY, Wire
+from studies.keys import value_text
+from studies.table import Case
 
 SECTION = "Statics"
 ARC_GATE = 1e-3  # of L
@@ -43,16 +45,17 @@ def _couple(wire: Wire, angle: float) -> list[float]:
     return [angle * wire.bending / wire.length, 0.0, 0.0]
 
 
-def _settled(law: str, angle: float, n: int) -> Case:
+def _settled(law: str, angle: float, n: int) -> scenes.Asking[Case]:
     """The explicit solver's run of an end couple. The sturdy wire's arc is the base wire's: a couple neither stretches
     nor shears."""
-    return Case(f"explicit-{law}-{_slug(angle)}", scenes.settled("explicit", STURDY, {
+    key = f"explicit-{law}-{_slug(angle)}"
+    return Case(key, (yield from scenes.settled("explicit", STURDY, {
         **scenes.wire_parameters(STURDY), "tipMoment": _couple(STURDY, angle), "clampRule": "halfElement",
-        "bendLaw": law, "numberRodElements": n}))
+        "bendLaw": law, "numberRodElements": n}, name=f"{key}-limit")))
 
 
 def _slug(angle: float) -> str:
-    return f"{math.degrees(angle):g}"
+    return value_text(math.degrees(angle))
 
 
 def _end_moment() -> Plan:
@@ -62,8 +65,9 @@ def _end_moment() -> Plan:
             {"tipMoment": _couple(BASE, angle), "clampRule": rule})))
         for rule, words in rules.items() for name, angle in _ANGLES.items()
     ]
-    asked += [("explicit, r = 5 mm", "halfElement", name, angle, _settled("rotationVector", angle, scenes.ELEMENTS))
-              for name, angle in _ANGLES.items()]
+    for name, angle in _ANGLES.items():
+        case = yield from _settled("rotationVector", angle, scenes.ELEMENTS)
+        asked.append(("explicit, r = 5 mm", "halfElement", name, angle, case))
     runs = yield [case for *_, case in asked]
     results, drawn, references = [], {}, {}
     for solver, rule, name, angle, case in asked:
@@ -108,7 +112,9 @@ def _darboux_couple() -> Plan:
             **law, "numberRodElements": n, "tipMoment": _couple(BASE, angle)}))
         for name, angle in _ANGLES.items() for n in counts
     }
-    explicit = {name: _settled("darboux", angle, 90) for name, angle in _ANGLES.items()}
+    explicit = {}
+    for name, angle in _ANGLES.items():
+        explicit[name] = yield from _settled("darboux", angle, 90)
     beyond = Case("beyond", scenes.at_rest({**law, "numberRodElements": 6, "tipMoment": _couple(BASE, 6.5)}))
     runs = yield [*cases.values(), *explicit.values(), beyond]
     results, series = [], {}
@@ -157,9 +163,9 @@ def _space() -> Plan:
         return {"tipForce": (factor * wire.bending / wire.length**2 * _FORCE).tolist(),
                 "tipMoment": (factor * wire.bending / wire.length * _COUPLE).tolist()}
 
-    cases = {("direct", f): Case(f"direct-{f:g}", scenes.at_rest(keys(BASE, f)), repeats=3) for f in _FACTORS}
-    cases |= {("explicit", f): Case(f"explicit-{f:g}", scenes.settled("explicit", BASE, keys(BASE, f)))
-              for f in _FACTORS[1:2]}
+    cases = {("direct", f): Case(f"direct-{value_text(f)}", scenes.at_rest(keys(BASE, f)), repeats=3) for f in _FACTORS}
+    middle = _FACTORS[1]
+    cases["explicit", middle] = Case("explicit", (yield from scenes.settled("explicit", BASE, keys(BASE, middle))))
     runs = yield list(cases.values())
     rod = CurvedRod(BASE.length, 0.0, BASE.bending, BASE.torsion, BASE.stretching, BASE.shearing)
     results, drawn, tips = [], {}, {}

@@ -8,10 +8,11 @@ import numpy as np
 
 from analysis.figures.wording import number, percent
 from analysis.validation import pictures, scenes, twisted
-from analysis.validation.check import Case, Check, Finding, Plan, Result, not_run
+from analysis.validation.check import Check, Finding, Plan, Result, by_point, not_run
 from analysis.validation.stability import SECTION
 from analysis.validation.states import last_state, solver_report, wall_time
 from analysis.validation.wire import Wire
+from studies.table import Axis, Grid
 
 _HELIX = {"bending": 1.345, "torsion": 0.789, "length": 100.0, "shortening": 3.0, "turn": 54.0 * math.pi}
 _WIRE = Wire.of_stiffness(_HELIX["length"], 0.01, _HELIX["bending"], _HELIX["torsion"], 1.0)
@@ -23,18 +24,14 @@ _GATE = 5e-2
 def _helix() -> Plan:
     exact = twisted.localised_helix(**_HELIX)
     wire = _WIRE
-    cases = {
-        n: Case(f"n={n}", scenes.at_rest({
-            **scenes.wire_parameters(wire), "numberRodElements": n, "distalEnd": "clamped",
-            "distalRotation": _HELIX["turn"], "distalDisplacement": -_HELIX["shortening"] / scenes.UNIT,
-        }))
-        for n in _COUNTS
-    }
-    runs = yield list(cases.values())
+    held = {**scenes.wire_parameters(wire), "distalEnd": "clamped"}
+    wound = scenes.at_rest({
+        **held, "distalRotation": _HELIX["turn"], "distalDisplacement": -_HELIX["shortening"] / scenes.UNIT})
+    runs = by_point((yield Grid((Axis("numberRodElements", _COUNTS),), wound).cases()))
     wanted = math.degrees(exact.largest_angle)
     results, drawn = [], {}
-    for n, case in cases.items():
-        run = runs[case.key]
+    for n in _COUNTS:
+        run = runs[(n,)]
         gate = _GATE if n >= _GATED else None
         what = f"localised helix, 27 turns, n = {n}"
         if run.outcome != "converged":
@@ -51,7 +48,9 @@ def _helix() -> Plan:
                               "°", wall_time(run)))
         middle = (np.arange(n) + 0.5) * wire.length / n
         drawn[f"n = {n}"] = (middle - np.average(middle, weights=1.0 - np.cos(angles)), np.degrees(angles))
-    results += [not_run("localised helix, 27 turns", solver, _too_slow(solver)) for solver in ("explicit", "xpbd")]
+    for solver in ("explicit", "xpbd"):
+        small = yield from scenes.small_steps(solver, wire, _SWING, {**held, "numberRodElements": _GATED})
+        results.append(not_run("localised helix, 27 turns", solver, _too_slow(small["substeps"])))
 
     def draw(figure) -> None:
         axes = figure.add_subplot()
@@ -74,16 +73,13 @@ def _helix() -> Plan:
     return Finding(tuple(results), draw, caption)
 
 
-_SLOWEST = 22.373  # omega L^2 sqrt(rho A/B) of a clamped-clamped beam
+_SWING = 2.0 * math.pi * _WIRE.time_unit / 22.373  # s, of a clamped-clamped beam: omega L^2 sqrt(rho A/B) = 22.373
 
 
-def _too_slow(solver: str) -> str:
-    """Why the helix is not wound up by small steps: how many one swing of the rod takes."""
-    n = _GATED
-    swing = 2.0 * math.pi * _WIRE.time_unit / _SLOWEST
-    substeps = scenes.small_steps(solver, _WIRE, swing, n)["substeps"]
+def _too_slow(substeps: int) -> str:
+    """Why the helix is not wound up by small steps, of which one swing of the rod takes so many."""
     return (f"so thin a rod (L/r = {number(_WIRE.length / _WIRE.radius, 2)}) takes {number(substeps, 2)} substeps of "
-            f"{n} elements for one swing, and is to be wound up over many")
+            f"{_GATED} elements for one swing, and is to be wound up over many")
 
 
 CHECKS = (Check("localised-helix", SECTION, "localised helix", _helix),)

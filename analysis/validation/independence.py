@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -12,10 +12,12 @@ import numpy as np
 from analysis.figures.wording import number, percent, span
 from analysis.logs import read_log
 from analysis.validation import beam, elastica, pictures, scenes, spatial
-from analysis.validation.check import Case, Check, Finding, Plan, Result
+from analysis.validation.check import Check, Finding, Plan, Result, by_point
 from analysis.validation.dynamics import RELEASE_TIME, release, release_error, release_reference, rms_error
 from analysis.validation.states import last_state, solver_report, tip_at, wall_time, wall_time_per_second
 from analysis.validation.wire import BASE, STURDY, Wire
+from studies.keys import run_key, value_text
+from studies.table import Axis, Case, Grid
 
 SECTION = "Independence"
 GATE = 2e-2
@@ -64,17 +66,14 @@ def _statics() -> list[_Static]:
 
 def _elements() -> Plan:
     statics = _statics()
-    cases = {
-        (k, n): Case(f"{k}-n={n}", scenes.at_rest({**static.parameters, "numberRodElements": n}))
-        for k, static in enumerate(statics) for n in _COUNTS
-    }
-    runs = yield list(cases.values())
+    shapes = {f"shape-{k}": scenes.at_rest(static.parameters) for k, static in enumerate(statics)}
+    runs = by_point((yield Grid((Axis("numberRodElements", _COUNTS),), variants=shapes).cases()))
     results, series = [], {}
-    for k, static in enumerate(statics):
+    for name, static in zip(shapes, statics):
         size = float(np.linalg.norm(static.tip))
         errors = []
         for n in _COUNTS:
-            run = runs[cases[k, n].key]
+            run = runs[name, n]
             tip = last_state(run).positions[-1]
             errors.append(float(np.linalg.norm(tip - static.tip)) / size)
             results.append(Result(f"{static.title}, n = {n}: distance of the tip from the root", "direct",
@@ -98,15 +97,15 @@ _TOLERANCES = (1e-12, 1e-10, 1e-8, 1e-7)
 def _tolerance() -> Plan:
     """From exact to the default, whatever that is: the run that is not told says what it took."""
     loads = {"tipForce": [0.0, -_FORCE, 0.0]}
-    keys: dict[str, dict[str, Any]] = {f"{t:g}": {"solverTolerance": t} for t in _TOLERANCES} | {"default": {}}
+    keys: dict[str, dict[str, Any]] = {value_text(t): {"solverTolerance": t} for t in _TOLERANCES} | {"default": {}}
     kinds = {
-        "tip load F L²/EI = 2: deflection": lambda extra: Case("", scenes.at_rest({**loads, **extra})),
-        "cantilever let go, sdirk3, 1 ms": lambda extra: Case("", release(12, 1e-3, extra)),
-        "cantilever let go, bdf2, 0.25 ms": lambda extra: Case("", release(
-            12, 2.5e-4, {"integrator": "bdf2", **extra})),
-        "cantilever let go, sdirk4, 2 ms": lambda extra: Case("", release(12, 2e-3, {"integrator": "sdirk4", **extra})),
+        "tip load F L²/EI = 2: deflection": lambda extra: scenes.at_rest({**loads, **extra}),
+        "cantilever let go, sdirk3, 1 ms": lambda extra: release(12, 1e-3, extra),
+        "cantilever let go, bdf2, 0.25 ms": lambda extra: release(
+            12, 2.5e-4, {"integrator": "bdf2", **extra}),
+        "cantilever let go, sdirk4, 2 ms": lambda extra: release(12, 2e-3, {"integrator": "sdirk4", **extra}),
     }
-    cases = {(kind, name): replace(make(extra), key=f"{k}-{name}")
+    cases = {(kind, name): Case(f"{k}-{name}", make(extra))
              for k, (kind, make) in enumerate(kinds.items()) for name, extra in keys.items()}
     runs = yield list(cases.values())
     time = np.linspace(0.0, 0.2, 201)
@@ -115,7 +114,7 @@ def _tolerance() -> Plan:
         static = "let go" not in kind
         found = {name: last_state(runs[cases[kind, name].key]).positions[-1, 1:2] if static
                  else tip_at(runs[cases[kind, name].key], time)[:, 1] for name in keys}
-        finest = found[f"{min(_TOLERANCES):g}"]
+        finest = found[value_text(min(_TOLERANCES))]
         errors = []
         for name in list(keys)[1:]:
             run = runs[cases[kind, name].key]
@@ -143,14 +142,14 @@ _TIME_STEPS = (1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 4e-3)  # s
 def _time_step() -> Plan:
     omega = 2.0 * math.pi * beam.frequencies(BASE, 1)[0]
     settled = {
-        dt: Case(f"settled-dt={dt:g}", {
+        dt: Case(run_key("settled", {"dt": dt}), {
             "tipForce": [0.0, -_FORCE, 0.0], "timeStep": dt, "damping": 2.0 * omega * dt, "logEvery": 1_000_000,
             "maxSimulationSteps": math.ceil(15.0 / omega / dt),
         })
         for dt in _TIME_STEPS
     }
     schemes = ("sdirk3", "sdirk4")
-    moving = {(scheme, dt): Case(f"{scheme}-dt={dt:g}", release(12, dt, {"integrator": scheme}))
+    moving = {(scheme, dt): Case(run_key(scheme, {"dt": dt}), release(12, dt, {"integrator": scheme}))
               for scheme in schemes for dt in _TIME_STEPS}
     runs = yield [*settled.values(), *moving.values()]
     exact = elastica.tip_loaded(_LOAD, np.linspace(0.0, 1.0, 11)).tip[1]
@@ -187,7 +186,7 @@ _SWEEPS = (2, 4, 8, 16, 32, 64)
 
 def _sweeps() -> Plan:
     force = _LOAD * STURDY.bending / STURDY.length**2
-    base = scenes.settled("xpbd", STURDY, {
+    base = yield from scenes.settled("xpbd", STURDY, {
         **scenes.wire_parameters(STURDY), "tipForce": [0.0, -force, 0.0]})
     cases = {
         (m, factor): Case(f"m={m}-substep={factor}", {
@@ -237,11 +236,10 @@ def _gains() -> Plan:
         "dt": ("timeStep", (0.02, 0.01, 0.005, 0.0025)),
     }
 
-    def case(name: str, key: str, value: float) -> Case:
-        overrides = {**base, key: value}
-        return Case(f"{name}={value:g}", {**overrides, "maxSimulationSteps": round(_GAIN_TIME / overrides["timeStep"])})
-
-    cases = {(name, value): case(name, key, value) for name, (key, values) in varied.items() for value in values}
+    cases = {
+        (name, case.values[key]): case for name, (key, values) in varied.items()
+        for case in Grid((Axis(key, values),), base, duration=_GAIN_TIME).cases()
+    }
     runs = yield list(cases.values())
     default = None
     places: dict[str, list[float]] = {name: [] for name in varied}

@@ -14,8 +14,9 @@ import numpy as np
 
 from analysis.figures.wording import number
 from analysis.logs import read_entries
-from analysis.runs import Run, read_run
-from analysis.validation.check import Case, Check, Finding, Plan, Result
+from analysis.runs import Run, read_repeats
+from analysis.validation.check import Check, Finding, Plan, Result
+from studies.table import Case
 
 _METHODS = {
     "Euler, Euler": "euler", "Verlet, Euler": "verlet", "Euler, Verlet": "eulerOrientationVerlet",
@@ -127,9 +128,7 @@ def _difference(problem: str, method: str, motions: Mapping, twist: bool, cost: 
 
 def _step_time(run: Run, repeats: int) -> float:
     """Median wall time of a step over the timed repeats, s."""
-    return 1e-3 * float(np.median(
-        [read_run(run.folder / f"repeat-{k}").measured("medianStepTime") for k in range(1, repeats + 1)]
-    ))
+    return 1e-3 * float(np.median([repeat.measured("medianStepTime") for repeat in read_repeats(run, repeats)]))
 
 
 def _caption(results: list[Result], costs: Mapping[tuple[str, str], float]) -> str:

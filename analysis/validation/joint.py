@@ -16,9 +16,11 @@ from scipy.spatial.transform import Rotation
 
 from analysis.figures.wording import number
 from analysis.validation import pictures, scenes
-from analysis.validation.check import Case, Check, Finding, Plan, Result, not_run
+from analysis.validation.check import Check, Finding, Plan, Result, not_run
 from analysis.validation.states import last_state, solver_report, wall_time, wall_time_per_second
 from analysis.validation.wire import BASE
+from studies.keys import run_key
+from studies.table import Case
 
 SECTION = "Statics"
 EXACT = 1e-6
@@ -49,7 +51,7 @@ def _joint() -> Plan:
     expected = {"rotationVector": lambda angle: angle, "darboux": math.sin}
     stored = {"rotationVector": lambda angle: 0.5 * angle * angle, "darboux": lambda angle: 1.0 - math.cos(angle)}
     cases = {
-        (law, kind, angle): Case(f"{law}-{kind}-{angle:g}", {**_ONE, "bendLaw": law},
+        (law, kind, angle): Case(run_key(f"{law}-{kind}", {"angle": angle}), {**_ONE, "bendLaw": law},
                                  start=_chain([Rotation.from_rotvec(angle * axis)], BASE.length))
         for law in LAWS for kind, (axis, _) in axes.items() for angle in _ANGLES
     }
@@ -190,8 +192,11 @@ def _rotated() -> Plan:
     loads = {"gravity": np.array([1.0, -9.81, 3.0]), "tipForce": np.array([0.02, 0.05, -0.03])}
     runs_of: dict[str, list[Case]] = {}
     for k, (name, method) in enumerate(_SOLVERS.items()):
-        small = {} if method["solver"] == "direct" else scenes.small_steps(method["solver"], BASE, 1e-4, n)
-        base = {**method, **small, "numberRodElements": n, "proximalEnd": "free", "solverTolerance": 1e-10,
+        held = {"numberRodElements": n, "proximalEnd": "free"}
+        small = {}
+        if method["solver"] != "direct":
+            small = yield from scenes.small_steps(method["solver"], BASE, 1e-4, held)
+        base = {**method, **small, **held, "solverTolerance": 1e-10,
                 "maxSimulationSteps": round(_MOTION / 1e-4), "logEvery": 1_000_000}
         runs_of[name] = [
             Case(f"{k}-{word}", {**base, **{key: turn.apply(load).tolist() for key, load in loads.items()}},
@@ -230,7 +235,7 @@ def _joint_law() -> Plan:
     stiffness = BASE.bending * n / BASE.length
     laws = {"rotationVector": lambda share: share, "darboux": math.asin}
     cases = [
-        Case(f"{law}-{share:g}", scenes.at_rest({
+        Case(run_key(law, {"share": share}), scenes.at_rest({
             "bendLaw": law, "clampRule": "halfElement", "numberRodElements": n, "solverTolerance": 1e-12,
             "tipMoment": [share * stiffness, 0.0, 0.0]}))
         for law in laws for share in couples
@@ -240,7 +245,7 @@ def _joint_law() -> Plan:
     for law, expected in laws.items():
         angles = []
         for share in couples:
-            run = runs[f"{law}-{share:g}"]
+            run = runs[run_key(law, {"share": share})]
             d = last_state(run).directors
             angle = math.atan2(float(np.linalg.norm(np.cross(d[3], d[4]))), float(d[3] @ d[4]))
             angles.append(angle)

@@ -12,10 +12,11 @@ from analysis.figures.wording import number
 from analysis.runs import Run
 from analysis.validation import beam, pictures, scenes
 from analysis.validation.bar import BarChain
-from analysis.validation.check import Case, Check, Finding, Plan, Result
+from analysis.validation.check import Check, Finding, Plan, Result
 from analysis.validation.dynamics import SCHEMES, SECTION, rms_error
 from analysis.validation.states import last_state, read_states, wall_time_per_second
 from analysis.validation.wire import BASE, Wire
+from studies.table import Case
 
 _ORDER_STEPS = (10, 20, 40, 80, 160)  # a period
 _FINEST = 1280

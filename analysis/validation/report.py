@@ -28,9 +28,11 @@ _QUICK = (
     "clamp-compliance", "clamp-frequencies", "plane", "end-moment", "end-moment-darboux", "localised-helix", "bar",
     "force-balance", "force-balance-default", "order-in-time", "order-in-time-axial", "elements", "tolerance",
     "time-step",
-    *(check.id for check in joint.CHECKS),
+    *(check.name for check in joint.CHECKS),
 )
-FAST = (*statics.FAST, *stability.FAST, *ring.FAST, *(check for check in ROWS if check.id in _QUICK))  # what tests run
+FAST = (  # what tests run
+    *statics.FAST, *stability.FAST, *ring.FAST, *(check for check in ROWS if check.name in _QUICK),
+)
 COLUMNS = ("section", "check", "what", "solver", "value", "reference", "unit", "error", "error in", "gate", "passed",
            "cost", "reason")
 _LIMITS = (1e-9, 1e2)  # of the overview's axis, error over gate
@@ -76,7 +78,7 @@ def as_csv(report: Report) -> str:
     writer.writerow(COLUMNS)
     for check, r in report.results:
         writer.writerow([
-            check.section, check.id, r.what, r.solver, repr(float(r.value)), repr(float(r.reference)), r.unit,
+            check.section, check.name, r.what, r.solver, repr(float(r.value)), repr(float(r.reference)), r.unit,
             repr(float(r.error)), r.error_in, "" if r.gate is None else repr(float(r.gate)), _verdict(r),
             "" if r.cost is None else repr(float(r.cost)), r.reason,
         ])
@@ -145,7 +147,7 @@ def write_report(report: Report, folder: Path) -> Path:
 
 def picture_name(check: Check) -> str:
     """File of a check's picture beside the report."""
-    return f"{check.id}.png"
+    return f"{check.name}.png"
 
 
 @styled

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
 from typing import Any
 
@@ -13,12 +13,14 @@ import numpy as np
 from analysis.figures.wording import number
 from analysis.runs import Run
 from analysis.validation import scenes, twisted
-from analysis.validation.check import Case, Check, Finding, Plan
+from analysis.validation.check import Check, Finding, Plan
 from analysis.validation.stability import (
     GATE, MOVING, PUSH, SECTION, branches, limit, limit_line, motion, pushed, pushed_line,
 )
 from analysis.validation.states import State, last_state
 from analysis.validation.wire import BASE, STURDY, Wire
+from studies.keys import value_text
+from studies.table import Case
 
 _RATIOS = (0.5, 1.0, 2.0)  # EI/GJ
 _ELEMENTS = {"direct": 96, "explicit": 48, "xpbd": 32}
@@ -33,7 +35,7 @@ def _ring(pushing: Sequence[str] = tuple(MOVING)) -> Plan:
     for ratio in _RATIOS:
         exact = twisted.ring_twist(ratio, 1.0)
         found = yield from limit(
-            f"direct-{ratio:g}-twist=", exact,
+            f"direct-{value_text(ratio)}-twist=", exact,
             lambda twist, ratio=ratio: scenes.at_rest(_keys(_wire(BASE, ratio), _ELEMENTS["direct"], twist)),
             partial(_left, BASE),
         )
@@ -43,8 +45,12 @@ def _ring(pushing: Sequence[str] = tuple(MOVING)) -> Plan:
     for solver in pushing:
         for ratio in _RATIOS:
             exact = twisted.ring_twist(ratio, 1.0)
-            bracket = yield from pushed(f"{solver}-{ratio:g}-", exact, partial(_moving, solver, ratio),
-                                        partial(_left, STURDY), push=_GROWN)
+            name = f"{solver}-{value_text(ratio)}-"
+            wire, n = _wire(STURDY, ratio), _ELEMENTS[solver]
+            damped = yield from motion(solver, wire, {"numberRodElements": n, **_SUPPORTS}, _RATE, _DURATION,
+                                       f"{name}limit")
+            bracket = yield from pushed(name, exact, partial(_moving, damped, _start(n)), partial(_left, STURDY),
+                                        push=_GROWN)
             drawn[solver, f"EI/GJ = {ratio:g}"] = bracket
             results.append(pushed_line(
                 f"closed ring, EI/GJ = {ratio:g}, r = {1e3 * STURDY.radius:g} mm, n = {_ELEMENTS[solver]}: critical "
@@ -70,16 +76,16 @@ def _wire(wire: Wire, ratio: float) -> Wire:
     return dataclasses.replace(wire, shear_modulus=0.5 * wire.youngs_modulus / ratio)
 
 
+_SUPPORTS = {"startShape": "ring", "distalEnd": "clamped", "clampRule": "halfElement"}
+
+
 def _keys(wire: Wire, n: int, twist: float) -> dict[str, Any]:
-    return {**scenes.wire_parameters(wire), "numberRodElements": n, "startShape": "ring", "distalEnd": "clamped",
-            "distalRotation": twist, "clampRule": "halfElement"}
+    return {**scenes.wire_parameters(wire), "numberRodElements": n, **_SUPPORTS, "distalRotation": twist}
 
 
-def _moving(solver: str, ratio: float, twist: float) -> Case:
-    """A ring with this twist, and the motion after it, damped."""
-    wire, n = _wire(STURDY, ratio), _ELEMENTS[solver]
-    keys = {**_keys(wire, n, twist), "distalRampTime": _RAMP}
-    return Case("", motion(solver, wire, n, _RATE, _DURATION, keys), start=_start(n))
+def _moving(damped: Mapping[str, Any], start: Mapping[str, Any], key: str, twist: float) -> Case:
+    """A ring with this twist, and the motion after it."""
+    return Case(key, {**damped, "distalRotation": twist, "distalRampTime": _RAMP}, start=start)
 
 
 def _start(n: int) -> dict[str, Any]:

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Generator, Mapping, Sequence
+from typing import Any, TypeVar
 
 import numpy as np
 
+from analysis.runs import Run
 from analysis.validation import beam
 from analysis.validation.spatial import Bend
+from analysis.validation.states import solver_report
 from analysis.validation.wire import BASE, Wire
+from studies.table import Case
 
 UNIT = 1e-3  # m; one unit of length of the files
 ELEMENTS = 30  # n of the scene
@@ -19,9 +22,12 @@ SCENE = "params/cantilever.json"  # the base wire, clamped
 _SETTLED = 12.0  # a critically damped motion is over after this many 1/omega
 _EXPLICIT_SHARE = 0.75  # of the explicit solver's stable substep
 _SWEEPS = 3  # of xpbd in a substep; they nearly converge where it is at most
-_XPBD_SHEAR = 4.0  # of the explicit solver's stable substep, and
+_XPBD_SHEAR = 4.0  # of the time in which an element turns against its shear, and
 _XPBD_AXIAL = 1.0 / 3.0  # of the time that sound takes along an element
 _SUBSTEPS = 1000
+
+_Found = TypeVar("_Found")
+Asking = Generator[Sequence[Case], Mapping[str, Run], _Found]  # asks for runs before it knows what it returns
 
 
 def wire_parameters(wire: Wire) -> dict[str, Any]:
@@ -48,27 +54,27 @@ def at_rest(overrides: Mapping[str, Any]) -> dict[str, Any]:
     return {"initialState": "equilibrium", "maxSimulationSteps": 0, "logOrientations": True, **overrides}
 
 
-def settled(solver: str, wire: Wire, overrides: Mapping[str, Any], frequency: float | None = None) -> dict[str, Any]:
+def settled(
+    solver: str, wire: Wire, overrides: Mapping[str, Any], frequency: float | None = None, name: str = ""
+) -> Asking[dict[str, Any]]:
     """A motion from the straight wire that is damped until it rests, for solvers that have no statics.
 
     Parameters
     ----------
-    solver : "explicit", "xpbd" or "direct" (implicit Euler).
+    solver : "explicit" or "xpbd".
     wire : the rod.
     overrides : loads and supports.
     frequency : of the slowest motion, Hz; that of the cantilever where it is not given.
+    name : of the run that states the limit of explicit steps; that of the solver where it is not given.
     """
     omega = 2.0 * math.pi * (beam.frequencies(wire, 1)[0] if frequency is None else frequency)
-    if solver == "direct":
-        step, method = 0.05 / omega, {"integrator": "implicitEuler"}
-    else:
-        elements = overrides.get("numberRodElements", ELEMENTS)
-        step = min(_SUBSTEPS * stable_substep(wire, elements), 0.05 / omega)
-        method = small_steps(solver, wire, step, elements)
+    stable = yield from stable_substep(overrides, name or f"{solver}-limit")
+    step = min(_SUBSTEPS * stable, 0.05 / omega)
+    elements = overrides.get("numberRodElements", ELEMENTS)
     return {
         "solver": solver,
         "timeStep": step,
-        **method,
+        **(explicit_steps(step, stable) if solver == "explicit" else xpbd_steps(wire, step, elements)),
         "damping": 2.0 * omega * step,  # critical
         "maxSimulationSteps": math.ceil(_SETTLED / omega / step),
         "logEvery": 1_000_000,
@@ -77,12 +83,37 @@ def settled(solver: str, wire: Wire, overrides: Mapping[str, Any], frequency: fl
     }
 
 
-def small_steps(solver: str, wire: Wire, step: float, elements: int = ELEMENTS) -> dict[str, Any]:
-    """Substeps of a time step in s (and sweeps of each) of the explicit solver or of xpbd."""
-    if solver == "explicit":
-        return {"substeps": math.ceil(step / (_EXPLICIT_SHARE * stable_substep(wire, elements)))}
+def small_steps(
+    solver: str, wire: Wire, step: float, overrides: Mapping[str, Any], name: str = ""
+) -> Asking[dict[str, Any]]:
+    """Substeps of a time step in s (and sweeps of each) of the explicit solver or of xpbd; the rest as for `settled`.
+    """
+    if solver == "xpbd":
+        return xpbd_steps(wire, step, overrides.get("numberRodElements", ELEMENTS))
+    return explicit_steps(step, (yield from stable_substep(overrides, name or f"{solver}-limit")))
+
+
+def explicit_steps(step: float, stable: float) -> dict[str, Any]:
+    """Substeps of the explicit solver, which is stable up to a substep of `stable`, s."""
+    return {"substeps": math.ceil(step / (_EXPLICIT_SHARE * stable))}
+
+
+def xpbd_steps(wire: Wire, step: float, elements: int) -> dict[str, Any]:
+    """Substeps of xpbd, and sweeps of each."""
     substep = min(_XPBD_SHEAR * shear_substep(wire), _XPBD_AXIAL * axial_substep(wire, elements))
     return {"substeps": math.ceil(step / substep), "constraintSolverSteps": _SWEEPS}
+
+
+def stable_substep(overrides: Mapping[str, Any], name: str) -> Asking[float]:
+    """Longest substep with which explicit steps of a wire and its supports are stable, s, as the runner states it."""
+    return (yield from stable_substeps({name: overrides}))[name]
+
+
+def stable_substeps(wires: Mapping[str, Mapping[str, Any]]) -> Asking[dict[str, float]]:
+    """The same for several wires, by name of the run that states it."""
+    runs = yield [Case(name, {**overrides, "solver": "explicit", "maxSimulationSteps": 0})
+                  for name, overrides in wires.items()]
+    return {name: float(solver_report(runs[name], "stableSubstep")) for name in wires}
 
 
 def shear_substep(wire: Wire) -> float:
@@ -94,11 +125,6 @@ def axial_substep(wire: Wire, elements: int) -> float:
     """2/omega of neighbours moving, or turning, against each other, omega = 2 sqrt(E/rho)/l: sound's time along an
     element, s."""
     return wire.length / elements / math.sqrt(wire.youngs_modulus / wire.density)
-
-
-def stable_substep(wire: Wire, elements: int = ELEMENTS) -> float:
-    """2/omega of the fastest motion, neighbours turning against each other and their shear, s."""
-    return 1.0 / math.hypot(1.0 / shear_substep(wire), 1.0 / axial_substep(wire, elements))
 
 
 def mode_start(wire: Wire, elements: int, number: float, amplitude: float) -> dict[str, Any]:

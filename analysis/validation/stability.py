@@ -8,7 +8,7 @@ limit the push dies out, above it grows. Near the limit either takes long, so wh
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Generator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -19,9 +19,11 @@ from matplotlib.figure import Figure
 from analysis.figures.wording import number
 from analysis.runs import Run
 from analysis.validation import beam, elastica, pictures, scenes, twisted
-from analysis.validation.check import Case, Check, Finding, Plan, Result
+from analysis.validation.check import Check, Finding, Plan, Result
 from analysis.validation.states import last_state, solver_report, wall_time
 from analysis.validation.wire import BASE, STURDY, Wire
+from studies.keys import value_text
+from studies.table import Case
 
 SECTION = "Stability limits"
 GATE = 3e-2
@@ -53,7 +55,7 @@ class Limit:
     high: float = math.nan
 
 
-Search = Generator[Sequence[Case], Mapping[str, Run], Limit]
+Search = scenes.Asking[Limit]
 
 
 def limit(
@@ -83,7 +85,7 @@ def limit(
     cost = 0.0
     for _ in range(_ROUNDS):
         loads = [float(load) for load in np.linspace(low, high, _PARTS + 1)]
-        cases = {load: Case(f"{name}{load:.10g}", case(load), start=start) for load in loads if load not in seen}
+        cases = {load: Case(f"{name}{value_text(load)}", case(load), start=start) for load in loads if load not in seen}
         runs = yield list(cases.values())
         seen |= {load: left(runs[one.key]) for load, one in cases.items()}
         cost += sum(wall_time(runs[one.key]) for one in cases.values())
@@ -102,7 +104,7 @@ _SHARES = (0.90, 0.94, 0.98, 1.02, 1.06, 1.10)  # of the expected limit
 def pushed(
     name: str,
     expected: float,
-    case: Callable[[float], Case],
+    case: Callable[[str, float], Case],
     left: Callable[[Run], float],
     push: float = PUSH,
     shares: Sequence[float] = _SHARES,
@@ -113,7 +115,7 @@ def pushed(
     Parameters
     ----------
     name : prefix of the cases.
-    case : from a load to a run without name.
+    case : from a name and a load to a run.
     left : from a run to the distance, over L, that the rod is away from its first shape.
     push : that distance at the start.
     shares : ascending, half of them below 1.
@@ -125,12 +127,10 @@ def pushed(
     inner = len(shares) // 2
     cost, seen = 0.0, {}
     for asked in ((shares[inner - 1], shares[inner]), (*shares[:inner - 1], *shares[inner + 1:])):
-        cases = {share: case(share * expected) for share in asked}
-        named = {share: Case(f"{name}{share:g}", one.overrides, one.repeats, one.start)
-                 for share, one in cases.items()}
-        runs = yield list(named.values())
-        seen |= {share: left(runs[one.key]) for share, one in named.items()}
-        cost += sum(wall_time(runs[one.key]) for one in named.values())
+        cases = {share: case(f"{name}{value_text(share)}", share * expected) for share in asked}
+        runs = yield list(cases.values())
+        seen |= {share: left(runs[one.key]) for share, one in cases.items()}
+        cost += sum(wall_time(runs[one.key]) for one in cases.values())
         if seen[shares[inner - 1]] < push <= seen[shares[inner]]:
             break
     below = [share for share in seen if seen[share] < push]
@@ -205,21 +205,23 @@ def _lost_turn(run: Run) -> float:
 
 
 def motion(
-    solver: str, wire: Wire, n: int, rate: float, duration: float, keys: Mapping[str, Any]
-) -> dict[str, Any]:
-    """A damped motion of a solver with small steps, logged at its end.
+    solver: str, wire: Wire, supports: Mapping[str, Any], rate: float, duration: float, name: str
+) -> scenes.Asking[dict[str, Any]]:
+    """A damped motion of a solver with small steps, logged at its end; its loads are laid over it.
 
     Parameters
     ----------
+    supports : how the wire is divided, shaped and held.
     rate : of the slow motion near the limit, 1/s; the damping is critical for it.
     duration : s.
-    keys : loads and supports.
+    name : of the run that states the limit of explicit steps.
     """
     step = duration / _FRAMES
+    held = {**scenes.wire_parameters(wire), **supports}
+    method = yield from scenes.small_steps(solver, wire, step, held, name)
     return {
-        **scenes.wire_parameters(wire), "solver": solver, "numberRodElements": n, "timeStep": step,
-        "damping": 2.0 * rate * step, "maxSimulationSteps": _FRAMES, "logEvery": 1_000_000, "logOrientations": True,
-        **scenes.small_steps(solver, wire, step, n), **keys,
+        **held, "solver": solver, "timeStep": step, "damping": 2.0 * rate * step, "maxSimulationSteps": _FRAMES,
+        "logEvery": 1_000_000, "logOrientations": True, **method,
     }
 
 
@@ -246,14 +248,15 @@ def _couple(tension: float, pushing: Sequence[str] = tuple(MOVING)) -> Plan:
         wire = MOVING[solver]
         count = n if solver == "explicit" else n // 2
         slow = 0.2 * _CLAMPED / wire.time_unit  # 1/s, of the motion at 2 % from the limit
+        pull = tension * wire.bending / (wire.length * wire.stretching)  # extension of the rod under T
+        damped = yield from motion(solver, wire, {"numberRodElements": count, "distalEnd": "clamped"}, slow,
+                                   12.0 / slow, f"{solver}-limit")
+        damped |= {"distalDisplacement": pull / scenes.UNIT, "distalRampTime": 2.0 / slow}
 
-        def moving(moment: float, solver: str = solver, wire: Wire = wire, count: int = count, slow: float = slow
-                   ) -> Case:
-            pull = tension * wire.bending / (wire.length * wire.stretching)  # extension of the rod under T
-            return Case("", motion(solver, wire, count, slow, 12.0 / slow, {
-                "distalEnd": "clamped", "distalRotation": moment * wire.bending / wire.torsion,
-                "distalDisplacement": pull / scenes.UNIT, "distalRampTime": 2.0 / slow,
-            }), start=_hump(wire, count))
+        def moving(key: str, moment: float, wire: Wire = wire, count: int = count,
+                   damped: Mapping[str, Any] = damped) -> Case:
+            turn = {"distalRotation": moment * wire.bending / wire.torsion}
+            return Case(key, {**damped, **turn}, start=_hump(wire, count))
 
         bracket = yield from pushed(f"{solver}-", exact, moving, partial(_off_axis, wire))
         results.append(pushed_line(
@@ -303,9 +306,11 @@ def _column(pushing: Sequence[str] = tuple(MOVING)) -> Plan:
         arc = np.linspace(0.0, 1.0, n + 1)
         start = scenes.plane_start(wire.length * arc, PUSH * wire.length * (1.0 - np.cos(0.5 * np.pi * arc)))
 
-        def moving(load: float, solver: str = solver, wire: Wire = wire, slow: float = slow,
+        damped = yield from motion(solver, wire, {"numberRodElements": n}, slow, 8.0 / slow, f"{solver}-limit")
+
+        def moving(key: str, load: float, wire: Wire = wire, damped: Mapping[str, Any] = damped,
                    start: Mapping[str, Any] = start) -> Case:
-            return Case("", motion(solver, wire, n, slow, 8.0 / slow, case(load, wire)), start=start)
+            return Case(key, {**damped, **case(load, wire)}, start=start)
 
         bracket = yield from pushed(f"{solver}-", exact, moving, partial(_off_axis, wire), shares=_COLUMN_SHARES)
         results.append(pushed_line(f"column, r = {1e3 * wire.radius:g} mm, n = {n}: critical load", solver, exact,

@@ -8,7 +8,9 @@ import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 
 from analysis.logs import read_entries, read_log
-from analysis.runs import Run, read_run
+from analysis.runs import Run, read_repeats
+
+_MILLIMETRE = 1e-3  # m; the unit of runs with gains here, which have none of their own
 
 
 @dataclass(frozen=True)
@@ -98,7 +100,7 @@ def solver_report(run: Run, name: str) -> float | np.ndarray:
 def wall_time(run: Run, repeats: int = 0) -> float:
     """Wall time of a run's steps in s, or of finding its rest shape where it has none: the median of the timed repeats,
     if any."""
-    runs = [read_run(run.folder / f"repeat-{k}") for k in range(1, repeats + 1)] or [run]
+    runs = read_repeats(run, repeats) or [run]
     return float(np.median([r.measured("computationTime" if r.measured("steps") else "setUpTime") for r in runs]))
 
 
@@ -108,7 +110,7 @@ def wall_time_per_second(run: Run, repeats: int = 0) -> float:
 
 
 def _metres(run: Run) -> float:
-    return run.number("metresPerUnit")
+    return run.number("metresPerUnit") if "metresPerUnit" in run.parameters else _MILLIMETRE
 
 
 def _state(entry: dict, metres: float) -> State:

@@ -13,9 +13,10 @@ import numpy as np
 from analysis.figures.wording import number, percent
 from analysis.runs import Run
 from analysis.validation import elastica, pictures, scenes, spatial, twisted
-from analysis.validation.check import TUNED, Case, Check, Finding, Plan, Result, not_run
+from analysis.validation.check import TUNED, Check, Finding, Plan, Result, not_run
 from analysis.validation.states import last_state, solver_report, wall_time
 from analysis.validation.wire import BASE, Wire
+from studies.table import Case
 
 SECTION = "Statics"
 ALL = ("direct", "explicit", "xpbd")
@@ -26,7 +27,7 @@ _GRAVITY = 9.81  # m/s^2
 def _solver_cases(
     wire: Wire, loads: Mapping[str, Any], frequency: float | None = None, solvers: Sequence[str] = ALL,
     moving: Mapping[str, Any] | None = None,
-) -> list[Case]:
+) -> scenes.Asking[list[Case]]:
     """The same rest shape by every solver: at once, and as the end of a damped motion, which takes `moving` too."""
     cases = []
     for solver in solvers:
@@ -34,7 +35,8 @@ def _solver_cases(
         if solver == "direct":
             cases.append(Case(solver, scenes.at_rest(common), repeats=_REPEATS))
         else:
-            cases.append(Case(solver, scenes.settled(solver, wire, {**common, **(moving or {})}, frequency)))
+            motion = yield from scenes.settled(solver, wire, {**common, **(moving or {})}, frequency)
+            cases.append(Case(solver, motion))
     return cases
 
 
@@ -47,7 +49,7 @@ def _dead_load(
     title: str, wire: Wire, loads: Mapping[str, Any], reference: elastica.PlaneShape, solvers: Sequence[str]
 ) -> Plan:
     """A shape in a plane, against the elastica at every node."""
-    cases = _solver_cases(wire, loads, solvers=solvers)
+    cases = yield from _solver_cases(wire, loads, solvers=solvers)
     runs = yield cases
     exact = np.stack([reference.along, reference.across], axis=1)
     results, drawn = [], {}
@@ -93,8 +95,8 @@ def _torsion(solvers: Sequence[str] = ALL) -> Plan:
     turn = 0.5 * math.pi
     # The slowest motion: a standing wave of twist between two clamps.
     frequency = 0.5 / BASE.length * math.sqrt(BASE.shear_modulus / BASE.density)
-    cases = _solver_cases(BASE, {"distalEnd": "clamped", "distalRotation": turn}, frequency, solvers,
-                          {"distalRampTime": 0.05 / frequency})
+    cases = yield from _solver_cases(BASE, {"distalEnd": "clamped", "distalRotation": turn}, frequency, solvers,
+                                     {"distalRampTime": 0.05 / frequency})
     runs = yield cases
     torque = twisted.torsion_torque(BASE.torsion, BASE.length, turn)
     results, profiles = [], {}
@@ -143,7 +145,7 @@ def _torsion(solvers: Sequence[str] = ALL) -> Plan:
 def _spatial_bend(solvers: Sequence[str] = ALL) -> Plan:
     bend = spatial.bathe_bolourchi()
     wire, exact, loads = bend.wire, bend.rod.tip(bend.force), scenes.bend_parameters(bend)
-    cases = _solver_cases(wire, loads, solvers=solvers)
+    cases = yield from _solver_cases(wire, loads, solvers=solvers)
     runs = yield cases
     results, drawn = [], {}
     for case in cases:

@@ -7,12 +7,16 @@ from pathlib import Path
 
 import pytest
 
-from experiments import runner
+from experiments import building
 
 
 # A shell that starts us in the background leaves Ctrl-C ignored, for us and for every program that we start; the tests
 # of Ctrl-C then wait for ever.
 signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def pytest_configure(config):
+    config.addinivalue_line("markers", "timed: measures or sleeps; run with nothing beside it")
 
 
 class FakeRunner:
@@ -35,4 +39,4 @@ def fake(tmp_path):
 @pytest.fixture(scope="session")
 def runner_command():
     """The real runner's command."""
-    return runner.build("Guidewire.Cli")
+    return building.build(building.RUNNER, print)

@@ -3,6 +3,7 @@
 import hashlib
 import json
 import os
+import shutil
 import subprocess
 
 import pytest
@@ -31,14 +32,20 @@ def assert_one_line(done, *words):
         assert trace not in lines[0]
 
 
+@pytest.fixture(scope="module")
+def good_run(runner_command, tmp_path_factory):
+    """A folder with a scene and the result of its run."""
+    folder = tmp_path_factory.mktemp("good")
+    (folder / "good.json").write_text(json.dumps(GOOD))
+    assert run(runner_command, "-parameters", folder / "good.json", "-out", folder / "earlier").returncode == 0
+    return folder
+
+
 @pytest.fixture
-def earlier(runner_command, tmp_path):
-    """A folder that holds the result of an earlier run."""
-    scene = tmp_path / "good.json"
-    scene.write_text(json.dumps(GOOD))
-    out = tmp_path / "earlier"
-    assert run(runner_command, "-parameters", scene, "-out", out).returncode == 0
-    return out
+def earlier(good_run, tmp_path):
+    """A folder that holds the result of an earlier run, in one that is the test's own."""
+    shutil.copytree(good_run, tmp_path, dirs_exist_ok=True)
+    return tmp_path / "earlier"
 
 
 # What stands in the file; the words that the line must hold beside the file's name.

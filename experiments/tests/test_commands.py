@@ -57,6 +57,15 @@ def test_a_run_writes_its_three_files_and_takes_parameters_from_the_command_line
     assert json.loads((tmp_path / "out" / "summary.json").read_text())["steps"] == 5
 
 
+def test_a_run_of_what_is_built_starts_no_compiler_and_says_nothing_of_it(runner_command, tmp_path):
+    log = ROOT / "results" / "build.log"
+    before = log.stat().st_mtime_ns
+    scene = ROOT / "params" / "default.json"
+    done = guidewire("run", scene, "--set", "maxSimulationSteps=2", "--out", tmp_path / "out")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert log.stat().st_mtime_ns == before
+
+
 def test_a_run_with_a_bad_value_passes_on_the_runners_line_and_code(tmp_path):
     done = guidewire("run", ROOT / "params" / "default.json", "--set", "timeStep=0", "--out", tmp_path / "out")
     assert done.returncode == 2

@@ -196,6 +196,7 @@ def memory_of(command):
     return used.ru_maxrss * 1024
 
 
+@pytest.mark.timed
 def test_a_run_of_100_000_steps_takes_constant_memory_and_linear_time(runner_command, scratch):
     steps, runs = 100_000, {}
     for count in (1_000, steps):

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from analysis.figures import FIGURES, FigureSpec
 from analysis.logs import LogError
 from experiments import gallery
-from experiments.studies import STUDIES
+from studies.builtin import STUDIES
 
 
 def spec(name, studies=("default",)):

@@ -10,7 +10,6 @@ from pathlib import Path
 import pytest
 
 from experiments import runner
-from experiments.prepare import PreparationError
 from experiments.runner import Request, run_all
 
 
@@ -32,6 +31,7 @@ def test_every_run_is_answered_once(fake, tmp_path):
     assert {(a.exit_code, a.outcome, a.reused) for a in answers.values()} == {(0, "converged", False)}
 
 
+@pytest.mark.timed
 def test_runs_overlap_with_two_jobs_and_never_with_one(fake, tmp_path):
     for jobs, overlapping in ((1, False), (2, True)):
         fake.journal.unlink(missing_ok=True)
@@ -91,6 +91,7 @@ def test_a_runner_that_ends_at_once_fails_every_run(tmp_path):
     assert "exit code 3" in answers["run-0"].message
 
 
+@pytest.mark.timed
 def test_ctrl_c_ends_the_runs_under_way_and_starts_no_other(fake, tmp_path):
     answers = {}
     # A second after the start both runs are under way; they would last 60 s.
@@ -113,20 +114,3 @@ def test_no_process_is_left_behind(fake, tmp_path):
     for process, *_ in fake.calls():
         with pytest.raises(ProcessLookupError):
             os.kill(process, 0)
-
-
-def test_a_missing_dotnet_is_one_clear_line(monkeypatch):
-    monkeypatch.setenv("PATH", "")
-    with pytest.raises(PreparationError, match="the .NET SDK is missing: install the .NET SDK 10.0") as caught:
-        runner.build("Guidewire.Cli")
-    assert "\n" not in str(caught.value)
-
-
-@pytest.mark.parametrize("listed, said", [("8.0.100 [/usr/lib]", "only 8.x"), ("", "no SDK")])
-def test_an_old_dotnet_is_one_clear_line(tmp_path, monkeypatch, listed, said):
-    program = tmp_path / "dotnet"
-    program.write_text(f"#!/bin/sh\necho '{listed}'\n")
-    program.chmod(0o755)
-    monkeypatch.setenv("PATH", str(tmp_path))
-    with pytest.raises(PreparationError, match=said):
-        runner.dotnet()

@@ -1,5 +1,6 @@
 """The sum of all tests is what the runners wrote, and a runner that did not run is a failure."""
 
+import dataclasses
 import os
 import subprocess
 import sys
@@ -7,12 +8,18 @@ import sys
 import pytest
 
 from experiments import testing
-from experiments.testing import Count, Suite, check_unity_files, read_junit, read_trx, run_suite
+from experiments.testing import Count, Suite, check_unity_files, read_junit, read_trx, run_suites, suites
+
+BUILD = [sys.executable, "-c", ""]
 
 
 @pytest.fixture(autouse=True)
 def results_in_a_folder_of_their_own(tmp_path, monkeypatch):
     monkeypatch.setattr(testing, "RESULTS", tmp_path)
+
+
+def run(*given, build=BUILD, seconds=60.0, places=2):
+    return run_suites(build, given, os.environ, seconds, places)
 
 
 def junit(tests, failures=0, skipped=0):
@@ -39,17 +46,93 @@ def writing(text, code=0):
     ("", 0, Count(0, 1)),
 ])
 def test_a_suite_counts_what_its_report_says_and_fails_without_one(text, code, expected, capsys):
-    assert run_suite(writing(text, code), os.environ, 60) == expected
+    assert run(writing(text, code)) == expected
 
 
 def test_a_report_of_an_earlier_time_does_not_count(capsys):
     (testing.RESULTS / "report.xml").write_text(junit(3))
-    assert run_suite(running("pass"), os.environ, 60) == Count(0, 1)
+    assert run(running("pass")) == Count(0, 1)
 
 
 def test_a_suite_that_hangs_is_stopped_and_fails(capsys):
-    assert run_suite(running("import time; time.sleep(60)"), os.environ, 0.5) == Count(0, 1)
+    assert run(running("import time; time.sleep(60)"), seconds=2.0) == Count(0, 1)
     assert "stopped after" in capsys.readouterr().out
+
+
+def noting(name, seconds=0.0, text=junit(1), **more):
+    """A suite that notes when it began and ended, and lasts for a while between."""
+    script = (
+        "import sys, time; note = open(sys.argv[1], 'a'); print(sys.argv[2], 'begins', file=note, flush=True)\n"
+        "time.sleep(float(sys.argv[3])); print(sys.argv[2], 'ends', file=note, flush=True)\n"
+        "open(sys.argv[4], 'w').write(sys.argv[5]); print('the words of', sys.argv[2])"
+    )
+    command = [sys.executable, "-c", script, str(testing.RESULTS / "notes"), name, str(seconds),
+               str(testing.RESULTS / name), text]
+    return Suite(name, command, name, read_junit, **more)
+
+
+def notes():
+    return (testing.RESULTS / "notes").read_text().splitlines()
+
+
+@pytest.mark.timed
+def test_suites_run_side_by_side_and_their_counts_add_up(capsys):
+    assert run(noting("a", 1.0), noting("b", 1.0), noting("c")) == Count(3, 0)
+    assert {line.split()[1] for line in notes()[:2]} == {"begins"}
+    run(noting("d", 0.2), noting("e", 0.2), places=1)
+    assert notes()[6:] == ["d begins", "d ends", "e begins", "e ends"]
+
+
+def test_a_suite_that_runs_alone_runs_last_with_nothing_beside_it(capsys):
+    assert run(noting("alone", alone=True), noting("a", 0.5), noting("b", 0.1)) == Count(3, 0)
+    assert notes()[4:] == ["alone begins", "alone ends"]
+
+
+@pytest.mark.timed
+def test_what_needs_the_build_waits_for_it_and_the_rest_does_not(capsys):
+    build = noting("build", 1.0).command
+    assert run(noting("a"), noting("b", needs_build=False), build=build) == Count(2, 0)
+    assert notes().index("b ends") < notes().index("build ends") < notes().index("a begins")
+
+
+def test_after_a_build_that_fails_each_suite_that_needs_it_counts_as_failed(capsys):
+    build = [sys.executable, "-c", "print('error CS1002'); raise SystemExit(1)"]
+    assert run(noting("a"), noting("b", needs_build=False), noting("c", alone=True), build=build) == Count(1, 3)
+    said = capsys.readouterr().out
+    assert "build: FAILED" in said and "error CS1002" in said and "a: not run" in said
+    assert notes() == ["b begins", "b ends"]
+
+
+def test_output_of_suites_side_by_side_does_not_mix(capsys):
+    run(noting("a", 0.1, junit(1, 1)), noting("b", 0.1, junit(2, 1)))
+    lines = capsys.readouterr().out.splitlines()
+    for name in "ab":
+        at = next(i for i, line in enumerate(lines) if line.startswith(f"{name}: "))
+        assert lines[at + 1].endswith(f"{name}.log") and lines[at + 2:at + 4] == [f"the words of {name}", "---"]
+
+
+def test_time_on_a_processor_is_that_of_the_suite_and_what_it_started(capsys):
+    burn = "import time\nwhile time.process_time() < 1.5: pass"
+    script = f"import subprocess, sys; subprocess.run([sys.executable, '-c', {burn!r}])"
+    run(running(script))
+    assert "processor 2 s" in capsys.readouterr().out
+
+
+def test_the_build_that_unity_compiles_makes_fewer_random_cases_and_no_other_suite_does(capsys):
+    fewer = [suite for suite in suites("dotnet") if suite.environment]
+    assert [suite.name for suite in fewer] == list(testing.FEWER_CASES) == ["Guidewire.Core.Tests.NetStandard"]
+    script = "import os, sys; open(sys.argv[1], 'w').write(sys.argv[2] * int(os.environ['GUIDEWIRE_ONE_IN'] == '40'))"
+    suite = running(script, str(testing.RESULTS / "report.xml"), junit(1))
+    assert run(dataclasses.replace(suite, environment=fewer[0].environment)) == Count(1, 0)
+
+
+def test_what_is_left_out_of_one_suite_is_in_another():
+    commands = [suite.command for suite in suites("dotnet") if suite.name.startswith("experiments/tests")]
+    left_out = [word.split("=")[1] for command in commands for word in command if word.startswith("--ignore=")]
+    taken = [word for command in commands for word in command if word.startswith("experiments/tests/")]
+    assert left_out == taken and all((testing.ROOT / path).is_file() for path in taken)
+    # Whoever is not timed is in the first two, whoever is timed in the third, whatever the file.
+    assert [command[command.index("-m", 2) + 1] for command in commands] == ["not timed", "not timed", "timed"]
 
 
 def test_a_unity_check_that_breaks_off_is_a_failure(tmp_path, monkeypatch, capsys):

@@ -5,8 +5,9 @@ import dataclasses
 import pytest
 
 from analysis.tables import read_table
-from experiments.studies import STUDIES
-from experiments.sweep import run_study
+from experiments.sweep import sweep
+from studies.builtin import STUDIES
+from studies.table import Axis, Grid
 
 # tau in s; from another double-precision implementation of the thesis's method, to the digits it printed.
 TAU = {
@@ -21,10 +22,11 @@ TAU = {
 
 @pytest.mark.parametrize("name", TAU)
 def test_tau_is_that_of_an_independent_program(runner_command, tmp_path, name):
-    study = dataclasses.replace(STUDIES[name], values=tuple(TAU[name]), repeats=0)
-    result = run_study(study, runner_command, tmp_path, 2, lambda *_: None)
+    (axis,) = STUDIES[name].grid.axes
+    study = dataclasses.replace(STUDIES[name], grid=Grid((Axis(axis.key, tuple(TAU[name])),)))
+    result = sweep([study], runner_command, tmp_path, 2, lambda *_: None)
     assert result.failures == []
-    table = read_table(result.folder, study.parameter)
+    table = read_table(result.folder / name, axis.key)
     assert {row.run.outcome for row in table.rows} == {"converged"}
     for row in table.rows:
         assert row.relaxation.time == pytest.approx(TAU[name][row.value], rel=0.01), row.value

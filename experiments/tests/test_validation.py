@@ -5,23 +5,26 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-from analysis.validation.check import Case, Check, Finding, Result, replay
+from analysis.runs import read_run
+from analysis.validation import scenes
+from analysis.validation.check import Check, Finding, Result, replay
 from analysis.validation.report import FAST, Report, as_csv, as_markdown
-from experiments import checking
+from analysis.validation.wire import BASE, Wire
+from experiments.sweep import sweep
+from studies.table import Case
 
 
 @pytest.fixture(scope="module")
 def fast_report(tmp_path_factory: pytest.TempPathFactory, runner_command: list[str]) -> Report:
-    done = checking.run_checks(
-        "validation", FAST, runner_command, tmp_path_factory.mktemp("validation"), 2, lambda *_: None
-    )
+    done = sweep(FAST, runner_command, tmp_path_factory.mktemp("validation"), 2, lambda *_: None)
     assert done.failures == []
     return Report({check: replay(check, done.folder) for check in FAST})
 
 
-@pytest.mark.parametrize("check", FAST, ids=lambda check: check.id)
+@pytest.mark.parametrize("check", FAST, ids=lambda check: check.name)
 def test_direct_solver_keeps_its_gates(fast_report: Report, check: Check) -> None:
     results = fast_report.findings[check].results
     assert any(result.gate is not None for result in results) or all(result.reason for result in results)
@@ -51,7 +54,7 @@ def _adaptive():
 def test_later_cases_follow_from_earlier_runs(tmp_path: Path, runner_command: list[str]) -> None:
     check = Check("adaptive", "Test", "adaptive", _adaptive)
     asked = []
-    done = checking.run_checks("v", [check], runner_command, tmp_path, 1, lambda *_: asked.append(1))
+    done = sweep([check], runner_command, tmp_path, 1, lambda *_: asked.append(1))
     assert len(asked) == 4 and done.failures == []
     assert replay(check, done.folder).results[0].passed
 
@@ -62,10 +65,79 @@ def _wrong():
 
 
 def test_check_whose_run_has_no_result_is_dropped_and_told(tmp_path: Path, runner_command: list[str]) -> None:
-    done = checking.run_checks("v", [Check("wrong", "Test", "wrong", _wrong)], runner_command, tmp_path, 1,
-                               lambda *_: None)
+    done = sweep([Check("wrong", "Test", "wrong", _wrong)], runner_command, tmp_path, 1, lambda *_: None)
     (failure,) = done.failures
     assert failure.exit_code == 2 and "numberRodElements" in failure.message
+
+
+def _highest_frequency(wire: Wire, n: int) -> float:
+    """Of small motions of a free chain with lumped masses, rad/s: across it, with elements that turn, and along it."""
+    length = wire.length / n
+    turning = np.full(n, wire.second_moment / wire.area)
+    mass = wire.line_density * length * np.array([0.5, *np.ones(n - 1), 0.5, *turning])
+    shear = np.zeros((n, 2 * n + 1))  # (y' - angle), of n+1 places and n angles
+    for j in range(n):
+        shear[j, [j, j + 1, n + 1 + j]] = -1.0 / length, 1.0 / length, -1.0
+    bend = np.diff(np.eye(2 * n + 1)[n + 1:], axis=0)
+    stiffness = wire.shearing * length * shear.T @ shear + wire.bending / length * bend.T @ bend
+    across = np.linalg.eigvalsh(stiffness / np.sqrt(np.outer(mass, mass)))[-1]
+    side = np.diff(np.eye(n + 1), axis=0)
+    along = np.linalg.eigvalsh(
+        wire.stretching / length * side.T @ side / np.sqrt(np.outer(mass[:n + 1], mass[:n + 1])))[-1]
+    return math.sqrt(max(across, along))
+
+
+ROUNDED = 1.0 + 1e-9
+_WIRES = {"thin": (BASE, 30), "thick": (Wire(radius=5e-3), 60), "coarse": (Wire(radius=5e-3), 4)}
+
+
+def _slack(wire: Wire, n: int) -> float:
+    """By how much a bound of omega^2 that adds shear against turning, shear against shifting and bending may be too
+    high: the truth is at least what shear does on its own, and what turning elements with resting nodes do."""
+    length = wire.length / n
+    turning = wire.shear_modulus * wire.area / (wire.density * wire.second_moment)
+    shifting = 4.0 * wire.shear_modulus / (wire.density * length**2)
+    bending = 4.0 * wire.youngs_modulus / (wire.density * length**2)
+    return (turning + shifting + bending) / max(turning + shifting, turning + (1.0 - 1.0 / n) * bending)
+
+
+def test_stable_substep_that_a_run_states_is_that_of_the_linear_chain(
+    tmp_path: Path, runner_command: list[str]
+) -> None:
+    """It must not be above 2/omega_max, and is below by no more than its bound of omega allows."""
+    stated = {}
+
+    def plan():
+        keys = {name: {**scenes.wire_parameters(wire), "numberRodElements": n, "proximalEnd": "free"}
+                for name, (wire, n) in _WIRES.items()}
+        stated.update((yield from scenes.stable_substeps(keys)))
+        return Finding((), lambda figure: None, "")
+
+    done = sweep([Check("limits", "Test", "limits", plan)], runner_command, tmp_path, 1, lambda *_: None)
+    replay(Check("limits", "Test", "limits", plan), done.folder)
+    for name, (wire, n) in _WIRES.items():
+        limit = 2.0 / _highest_frequency(wire, n)
+        assert limit / math.sqrt(_slack(wire, n)) <= stated[name] * ROUNDED, name
+        assert stated[name] <= limit * ROUNDED, name
+
+
+def test_cost_in_turns_is_that_of_the_work_done(tmp_path: Path, runner_command: list[str]) -> None:
+    """Twice the iterations are twice the element-iterations. Other work on the machine falls on both sides of each
+    ratio. The scalar sweep would take 30 x 2000 a step of 10 ms, 6000 a millisecond; none is slower than it."""
+    scene = {"numberRodElements": 30, "guidewireLength": 300.0, "timeStep": 0.01, "maxSimulationSteps": 3,
+             "displacementDirection": [0, 1, 0], "deltaThreshold": 0}
+
+    def plan():
+        yield [Case(f"m={m}", {**scene, "constraintSolverSteps": m}, in_turns=True) for m in (2000, 4000)]
+        return Finding((), lambda figure: None, "")
+
+    check = Check("cost", "Test", "cost", plan, "params/default.json")
+    done = sweep([check], runner_command, tmp_path, 1, lambda *_: None)
+    assert done.failures == []
+    once, twice = (read_run(done.folder / "cost" / f"m={m}").measured("elementIterationsPerMillisecond")
+                   for m in (2000, 4000))
+    assert twice == pytest.approx(2.0 * once, rel=0.1)
+    assert 600.0 < once < 6600.0
 
 
 def test_error_that_is_no_number_does_not_pass() -> None:

@@ -6,105 +6,77 @@ namespace Guidewire.Core
     /// same parameters give the same bits on the same runtime.</summary>
     public sealed class Simulation
     {
-        private readonly ITimeStep _step;
+        private readonly bool _hasMaterial;
+        private readonly TimeStepper _stepper;
         private readonly StopRule _stopRule;
-        private readonly double _timeStep;
-        private int _firstStep;
-        private double _firstTime;    // s
+        private readonly StepClock _clock;
         private string? _ownReason;
-        private string? _doubt;
+        private string? _warning;
 
-        private Simulation(RodState state, ITimeStep step, StopRule stopRule, double timeStep)
+        private Simulation(MethodTraits method, MethodStart start, MethodParameters parameters)
         {
-            State = state;
-            _step = step;
-            _stopRule = stopRule;
-            _timeStep = timeStep;
+            _hasMaterial = method.TakesMaterial;
+            State = start.State;
+            _stepper = start.Stepper;
+            _stopRule = new StopRule(parameters.DeltaThreshold, parameters.SteadyStateHold,
+                parameters.MaxSimulationSteps, State);
+            _clock = new StepClock(parameters.TimeStep);
         }
 
         /// <summary>The wire as it is now.</summary>
         public RodState State { get; }
 
         /// <summary>Steps done.</summary>
-        public int StepCount { get; private set; }
+        public int StepCount => _clock.StepCount;
 
         /// <summary>In-game time in s, k dt after k steps.</summary>
-        public double Time => _firstTime + (StepCount - _firstStep) * _timeStep;
+        public double Time => _clock.Time;
 
         /// <summary>Delta_p of the last step in units; 0 before the first.</summary>
-        public double PredictionError => _step.PredictionError;
+        public double PredictionError => _stepper.PredictionError;
 
         /// <summary>How the run ended, or Running.</summary>
         public Outcome Outcome { get; private set; }
 
-        /// <summary>One line that says why the run ended, and what is wrong with it; empty while it runs.</summary>
-        public string Reason => (_ownReason ?? _stopRule.Reason) + (_doubt == null ? "" : ", but " + _doubt);
+        /// <summary>One line that says why the run ended, and what is not accurate in it; empty while it
+        /// runs.</summary>
+        public string Reason => (_ownReason ?? _stopRule.Reason) + (_warning == null ? "" : ", but " + _warning);
 
         /// <summary>First step of the steady state, or -1.</summary>
         public int SteadyStateStep => _stopRule.SteadyStateStep;
 
         /// <summary>What contact with walls came to, and the force at the first sphere; null in a scene without walls
         /// whose parameters do not ask for reactions.</summary>
-        public ContactRecord? Contacts { get; private set; }
+        public ContactRecord? Contacts => _stepper.Contacts;
 
         /// <summary>Builds the wire and chooses every part of the method, once.</summary>
-        /// <exception cref="ArgumentException">A value out of the range that the rod allows, or a wire that starts
-        /// outside the vessel.</exception>
+        /// <exception cref="ArgumentException">A value out of the range that the rod allows, one that the method does
+        /// not take, or a wire that starts outside the vessel.</exception>
         public static Simulation Create(SimulationParameters parameters)
         {
-            if (parameters.DisplacementDirection.Length == 0.0)
+            ParameterConflict? conflict = ParameterConflict.Find(parameters);
+            if (conflict != null)
             {
-                throw new ArgumentException("the displacement has no direction");
+                throw new ArgumentException(conflict.Key + " needs " + conflict.Needed);
             }
-            string? complaint = WireStart.Complaint(parameters);
-            if (complaint != null)
+            MethodTraits method = MethodTable.Of(parameters.Method.Solver);
+            MethodStart start = method.Build(parameters, new Scene(parameters));
+            var simulation = new Simulation(method, start, parameters.Method);
+            if (start.Failure != null)
             {
-                throw new ArgumentException(complaint);
+                simulation.End(Outcome.Failed, start.Failure);
             }
-            RodState state = StartOf(parameters);
-            if (parameters.Steering != null && parameters.Solver != Solver.Pbd)
-            {
-                throw new ArgumentException("solver: a hand steers wires with gains only, solver pbd");
-            }
-            string? failure = null;
-            ITimeStep step = parameters.Solver == Solver.Pbd ? GainSetup.Create(parameters, state)
-                : MaterialSetup.Create(parameters, state, out failure);
-            var stopRule = new StopRule(parameters.DeltaThreshold, parameters.SteadyStateHold,
-                parameters.MaxSimulationSteps, state);
-            var simulation = new Simulation(state, step, stopRule, parameters.TimeStep)
-            {
-                Contacts = (step as IContactStep)?.Record,
-            };
-            if (failure != null)
-            {
-                simulation.End(Outcome.Failed, failure);
-            }
-            else if (parameters.Solver != Solver.Pbd && parameters.MaxSimulationSteps == 0
-                && parameters.Material.InitialState == InitialState.Equilibrium)
+            else if (start.IsAtRest && parameters.Method.MaxSimulationSteps == 0)
             {
                 simulation.End(Outcome.Converged, "the wire is at rest");
             }
             return simulation;
         }
 
-        /// <summary>The wire as the parameters start it, before any displacement.</summary>
-        internal static RodState StartOf(SimulationParameters parameters)
-        {
-            var state = new RodState(parameters.NumberRodElements, parameters.GuidewireLength, parameters.TotalMass,
-                parameters.GuidewireOffset);
-            if (parameters.Start != null)
-            {
-                state.Load(parameters.Start);
-            }
-            return state;
-        }
-
         /// <summary>What the solver says of itself, for a run with a material; null with gains.</summary>
-        public SolverReport? CompleteReport()
+        public SolverReport? Report()
         {
-            var reporting = _step as IReportingStep;
-            reporting?.CompleteReport();
-            return reporting?.Report;
+            return _stepper.Report();
         }
 
         /// <summary>One step. Does nothing once the run has ended.</summary>
@@ -114,50 +86,50 @@ namespace Guidewire.Core
             {
                 return;
             }
-            _step.Advance(State);
-            StepCount++;
-            if (_step.Failure != null)
+            _stepper.Advance(State);
+            _clock.Advance();
+            if (_stepper.Failure != null)
             {
-                End(Outcome.Failed, _step.Failure);
+                End(Outcome.Failed, _stepper.Failure);
                 return;
             }
-            string? divergence = (_step as IWatchedStep)?.Divergence;
-            if (divergence != null)
+            if (_stepper.Divergence != null)
             {
-                End(Outcome.Diverged, divergence);
+                End(Outcome.Diverged, _stepper.Divergence);
                 return;
             }
-            Outcome = _stopRule.Judge(State, StepCount, PredictionError);
+            Outcome = _stopRule.Check(State, StepCount, PredictionError);
             if (Outcome == Outcome.Finished || Outcome == Outcome.Converged)
             {
-                _doubt = (_step as IWatchedStep)?.Doubt;
+                _warning = _stepper.AccuracyWarning;
             }
         }
 
-        /// <summary>A run that goes on from this one's state with other parameters: steps and time go on counting, the
-        /// displacement of the start is not made again.</summary>
-        /// <param name="parameters">The other parameters, for a wire of as many elements. Their
-        /// <see cref="SimulationParameters.Start"/> and <see cref="SimulationParameters.Displacement"/> are not looked
-        /// at; with gains, a distal clamp only makes what is left of its motion.</param>
-        /// <exception cref="ArgumentException">As <see cref="Create"/>, and another number of elements.</exception>
+        /// <summary>A run that goes on from where this one is, with the same parameters or with others. With the same
+        /// it takes the same steps, bit for bit, as this one would: loads, ramps, twists and drives go on in time, and
+        /// what the method remembers of earlier steps is kept. What others make meaningless (a scheme's history under
+        /// another step size) begins anew.</summary>
+        /// <param name="parameters">For a wire of as many elements. Their <see cref="SceneParameters.Start"/>, <see
+        /// cref="SceneParameters.InitialState"/> and <see cref="DriveParameters.Displacement"/> are not looked at: the
+        /// start is over.</param>
+        /// <exception cref="ArgumentException">As <see cref="Create"/>; another number of elements; gains that go on as
+        /// a material, or the reverse.</exception>
         public Simulation Continue(SimulationParameters parameters)
         {
-            SimulationParameters continued = parameters.Copy();
-            continued.Start = new RodStart(State.Positions, State.Orientations, State.Velocities,
-                State.AngularVelocities);
-            continued.Displacement = 0.0;
-            if (continued.Solver == Solver.Pbd)
+            if (MethodTable.Of(parameters.Method.Solver).TakesMaterial != _hasMaterial)
             {
-                MaterialParameters ends = continued.Material;
-                double left = ends.DistalRampTime > Time ? 1.0 - Time / ends.DistalRampTime : 0.0;
-                ends.DistalRotation *= left;
-                ends.DistalDisplacement *= left;
-                ends.DistalRampTime *= left;
+                throw new ArgumentException("solver needs to be one for " + (_hasMaterial ? "a material" : "gains")
+                    + ": this run goes on with the wire that it has");
             }
+            SimulationParameters continued = parameters.Copy();
+            continued.Scene.Start = new RodStart(State.Positions, State.Orientations, State.Velocities,
+                State.AngularVelocities);
+            continued.Scene.InitialState = InitialState.Straight;
+            continued.Drive.Displacement = 0.0;
             Simulation next = Create(continued);
-            next.StepCount = StepCount;
-            next._firstStep = StepCount;
-            next._firstTime = Time;
+            var snapshot = new Snapshot();
+            Exchange(snapshot);
+            next.Exchange(snapshot.ToRead());
             return next;
         }
 
@@ -166,9 +138,17 @@ namespace Guidewire.Core
         /// <param name="reason">One line.</param>
         public void End(Outcome outcome, string reason)
         {
-            _doubt = outcome == Outcome.Interrupted ? (_step as IWatchedStep)?.Doubt : null;
+            _warning = outcome == Outcome.Interrupted ? _stepper.AccuracyWarning : null;
             Outcome = outcome;
             _ownReason = reason;
+        }
+
+        private void Exchange(Snapshot snapshot)
+        {
+            _clock.Exchange(snapshot);
+            State.Exchange(snapshot);
+            _stopRule.Exchange(snapshot);
+            _stepper.Exchange(snapshot);
         }
     }
 }

@@ -20,7 +20,7 @@ namespace Guidewire.Core
         private readonly double _threshold;
         private readonly int _hold;
         private readonly int _maxSteps;
-        private readonly Vector3d _origin;
+        private Vector3d _origin;
 
         private bool _disturbed;
         private int _quietSteps;
@@ -52,11 +52,11 @@ namespace Guidewire.Core
         /// <summary>The first of the steps that make the steady state, or -1 before there is one.</summary>
         public int SteadyStateStep { get; private set; } = -1;
 
-        /// <summary>One line that says why, once <see cref="Judge"/> answers anything but Running.</summary>
+        /// <summary>One line that says why, once <see cref="Check"/> answers anything but Running.</summary>
         public string Reason { get; private set; } = "";
 
         /// <summary>The outcome after <paramref name="step"/> steps.</summary>
-        public Outcome Judge(RodState state, int step, double predictionError)
+        public Outcome Check(RodState state, int step, double predictionError)
         {
             if (IsLost(state, step, out double strain))
             {
@@ -72,6 +72,19 @@ namespace Guidewire.Core
                 return Outcome.Finished;
             }
             return Outcome.Running;
+        }
+
+        /// <summary>Writes into a snapshot, or takes over from one, what has been seen so far.</summary>
+        public void Exchange(Snapshot snapshot)
+        {
+            snapshot.Exchange(ref _origin);
+            snapshot.Exchange(ref _disturbed);
+            snapshot.Exchange(ref _quietSteps);
+            snapshot.Exchange(ref _strainPutIn);
+            snapshot.Exchange(ref _largestSquareSum);
+            snapshot.Exchange(ref _drivenTo);
+            _shortWatch.Exchange(snapshot);
+            _longWatch.Exchange(snapshot);
         }
 
         private bool IsSteady(int step, double predictionError, double strain)

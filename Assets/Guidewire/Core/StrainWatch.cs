@@ -19,6 +19,17 @@ namespace Guidewire.Core
         /// <summary>The largest strain of the window that ended last, dimensionless.</summary>
         public double Largest { get; private set; }
 
+        /// <summary>Writes into a snapshot, or takes over from one, the windows so far.</summary>
+        public void Exchange(Snapshot snapshot)
+        {
+            double largest = Largest;
+            snapshot.Exchange(ref largest);
+            snapshot.Exchange(ref _step);
+            snapshot.Exchange(ref _largest);
+            snapshot.Exchange(ref _previousLargest);
+            Largest = largest;
+        }
+
         /// <summary>Takes one step's largest strain; true at the end of a window that, like the one before, went above
         /// the limit, and in which the largest strain has not fallen.</summary>
         /// <param name="strain">|length/l - 1| of the worst element.</param>

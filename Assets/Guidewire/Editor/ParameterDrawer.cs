@@ -15,7 +15,7 @@ namespace Guidewire.Editor
         {
             ParameterEntry? entry = ParameterTable.Find(key);
             return entry == null ? "not in the parameter table"
-                : entry.Help + "\n" + entry.Allowed + "; default " + entry.Default;
+                : entry.Help + "\n" + entry.Allowed + "; default " + entry.Defaults;
         }
 
         /// <inheritdoc/>

@@ -99,10 +99,16 @@ namespace Guidewire.Io
                 + "  -out DIR           folder of the results (positions.json, parameters.json, summary.json)\n"
                 + "  -repeat K          the run is timed, this is its K-th repeat\n"
                 + "  -KEY VALUE         any parameter, instead of the file's\n\nParameters:\n");
-            foreach (ParameterEntry entry in ParameterTable.Entries)
+            foreach (ParameterGroup group in ParameterTable.Groups)
             {
-                text.Append("  -").Append(entry.Key).Append(": ").Append(entry.Help).Append("\n      ")
-                    .Append(entry.Allowed).Append("; default ").Append(entry.Default).Append('\n');
+                text.Append('\n').Append(group.Name).Append(": ").Append(group.About).Append('\n');
+                foreach (ParameterEntry entry in group.Entries)
+                {
+                    text.Append("  -").Append(entry.Key).Append(": ").Append(entry.Help).Append("\n      ")
+                        .Append(entry.Allowed).Append("; default ").Append(entry.Defaults)
+                        .Append(entry.Methods.Count == Takers.All.Count ? "" : "; solver " + entry.MethodWords)
+                        .Append('\n');
+                }
             }
             text.Append("\nExit codes: 0 converged or finished, 2 bad arguments or parameters, 4 diverged, 5 failed,\n"
                 + "70 internal error, 130 interrupted\n");

@@ -14,11 +14,13 @@ namespace Guidewire.Benchmarks
         private const double BendRadius = 100.0;    // units
         private const double TubeRadius = 10.0;
         private const double SphereRadius = 2.0;
+        private const double Margin = 0.5;
+        private const double Length = 300.0;        // of the wire
         private const double FromWall = 2.2;        // of the wire's core line
         private const double StepLength = 0.05;
         private const int StepsOneWay = 32;
 
-        private ContactRule _rule = null!;
+        private ContactSearch _search = null!;
         private Vector3d[][] _wires = null!;        // at the start of each step of a cycle
         private int _step;
 
@@ -64,22 +66,14 @@ namespace Guidewire.Benchmarks
         private void DetectStep()
         {
             int next = (_step + 1) % _wires.Length;
-            _rule.Detect(_wires[_step], _wires[next]);
+            _search.Find(_wires[_step], _wires[next]);
             _step = next;
         }
 
         private void Setup(int around, int along)
         {
-            var parameters = new SimulationParameters
-            {
-                NumberRodElements = Elements,
-                GuidewireLength = 300.0,
-                SphereRadius = SphereRadius,
-                CollisionMargin = 0.5,
-                Walls = new ContactShape[] { new MeshShape(BentTube(around, along)) },
-            };
-            var state = new RodState(Elements, 300.0, 1.0, 0.0);
-            _rule = new ContactRule(state, parameters);
+            _search = new ContactSearch(new ContactShape[] { new MeshShape(BentTube(around, along)) }, Elements,
+                Length / Elements, SphereRadius, SphereRadius + Margin, true);
             _wires = new Vector3d[2 * StepsOneWay][];
             for (int k = 0; k < _wires.Length; k++)
             {

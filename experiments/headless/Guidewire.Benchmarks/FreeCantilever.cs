@@ -25,17 +25,16 @@ namespace Guidewire.Benchmarks
         {
             _steps = (int)Math.Round(Duration / timeStep);
             _parameters = Parameters(elements, scheme, timeStep);
-            MaterialParameters material = _parameters.Material;
-            double radius = material.WireRadius;
-            double bending = material.YoungsModulus * 0.25 * Math.PI * radius * radius * radius * radius;
-            double length = Length * material.MetresPerUnit;
-            material.TipForce = new Vector3d(0.0, -Load * bending / (length * length), 0.0);
-            material.InitialState = InitialState.Equilibrium;
+            double radius = _parameters.Material.WireRadius;
+            double bending = _parameters.Material.YoungsModulus * 0.25 * Math.PI * radius * radius * radius * radius;
+            double length = Length * _parameters.Scene.MetresPerUnit;
+            _parameters.Scene.TipForce = new Vector3d(0.0, -Load * bending / (length * length), 0.0);
+            _parameters.Scene.InitialState = InitialState.Equilibrium;
             RodState rest = Simulation.Create(_parameters).State;
-            _parameters.Start = new RodStart(rest.Positions, rest.Orientations, rest.Velocities,
+            _parameters.Scene.Start = new RodStart(rest.Positions, rest.Orientations, rest.Velocities,
                 rest.AngularVelocities);
-            material.TipForce = Vector3d.Zero;
-            material.InitialState = InitialState.Straight;
+            _parameters.Scene.TipForce = Vector3d.Zero;
+            _parameters.Scene.InitialState = InitialState.Straight;
         }
 
         /// <summary>The motion; returns where the tip is in the end, mm.</summary>
@@ -48,10 +47,10 @@ namespace Guidewire.Benchmarks
                 simulation.Step();
                 if (tip != null)
                 {
-                    tip[i] = simulation.State.Positions[_parameters.NumberRodElements].Y;
+                    tip[i] = simulation.State.Positions[_parameters.Scene.NumberRodElements].Y;
                 }
             }
-            return simulation.State.Positions[_parameters.NumberRodElements].Y;
+            return simulation.State.Positions[_parameters.Scene.NumberRodElements].Y;
         }
 
         /// <summary>RMS of the difference of two motions of the tip over RMS of the finer, at the steps of the
@@ -83,17 +82,18 @@ namespace Guidewire.Benchmarks
         {
             var parameters = new SimulationParameters
             {
-                Solver = Solver.Direct,
-                Integrator = scheme,
-                NumberRodElements = elements,
-                GuidewireLength = Length,
-                GuidewireOffset = 0.0,
-                Displacement = 0.0,
-                TimeStep = timeStep,
-                MaxSimulationSteps = int.MaxValue,
-                DeltaThreshold = 0.0,
+                Method =
+                {
+                    Solver = Solver.Direct,
+                    Integrator = scheme,
+                    TimeStep = timeStep,
+                    MaxSimulationSteps = int.MaxValue,
+                    DeltaThreshold = 0.0,
+                },
+                Scene = { NumberRodElements = elements, GuidewireLength = Length, GuidewireOffset = 0.0 },
+                Drive = { Displacement = 0.0 },
             };
-            parameters.Material.ProximalEnd = ProximalEnd.Clamped;
+            parameters.Scene.ProximalEnd = ProximalEnd.Clamped;
             return parameters;
         }
     }

@@ -12,13 +12,17 @@ namespace Guidewire.Benchmarks
         private const int WarmUp = 5;
 
         /// <summary>Times both, some 60 times in turns.</summary>
-        public Interleaved(Action first, Action second)
+        /// <param name="first">What is measured.</param>
+        /// <param name="second">What it is measured against.</param>
+        /// <param name="prepare">Made before each turn of the first and not timed; or null.</param>
+        public Interleaved(Action first, Action second, Action? prepare = null)
         {
             var ratios = new List<double>();
             var firsts = new List<double>();
             var seconds = new List<double>();
             for (int round = -WarmUp; round < Rounds; round++)
             {
+                prepare?.Invoke();
                 double a = Time(first);
                 double b = Time(second);
                 if (round >= 0)

@@ -26,7 +26,7 @@ namespace Guidewire.Benchmarks
             }
             _file = new FileStream(Path.GetTempFileName(), FileMode.Create, FileAccess.Write, FileShare.Read, 1,
                 FileOptions.DeleteOnClose);
-            _logger = new DataLogger(_file, new RunParameters());
+            _logger = new DataLogger(_file, new RunParameters(Solver.Pbd));
         }
 
         [Benchmark]

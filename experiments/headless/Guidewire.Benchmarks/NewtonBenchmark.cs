@@ -29,10 +29,10 @@ namespace Guidewire.Benchmarks
         {
             _rod = MaterialRod.Round(Elements, 0.3, 0.5e-3, 60e9, 23e9, 6450.0);
             _supports = new RodSupports();
-            var statics = new RodStatics(_rod, _supports);
-            statics.Loads.Set(_rod, MassRule.Consistent, new Vector3d(0.0, -9.81, 0.0), Vector3d.Zero);
-            var inertia = new InertiaEnergy(_rod, MassRule.Consistent) { StageLength = StageLength };
-            _terms = statics.DynamicTerms(inertia);
+            var terms = new RodTerms(_rod, _supports);
+            terms.Loads.Set(new Vector3d(0.0, -9.81, 0.0), Vector3d.Zero);
+            var inertia = new InertiaEnergy(terms.Mass) { StageLength = StageLength };
+            _terms = terms.With(inertia);
             _shape = new RodShape(Elements);
             _moved = new RodShape(Elements);
             for (int j = 0; j < Elements; j++)
@@ -40,7 +40,7 @@ namespace Guidewire.Benchmarks
                 _shape.Q[j] = Quaterniond.FromAxisAngle(Vector3d.UnitX, Bend * j / Elements);
                 _shape.X[j + 1] = _shape.X[j] + _rod.Length[j] * _shape.Q[j].Director3;
             }
-            inertia.BeginStep(_shape.Q);
+            inertia.BeginStep(_shape, StageLength);
             for (int j = 0; j < Elements; j++)
             {
                 _shape.Q[j] *= RotationVector.Exp(new Vector3d(Turn, 0.5 * Turn, Turn));

@@ -9,6 +9,7 @@ using BenchmarkDotNet.Loggers;
 using BenchmarkDotNet.Reports;
 using BenchmarkDotNet.Running;
 using BenchmarkDotNet.Toolchains.InProcess.Emit;
+using Guidewire.Cli;
 using Guidewire.Core;
 
 namespace Guidewire.Benchmarks
@@ -23,11 +24,12 @@ namespace Guidewire.Benchmarks
             typeof(DetectionBenchmark), typeof(NewtonBenchmark), typeof(CantileverBenchmark),
         };
 
-        private const double LimitRatio = 220.0;  // element-iterations a simulated millisecond
-        private const double LimitSweep = 60.0;   // ns
-
         private static int Main(string[] arguments)
         {
+            if (arguments.Contains("-lines"))
+            {
+                return RequestLoop.Serve(Console.In, Console.Out, MotionCost.Measure, () => false);
+            }
             IConfig config = ManualConfig.CreateEmpty()
                 .AddJob(Job.Default.WithToolchain(InProcessEmitToolchain.Instance)
                     .WithWarmupCount(3).WithIterationCount(9)
@@ -75,8 +77,6 @@ namespace Guidewire.Benchmarks
         private static void PrintCantilever()
         {
             const int Motions = 5;
-            const int SweepElements = 30;
-            const int SweepIterations = 300;
             double[] timed = FreeCantilever.Tip(FreeCantilever.Elements, FreeCantilever.Scheme,
                 FreeCantilever.TimeStep);
             double[] fine = FreeCantilever.Tip(40, Integrator.Sdirk4, 1e-4);
@@ -89,15 +89,14 @@ namespace Guidewire.Benchmarks
 
             var cantilever = new FreeCantilever(FreeCantilever.Elements, FreeCantilever.Scheme,
                 FreeCantilever.TimeStep);
-            var sweep = new SteppedWire(SweepElements, SweepIterations, scalar => scalar);
-            var both = new Interleaved(() => Repeat(Motions, () => cantilever.Run(null)), () => sweep.Advance(1));
+            var both = new Interleaved(() => Repeat(Motions, () => cantilever.Run(null)), MotionCost.Sweep().Step);
             double milliseconds = Motions * 1e3 * FreeCantilever.Duration;
-            double sweeps = SweepElements * SweepIterations;
+            double sweeps = MotionCost.ElementIterations;
             Console.WriteLine(string.Format(CultureInfo.InvariantCulture,
-                "free cantilever: {0:0.00} us per simulated ms = {1:0} element-iterations, in turns (limit {2:0} where"
-                + " the sweep takes at most {3:0} ns; here {4:0.0}); {5:0.0000} s per simulated second",
-                1e-3 * both.First / milliseconds, both.Ratio * sweeps / milliseconds, LimitRatio, LimitSweep,
-                both.Second / sweeps, 1e-6 * both.First / milliseconds));
+                "free cantilever: {0:0.00} us per simulated ms = {1:0} element-iterations, in turns (of {2:0.0} ns"
+                + " each); {3:0.0000} s per simulated second",
+                1e-3 * both.First / milliseconds, both.Ratio * sweeps / milliseconds, both.Second / sweeps,
+                1e-6 * both.First / milliseconds));
         }
 
         private static void Repeat(int times, Action work)

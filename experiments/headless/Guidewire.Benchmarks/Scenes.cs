@@ -12,12 +12,14 @@ namespace Guidewire.Benchmarks
         {
             return Simulation.Create(new SimulationParameters
             {
-                NumberRodElements = elements,
-                GuidewireLength = 10.0 * elements,
-                ConstraintSolverSteps = iterations,
-                DisplacementDirection = Vector3d.UnitY,
-                DeltaThreshold = 0.0,
-                MaxSimulationSteps = int.MaxValue,
+                Scene = { NumberRodElements = elements, GuidewireLength = 10.0 * elements },
+                Method =
+                {
+                    ConstraintSolverSteps = iterations,
+                    DeltaThreshold = 0.0,
+                    MaxSimulationSteps = int.MaxValue,
+                },
+                Drive = { DisplacementDirection = Vector3d.UnitY },
             });
         }
     }

@@ -18,19 +18,25 @@ namespace Guidewire.Benchmarks
         public SteppedWire(int elements, int iterations, Func<ScalarSweeps, ISweeps?> choice)
         {
             var parameters = new SimulationParameters();
-            _state = new RodState(elements, 10.0 * elements, parameters.TotalMass, 0.0);
+            _state = new RodState(elements, 10.0 * elements, parameters.Gains.TotalMass, 0.0);
             _state.InverseMasses[0] = 0.0;
             Bend(_state);
-            var scalar = new ScalarSweeps(new StretchConstraint(_state, parameters.StretchStiffness),
-                new BendTwistConstraint(_state, parameters.BendStiffness), SweepOrder.Naive);
+            var scalar = new ScalarSweeps(new StretchConstraint(_state, parameters.Gains.StretchStiffness),
+                new BendTwistConstraint(_state, parameters.Gains.BendStiffness), SweepOrder.Naive);
             Sweeps = choice(scalar);
-            _step = new PositionBasedStep(parameters.TimeStep,
-                new VerletPrediction(parameters.Damping, parameters.Gravity), new OrientationEulerPrediction(), null,
-                new GaussSeidelSolver(iterations, scalar, Sweeps ?? scalar, null));
+            _step = new PositionBasedStep(parameters.Method.TimeStep,
+                new VerletPrediction(parameters.Method.Damping, parameters.Scene.Gravity), new OrientationEulerPrediction(), null,
+                new GaussSeidelSolver(iterations, scalar, Sweeps ?? scalar, null), null);
         }
 
         /// <summary>The sweeps in use, or null where they could not be had.</summary>
         public ISweeps? Sweeps { get; }
+
+        /// <summary>Does one step.</summary>
+        public void Step()
+        {
+            Advance(1);
+        }
 
         /// <summary>Does some steps.</summary>
         public void Advance(int steps)

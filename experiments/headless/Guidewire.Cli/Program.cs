@@ -51,7 +51,7 @@ namespace Guidewire.Cli
                         return 0;
                     case "--lines":
                     case "-lines":
-                        return RequestLoop.Serve(Console.In, Console.Out, () => StopRequested);
+                        return RequestLoop.Serve(Console.In, Console.Out, Simulate, () => StopRequested);
                     default:
                         return RunOnce(arguments, command);
                 }
@@ -66,6 +66,12 @@ namespace Guidewire.Cli
                 Console.Error.WriteLine("guidewire: " + ErrorTrace.Write(error, command.Folder));
                 return ExitCodes.Internal;
             }
+        }
+
+        private static RunResult Simulate(RunRequest request, ParameterHandler handler)
+        {
+            var run = new SimulationRun(handler, request.Out, request.Repeat) { StopRequested = () => StopRequested };
+            return run.Execute(request.Reuse);
         }
 
         private static int RunOnce(string[] arguments, RunCommand command)

@@ -11,7 +11,12 @@ namespace Guidewire.Cli
     internal static class RequestLoop
     {
         /// <summary>Serves until the end of the input, or until a stop is requested.</summary>
-        public static int Serve(TextReader input, TextWriter output, Func<bool> stopRequested)
+        /// <param name="input">The requests.</param>
+        /// <param name="output">Takes the answers.</param>
+        /// <param name="execute">What is done with the parameters of a request.</param>
+        /// <param name="stopRequested">Asked between requests.</param>
+        public static int Serve(TextReader input, TextWriter output,
+            Func<RunRequest, ParameterHandler, RunResult> execute, Func<bool> stopRequested)
         {
             string? line;
             while (!stopRequested() && (line = input.ReadLine()) != null)
@@ -20,13 +25,13 @@ namespace Guidewire.Cli
                 {
                     continue;
                 }
-                output.WriteLine(Answer(line, stopRequested).ToString(Formatting.None));
+                output.WriteLine(Answer(line, execute).ToString(Formatting.None));
                 output.Flush();
             }
             return stopRequested() ? ExitCodes.Of(Core.Outcome.Interrupted) : 0;
         }
 
-        private static JObject Answer(string line, Func<bool> stopRequested)
+        private static JObject Answer(string line, Func<RunRequest, ParameterHandler, RunResult> execute)
         {
             var answer = new JObject
             {
@@ -42,10 +47,9 @@ namespace Guidewire.Cli
             {
                 RunRequest request = RunRequest.Parse(line);
                 ParameterHandler handler = ParameterHandler.Load(request.ParameterFile, request.Overrides);
-                var run = new SimulationRun(handler, request.Out, request.Repeat) { StopRequested = stopRequested };
-                folder = run.Folder;
+                folder = string.IsNullOrEmpty(request.Out) ? handler.Values.LogFilePath : request.Out;
                 answer["out"] = folder;
-                RunResult result = run.Execute(request.Reuse);
+                RunResult result = execute(request, handler);
                 answer["exitCode"] = ExitCodes.Of(result.Outcome);
                 answer["outcome"] = result.Word;
                 answer["message"] = result.Reason;

@@ -105,7 +105,7 @@ namespace Guidewire.Unity.Tests
             Stage.Tap(KeyCode.R);
             Assert.That(Stage.Loop.Generation, Is.EqualTo(2));
             Assert.That(Stage.Loop.Session!.Simulation.StepCount, Is.EqualTo(0), "still paused");
-            Assert.That(Along(), Is.EqualTo(Stage.Loop.Session.Parameters.GuidewireOffset));
+            Assert.That(Along(), Is.EqualTo(Stage.Loop.Session.Parameters.Scene.GuidewireOffset));
         }
 
         [Test]

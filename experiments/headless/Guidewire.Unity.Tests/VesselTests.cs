@@ -29,7 +29,7 @@ namespace Guidewire.Unity.Tests
         {
             VesselView view = Engine.Find<VesselView>();
             Assert.That(view.Meshes, Has.Count.EqualTo(1));
-            ContactShape wall = Stage.Loop.Session!.Parameters.Walls[0];
+            ContactShape wall = Stage.Loop.Session!.Parameters.Scene.Walls[0];
             foreach (Vector3 vertex in view.Meshes[0].vertices)
             {
                 int hint = -1;
@@ -60,7 +60,7 @@ namespace Guidewire.Unity.Tests
         // Balls have equal scales, sticks do not; the wire's own marks are switched off.
         private static bool AssertMarksLieOnTheWall()
         {
-            ContactShape wall = Stage.Loop.Session!.Parameters.Walls[0];
+            ContactShape wall = Stage.Loop.Session!.Parameters.Scene.Walls[0];
             bool any = false;
             foreach ((Matrix4x4 place, Material _) in Engine.Drawn)
             {

@@ -46,6 +46,29 @@ namespace Guidewire.Core
             Array.Clear(_impulses, 0, _impulses.Length);
         }
 
+        internal void Exchange(Snapshot snapshot)
+        {
+            long passages = Passages;
+            double penetration = MaxPenetration;
+            double shortfall = DriveShortfall;
+            double asked = DriveAsked;
+            Vector3d total = Total;
+            Vector3d reaction = Reaction;
+            snapshot.Exchange(ref passages);
+            snapshot.Exchange(ref penetration);
+            snapshot.Exchange(ref shortfall);
+            snapshot.Exchange(ref asked);
+            snapshot.Exchange(ref total);
+            snapshot.Exchange(ref reaction);
+            snapshot.Exchange(Forces);
+            Passages = passages;
+            MaxPenetration = penetration;
+            DriveShortfall = shortfall;
+            DriveAsked = asked;
+            Total = total;
+            Reaction = reaction;
+        }
+
         internal void EndStep(RodState state, Vector3d[] predicted, double timeStep)
         {
             double rate = 1.0 / (timeStep * timeStep);

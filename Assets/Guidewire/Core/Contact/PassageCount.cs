@@ -11,18 +11,20 @@ namespace Guidewire.Core
     internal sealed class PassageCount
     {
         private const int SamplesPerElement = 10;
+        private readonly IContactSearch _search;
         private readonly ContactShape[] _walls;
         private readonly double _clearance;
         private readonly bool[] _left;    // whether a point left across a wall in this step, per wall and point
 
-        /// <param name="walls">What may not be passed.</param>
+        /// <param name="search">Its walls and radius; it knows for each element a lower bound of its distance from the
+        /// walls at the start of a part.</param>
         /// <param name="elementCount">n.</param>
-        /// <param name="radius">r in units.</param>
-        public PassageCount(ContactShape[] walls, int elementCount, double radius)
+        public PassageCount(IContactSearch search, int elementCount)
         {
-            _left = new bool[walls.Length * PointsOf(elementCount)];
-            _walls = walls;
-            _clearance = SweptGuard.ClearanceFor(radius);
+            _search = search;
+            _walls = search.Walls;
+            _clearance = SweptSearch.ClearanceFor(search.Radius);
+            _left = new bool[_walls.Length * PointsOf(elementCount)];
         }
 
         /// <summary>Passages so far.</summary>
@@ -31,14 +33,13 @@ namespace Guidewire.Core
         /// <summary>Takes note of the points that leave across a wall in one part of a step.</summary>
         /// <param name="from">Where the part starts, n + 1 positions in units.</param>
         /// <param name="to">Where it ends.</param>
-        /// <param name="rule">Knows for each element a lower bound of its distance from the wall at the start.</param>
-        public void AddPart(Vector3d[] from, Vector3d[] to, IContactRule rule)
+        public void AddPart(Vector3d[] from, Vector3d[] to)
         {
             int n = to.Length - 1;
             for (int j = 0; j < n; j++)
             {
                 double motion = Math.Max(Vector3d.Distance(from[j], to[j]), Vector3d.Distance(from[j + 1], to[j + 1]));
-                if (motion < rule.ClearanceOf(j))
+                if (motion < _search.ClearanceOf(j))
                 {
                     continue;
                 }
@@ -51,6 +52,14 @@ namespace Guidewire.Core
                     }
                 }
             }
+        }
+
+        /// <summary>Writes into a snapshot, or takes over from one, the passages so far.</summary>
+        public void Exchange(Snapshot snapshot)
+        {
+            long total = Total;
+            snapshot.Exchange(ref total);
+            Total = total;
         }
 
         /// <summary>Counts those of the whole step, from x_k to x_{k+1} in units.</summary>

@@ -7,9 +7,11 @@ namespace Guidewire.Core
     /// <remarks>Distances by GJK, depth by EPA. Keeps scratch memory: one object serves one thread.</remarks>
     public sealed class ConvexObstacle : ContactShape
     {
+        private const double RelativeFlatness = 1e-9;
         private readonly Vector3d[] _points;
         private readonly double _radius;
         private readonly Gjk _gjk = new Gjk();
+        private readonly double _flatness;    // height below which points lie in one plane, units
 
         /// <summary>The body of all points within <paramref name="radius"/> (0 or more, units) of the convex hull of
         /// <paramref name="points"/> (at least one).</summary>
@@ -23,6 +25,10 @@ namespace Guidewire.Core
             }
             _points = (Vector3d[])points.Clone();
             _radius = radius;
+            foreach (Vector3d point in _points)
+            {
+                _flatness = Math.Max(_flatness, RelativeFlatness * Vector3d.Distance(point, _points[0]));
+            }
         }
 
         /// <summary>Points whose hull, widened by the radius, is the body; units.</summary>
@@ -65,6 +71,46 @@ namespace Guidewire.Core
             double distance = _gjk.Distance(a, b, _points, out double s, out Vector3d point, out Vector3d normal);
             contact = new SurfaceContact(s, point + _radius * normal, normal, distance - _radius);
             return contact.Distance <= range;
+        }
+
+        /// <summary>The nearest place. Within the hull of the points itself the distance is a depth, and no curvature
+        /// is stated.</summary>
+        /// <remarks>The points that lie highest along the normal are the corner, the edge or the face of the hull on
+        /// which the place lies; the curvature is that about them.</remarks>
+        internal override void FindPlaces(
+            in Vector3d a, in Vector3d b, double range, StructList<WallPlace> places)
+        {
+            int hint = -1;
+            if (!Nearest(a, b, range, ref hint, out SurfaceContact contact))
+            {
+                return;
+            }
+            double core = contact.Distance + _radius;
+            int corner = Highest(contact.Normal);
+            Vector3d along = Vector3d.Zero;
+            bool isFlat = !(core > 0.0);
+            foreach (Vector3d point in _points)
+            {
+                Vector3d offset = point - _points[corner];
+                if (Vector3d.Dot(offset, contact.Normal) >= -_flatness && offset.Length > _flatness)
+                {
+                    isFlat |= Vector3d.Cross(along, offset).Length > _flatness;
+                    along = along == Vector3d.Zero ? Vector3d.Normalize(offset) : along;
+                }
+            }
+            places.Add(isFlat ? WallPlace.Flat(contact, 1)
+                : along == Vector3d.Zero ? WallPlace.Corner(contact, 1, core)
+                : WallPlace.Edge(contact, 1, along, core));
+        }
+
+        private int Highest(in Vector3d direction)
+        {
+            int highest = 0;
+            for (int k = 1; k < _points.Length; k++)
+            {
+                highest = Vector3d.Dot(_points[k] - _points[highest], direction) > 0.0 ? k : highest;
+            }
+            return highest;
         }
 
         /// <inheritdoc/>

@@ -37,6 +37,18 @@ namespace Guidewire.Core
             return contact.Distance <= range;
         }
 
+        /// <summary>The nearest place, also of a segment whose two ends are both within the range; its middle where it
+        /// lies parallel to the plane.</summary>
+        internal override void FindPlaces(
+            in Vector3d a, in Vector3d b, double range, StructList<WallPlace> places)
+        {
+            int hint = -1;
+            if (Nearest(a, b, range, ref hint, out SurfaceContact contact))
+            {
+                places.Add(WallPlace.Flat(contact, 1));
+            }
+        }
+
         /// <inheritdoc/>
         public override bool Contains(in Vector3d point)
         {

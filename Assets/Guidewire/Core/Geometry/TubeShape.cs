@@ -19,6 +19,7 @@ namespace Guidewire.Core
         private readonly Vector3d[] _knots;
         private readonly double[] _radii;
         private readonly double _resolution;
+        private TubePlaces? _places;
 
         /// <summary>The tube through <paramref name="knots"/> (at least 2, units) with a radius at each (positive,
         /// units). It ends in half spheres; an open end goes on straight, with the radius of its last knot.</summary>
@@ -118,6 +119,18 @@ namespace Guidewire.Core
             }
             contact = new SurfaceContact(s, Vector3d.Lerp(a, b, s) - distance * normal, normal, distance);
             return distance <= range;
+        }
+
+        /// <summary>The least and the largest distances along the segment, by turns: ends that it approaches the wall
+        /// with, creases where two pieces meet at the inner side of a bend, and with weight -1 the places between that
+        /// are farthest from the wall; see <see cref="TubePlaces"/>. A straight stretch parallel to the wall counts by
+        /// its middle. At a crease normal and curvature are those of one of the pieces. On a piece's centreline the
+        /// normal is 0 and no curvature is stated.</summary>
+        internal override void FindPlaces(
+            in Vector3d a, in Vector3d b, double range, StructList<WallPlace> places)
+        {
+            _places ??= new TubePlaces(this);
+            _places.Find(a, b, range, places);
         }
 
         /// <inheritdoc/>
@@ -264,6 +277,13 @@ namespace Guidewire.Core
         // maximum of R0 + k y - sqrt(h^2 + (z - y)^2) lies at y = z + k h/sqrt(1 - k^2).
         private double PieceDistance(int i, in Vector3d x, out Vector3d centre)
         {
+            return PieceDistance(i, x, out centre, out _);
+        }
+
+        /// <summary>The term of piece i at x with the centre that gives it, and where along the piece that centre would
+        /// lie if the piece had no ends: from 0 to 1 between its knots.</summary>
+        internal double PieceDistance(int i, in Vector3d x, out Vector3d centre, out double along)
+        {
             Vector3d from = _knots[i];
             Vector3d axis = _knots[i + 1] - from;
             double length = axis.Length;
@@ -271,7 +291,9 @@ namespace Guidewire.Core
             double z = Vector3d.Dot(offset, axis) / length;
             double h = Vector3d.Cross(axis, offset).Length / length;
             double k = (_radii[i + 1] - _radii[i]) / length;
-            double y = Math.Min(Math.Max(z + k * h / Math.Sqrt(1.0 - k * k), 0.0), length);
+            double free = z + k * h / Math.Sqrt(1.0 - k * k);
+            double y = Math.Min(Math.Max(free, 0.0), length);
+            along = free / length;
             centre = from + (y / length) * axis;
             return _radii[i] + k * y - Vector3d.Distance(x, centre);
         }

@@ -78,7 +78,7 @@ namespace Guidewire.Core
         private void AddPlane(PlaneShape plane, in Vector3d middle, double reach)
         {
             Vector3d n = plane.Normal;
-            Vector3d u = reach * Across(n);
+            Vector3d u = reach * Vector3d.Perpendicular(n);
             Vector3d v = Vector3d.Cross(n, u);
             Vector3d foot = middle - Vector3d.Dot(middle - plane.Point, n) * n;
             _vertices.AddRange(new[] { foot - u - v, foot + u - v, foot + u + v, foot - u + v });
@@ -91,7 +91,7 @@ namespace Guidewire.Core
             int last = knots.Length - 1;
             knots[0] = Nearer(knots[0], knots[1], reach);
             knots[last] = Nearer(knots[last], knots[last - 1], reach);
-            Vector3d side = Across(knots[1] - knots[0]);
+            Vector3d side = Vector3d.Perpendicular(knots[1] - knots[0]);
             for (int i = 0; i <= last; i++)
             {
                 Vector3d before = Vector3d.Normalize(knots[Math.Max(i, 1)] - knots[Math.Max(i, 1) - 1]);
@@ -131,12 +131,6 @@ namespace Guidewire.Core
         {
             Vector3d way = far - from;
             return way.Length > reach ? from + reach * Vector3d.Normalize(way) : far;
-        }
-
-        private static Vector3d Across(in Vector3d axis)
-        {
-            Vector3d other = Math.Abs(axis.X) < 0.9 * axis.Length ? Vector3d.UnitX : Vector3d.UnitY;
-            return Vector3d.Normalize(Vector3d.Cross(axis, other));
         }
 
         private void AddRing(in Vector3d centre, in Vector3d u, in Vector3d v)

@@ -13,56 +13,46 @@ namespace Guidewire.Core
     internal sealed class EnergyWatch
     {
         /// <summary>What T may be over the energy put in.</summary>
-        public const double Room = 4.0;
+        public const double Allowance = 4.0;
 
         private const double Rounding = 1e-9;   // of EI/L
         private readonly MaterialScene _scene;
-        private readonly RodStatics _statics;
+        private readonly RodTerms _terms;
         private readonly NodalInertia _inertia;
         private readonly HeldEnds _ends;
-        private readonly Vector3d[] _before;
-        private readonly double _room;
-        private readonly double _start;         // J
-        private Quaterniond _tipBefore;
+        private readonly RodShape _before;
+        private readonly double _allowance;
+        private double _start;                  // J, with what changes of the material have put in
         private double _loadWork;               // J
         private double _mostPutIn;              // J
         private int _step;
 
         /// <summary>A watch on this scene, at its start.</summary>
-        /// <param name="room">What T may be over the energy put in, at least <see cref="Room"/>.</param>
-        public EnergyWatch(MaterialScene scene, RodStatics statics, NodalInertia inertia, HeldEnds ends, double room)
+        /// <param name="allowance">What T may be over the energy put in, at least <see cref="Allowance"/>.</param>
+        public EnergyWatch(MaterialScene scene, RodTerms terms, NodalInertia inertia, HeldEnds ends,
+            double allowance)
         {
-            _room = room;
+            _allowance = allowance;
             _scene = scene;
-            _statics = statics;
+            _terms = terms;
             _inertia = inertia;
             _ends = ends;
-            RodShape shape = scene.Shape;
-            _before = (Vector3d[])shape.X.Clone();
-            _tipBefore = shape.Q[shape.ElementCount - 1];
-            _start = Motion() + statics.Stretch.Value(shape) + statics.Bending.Value(shape);
+            _before = new RodShape(scene.Shape.ElementCount);
+            Start();
             _mostPutIn = Rounding * scene.Rod.BendStiffness[0] / scene.Rod.TotalLength;
         }
 
-        /// <summary>Takes the wire after a step that these loads acted in; one line where it has blown up, else
-        /// null.</summary>
-        public string? Judge(DeadLoads loads)
+        /// <summary>Takes the wire after a step that the loads acted in as they are now; one line where it has blown
+        /// up, else null.</summary>
+        public string? Blowup()
         {
-            RodShape shape = _scene.Shape;
-            int last = shape.ElementCount - 1;
             _step++;
-            for (int i = 0; i < _before.Length; i++)
-            {
-                _loadWork += Vector3d.Dot(loads.Force[i], shape.X[i] - _before[i]);
-                _before[i] = shape.X[i];
-            }
-            _loadWork += Vector3d.Dot(_statics.Moment.Moment,
-                RotationVector.Log(_tipBefore.Conjugate * shape.Q[last]));
-            _tipBefore = shape.Q[last];
+            _loadWork += _terms.LoadWork(_before, _scene.Shape);
+            _before.CopyFrom(_scene.Shape);
             double motion = Motion();
             double putIn = _start + _loadWork + _ends.MostWork;
             // A NaN fails every comparison, so the question is asked for the good case.
-            if (motion <= _room * Math.Max(_mostPutIn, putIn))
+            if (motion <= _allowance * Math.Max(_mostPutIn, putIn))
             {
                 _mostPutIn = Math.Max(_mostPutIn, putIn);
                 return null;
@@ -77,24 +67,38 @@ namespace Guidewire.Core
                 motion / Math.Max(_mostPutIn, putIn), _step);
         }
 
+        /// <summary>The wire as it is now is the start.</summary>
+        public void Start()
+        {
+            _before.CopyFrom(_scene.Shape);
+            _start = Motion() + _terms.ElasticEnergy(_scene.Shape);
+        }
+
+        /// <summary>Writes or takes over the energies so far. A reader's wire is in place; where it is heavier or
+        /// stiffer than the writer's was, the same motion in the same shape holds more, and that was put in.</summary>
+        public void Exchange(Snapshot snapshot)
+        {
+            double ownMotion = Motion();
+            double ownElastic = _terms.ElasticEnergy(_scene.Shape);
+            double motion = ownMotion;
+            double elastic = ownElastic;
+            snapshot.Exchange(ref motion);
+            snapshot.Exchange(ref elastic);
+            snapshot.Exchange(ref _start);
+            snapshot.Exchange(ref _loadWork);
+            snapshot.Exchange(ref _mostPutIn);
+            snapshot.Exchange(ref _step);
+            if (!snapshot.IsWritten)
+            {
+                _start += Math.Max(0.0, ownMotion - motion) + Math.Max(0.0, ownElastic - elastic);
+                _before.CopyFrom(_scene.Shape);
+            }
+        }
+
         // T, J.
         private double Motion()
         {
-            double twice = 0.0;
-            for (int i = 0; i < _before.Length; i++)
-            {
-                if (_inertia.InverseMass[i] > 0.0)
-                {
-                    twice += _scene.Velocities[i].LengthSquared / _inertia.InverseMass[i];
-                }
-            }
-            for (int j = 0; j < _scene.Spins.Length; j++)
-            {
-                Vector3d w = _scene.Spins[j];
-                Vector3d inverse = _inertia.InverseInertia[j];
-                twice += w.X * w.X / inverse.X + w.Y * w.Y / inverse.Y + w.Z * w.Z / inverse.Z;
-            }
-            return 0.5 * twice;
+            return _inertia.KineticEnergy(_scene.Velocities, _scene.Spins);
         }
     }
 }

@@ -6,20 +6,20 @@ namespace Guidewire.Core
     /// the work that this does on the wire.</summary>
     internal sealed class HeldEnds
     {
-        private readonly MaterialScene _scene;
-        private readonly RodStatics _statics;
+        private readonly RodTerms _terms;
+        private readonly RodSchedule _schedule;
         private readonly bool _holdsFirst;
         private readonly bool _holdsLast;
-        private double _proximalTurn = double.NaN;
-        private double _distalTurn = double.NaN;
+        private double _proximalTurn;  // that the frames have made, radians
+        private double _distalTurn;
 
-        /// <summary>The ends of this scene.</summary>
-        public HeldEnds(MaterialScene scene, RodStatics statics)
+        /// <summary>The ends of this rod, held by this schedule.</summary>
+        public HeldEnds(RodTerms terms, RodSchedule schedule)
         {
-            _scene = scene;
-            _statics = statics;
-            _holdsFirst = scene.Supports.Proximal != ProximalEnd.Free;
-            _holdsLast = scene.Supports.Distal != DistalEnd.Free;
+            _terms = terms;
+            _schedule = schedule;
+            _holdsFirst = terms.Supports.Proximal != ProximalEnd.Free;
+            _holdsLast = terms.Supports.Distal != DistalEnd.Free;
         }
 
         /// <summary>Work done on the wire since the start, J: the mean of force and couple before and after a move,
@@ -32,18 +32,16 @@ namespace Guidewire.Core
         /// <summary>Places and frames of this time.</summary>
         public void Place(RodShape shape, double time)
         {
-            RodSchedule schedule = _scene.Schedule;
             if (_holdsFirst)
             {
-                Shift(shape, 0, 0, -0.5, schedule.ProximalPositionAt(time));
+                Shift(shape, 0, _schedule.ProximalPositionAt(time));
             }
             if (_holdsLast)
             {
-                int last = shape.ElementCount;
-                Shift(shape, last, last - 1, 0.5, schedule.DistalPositionAt(time));
+                Shift(shape, shape.ElementCount, _schedule.DistalPositionAt(time));
             }
-            double proximalTurn = schedule.ProximalTurnAt(time);
-            double distalTurn = schedule.DistalTurnAt(time);
+            double proximalTurn = _schedule.ProximalTurnAt(time);
+            double distalTurn = _schedule.DistalTurnAt(time);
             if (proximalTurn != _proximalTurn || distalTurn != _distalTurn)
             {
                 Turn(shape, proximalTurn, distalTurn);
@@ -51,37 +49,49 @@ namespace Guidewire.Core
             MostWork = Math.Max(MostWork, Work);
         }
 
-        private void Shift(RodShape shape, int node, int element, double halfSign, in Vector3d to)
+        /// <summary>Writes or takes over the turns that the frames have made.</summary>
+        public void ExchangeTurns(Snapshot snapshot)
+        {
+            snapshot.Exchange(ref _proximalTurn);
+            snapshot.Exchange(ref _distalTurn);
+        }
+
+        /// <summary>Writes or takes over the work.</summary>
+        public void ExchangeWork(Snapshot snapshot)
+        {
+            double work = Work;
+            double most = MostWork;
+            snapshot.Exchange(ref work);
+            snapshot.Exchange(ref most);
+            Work = work;
+            MostWork = most;
+        }
+
+        private void Shift(RodShape shape, int node, in Vector3d to)
         {
             Vector3d move = to - shape.X[node];
             if (move == Vector3d.Zero)
             {
                 return;
             }
-            Vector3d force = Force(shape, element);
+            Vector3d force = _terms.EndGradient(shape, node);
             shape.X[node] = to;
-            Work += halfSign * Vector3d.Dot(force + Force(shape, element), move);
+            Work += 0.5 * Vector3d.Dot(force + _terms.EndGradient(shape, node), move);
         }
 
         private void Turn(RodShape shape, double proximalTurn, double distalTurn)
         {
             Quaterniond proximal = shape.ProximalFrame;
             Quaterniond distal = shape.DistalFrame;
-            Vector3d couple = _statics.Bending.ProximalCouple(shape);
-            Vector3d endCouple = _statics.Bending.DistalCouple(shape);
+            Vector3d couple = _terms.Bending.ProximalCouple(shape);
+            Vector3d endCouple = _terms.Bending.DistalCouple(shape);
             _proximalTurn = proximalTurn;
             _distalTurn = distalTurn;
-            _scene.Schedule.TurnFrames(shape, proximalTurn, distalTurn);
-            couple += _statics.Bending.ProximalCouple(shape);
-            endCouple += _statics.Bending.DistalCouple(shape);
+            _schedule.TurnFrames(shape, proximalTurn, distalTurn);
+            couple += _terms.Bending.ProximalCouple(shape);
+            endCouple += _terms.Bending.DistalCouple(shape);
             Work += 0.5 * (Vector3d.Dot(couple, Between(proximal, shape.ProximalFrame))
                 + Vector3d.Dot(endCouple, Between(distal, shape.DistalFrame)));
-        }
-
-        // What the element pulls its second node back with, in the world.
-        private Vector3d Force(RodShape shape, int element)
-        {
-            return Quaterniond.Rotate(shape.Q[element], _statics.Stretch.Stress(shape, element, out _));
         }
 
         private static Vector3d Between(in Quaterniond before, in Quaterniond after)

@@ -1,35 +1,23 @@
-using System;
-
 namespace Guidewire.Core
 {
     /// <summary>Inverse masses of nodes and inverse inertias of elements, for the methods that need them one by
     /// one.</summary>
     internal sealed class NodalInertia
     {
-        /// <summary>Half of each element's mass on either node, or the whole mass spread evenly; 0 for a held
-        /// node.</summary>
-        public NodalInertia(MaterialRod rod, RodSupports supports)
+        /// <summary>Those of a rod; 0 for a held node.</summary>
+        public NodalInertia(RodMass mass, RodSupports supports)
         {
-            int n = rod.ElementCount;
+            int n = mass.Rotary.Length;
             InverseMass = new double[n + 1];
             InverseInertia = new Vector3d[n];
-            double total = 0.0;
             for (int j = 0; j < n; j++)
             {
-                double mass = rod.LineDensity[j] * rod.Length[j];
-                double rotary = rod.RotaryInertia[j] * rod.Length[j];
-                total += mass;
-                InverseMass[j] += 0.5 * mass;
-                InverseMass[j + 1] += 0.5 * mass;
+                double rotary = mass.Rotary[j];
                 InverseInertia[j] = new Vector3d(1.0 / rotary, 1.0 / rotary, 0.5 / rotary);
-            }
-            if (supports.Mass == MassRule.Uniform)
-            {
-                Array.Fill(InverseMass, total / (n + 1));
             }
             for (int i = 0; i <= n; i++)
             {
-                InverseMass[i] = 1.0 / InverseMass[i];
+                InverseMass[i] = 1.0 / mass.Nodal[i];
             }
             if (supports.Proximal != ProximalEnd.Free)
             {
@@ -46,5 +34,25 @@ namespace Guidewire.Core
 
         /// <summary>1/(rho I l), 1/(rho I l), 1/(2 rho I l) along the element's axes, 1/(kg m^2), n.</summary>
         public Vector3d[] InverseInertia { get; }
+
+        /// <summary>Kinetic energy of what is not held, J.</summary>
+        public double KineticEnergy(Vector3d[] velocities, Vector3d[] spins)
+        {
+            double twice = 0.0;
+            for (int i = 0; i < velocities.Length; i++)
+            {
+                if (InverseMass[i] > 0.0)
+                {
+                    twice += velocities[i].LengthSquared / InverseMass[i];
+                }
+            }
+            for (int j = 0; j < spins.Length; j++)
+            {
+                Vector3d w = spins[j];
+                Vector3d inverse = InverseInertia[j];
+                twice += w.X * w.X / inverse.X + w.Y * w.Y / inverse.Y + w.Z * w.Z / inverse.Z;
+            }
+            return 0.5 * twice;
+        }
     }
 }

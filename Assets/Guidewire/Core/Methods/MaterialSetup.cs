@@ -8,20 +8,28 @@ namespace Guidewire.Core
         // A search for a rest shape starts far away and may take more than a stage of a motion.
         private const int EquilibriumFactor = 10;
 
-        /// <summary>Sets the state to the start and returns the step.</summary>
-        /// <param name="failure">Why there is no start, or null.</param>
-        public static ITimeStep Create(SimulationParameters parameters, RodState state, out string? failure)
+        /// <summary>What makes the stepper of a scene, its rest shape found.</summary>
+        /// <param name="parameters">The run's.</param>
+        /// <param name="scene">The rod at its start.</param>
+        /// <param name="terms">Its energies and loads.</param>
+        /// <param name="report">What the search for the rest shape came to.</param>
+        internal delegate TimeStepper CreateStepper(SimulationParameters parameters, MaterialScene scene,
+            RodTerms terms, SolverReport report);
+
+        /// <summary>Builds the wire at its start, in its rest shape where that is asked for, and its stepper.</summary>
+        public static MethodStart Build(SimulationParameters parameters, Scene prescribed, CreateStepper create)
         {
-            var scene = new MaterialScene(parameters);
-            MaterialParameters material = parameters.Material;
-            var statics = new RodStatics(scene.Rod, scene.Supports);
-            statics.Moment.ActAtEnd(scene.Rod, material.TipMoment);
+            var scene = new MaterialScene(parameters, prescribed);
+            var state = new RodState(parameters.Scene.NumberRodElements, parameters.Scene.GuidewireLength,
+                parameters.Gains.TotalMass, parameters.Scene.GuidewireOffset);
+            var terms = new RodTerms(scene.Rod, scene.Supports, parameters.Scene);
             var report = new SolverReport();
-            failure = null;
-            if (material.InitialState == InitialState.Equilibrium)
+            bool isAtRest = parameters.Scene.InitialState == InitialState.Equilibrium;
+            string? failure = null;
+            if (isAtRest)
             {
-                failure = RestShape.Find(scene, statics, scene.Shape, Math.Min(material.SolverTolerance, 1e-9),
-                    EquilibriumFactor * material.MaxNewtonIterations, report);
+                failure = RestShape.Find(scene, terms, scene.Shape, Math.Min(parameters.Method.SolverTolerance, 1e-9),
+                    EquilibriumFactor * parameters.Method.MaxNewtonIterations, report);
             }
             else if (scene.Supports.Proximal != ProximalEnd.Free)
             {
@@ -34,31 +42,43 @@ namespace Guidewire.Core
             // Both the current and the previous state are the start.
             scene.Write(state, scene.Shape, scene.Velocities, scene.Spins);
             scene.Write(state, scene.Shape, scene.Velocities, scene.Spins);
-            return CreateStep(parameters, scene, statics, report);
+            return new MethodStart(state, create(parameters, scene, terms, report))
+            {
+                Failure = failure,
+                IsAtRest = isAtRest && failure == null,
+            };
         }
 
-        private static ITimeStep CreateStep(SimulationParameters parameters, MaterialScene scene, RodStatics statics,
+        /// <summary>Implicit steps by the direct solver.</summary>
+        public static TimeStepper Direct(SimulationParameters parameters, MaterialScene scene, RodTerms terms,
             SolverReport report)
         {
-            MaterialParameters material = parameters.Material;
-            var drive = new MaterialDrive(parameters, scene.Schedule);
-            ContactRecord? record = parameters.StatesReactions ? new ContactRecord(scene.Shape.X.Length) : null;
-            switch (parameters.Solver)
-            {
-                case Solver.Direct:
-                    var dynamics = new RodDynamics(scene.Rod, scene.Supports, statics, scene.Schedule, scene.Shape,
-                        Scheme(parameters.Integrator), material.SolverTolerance, material.MaxNewtonIterations);
-                    dynamics.Begin(scene.Velocities, scene.Spins, material.InitialState == InitialState.Equilibrium);
-                    return new DirectStep(scene, statics, dynamics, drive, parameters.TimeStep, parameters.Damping,
-                        report, record);
-                case Solver.Xpbd:
-                    return new CompliantStep(scene, statics, drive, parameters, parameters.ConstraintSolverSteps,
-                        report);
-                case Solver.Explicit:
-                    return new ExplicitStep(scene, statics, drive, parameters, report, record);
-                default:
-                    throw new ArgumentException("unknown solver " + parameters.Solver);
-            }
+            var dynamics = new RodDynamics(terms, scene.Schedule, scene.Shape, Scheme(parameters.Method.Integrator),
+                parameters.Method.SolverTolerance, parameters.Method.MaxNewtonIterations);
+            dynamics.Begin(scene.Velocities, scene.Spins,
+                parameters.Scene.InitialState == InitialState.Equilibrium);
+            return new DirectStep(scene, dynamics, scene.Drive, parameters.Method, report,
+                Reactions(parameters, scene));
+        }
+
+        /// <summary>Sweeps over constraints with compliance.</summary>
+        public static TimeStepper Compliant(SimulationParameters parameters, MaterialScene scene, RodTerms terms,
+            SolverReport report)
+        {
+            return new CompliantStep(scene, terms, scene.Drive, parameters.Method, report);
+        }
+
+        /// <summary>Explicit steps.</summary>
+        public static TimeStepper Explicit(SimulationParameters parameters, MaterialScene scene, RodTerms terms,
+            SolverReport report)
+        {
+            return new ExplicitStep(scene, terms, scene.Drive, parameters.Method, report,
+                Reactions(parameters, scene));
+        }
+
+        private static ContactRecord? Reactions(SimulationParameters parameters, MaterialScene scene)
+        {
+            return parameters.Method.StatesReactions ? new ContactRecord(scene.Shape.X.Length) : null;
         }
 
         /// <summary>The scheme of an integrator of the direct solver; null for BDF2.</summary>

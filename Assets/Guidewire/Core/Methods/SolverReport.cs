@@ -32,6 +32,9 @@ namespace Guidewire.Core
         /// <summary>Steps whose error was above the tolerance.</summary>
         public long StepsNotConverged { get; internal set; }
 
+        /// <summary>Longest substep, s, with which explicit steps are stable about the wire's rest shape.</summary>
+        public double StableSubstep { get; internal set; } = double.NaN;
+
         /// <summary>Force of the proximal support on the wire at the end, N.</summary>
         public Vector3d ProximalForce { get; internal set; }
 
@@ -46,5 +49,26 @@ namespace Guidewire.Core
 
         /// <summary>Energy stored in the wire and its motion, less the work of dead loads, J.</summary>
         public double Energy { get; internal set; } = double.NaN;
+
+        /// <summary>Writes or takes over what the rest shape of the start left here; the rest is stated anew by each
+        /// report.</summary>
+        internal void Exchange(Snapshot snapshot)
+        {
+            string method = Method;
+            long factorisations = Factorisations;
+            int iterations = EquilibriumIterations;
+            double residual = EquilibriumResidual;
+            double eigenvalue = SmallestEigenvalue;
+            snapshot.Exchange(ref method);
+            snapshot.Exchange(ref factorisations);
+            snapshot.Exchange(ref iterations);
+            snapshot.Exchange(ref residual);
+            snapshot.Exchange(ref eigenvalue);
+            Method = method;
+            Factorisations = factorisations;
+            EquilibriumIterations = iterations;
+            EquilibriumResidual = residual;
+            SmallestEigenvalue = eigenvalue;
+        }
     }
 }

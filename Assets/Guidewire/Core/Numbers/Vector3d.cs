@@ -127,6 +127,13 @@ namespace Guidewire.Core
             return length > 0.0 ? a / length : Zero;
         }
 
+        /// <summary>Some unit vector across a, which must not be 0.</summary>
+        internal static Vector3d Perpendicular(in Vector3d a)
+        {
+            Vector3d other = Math.Abs(a.X) < 0.9 * a.Length ? UnitX : UnitY;
+            return Normalize(Cross(a, other));
+        }
+
         /// <inheritdoc/>
         public bool Equals(Vector3d other)
         {

@@ -2,7 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Where a rod is: positions x_0 .. x_n of its nodes in m, orientations q_0 .. q_(n-1) of its elements,
+    /// <summary>Where a rod is: positions x_0 .. x_n of its nodes, orientations q_0 .. q_(n-1) of its elements,
     /// and the frames to which its two ends may be clamped.</summary>
     internal sealed class RodShape
     {
@@ -14,7 +14,7 @@ namespace Guidewire.Core
             Array.Fill(Q, Quaterniond.Identity);
         }
 
-        /// <summary>Positions of the n+1 nodes, m.</summary>
+        /// <summary>Positions of the n+1 nodes.</summary>
         public Vector3d[] X { get; }
 
         /// <summary>Orientations of the n elements; d3 = q e3 q* points along the element.</summary>
@@ -38,15 +38,31 @@ namespace Guidewire.Core
             DistalFrame = other.DistalFrame;
         }
 
-        /// <summary>A straight rod of elements of the given lengths along d3 of <paramref name="frame"/>.</summary>
-        public void SetStraight(in Vector3d start, in Quaterniond frame, double[] lengths)
+        /// <summary>Writes this shape into a snapshot, or takes over one of the same n.</summary>
+        public void Exchange(Snapshot snapshot)
+        {
+            snapshot.Exchange(X);
+            snapshot.Exchange(Q);
+            Quaterniond proximal = ProximalFrame;
+            Quaterniond distal = DistalFrame;
+            snapshot.Exchange(ref proximal);
+            snapshot.Exchange(ref distal);
+            ProximalFrame = proximal;
+            DistalFrame = distal;
+        }
+
+        /// <summary>A straight rod along d3 of <paramref name="frame"/>.</summary>
+        /// <param name="start">Place of node 0.</param>
+        /// <param name="frame">Orientation of every element.</param>
+        /// <param name="stations">Distance of each of the n + 1 nodes from node 0.</param>
+        public void SetStraight(in Vector3d start, in Quaterniond frame, double[] stations)
         {
             Vector3d axis = frame.Director3;
             X[0] = start;
             for (int j = 0; j < Q.Length; j++)
             {
                 Q[j] = frame;
-                X[j + 1] = X[j] + lengths[j] * axis;
+                X[j + 1] = start + stations[j + 1] * axis;
             }
             ProximalFrame = frame;
             DistalFrame = frame;

@@ -97,23 +97,26 @@ namespace Guidewire.Core
         /// wire.</summary>
         public Vector3d[] RestDarbouxVectors { get; }
 
-        /// <summary>Takes over a start; it must have as many elements as the wire.</summary>
-        /// <exception cref="ArgumentException">The start has another number of elements.</exception>
-        public void Load(RodStart start)
+        /// <summary>Takes over the start of a scene whose lengths are units.</summary>
+        internal void Load(Scene scene)
         {
-            if (start.Orientations.Length != ElementCount)
-            {
-                throw new ArgumentException("the start has " + start.Orientations.Length + " elements, the wire "
-                    + ElementCount);
-            }
-            Array.Copy(start.Positions, Positions, SphereCount);
-            Array.Copy(start.Velocities, Velocities, SphereCount);
-            Array.Copy(start.AngularVelocities, AngularVelocities, ElementCount);
-            for (int j = 0; j < ElementCount; j++)
-            {
-                Orientations[j] = Quaterniond.Normalize(start.Orientations[j]);
-            }
+            Array.Copy(scene.Shape.X, Positions, SphereCount);
+            Array.Copy(scene.Velocities, Velocities, SphereCount);
+            Array.Copy(scene.Spins, AngularVelocities, ElementCount);
+            Array.Copy(scene.Shape.Q, Orientations, ElementCount);
             Rest();
+        }
+
+        /// <summary>Writes all that a moment of the wire is into a snapshot, or takes it over from one.</summary>
+        internal void Exchange(Snapshot snapshot)
+        {
+            snapshot.Exchange(Positions);
+            snapshot.Exchange(PreviousPositions);
+            snapshot.Exchange(PredictedPositions);
+            snapshot.Exchange(Velocities);
+            snapshot.Exchange(Orientations);
+            snapshot.Exchange(PredictedOrientations);
+            snapshot.Exchange(AngularVelocities);
         }
 
         /// <summary>Moves a sphere without giving it a velocity.</summary>

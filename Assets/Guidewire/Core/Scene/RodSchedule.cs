@@ -5,6 +5,9 @@ namespace Guidewire.Core
     /// <summary>What is prescribed in time: loads, and the motion of held ends.</summary>
     internal sealed class RodSchedule
     {
+        private double _twistOrigin;      // turn of the proximal frame at _twistOriginTime, radians
+        private double _twistOriginTime;  // s
+
         /// <summary>m/s^2.</summary>
         public Vector3d Gravity { get; set; }
 
@@ -52,10 +55,10 @@ namespace Guidewire.Core
         public double DistalRampTime { get; set; }
 
         /// <summary>Sets the forces of this time.</summary>
-        public void SetLoads(MaterialRod rod, MassRule rule, DeadLoads loads, double time)
+        public void SetLoads(DeadLoads loads, double time)
         {
             Vector3d axial = AxialForce * DistalFrame.Director3;
-            loads.Set(rod, rule, Gravity, time <= TipForceReleaseTime ? TipForce + axial : axial);
+            loads.Set(Gravity, time <= TipForceReleaseTime ? TipForce + axial : axial);
             loads.Force[0] += ProximalForce;
         }
 
@@ -75,7 +78,7 @@ namespace Guidewire.Core
         /// <summary>Turn of the proximal frame at this time, radians.</summary>
         public double ProximalTurnAt(double time)
         {
-            return ProximalTwistRate * time;
+            return _twistOrigin + ProximalTwistRate * (time - _twistOriginTime);
         }
 
         /// <summary>The last node at this time, m.</summary>
@@ -101,6 +104,45 @@ namespace Guidewire.Core
         public Quaterniond DistalFrameAt(double time)
         {
             return DistalFrame * Quaterniond.FromAxisAngle(Vector3d.UnitZ, DistalTurnAt(time));
+        }
+
+        /// <summary>Writes into a snapshot, or takes over from one, where the prescribed motions began and how far they
+        /// have come at this time. Loads, ramps and rates stay this schedule's own: a twist at another rate goes on
+        /// from the present turn, and node 0 stays where a drive has brought it until a drive takes it on.</summary>
+        public void Exchange(Snapshot snapshot, double time)
+        {
+            Vector3d proximal = ProximalPosition;
+            Vector3d velocity = ProximalVelocity;
+            double since = ProximalTime;
+            Quaterniond proximalFrame = ProximalFrame;
+            double rate = ProximalTwistRate;
+            Vector3d distal = DistalPosition;
+            Quaterniond distalFrame = DistalFrame;
+            snapshot.Exchange(ref proximal);
+            snapshot.Exchange(ref velocity);
+            snapshot.Exchange(ref since);
+            snapshot.Exchange(ref proximalFrame);
+            snapshot.Exchange(ref rate);
+            snapshot.Exchange(ref _twistOrigin);
+            snapshot.Exchange(ref _twistOriginTime);
+            snapshot.Exchange(ref distal);
+            snapshot.Exchange(ref distalFrame);
+            if (snapshot.IsWritten)
+            {
+                return;
+            }
+            bool moves = velocity != Vector3d.Zero;
+            ProximalPosition = moves ? proximal + (time - since) * velocity : proximal;
+            ProximalTime = moves ? time : since;
+            ProximalVelocity = Vector3d.Zero;
+            ProximalFrame = proximalFrame;
+            DistalPosition = distal;
+            DistalFrame = distalFrame;
+            if (rate != ProximalTwistRate)
+            {
+                _twistOrigin += rate * (time - _twistOriginTime);
+                _twistOriginTime = time;
+            }
         }
 
         private double Ramp(double time)

@@ -23,7 +23,7 @@ namespace Guidewire.Io
             if (values.Vessel != null)
             {
                 var fields = new JsonFields(vesselSource, "vessel", values.Vessel);
-                walls.Add(Vessel(fields, values.Simulation, vesselSource));
+                walls.Add(Vessel(fields, values, vesselSource));
             }
             int count = 0;
             foreach (JToken item in values.Obstacles ?? new JArray())
@@ -33,7 +33,7 @@ namespace Guidewire.Io
             return walls.ToArray();
         }
 
-        private static ContactShape Vessel(JsonFields fields, SimulationParameters scene, string source)
+        private static ContactShape Vessel(JsonFields fields, RunParameters scene, string source)
         {
             var placement = new Placement(scene.Position, Placement.FromEulerDegrees(scene.Rotation), scene.Scale);
             try
@@ -59,7 +59,7 @@ namespace Guidewire.Io
             }
         }
 
-        private static PlaneShape Plane(JsonFields fields, SimulationParameters scene, in Placement placement)
+        private static PlaneShape Plane(JsonFields fields, RunParameters scene, in Placement placement)
         {
             // A plane's normal goes with the inverse of the scale.
             Vector3d n = fields.Vector("normal", null);
@@ -69,7 +69,7 @@ namespace Guidewire.Io
                 placement.Apply(fields.Vector("point", Vector3d.Zero)), Quaterniond.Rotate(turn, stretched));
         }
 
-        private static TubeShape Tube(JsonFields fields, SimulationParameters scene, in Placement placement)
+        private static TubeShape Tube(JsonFields fields, RunParameters scene, in Placement placement)
         {
             double size = Math.Abs(scene.Scale.X);
             if (Math.Abs(scene.Scale.Y) != size || Math.Abs(scene.Scale.Z) != size)
@@ -88,7 +88,7 @@ namespace Guidewire.Io
         }
 
         private static MeshShape Mesh(
-            JsonFields fields, SimulationParameters scene, in Placement placement, string source)
+            JsonFields fields, RunParameters scene, in Placement placement, string source)
         {
             if (scene.Scale.X == 0.0 || scene.Scale.Y == 0.0 || scene.Scale.Z == 0.0)
             {

@@ -30,10 +30,10 @@ namespace Guidewire.Io
         /// <exception cref="ParameterException">The text is not JSON or holds no object.</exception>
         public static JObject ParseObject(string text, string source)
         {
-            string? complaint = StrictJson.Complaint(text);
-            if (complaint != null)
+            string? error = StrictJson.FindError(text);
+            if (error != null)
             {
-                throw new ParameterException(source + ": not JSON: " + complaint);
+                throw new ParameterException(source + ": not JSON: " + error);
             }
             return Parse(text) as JObject
                 ?? throw new ParameterException(source + ": needs one JSON object, { \"key\": value, ... }");

@@ -1,13 +1,14 @@
 using System;
 using System.Collections.Generic;
+using Guidewire.Core;
 using Newtonsoft.Json;
 using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
-    /// <summary>One key of the parameter table: its name, unit, help and, by its type, how it is read, checked and
-    /// written. Everything that names a parameter comes from here: parsing, error lines, command line, help, README and
-    /// the Inspector's tooltips.</summary>
+    /// <summary>One key of the parameter table: its name, unit, help, the methods that take it and, by its type, how it
+    /// is read, checked and written. Everything that names a parameter comes from here: parsing, error lines, command
+    /// line, help, docs and the Inspector's tooltips.</summary>
     public abstract class ParameterEntry
     {
         private protected ParameterEntry(string key, string unit, string help)
@@ -23,8 +24,19 @@ namespace Guidewire.Io
         /// <summary>The unit, or an empty text for a number without one.</summary>
         public string Unit { get; }
 
+        /// <summary>The unit where the wire is a material, if that is another one; else null.</summary>
+        public string? MaterialUnit { get; internal set; }
+
         /// <summary>What it means, in one phrase.</summary>
         public string Help { get; }
+
+        /// <summary>The methods that take it. To the others it says nothing: it is refused on the command line, and
+        /// passed over, with a line that says so, in a file.</summary>
+        public IReadOnlyList<Solver> Methods { get; internal set; } = Takers.All;
+
+        /// <summary>Whether a method that does not take the key refuses it in a file too, where it asks for something:
+        /// a run without the wall or the load that it names would answer another question.</summary>
+        public bool IsRefusedElsewhere { get; internal set; }
 
         /// <summary>What is allowed, as a noun phrase with the unit.</summary>
         public abstract string Allowed { get; }
@@ -36,11 +48,71 @@ namespace Guidewire.Io
         /// hash.</summary>
         public bool IsOutputPath { get; internal set; }
 
+        /// <summary>The methods that take it, as they follow "solver": "pbd, xpbd or direct".</summary>
+        public string MethodWords
+        {
+            get
+            {
+                var words = new List<string>();
+                foreach (Solver method in Methods)
+                {
+                    words.Add(ChoiceEntry<Solver>.Word(method.ToString()));
+                }
+                string last = words[words.Count - 1];
+                words.RemoveAt(words.Count - 1);
+                return words.Count == 0 ? last : string.Join(", ", words) + " or " + last;
+            }
+        }
+
+        /// <summary>The default with each method that takes the key, as JSON text: "10.0", or "10.0; with xpbd or
+        /// direct 0.0" where methods differ.</summary>
+        public string Defaults
+        {
+            get
+            {
+                var text = new List<string>();
+                var methods = new List<List<string>>();
+                foreach (Solver method in Methods)
+                {
+                    string value = Default(method);
+                    int place = text.IndexOf(value);
+                    if (place < 0)
+                    {
+                        place = text.Count;
+                        text.Add(value);
+                        methods.Add(new List<string>());
+                    }
+                    methods[place].Add(ChoiceEntry<Solver>.Word(method.ToString()));
+                }
+                for (int k = 1; k < text.Count; k++)
+                {
+                    text[k] = "with " + string.Join(" or ", methods[k]) + " " + text[k];
+                }
+                return string.Join("; ", text);
+            }
+        }
+
+        /// <summary>Whether a method takes the key.</summary>
+        public bool IsTakenBy(Solver method)
+        {
+            foreach (Solver taker in Methods)
+            {
+                if (taker == method)
+                {
+                    return true;
+                }
+            }
+            return false;
+        }
+
+        /// <summary>The default with this method, as JSON text.</summary>
+        public string Default(Solver method)
+        {
+            return Write(new RunParameters(method)).ToString(Formatting.None);
+        }
+
         /// <summary>The value in a set of parameters, as JSON.</summary>
         public abstract JToken Write(RunParameters source);
-
-        /// <summary>The default, as JSON text.</summary>
-        public string Default => Write(new RunParameters()).ToString(Formatting.None);
 
         /// <summary>Takes over a value; false where the value is not allowed.</summary>
         internal abstract bool TryRead(RunParameters target, JToken value);
@@ -49,7 +121,7 @@ namespace Guidewire.Io
         /// none.</summary>
         internal virtual JToken? FromText(string text)
         {
-            if (StrictJson.Complaint(text) != null)
+            if (StrictJson.FindError(text) != null)
             {
                 return null;
             }
@@ -59,7 +131,8 @@ namespace Guidewire.Io
         /// <summary>"a number &gt; 0 (s)": the noun with the unit behind it.</summary>
         private protected string WithUnit(string noun)
         {
-            return Unit.Length == 0 ? noun : noun + " (" + Unit + ")";
+            string unit = Unit + (MaterialUnit == null ? "" : "; with a material " + MaterialUnit);
+            return unit.Length == 0 ? noun : noun + " (" + unit + ")";
         }
     }
 }

@@ -26,12 +26,17 @@ namespace Guidewire.Io
 
         private readonly List<string> _warnings = new List<string>();
 
+        private readonly List<string> _ignored = new List<string>();
+
         private ParameterHandler()
         {
         }
 
         /// <summary>The effective values.</summary>
-        public RunParameters Values { get; } = new RunParameters();
+        public RunParameters Values { get; private set; } = new RunParameters(Solver.Pbd);
+
+        /// <summary>Keys that a file holds and the method does not take: they were passed over.</summary>
+        public IReadOnlyList<string> Ignored => _ignored;
 
         /// <summary>What is allowed but most likely not meant, one line each.</summary>
         public IReadOnlyList<string> Warnings => _warnings;
@@ -72,11 +77,12 @@ namespace Guidewire.Io
             return handler;
         }
 
-        /// <summary>All effective values; a parameter file that repeats the run.</summary>
+        /// <summary>All effective values of the keys that the method takes; a parameter file that repeats the
+        /// run.</summary>
         public JObject ToJson()
         {
             var json = new JObject();
-            foreach (ParameterEntry entry in ParameterTable.Entries)
+            foreach (ParameterEntry entry in Taken())
             {
                 json[entry.Key] = entry.Write(Values);
             }
@@ -94,8 +100,24 @@ namespace Guidewire.Io
             _given[key] = (value, source);
         }
 
+        private Solver Method => Values.Simulation.Method.Solver;
+
+        private IEnumerable<ParameterEntry> Taken()
+        {
+            foreach (ParameterEntry entry in ParameterTable.Entries)
+            {
+                if (entry.IsTakenBy(Method))
+                {
+                    yield return entry;
+                }
+            }
+        }
+
         private void Apply()
         {
+            ApplyKey(ParameterTable.SolverKey);
+            Values = new RunParameters(Method);
+            PassOver();
             foreach ((string older, string _) in Twins)
             {
                 ApplyKey(older);
@@ -112,27 +134,75 @@ namespace Guidewire.Io
                 CheckTwins(older, newer);
             }
             SimulationParameters simulation = Values.Simulation;
-            if (_given.ContainsKey("SteadyState") && simulation.Drive == Drive.Displace
+            if (_given.ContainsKey("SteadyState") && simulation.Drive.Kind == Drive.Displace
                 && !_given.ContainsKey("displacementPerStep"))
             {
-                simulation.DisplacementPerStep = simulation.Displacement;
+                simulation.Drive.DisplacementPerStep = simulation.Drive.Displacement;
             }
-            MaterialRules.Apply(Values, _given);
+            ParameterConflict? conflict = ParameterConflict.Find(simulation);
+            if (conflict != null)
+            {
+                throw Refused(conflict.Key, conflict.Needed);
+            }
             if (Values.StartFile.Length > 0)
             {
-                simulation.Start = ReadStart(simulation.NumberRodElements);
+                simulation.Scene.Start = ReadStart(simulation.Scene.NumberRodElements);
             }
             ReadWalls(simulation);
             Warn();
             Hash = ComputeHash();
         }
 
+        // Takes out what the method does not take: refuses it from the command line, notes it from a file.
+        private void PassOver()
+        {
+            foreach (ParameterEntry entry in ParameterTable.Entries)
+            {
+                if (entry.IsTakenBy(Method) || !_given.TryGetValue(entry.Key, out var given))
+                {
+                    continue;
+                }
+                if (!entry.TryRead(new RunParameters(Method), given.Value))
+                {
+                    throw new ParameterException(given.Source, entry.Key, given.Value.ToString(Formatting.None),
+                        entry.Allowed);
+                }
+                if (given.Source == CommandLineHandler.Source
+                    || (entry.IsRefusedElsewhere && AsksForMore(entry, given)))
+                {
+                    throw Refused(entry.Key, "solver " + entry.MethodWords + "; this run has solver "
+                        + ChoiceEntry<Solver>.Word(Method.ToString()));
+                }
+                _ignored.Add(entry.Key);
+                _given.Remove(entry.Key);
+            }
+            if (_ignored.Count > 0)
+            {
+                AddWarning("solver {0} does not take {1}: passed over", ChoiceEntry<Solver>.Word(Method.ToString()),
+                    string.Join(", ", _ignored));
+            }
+        }
+
+        private bool AsksForMore(ParameterEntry entry, (JToken Value, string Source) given)
+        {
+            var read = new RunParameters(Method);
+            entry.TryRead(read, given.Value);
+            return !JToken.DeepEquals(entry.Write(read), entry.Write(new RunParameters(Method)));
+        }
+
+        private ParameterException Refused(string key, string needed)
+        {
+            return _given.TryGetValue(key, out var given)
+                ? new ParameterException(given.Source, key, given.Value.ToString(Formatting.None), needed)
+                : new ParameterException("defaults: " + key + " needs " + needed);
+        }
+
         private void ReadWalls(SimulationParameters simulation)
         {
             string vessel = _given.TryGetValue("vessel", out var named) ? named.Source : "";
             string obstacles = _given.TryGetValue("obstacles", out var given) ? given.Source : "";
-            simulation.Walls = WallReader.Read(Values, vessel, obstacles);
-            string? complaint = WireStart.Complaint(simulation);
+            simulation.Scene.Walls = WallReader.Read(Values, vessel, obstacles);
+            string? complaint = WireStart.FindProblem(simulation);
             if (complaint != null)
             {
                 throw new ParameterException((vessel.Length > 0 ? vessel : obstacles) + ": " + complaint);
@@ -177,25 +247,25 @@ namespace Guidewire.Io
         private void Warn()
         {
             SimulationParameters simulation = Values.Simulation;
-            double l = simulation.GuidewireLength / simulation.NumberRodElements;
+            double l = simulation.Scene.GuidewireLength / simulation.Scene.NumberRodElements;
             if (_given.TryGetValue("rodElementLength", out var length) && Math.Abs((double)length.Value - l) > 1e-9 * l)
             {
                 AddWarning("{0}: rodElementLength = {1} is not guidewireLength / numberRodElements = {2}, which counts",
                     length.Source, (double)length.Value, l);
             }
-            if (simulation.Solver != Solver.Pbd)
+            if (Method != Solver.Pbd)
             {
                 return;
             }
-            if (simulation.StretchStiffness >= 2.0)
+            if (simulation.Gains.StretchStiffness >= 2.0)
             {
                 AddWarning("stretchStiffness = {0} is at or beyond 2, where transversal motion breaks down",
-                    simulation.StretchStiffness);
+                    simulation.Gains.StretchStiffness);
             }
-            if (simulation.BendStiffness > l)
+            if (simulation.Gains.BendStiffness > l)
             {
                 AddWarning("bendStiffness = {0} is beyond the element length {1}, where bending breaks down",
-                    simulation.BendStiffness, l);
+                    simulation.Gains.BendStiffness, l);
             }
         }
 
@@ -207,7 +277,7 @@ namespace Guidewire.Io
         private string ComputeHash()
         {
             var text = new StringBuilder();
-            foreach (ParameterEntry entry in ParameterTable.Entries)
+            foreach (ParameterEntry entry in Taken())
             {
                 if (!entry.IsOutputPath && entry.Key != "startFile" && entry.Key != "vessel")
                 {

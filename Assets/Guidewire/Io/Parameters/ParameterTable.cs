@@ -1,148 +1,40 @@
 using System;
 using System.Collections.Generic;
 using System.Text;
-using Guidewire.Core;
-using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
     /// <summary>Every key that a parameter file or the command line may hold, once.</summary>
     public static class ParameterTable
     {
-        private const int MostElements = 1_000_000;
-        private const int MostSteps = 1_000_000_000;
+        /// <summary>The key that decides which others count.</summary>
+        internal const string SolverKey = "solver";
 
         private static readonly Dictionary<string, ParameterEntry> ByKey = new Dictionary<string, ParameterEntry>();
 
         static ParameterTable()
         {
-            foreach (ParameterEntry entry in Entries)
+            var entries = new List<ParameterEntry>();
+            foreach (ParameterGroup group in Groups)
+            {
+                entries.AddRange(group.Entries);
+            }
+            foreach (ParameterEntry entry in entries)
             {
                 ByKey.Add(entry.Key, entry);
             }
+            Entries = entries;
         }
 
-        /// <summary>The keys in the order of the help text.</summary>
-        public static IReadOnlyList<ParameterEntry> Entries { get; } = Join(new ParameterEntry[]
+        /// <summary>The groups in the order of the help text.</summary>
+        public static IReadOnlyList<ParameterGroup> Groups { get; } = new[]
         {
-            MaterialEntries.Solver,
-            new IntegerEntry("constraintSolverSteps", "iterations a step", 0, 1_000_000,
-                "m, Gauss-Seidel iterations; with gains, more of them make a stiffer wire; with xpbd 1 a substep if"
-                + " not given",
-                p => p.Simulation.ConstraintSolverSteps, (p, v) => p.Simulation.ConstraintSolverSteps = v),
-            new NumberEntry("timeStep", "s", NumberRange.Positive, "dt",
-                p => p.Simulation.TimeStep, (p, v) => p.Simulation.TimeStep = v),
-            new NumberEntry("guidewireLength", "units", NumberRange.Positive, "L",
-                p => p.Simulation.GuidewireLength, (p, v) => p.Simulation.GuidewireLength = v),
-            new IntegerEntry("numberRodElements", "", 1, MostElements,
-                "n; the wire has n + 1 spheres and elements of L/n",
-                p => p.Simulation.NumberRodElements, (p, v) => p.Simulation.NumberRodElements = v),
-            new NumberEntry("totalMass", "mass units", NumberRange.Positive, "M, shared evenly by the spheres",
-                p => p.Simulation.TotalMass, (p, v) => p.Simulation.TotalMass = v),
-            new NumberEntry("guidewireOffset", "units", NumberRange.Any, "z of sphere 0 before its displacement",
-                p => p.Simulation.GuidewireOffset, (p, v) => p.Simulation.GuidewireOffset = v),
-            new NumberEntry("stretchStiffness", "", NumberRange.NotNegative,
-                "k_A, gain of the stretch constraint an iteration; 2 and more break down",
-                p => p.Simulation.StretchStiffness, (p, v) => p.Simulation.StretchStiffness = v),
-            new NumberEntry("bendStiffness", "units", NumberRange.NotNegative,
-                "k_B, gain of the bend-twist constraint an iteration; more than L/n breaks down",
-                p => p.Simulation.BendStiffness, (p, v) => p.Simulation.BendStiffness = v),
-            new NumberEntry("sphereRadius", "units", NumberRange.Positive, "r",
-                p => p.Simulation.SphereRadius, (p, v) => p.Simulation.SphereRadius = v),
-            new NumberEntry("collisionMargin", "units", NumberRange.NotNegative, "distance kept beyond the radius",
-                p => p.Simulation.CollisionMargin, (p, v) => p.Simulation.CollisionMargin = v),
-            new NumberEntry("collisionStiffness", "", NumberRange.Between(0.0, 1.0),
-                "k_C, gain of a contact an iteration",
-                p => p.Simulation.CollisionStiffness, (p, v) => p.Simulation.CollisionStiffness = v),
-            new ChoiceEntry<Drive>("drive",
-                "what moves sphere 0: one displacement, then held; a fixed axis each step; the first element's"
-                + " direction each step; externalForce", p => p.Simulation.Drive, (p, v) => p.Simulation.Drive = v),
-            new NumberEntry("displacement", "units", NumberRange.Any,
-                "displacement of sphere 0 at the start, drive \"hold\"",
-                p => p.Simulation.Displacement, (p, v) => p.Simulation.Displacement = v),
-            new VectorEntry("displacementDirection", "", false, "its direction, and that of drive \"displace\"",
-                p => p.Simulation.DisplacementDirection, (p, v) => p.Simulation.DisplacementDirection = v),
-            new NumberEntry("displacementPerStep", "units a step", NumberRange.Any,
-                "motion of sphere 0 with drive \"displace\" or \"push\"",
-                p => p.Simulation.DisplacementPerStep, (p, v) => p.Simulation.DisplacementPerStep = v),
-            new NumberEntry("twistPerStep", "radians a step", NumberRange.Any,
-                "turn of element 0 about its own axis, with a material of its clamp; with gains, where it is not 0 the"
-                + " element's frame is held",
-                p => p.Simulation.TwistPerStep, (p, v) => p.Simulation.TwistPerStep = v),
-            new VectorEntry("externalForce", "mass unit * unit/s^2; with a material N", true,
-                "force on sphere 0 with drive \"force\"",
-                p => p.Simulation.ExternalForce, (p, v) => p.Simulation.ExternalForce = v),
-            new VectorEntry("gravity", "unit/s^2; with a material m/s^2", true, "acceleration of every free sphere",
-                p => p.Simulation.Gravity, (p, v) => p.Simulation.Gravity = v),
-            new NumberEntry("damping", "", NumberRange.Between(0.0, 1.0),
-                "share of its velocity that a sphere loses a step",
-                p => p.Simulation.Damping, (p, v) => p.Simulation.Damping = v),
-            new ChoiceEntry<Integrator>("integrator", "how positions are predicted",
-                p => p.Simulation.Integrator, (p, v) => p.Simulation.Integrator = v),
-            new ChoiceEntry<SweepOrder>("sweepOrder", "order of one sweep over the elements",
-                p => p.Simulation.SweepOrder, (p, v) => p.Simulation.SweepOrder = v),
-            new NumberEntry("deltaThreshold", "units", NumberRange.NotNegative,
-                "prediction errors below it make a steady state, which ends the run; 0 never does",
-                p => p.Simulation.DeltaThreshold, (p, v) => p.Simulation.DeltaThreshold = v),
-            new IntegerEntry("steadyStateHold", "steps", 1, MostSteps, "how long a steady state must last",
-                p => p.Simulation.SteadyStateHold, (p, v) => p.Simulation.SteadyStateHold = v),
-            new IntegerEntry("maxSimulationSteps", "steps", 0, MostSteps, "where the run ends at the latest",
-                p => p.Simulation.MaxSimulationSteps, (p, v) => p.Simulation.MaxSimulationSteps = v),
-            new ChoiceEntry<ElementContact>("elementContact",
-                "what touches a wall besides the spheres: rod elements by the"
-                + " lever rule, nothing, or rod elements by the rule as published",
-                p => p.Simulation.ElementContact, (p, v) => p.Simulation.ElementContact = v),
-            new JsonEntry("vessel", JTokenType.Object,
-                "null, {\"shape\": \"plane\", \"point\", \"normal\"}, {\"shape\":"
-                + " \"tube\", \"knots\", \"radius\", \"openStart\", \"openEnd\"} or {\"shape\": \"mesh\", \"file\","
-                + " \"metresPerUnit\", \"openRims\"}",
-                "the wall around the wire; a mesh file's name counts from the parameter"
-                + " file's folder, openRims names a point near the middle of each open rim",
-                p => p.Vessel, (p, v) => p.Vessel = v),
-            new JsonEntry("obstacles", JTokenType.Array, "null or a list of {\"shape\": \"sphere\", \"centre\","
-                + " \"radius\"}, {\"shape\": \"capsule\", \"from\", \"to\", \"radius\"}, {\"shape\": \"box\","
-                + " \"centre\", \"halfSize\", \"rotation\"}, {\"shape\": \"hull\", \"points\", \"radius\"}",
-                "convex bodies in the wire's way (units, degrees)", p => p.Obstacles, (p, v) => p.Obstacles = v),
-            new VectorEntry("position", "units", true, "where the vessel lies",
-                p => p.Simulation.Position, (p, v) => p.Simulation.Position = v),
-            new VectorEntry("scale", "", false, "factors on the vessel's size",
-                p => p.Simulation.Scale, (p, v) => p.Simulation.Scale = v),
-            new VectorEntry("rotation", "degrees", true, "the vessel's Euler angles, about z, then x, then y",
-                p => p.Simulation.Rotation, (p, v) => p.Simulation.Rotation = v),
-            new TextEntry("startFile",
-                "JSON file with positions, orientations, velocities and angularVelocities to start from",
-                p => p.StartFile, (p, v) => p.StartFile = v),
-            new IntegerEntry("logEvery", "steps", 1, MostSteps, "every k-th step is logged",
-                p => p.LogEvery, (p, v) => p.LogEvery = v),
-            new ChoiceEntry<LoggedSpheres>("logSpheres", "which spheres are logged",
-                p => p.LogSpheres, (p, v) => p.LogSpheres = v),
-            new SwitchEntry("logOrientations", "whether orientations are logged too",
-                p => p.LogOrientations, (p, v) => p.LogOrientations = v),
-            new SwitchEntry("logContacts",
-                "whether each entry of the log also has \"contact\": the walls' force on each sphere"
-                + " they touch, their total, and the first sphere's reaction (mass unit * unit/s^2; with a material N,"
-                + " its mean over the step, direct and explicit only)",
-                p => p.LogContacts, (p, v) => p.LogContacts = p.Simulation.StatesReactions = v),
-            new TextEntry("logFilePath", "folder of the results, where -out does not name one",
-                p => p.LogFilePath, (p, v) => p.LogFilePath = v) { IsOutputPath = true },
-            new NumberEntry("rodElementLength", "units", NumberRange.Positive,
-                "in older files; guidewireLength / numberRodElements counts, and a warning says where they differ",
-                p => p.Simulation.GuidewireLength / p.Simulation.NumberRodElements, (p, v) => { }),
-            new SwitchEntry("VerletIntegration", "older word for integrator: true is \"verlet\", false \"euler\"",
-                p => p.Simulation.Integrator == Integrator.Verlet,
-                (p, v) => p.Simulation.Integrator = v ? Integrator.Verlet : Integrator.Euler),
-            new SwitchEntry("SteadyState", "older word for drive: true is \"hold\", false \"displace\", each step by"
-                + " displacement where displacementPerStep is not given",
-                p => p.Simulation.Drive == Drive.Hold,
-                (p, v) => p.Simulation.Drive = v ? Drive.Hold : Drive.Displace),
-        }, MaterialEntries.Material);
+            MethodEntries.Group, SceneEntries.Group, DriveEntries.Group, GainEntries.Group, MaterialEntries.Group,
+            ContactEntries.Group, LogEntries.Group,
+        };
 
-        private static ParameterEntry[] Join(IReadOnlyList<ParameterEntry> first, IReadOnlyList<ParameterEntry> second)
-        {
-            var all = new List<ParameterEntry>(first);
-            all.AddRange(second);
-            return all.ToArray();
-        }
+        /// <summary>All keys, group by group.</summary>
+        public static IReadOnlyList<ParameterEntry> Entries { get; }
 
         /// <summary>The entry of a key, or null.</summary>
         public static ParameterEntry? Find(string key)
@@ -167,14 +59,22 @@ namespace Guidewire.Io
             return best;
         }
 
-        /// <summary>The table as Markdown, as the README shows it.</summary>
+        /// <summary>The table as Markdown, a part for each group, as docs/parameters.md shows it.</summary>
         public static string ToMarkdown()
         {
-            var text = new StringBuilder("| key | allowed | default | meaning |\n|---|---|---|---|\n");
-            foreach (ParameterEntry entry in Entries)
+            var text = new StringBuilder();
+            foreach (ParameterGroup group in Groups)
             {
-                text.Append("| `").Append(entry.Key).Append("` | ").Append(entry.Allowed).Append(" | `")
-                    .Append(entry.Default).Append("` | ").Append(entry.Help).Append(" |\n");
+                text.Append(text.Length == 0 ? "" : "\n").Append("## ").Append(group.Name).Append(": ")
+                    .Append(group.About).Append("\n\n| key | allowed | default | solver | meaning |\n")
+                    .Append("|---|---|---|---|---|\n");
+                foreach (ParameterEntry entry in group.Entries)
+                {
+                    text.Append("| `").Append(entry.Key).Append("` | ").Append(entry.Allowed).Append(" | `")
+                        .Append(entry.Defaults).Append("` | ")
+                        .Append(entry.Methods.Count == Takers.All.Count ? "all" : entry.MethodWords).Append(" | ")
+                        .Append(entry.Help).Append(" |\n");
+                }
             }
             return text.ToString();
         }

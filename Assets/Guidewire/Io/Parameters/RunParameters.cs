@@ -16,14 +16,29 @@ namespace Guidewire.Io
     /// <summary>All that a parameter file says: what is simulated, and what is written of it.</summary>
     public sealed class RunParameters
     {
+        /// <summary>The defaults of a method.</summary>
+        public RunParameters(Solver solver)
+        {
+            Simulation = SimulationParameters.DefaultsOf(solver);
+        }
+
         /// <summary>What Core is told.</summary>
-        public SimulationParameters Simulation { get; } = new SimulationParameters();
+        public SimulationParameters Simulation { get; }
 
         /// <summary>Folder of the results; empty where the command line must name it.</summary>
         public string LogFilePath { get; set; } = "";
 
         /// <summary>File with a start other than the straight wire; empty for none.</summary>
         public string StartFile { get; set; } = "";
+
+        /// <summary>Where the vessel's origin lies, in units.</summary>
+        public Vector3d Position { get; set; }
+
+        /// <summary>Factors on the vessel's size along its own axes.</summary>
+        public Vector3d Scale { get; set; } = new Vector3d(1.0, 1.0, 1.0);
+
+        /// <summary>The vessel's Euler angles in degrees, about z, then x, then y, as in Unity.</summary>
+        public Vector3d Rotation { get; set; }
 
         /// <summary>The vessel as its key has it, or null.</summary>
         public JToken? Vessel { get; set; }

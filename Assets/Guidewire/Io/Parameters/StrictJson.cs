@@ -20,16 +20,16 @@ namespace Guidewire.Io
         }
 
         /// <summary>What is wrong with the text and where, in one phrase, or null.</summary>
-        public static string? Complaint(string text)
+        public static string? FindError(string text)
         {
             var check = new StrictJson(text);
-            string? complaint = check.Value(0);
-            if (complaint == null)
+            string? error = check.Value(0);
+            if (error == null)
             {
                 check.Blank();
-                complaint = check._at < text.Length ? check.Unexpected("the end of the text") : null;
+                error = check._at < text.Length ? check.Unexpected("the end of the text") : null;
             }
-            return complaint;
+            return error;
         }
 
         private string? Value(int depth)
@@ -75,11 +75,11 @@ namespace Guidewire.Io
                 {
                     return At("has a comma before '" + close + "'");
                 }
-                string? complaint = names != null ? Name(names) : null;
-                complaint ??= Value(depth + 1);
-                if (complaint != null)
+                string? error = names != null ? Name(names) : null;
+                error ??= Value(depth + 1);
+                if (error != null)
                 {
-                    return complaint;
+                    return error;
                 }
                 Blank();
                 char next = Current();
@@ -102,10 +102,10 @@ namespace Guidewire.Io
                 return Unexpected("a key in double quotes");
             }
             int start = _at + 1;
-            string? complaint = Text();
-            if (complaint != null)
+            string? error = Text();
+            if (error != null)
             {
-                return complaint;
+                return error;
             }
             // Compared as it reads, not as it is written: "a" and "\u0061" are the same key.
             string name = JsonText.Parse(_text.Substring(start - 1, _at - start + 1)).ToString();
@@ -242,7 +242,7 @@ namespace Guidewire.Io
                 + " is expected");
         }
 
-        private string At(string complaint)
+        private string At(string error)
         {
             int line = 1;
             int column = 1;
@@ -251,7 +251,7 @@ namespace Guidewire.Io
                 column = _text[i] == '\n' ? 1 : column + 1;
                 line += _text[i] == '\n' ? 1 : 0;
             }
-            return string.Format(CultureInfo.InvariantCulture, "line {0}, column {1} {2}", line, column, complaint);
+            return string.Format(CultureInfo.InvariantCulture, "line {0}, column {1} {2}", line, column, error);
         }
     }
 }

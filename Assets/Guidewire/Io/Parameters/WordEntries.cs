@@ -80,7 +80,8 @@ namespace Guidewire.Io
             return new JValue(text);
         }
 
-        private static string Word(string name)
+        /// <summary>An enumeration's name as a word in files: in camelCase.</summary>
+        internal static string Word(string name)
         {
             return char.ToLowerInvariant(name[0]) + name.Substring(1);
         }

@@ -50,7 +50,7 @@ namespace Guidewire.Io
                 Progress = Progress,
             };
             Folder = run.Folder;
-            MaxSteps = handler.Values.Simulation.MaxSimulationSteps;
+            MaxSteps = handler.Values.Simulation.Method.MaxSimulationSteps;
             foreach (string warning in handler.Warnings)
             {
                 Error("warning: " + warning);

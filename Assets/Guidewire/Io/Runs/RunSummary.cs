@@ -50,6 +50,7 @@ namespace Guidewire.Io
                 ["timed"] = repeat.HasValue,
                 ["repeat"] = repeat,
                 ["warnings"] = new JArray(handler.Warnings),
+                ["ignored"] = new JArray(handler.Ignored),
                 ["notes"] = new JArray(notes),
                 ["log"] = log,
                 ["versions"] = new JObject
@@ -64,7 +65,7 @@ namespace Guidewire.Io
                 ["parameterHash"] = notes.Count == 0 ? handler.Hash : null,
                 ["complete"] = true,
             };
-            SolverReport? report = simulation.CompleteReport();
+            SolverReport? report = simulation.Report();
             json.Property("steadyStateStep")!.AddAfterSelf(new JProperty("stiffness",
                 report == null ? "gains" : "material"));
             if (report != null)
@@ -87,6 +88,7 @@ namespace Guidewire.Io
                 ["smallestEigenvalue"] = Finite(report.SmallestEigenvalue),
                 ["largestError"] = Finite(report.LargestError),
                 ["stepsNotConverged"] = report.StepsNotConverged,
+                ["stableSubstep"] = Finite(report.StableSubstep),
                 ["proximalForce"] = Vector(report.ProximalForce),
                 ["proximalMoment"] = Vector(report.ProximalMoment),
                 ["distalForce"] = Vector(report.DistalForce),

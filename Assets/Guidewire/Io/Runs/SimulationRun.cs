@@ -56,7 +56,7 @@ namespace Guidewire.Io
             double setUp = (Stopwatch.GetTimestamp() - before) * RunFolder.ToMilliseconds;
             using RunFolder results = RunFolder.Open(_handler, _folder, _repeat);
             results.Begin(simulation, setUp);
-            if (_handler.Values.Simulation.MaxSimulationSteps == 0 && simulation.Outcome == Outcome.Running)
+            if (_handler.Values.Simulation.Method.MaxSimulationSteps == 0 && simulation.Outcome == Outcome.Running)
             {
                 simulation.End(Outcome.Finished, "no steps were asked for");
             }

@@ -23,7 +23,7 @@ namespace Guidewire.Io
             bool isSteered)
         {
             _hand = isSteered ? new Steering() : null;
-            handler.Values.Simulation.Steering = _hand;
+            handler.Values.Simulation.Drive.Steering = _hand;
             _file = file;
             _overrides = overrides;
             _handler = handler;
@@ -106,7 +106,7 @@ namespace Guidewire.Io
             changed.RemoveAll(pair => pair.Key == key);
             changed.Add(new KeyValuePair<string, JToken>(key, value));
             ParameterHandler handler = ParameterHandler.Load(_file, changed);
-            handler.Values.Simulation.Steering = _hand;
+            handler.Values.Simulation.Drive.Steering = _hand;
             Simulation = Simulation.Continue(handler.Values.Simulation);
             Note("parameters changed by hand");
             _handler = handler;

@@ -30,12 +30,12 @@ namespace Guidewire.Runtime
         /// <summary>Takes over what a run has.</summary>
         public void Read(SimulationParameters parameters)
         {
-            constraintSolverSteps = parameters.ConstraintSolverSteps;
-            stretchStiffness = parameters.StretchStiffness;
-            bendStiffness = parameters.BendStiffness;
-            collisionStiffness = parameters.CollisionStiffness;
-            damping = parameters.Damping;
-            timeStep = parameters.TimeStep;
+            constraintSolverSteps = parameters.Method.ConstraintSolverSteps;
+            stretchStiffness = parameters.Gains.StretchStiffness;
+            bendStiffness = parameters.Gains.BendStiffness;
+            collisionStiffness = parameters.Contact.CollisionStiffness;
+            damping = parameters.Method.Damping;
+            timeStep = parameters.Method.TimeStep;
         }
 
         /// <summary>The first key whose value is not what a run has, or null.</summary>
@@ -43,16 +43,16 @@ namespace Guidewire.Runtime
         /// <param name="value">The value here.</param>
         public string? FirstChange(SimulationParameters parameters, out JToken? value)
         {
-            if (constraintSolverSteps != parameters.ConstraintSolverSteps)
+            if (constraintSolverSteps != parameters.Method.ConstraintSolverSteps)
             {
                 value = constraintSolverSteps;
                 return "constraintSolverSteps";
             }
-            return Differs("stretchStiffness", stretchStiffness, parameters.StretchStiffness, out value)
-                ?? Differs("bendStiffness", bendStiffness, parameters.BendStiffness, out value)
-                ?? Differs("collisionStiffness", collisionStiffness, parameters.CollisionStiffness, out value)
-                ?? Differs("damping", damping, parameters.Damping, out value)
-                ?? Differs("timeStep", timeStep, parameters.TimeStep, out value);
+            return Differs("stretchStiffness", stretchStiffness, parameters.Gains.StretchStiffness, out value)
+                ?? Differs("bendStiffness", bendStiffness, parameters.Gains.BendStiffness, out value)
+                ?? Differs("collisionStiffness", collisionStiffness, parameters.Contact.CollisionStiffness, out value)
+                ?? Differs("damping", damping, parameters.Method.Damping, out value)
+                ?? Differs("timeStep", timeStep, parameters.Method.TimeStep, out value);
         }
 
         private static string? Differs(string key, double here, double there, out JToken? value)

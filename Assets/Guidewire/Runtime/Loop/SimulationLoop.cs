@@ -131,16 +131,16 @@ namespace Guidewire.Runtime
             _pending += _pace * seconds;
             _frame.Restart();
             int steps = 0;
-            while (CanStep() && _pending >= Session!.Parameters.TimeStep && steps < _stepsPerFrame
+            while (CanStep() && _pending >= Session!.Parameters.Method.TimeStep && steps < _stepsPerFrame
                 && (steps == 0 || _frame.Elapsed.TotalMilliseconds < _frameBudget))
             {
-                _pending -= Session.Parameters.TimeStep;
+                _pending -= Session.Parameters.Method.TimeStep;
                 Step();
                 steps++;
             }
 
             // A frame that was too slow is not made up for: the wire would only become slower still.
-            _pending = Math.Min(_pending, Session!.Parameters.TimeStep);
+            _pending = Math.Min(_pending, Session!.Parameters.Method.TimeStep);
         }
 
         /// <summary>Makes one step, also while the loop is paused.</summary>
@@ -152,7 +152,7 @@ namespace Guidewire.Runtime
             }
             try
             {
-                double dt = Session!.Parameters.TimeStep;
+                double dt = Session!.Parameters.Method.TimeStep;
                 Session.Step(Push * _pushSpeed * dt, Turn * _turnSpeed * dt * Math.PI / 180.0);
                 Report(Session.Simulation);
             }

@@ -45,7 +45,7 @@ namespace Guidewire.Runtime
             if (_generation != _loop.Generation)
             {
                 _generation = _loop.Generation;
-                _hints = new int[parameters.Walls.Length * state.ElementCount];
+                _hints = new int[parameters.Scene.Walls.Length * state.ElementCount];
                 Array.Fill(_hints, -1);
                 _largest = 0.0;
             }
@@ -61,12 +61,12 @@ namespace Guidewire.Runtime
 
         private void DrawPoints(RodState state, SimulationParameters parameters)
         {
-            double range = parameters.SphereRadius + parameters.CollisionMargin;
-            float radius = 0.3f * (float)parameters.SphereRadius;
+            double range = parameters.Contact.SphereRadius + parameters.Contact.CollisionMargin;
+            float radius = 0.3f * (float)parameters.Contact.SphereRadius;
             for (int k = 0; k < _hints.Length; k++)
             {
                 int j = k % state.ElementCount;
-                ContactShape wall = parameters.Walls[k / state.ElementCount];
+                ContactShape wall = parameters.Scene.Walls[k / state.ElementCount];
                 Vector3d a = state.Positions[j];
                 Vector3d b = state.Positions[j + 1];
                 if (wall.Nearest(a, b, range, ref _hints[k], out SurfaceContact contact))

@@ -50,7 +50,7 @@ namespace Guidewire.Runtime
             }
             RodState state = _loop.Session.Simulation.State;
             Vector3d middle = state.Positions[state.ElementCount];
-            foreach (ContactShape wall in _loop.Session.Parameters.Walls)
+            foreach (ContactShape wall in _loop.Session.Parameters.Scene.Walls)
             {
                 WallSurface surface = WallSurface.Create(wall, middle, _reach);
                 var vertices = new Vector3[surface.Vertices.Count];

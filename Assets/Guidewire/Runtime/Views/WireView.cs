@@ -73,7 +73,7 @@ namespace Guidewire.Runtime
                 return;
             }
             RodState state = session.Simulation.State;
-            float radius = _thickness * (float)session.Parameters.SphereRadius;
+            float radius = _thickness * (float)session.Parameters.Contact.SphereRadius;
             if (_generation != _loop.Generation)
             {
                 Build(state);

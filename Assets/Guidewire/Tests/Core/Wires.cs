@@ -11,16 +11,18 @@ namespace Guidewire.Core.Tests
         {
             return new SimulationParameters
             {
-                DisplacementDirection = Vector3d.UnitY,
-                DeltaThreshold = 0.0,
-                MaxSimulationSteps = maxSteps,
+                Drive = { DisplacementDirection = Vector3d.UnitY },
+                Method = { DeltaThreshold = 0.0, MaxSimulationSteps = maxSteps },
             };
         }
 
         /// <summary>Thesis table 4.1, displaced along z, with no steady state to end it.</summary>
         public static SimulationParameters Longitudinal(int maxSteps)
         {
-            return new SimulationParameters { DeltaThreshold = 0.0, MaxSimulationSteps = maxSteps };
+            return new SimulationParameters
+            {
+                Method = { DeltaThreshold = 0.0, MaxSimulationSteps = maxSteps },
+            };
         }
 
         /// <summary>A bent and twisted start at rest with velocities, from a seed.</summary>
@@ -42,6 +44,22 @@ namespace Guidewire.Core.Tests
                 spins[j] = Any(random);
             }
             return new RodStart(positions, orientations, velocities, spins);
+        }
+
+        /// <summary>The straight wire of these parameters, in units.</summary>
+        public static RodState Straight(SimulationParameters parameters)
+        {
+            return new RodState(parameters.Scene.NumberRodElements, parameters.Scene.GuidewireLength,
+                parameters.Gains.TotalMass, parameters.Scene.GuidewireOffset);
+        }
+
+        /// <summary>Gives a wire another start.</summary>
+        public static void Load(RodState state, RodStart start)
+        {
+            state.Load(new Scene(new SimulationParameters
+            {
+                Scene = { NumberRodElements = state.ElementCount, Start = start },
+            }));
         }
 
         /// <summary>Runs to its end.</summary>

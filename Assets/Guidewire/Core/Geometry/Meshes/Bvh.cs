@@ -111,6 +111,34 @@ namespace Guidewire.Core
             return search.Slot < 0 ? -1 : _order[search.Slot];
         }
 
+        /// <summary>Adds every triangle within <paramref name="range"/> of segment a b, and perhaps some that are a
+        /// little farther.</summary>
+        public void Within(in Vector3d a, in Vector3d b, double range, StructList<int> triangles)
+        {
+            var search = new SegmentSearch(a, b, range);
+            Span<int> stack = stackalloc int[StackSize];
+            int depth = 0;
+            stack[depth++] = 0;
+            while (depth > 0)
+            {
+                ref readonly BvhNode node = ref _nodes[stack[--depth]];
+                if (!search.MayHold(node, out _))
+                {
+                    continue;
+                }
+                if (node.Count == 0)
+                {
+                    stack[depth++] = node.First;
+                    stack[depth++] = node.First + 1;
+                    continue;
+                }
+                for (int k = node.First; k < node.First + node.Count; k++)
+                {
+                    triangles.Add(_order[k]);
+                }
+            }
+        }
+
         // The call goes to the nearer child, the loop to the other: no list of what is left to do has to be cleared
         // for a search that mostly ends after a few nodes.
         private void Descend(int current, ref SegmentSearch search)

@@ -9,7 +9,8 @@ namespace Guidewire.Core
     {
         private readonly Vector3d[] _rest;
         private readonly int[] _triangles;
-        private readonly int[] _twin;
+        private readonly int[] _twin;             // place where the edge is entered from the other side, -1 at a rim
+        private readonly int[] _placeOfVertex;
         private readonly bool[] _isRimVertex;
         private readonly Vector3d[] _vertices;
         private readonly Vector3d[] _corners;
@@ -33,6 +34,11 @@ namespace Guidewire.Core
             _triangles = triangles.ToArray();
             _isRimVertex = new bool[_rest.Length];
             _twin = FindTwins(_triangles, _isRimVertex);
+            _placeOfVertex = new int[_rest.Length];
+            for (int place = _triangles.Length - 1; place >= 0; place--)
+            {
+                _placeOfVertex[_triangles[place]] = place;
+            }
             _vertices = new Vector3d[_rest.Length];
             _corners = new Vector3d[_triangles.Length];
             _faceNormals = new Vector3d[_triangles.Length / 3];
@@ -49,6 +55,52 @@ namespace Guidewire.Core
 
         /// <summary>Unit normals of the triangles, into the lumen.</summary>
         public Vector3d[] FaceNormals => _faceNormals;
+
+        /// <summary>Number of vertices.</summary>
+        public int VertexCount => _rest.Length;
+
+        /// <summary>The vertex at a place: that of corner k of triangle t is 3 t + k.</summary>
+        public int VertexAt(int place)
+        {
+            return _triangles[place];
+        }
+
+        /// <summary>The first place at which a vertex stands.</summary>
+        public int PlaceOfVertex(int vertex)
+        {
+            return _placeOfVertex[vertex];
+        }
+
+        /// <summary>True for a vertex of an open rim.</summary>
+        public bool IsRimVertex(int vertex)
+        {
+            return _isRimVertex[vertex];
+        }
+
+        /// <summary>The edge that starts at a place of a triangle, by the lower of the places at which its two
+        /// triangles have it.</summary>
+        public int EdgeOf(int place)
+        {
+            return _twin[place] < 0 ? place : Math.Min(place, _twin[place]);
+        }
+
+        /// <summary>True for an edge of an open rim.</summary>
+        public bool IsRimEdge(int edge)
+        {
+            return _twin[edge] < 0;
+        }
+
+        /// <summary>Places of an edge's two ends, that of the lower vertex first, so that the edge runs one way
+        /// whatever its triangles do.</summary>
+        public void EndsOf(int edge, out int from, out int to)
+        {
+            from = edge;
+            to = EndPlace(edge);
+            if (_triangles[from] > _triangles[to])
+            {
+                (from, to) = (to, from);
+            }
+        }
 
         /// <summary>Moves everything to its new place.</summary>
         public void Place(in Placement placement)
@@ -87,7 +139,8 @@ namespace Guidewire.Core
             }
             int twin = _twin[3 * triangle + feature - ClosestPoints.Edge];
             isRim = twin < 0;
-            return isRim ? _faceNormals[triangle] : Vector3d.Normalize(_faceNormals[triangle] + _faceNormals[twin]);
+            return isRim
+                ? _faceNormals[triangle] : Vector3d.Normalize(_faceNormals[triangle] + _faceNormals[twin / 3]);
         }
 
         private void Update(in Placement placement)
@@ -138,7 +191,7 @@ namespace Guidewire.Core
             }
         }
 
-        // The triangle on the other side of each edge, -1 at a rim.
+        // The place at which each edge is entered from its other side, -1 at a rim.
         private static int[] FindTwins(int[] triangles, bool[] isRimVertex)
         {
             var twins = new int[triangles.Length];
@@ -152,7 +205,7 @@ namespace Guidewire.Core
             {
                 if (entered.TryGetValue((End(triangles, place), triangles[place]), out int other))
                 {
-                    twins[place] = other / 3;
+                    twins[place] = other;
                 }
                 else
                 {
@@ -165,7 +218,12 @@ namespace Guidewire.Core
 
         private static int End(int[] triangles, int place)
         {
-            return triangles[place % 3 == 2 ? place - 2 : place + 1];
+            return triangles[EndPlace(place)];
+        }
+
+        private static int EndPlace(int place)
+        {
+            return place % 3 == 2 ? place - 2 : place + 1;
         }
     }
 }

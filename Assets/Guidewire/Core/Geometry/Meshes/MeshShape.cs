@@ -14,6 +14,7 @@ namespace Guidewire.Core
         private readonly TriangleMesh _mesh;
         private readonly MeshGeometry _wall;
         private readonly MeshGeometry _closed;
+        private MeshPlaces? _places;
 
         /// <summary>The wall at the place where its file has it.</summary>
         public MeshShape(TriangleMesh mesh)
@@ -61,6 +62,17 @@ namespace Guidewire.Core
             hint = triangle;
             contact = _wall.ContactAt(Vector3d.Lerp(a, b, s), s, point, Math.Sqrt(squared), triangle, feature);
             return true;
+        }
+
+        /// <summary>The nearest places of all triangles, edges and corners, less those that cancel each other: feet
+        /// inside faces, and what of edges and corners is left over; see <see cref="MeshPlaces"/>. All have the sign of
+        /// the nearest, for a segment that meets no wall lies on one side of it. On an edge or corner itself, at
+        /// distance 0, no curvature is stated.</summary>
+        internal override void FindPlaces(
+            in Vector3d a, in Vector3d b, double range, StructList<WallPlace> places)
+        {
+            _places ??= new MeshPlaces(_wall);
+            _places.Find(a, b, range, places);
         }
 
         /// <inheritdoc/>

@@ -4,40 +4,27 @@ namespace Guidewire.Core
     /// -sum f_i . x_i.</summary>
     internal sealed class DeadLoads : EnergyTerm
     {
+        private readonly RodMass _mass;
+
         /// <summary>No load on any of the n+1 nodes.</summary>
-        public DeadLoads(int elementCount)
+        public DeadLoads(RodMass mass)
         {
-            Force = new Vector3d[elementCount + 1];
+            _mass = mass;
+            Force = new Vector3d[mass.Nodal.Length];
         }
 
         /// <summary>Force on each node, N.</summary>
         public Vector3d[] Force { get; }
 
-        /// <summary>Sets the weight of the rod under gravity g (m/s^2), on each node what the mass rule gives it, and
-        /// adds the force at the tip (N).</summary>
-        public void Set(MaterialRod rod, MassRule rule, in Vector3d gravity, in Vector3d tipForce)
+        /// <summary>Sets the weight of the rod under gravity g (m/s^2), by the mass of each node, and adds the force
+        /// at the tip (N).</summary>
+        public void Set(in Vector3d gravity, in Vector3d tipForce)
         {
-            int n = rod.ElementCount;
-            double mass = 0.0;
-            for (int i = 0; i <= n; i++)
+            for (int i = 0; i < Force.Length; i++)
             {
-                Force[i] = Vector3d.Zero;
+                Force[i] = _mass.Nodal[i] * gravity;
             }
-            for (int j = 0; j < n; j++)
-            {
-                double m = rod.LineDensity[j] * rod.Length[j];
-                mass += m;
-                Force[j] += (0.5 * m) * gravity;
-                Force[j + 1] += (0.5 * m) * gravity;
-            }
-            if (rule == MassRule.Uniform)
-            {
-                for (int i = 0; i <= n; i++)
-                {
-                    Force[i] = (mass / (n + 1)) * gravity;
-                }
-            }
-            Force[n] += tipForce;
+            Force[Force.Length - 1] += tipForce;
         }
 
         /// <inheritdoc/>
@@ -52,7 +39,8 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override void AddGradient(RodShape shape, RodVector[] gradient, int from, int to)
+        public override void AddGradient(RodShape shape, RodVector[] gradient, int from, int to,
+            ref GradientMeasures measured)
         {
             for (int i = from; i < to; i++)
             {
@@ -65,7 +53,8 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void AddBlocks(RodShape shape, RodBlock[] blocks, RodVector[] gradient, int from, int to)
         {
-            AddGradient(shape, gradient, from, to);
+            var measured = default(GradientMeasures);
+            AddGradient(shape, gradient, from, to, ref measured);
         }
     }
 }

@@ -6,15 +6,20 @@ namespace Guidewire.Core
     /// <remarks>A term may couple x_i, theta_i, x_(i+1) and theta_i, theta_(i+1), which is what keeps the matrix block-
     /// tridiagonal: stretch, bending, weight, inertia; a sphere's contact touches one A block, an element's contact
     /// x_i and x_(i+1). Terms work on ranges, so that a long rod is assembled and eliminated while its blocks are in
-    /// the cache. A load without a potential (a couple that turns with the tip) is entered by its work since <see
-    /// cref="Anchor"/>. </remarks>
+    /// the cache. What only some terms need has a neutral default here. A load without a potential (a couple that turns
+    /// with the tip) is entered by its work since <see cref="Anchor"/>.</remarks>
     internal abstract class EnergyTerm
     {
+        /// <summary>Whether the value is a true energy, the same on every way to a shape.</summary>
+        public virtual bool HasPotential => true;
+
         /// <summary>The energy in J of the whole rod in this shape.</summary>
         public abstract double Value(RodShape shape);
 
         /// <summary>Adds the gradient of what belongs to indices from (inclusive) to to (exclusive).</summary>
-        public abstract void AddGradient(RodShape shape, RodVector[] gradient, int from, int to);
+        /// <param name="measured">Takes what the term finds on the way.</param>
+        public abstract void AddGradient(RodShape shape, RodVector[] gradient, int from, int to,
+            ref GradientMeasures measured);
 
         /// <summary>Adds gradient and second derivatives of what belongs to indices from (inclusive) to to (exclusive).
         /// Only blocks from .. to are touched, the last by what its predecessor leaves on it.</summary>
@@ -23,6 +28,31 @@ namespace Guidewire.Core
         /// <summary>Takes this shape as the point from which work is counted; nothing to do for a true
         /// energy.</summary>
         public virtual void Anchor(RodShape shape)
+        {
+        }
+
+        /// <summary>Sets what is prescribed at this time, s: a target that moves, a load that grows. Called before each
+        /// stage, and before the forces of each explicit or compliant substep.</summary>
+        public virtual void SetTime(double time)
+        {
+        }
+
+        /// <summary>A step of dt (s) begins in this shape: a term keeps of it what it needs until the step's end.
+        /// Called by motions with implicit stages.</summary>
+        public virtual void BeginStep(RodShape shape, double dt)
+        {
+        }
+
+        /// <summary>How far a step may go: the largest share, above 0 and at most 1, of <paramref name="scale"/> times
+        /// <paramref name="direction"/> that leaves the term's energy finite on the whole way, which is that of
+        /// <see cref="RodStep.Apply"/>.</summary>
+        public virtual double LargestShare(RodShape shape, RodVector[] direction, double scale)
+        {
+            return 1.0;
+        }
+
+        /// <summary>Writes into a snapshot, or takes over from one, what the term keeps from step to step.</summary>
+        public virtual void Exchange(Snapshot snapshot)
         {
         }
     }

@@ -14,7 +14,6 @@ namespace Guidewire.Core
         private readonly double[] _length;   // m
         private readonly double[] _shear;    // GA, N
         private readonly double[] _stretch;  // EA, N
-        private double _largestSquare;       // N^2
 
         /// <summary>The energy of a rod with these elements.</summary>
         public StretchEnergy(MaterialRod rod)
@@ -36,9 +35,6 @@ namespace Guidewire.Core
             return sum;
         }
 
-        /// <summary>The largest force in an element at the last gradient, N.</summary>
-        public double LargestForce => Math.Sqrt(_largestSquare);
-
         /// <summary>n = K Gamma of element j along its own axes, N, and p, the element's chord over its
         /// length.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -50,10 +46,11 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override void AddGradient(RodShape shape, RodVector[] gradient, int from, int to)
+        public override void AddGradient(RodShape shape, RodVector[] gradient, int from, int to,
+            ref GradientMeasures measured)
         {
             int end = to < _length.Length ? to : _length.Length;
-            double largest = from == 0 ? 0.0 : _largestSquare;
+            double largest = 0.0;
             for (int j = from; j < end; j++)
             {
                 Vector3d n = Stress(shape, j, out Vector3d p);
@@ -61,7 +58,7 @@ namespace Guidewire.Core
                 Vector3d force = Quaterniond.Rotate(shape.Q[j], n);
                 AddForce(ref gradient[j], ref gradient[j + 1], force, n, p, _length[j]);
             }
-            _largestSquare = largest;
+            measured.IncludeForce(Math.Sqrt(largest));
         }
 
         /// <inheritdoc/>

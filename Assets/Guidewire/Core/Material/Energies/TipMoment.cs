@@ -30,6 +30,9 @@ namespace Guidewire.Core
             Moment = Quaterniond.Rotate(RotationVector.Exp(0.5 * rod.Length[last] * curvature), moment);
         }
 
+        /// <summary>True of no couple.</summary>
+        public override bool HasPotential => Moment == Vector3d.Zero;
+
         /// <inheritdoc/>
         public override void Anchor(RodShape shape)
         {
@@ -44,7 +47,8 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override void AddGradient(RodShape shape, RodVector[] gradient, int from, int to)
+        public override void AddGradient(RodShape shape, RodVector[] gradient, int from, int to,
+            ref GradientMeasures measured)
         {
             int last = shape.ElementCount - 1;
             if (from <= last && last < to)
@@ -58,7 +62,8 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void AddBlocks(RodShape shape, RodBlock[] blocks, RodVector[] gradient, int from, int to)
         {
-            AddGradient(shape, gradient, from, to);
+            var measured = default(GradientMeasures);
+            AddGradient(shape, gradient, from, to, ref measured);
         }
     }
 }

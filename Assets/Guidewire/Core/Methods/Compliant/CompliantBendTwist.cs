@@ -31,6 +31,12 @@ namespace Guidewire.Core
             Array.Clear(_multiplier, 0, _multiplier.Length);
         }
 
+        /// <summary>Writes or takes over the multipliers.</summary>
+        public void Exchange(Snapshot snapshot)
+        {
+            snapshot.Exchange(_multiplier);
+        }
+
         /// <summary>Adds the motion that the multipliers make in this shape.</summary>
         /// <param name="shape">The wire, not moved.</param>
         /// <param name="turn">Turn of each element along its own axes.</param>

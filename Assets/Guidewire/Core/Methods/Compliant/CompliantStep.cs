@@ -1,4 +1,5 @@
 using System;
+using System.Globalization;
 
 namespace Guidewire.Core
 {
@@ -25,13 +26,14 @@ namespace Guidewire.Core
     /// How far the sweeps were from convergence is measured in substeps 1, 2, 4, 8 .. and the last of each step, each
     /// for the time since the one before, because what a step changes is over in its first substeps; see <see
     /// cref="ConvergenceRecord"/>.</remarks>
-    internal sealed class CompliantStep : ITimeStep, IReportingStep, IWatchedStep
+    internal sealed class CompliantStep : TimeStepper
     {
         private const double LargestStart = 0.1;    // radians, or of an element's length
 
         private readonly MaterialScene _scene;
         private readonly MaterialDrive _drive;
-        private readonly DeadLoads _loads;
+        private readonly RodTerms _terms;
+        private readonly RodVector[] _loadGradient;
         private readonly NodalInertia _inertia;
         private readonly CompliantStretch _stretch;
         private readonly CompliantBendTwist _bendTwist;
@@ -42,25 +44,26 @@ namespace Guidewire.Core
         private readonly Vector3d[] _shift;
         private readonly Vector3d[] _turn;
         private readonly double _timeStep;
-        private readonly double _kept;
+        private readonly double _remainingVelocity;
         private readonly int _substeps;
         private readonly int _sweeps;
         private readonly DirectionError _directions;
         private readonly ConvergenceRecord _convergence;
         private readonly HeldEnds _ends;
         private readonly EnergyWatch _energy;
+        private readonly SolverReport _report;
         private Vector3d _predictedTip;
         private double _time;
 
         /// <summary>A step for this scene.</summary>
-        /// <param name="sweeps">m, sweeps a substep.</param>
-        public CompliantStep(MaterialScene scene, RodStatics statics, MaterialDrive drive,
-            SimulationParameters parameters, int sweeps, SolverReport report)
+        public CompliantStep(MaterialScene scene, RodTerms terms, MaterialDrive drive, MethodParameters method,
+            SolverReport report)
         {
             _scene = scene;
             _drive = drive;
-            _loads = new DeadLoads(scene.Rod.ElementCount);
-            _inertia = new NodalInertia(scene.Rod, scene.Supports);
+            _terms = terms;
+            _loadGradient = new RodVector[scene.Rod.ElementCount + 2];
+            _inertia = new NodalInertia(terms.Mass, terms.Supports);
             _stretch = new CompliantStretch(scene.Rod, _inertia.InverseMass, _inertia.InverseInertia);
             _bendTwist = new CompliantBendTwist(scene.Rod, scene.Supports, _inertia.InverseInertia);
             _shape = scene.Shape;
@@ -69,34 +72,22 @@ namespace Guidewire.Core
             _turn = new Vector3d[_shape.ElementCount];
             _velocities = scene.Velocities;
             _spins = scene.Spins;
-            _timeStep = parameters.TimeStep;
-            _kept = Math.Pow(1.0 - parameters.Damping, 1.0 / parameters.Material.Substeps);
-            _substeps = parameters.Material.Substeps;
-            _sweeps = sweeps;
+            _timeStep = method.TimeStep;
+            _remainingVelocity = Math.Pow(1.0 - method.Damping, 1.0 / method.Substeps);
+            _substeps = method.Substeps;
+            _sweeps = method.ConstraintSolverSteps;
             _directions = new DirectionError(scene, _inertia, _stretch, _bendTwist);
             _convergence = new ConvergenceRecord(scene.Rod.TotalLength);
-            _ends = new HeldEnds(scene, statics);
-            _energy = new EnergyWatch(scene, statics, _inertia, _ends, EnergyWatch.Room);
-            Report = report;
+            _ends = new HeldEnds(terms, scene.Schedule);
+            _energy = new EnergyWatch(scene, terms, _inertia, _ends, EnergyWatch.Allowance);
+            _report = report;
         }
 
         /// <inheritdoc/>
-        public double PredictionError { get; private set; }
+        public override string? AccuracyWarning => _convergence.Warning;
 
         /// <inheritdoc/>
-        public string? Failure => null;
-
-        /// <inheritdoc/>
-        public string? Divergence { get; private set; }
-
-        /// <inheritdoc/>
-        public string? Doubt => _convergence.Doubt;
-
-        /// <inheritdoc/>
-        public SolverReport Report { get; }
-
-        /// <inheritdoc/>
-        public void Advance(RodState state)
+        public override void Advance(RodState state)
         {
             double h = _timeStep / _substeps;
             var residual = default(SweepResidual);
@@ -114,7 +105,7 @@ namespace Guidewire.Core
             }
             _time += _timeStep;
             _convergence.Add(residual);
-            Divergence = _energy.Judge(_loads);
+            Divergence = _energy.Blowup();
             if (Divergence != null)
             {
                 Divergence += "; raise substeps or constraintSolverSteps";
@@ -125,22 +116,55 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public void CompleteReport()
+        public override SolverReport? Report()
         {
-            Report.Method = "Gauss-Seidel with compliance; each substep is one of implicit Euler where it has"
+            _report.Method = "Gauss-Seidel with compliance; each substep is one of implicit Euler where it has"
                 + " converged";
-            Report.LargestError = _convergence.LargestError;
-            Report.StepsNotConverged = _convergence.StepsAbove;
+            _report.LargestError = _convergence.LargestError;
+            _report.StepsNotConverged = _convergence.StepsAbove;
+            return _report;
+        }
+
+        /// <inheritdoc/>
+        public override void Exchange(Snapshot snapshot)
+        {
+            MaterialSnapshot.Exchange(snapshot, _scene.Schedule, _shape, _velocities, _spins, ref _time);
+            _ends.ExchangeTurns(snapshot);
+            if (!snapshot.Section("xpbd", ExchangeOwn))
+            {
+                _energy.Start();
+            }
+        }
+
+        private void ExchangeOwn(Snapshot snapshot)
+        {
+            _terms.Exchange(snapshot);
+            _energy.Exchange(snapshot);
+            _ends.ExchangeWork(snapshot);
+            _convergence.Exchange(snapshot);
+            _report.Exchange(snapshot);
+            // A multiplier is a force times h^2.
+            snapshot.Section((_timeStep / _substeps).ToString("R", CultureInfo.InvariantCulture), ExchangeMultipliers);
+        }
+
+        private void ExchangeMultipliers(Snapshot snapshot)
+        {
+            _stretch.Exchange(snapshot);
+            _bendTwist.Exchange(snapshot);
         }
 
         private void Substep(double time, double h, bool isMeasured)
         {
             int last = _shape.ElementCount;
             _old.CopyFrom(_shape);
-            _scene.Schedule.SetLoads(_scene.Rod, _scene.Supports.Mass, _loads, time);
+            _terms.SetTime(_scene.Schedule, time);
+            Array.Clear(_loadGradient, 0, _loadGradient.Length);
+            _terms.AddLoadGradient(_shape, _loadGradient);
             for (int i = 0; i <= last; i++)
             {
-                _velocities[i] = _kept * _velocities[i] + (h * _inertia.InverseMass[i]) * _loads.Force[i];
+                ref RodVector g = ref _loadGradient[i];
+                _velocities[i] = _remainingVelocity * _velocities[i]
+                    - (h * _inertia.InverseMass[i]) * new Vector3d(g.X1, g.X2, g.X3);
                 if (_inertia.InverseMass[i] > 0.0)
                 {
                     _shape.X[i] += h * _velocities[i];
@@ -148,7 +172,10 @@ namespace Guidewire.Core
             }
             for (int j = 0; j < last; j++)
             {
-                _spins[j] = _kept * _spins[j];
+                ref RodVector g = ref _loadGradient[j];
+                Vector3d inverse = _inertia.InverseInertia[j];
+                _spins[j] = _remainingVelocity * _spins[j]
+                    - h * new Vector3d(inverse.X * g.T1, inverse.Y * g.T2, inverse.Z * g.T3);
                 _shape.Q[j] = Quaterniond.Normalize(_shape.Q[j] * RotationVector.Exp(h * _spins[j]));
             }
             _ends.Place(_shape, time);

@@ -31,13 +31,13 @@ namespace Guidewire.Core
         private readonly long[] _classes = new long[Kinds * ClassCount];
         private readonly double[] _largest = new double[Kinds];
         private readonly double[] _peak = new double[Kinds];
-        private readonly double _length;
+        private readonly double _totalLength;
         private long _steps;
 
         /// <param name="length">L, m.</param>
         public ConvergenceRecord(double length)
         {
-            _length = length;
+            _totalLength = length;
         }
 
         /// <summary>Largest residual of the run over its largest strain, of the kind for which it is
@@ -65,7 +65,7 @@ namespace Guidewire.Core
 
         /// <summary>How many steps had not converged and what is wrong by how much, in one line; null where all
         /// have.</summary>
-        public string? Doubt
+        public string? Warning
         {
             get
             {
@@ -80,10 +80,19 @@ namespace Guidewire.Core
         public void Add(in SweepResidual step)
         {
             _steps++;
-            double perLength = 1.0 / _length;
+            double perLength = 1.0 / _totalLength;
             Add(Bend, step.Bend, step.BendStrain);
             Add(Twist, step.Twist, step.TwistStrain);
             Add(Stretch, perLength * step.Stretch, perLength * step.StretchStrain + 0.5 * step.BendStrain);
+        }
+
+        /// <summary>Writes or takes over the steps so far.</summary>
+        public void Exchange(Snapshot snapshot)
+        {
+            snapshot.Exchange(_classes);
+            snapshot.Exchange(_largest);
+            snapshot.Exchange(_peak);
+            snapshot.Exchange(ref _steps);
         }
 
         private void Add(int kind, double residual, double strain)

@@ -53,8 +53,8 @@ namespace Guidewire.Core
         /// <param name="orientations">The elements' new orientations.</param>
         /// <param name="start">New place of node 0.</param>
         /// <param name="end">Where the last node is held, if it is.</param>
-        public static void Lay(RodSupports supports, RodShape shape, Quaterniond[] orientations, in Vector3d start,
-            in Vector3d end)
+        public static void PlaceElements(RodSupports supports, RodShape shape, Quaterniond[] orientations,
+            in Vector3d start, in Vector3d end)
         {
             Vector3d x = start;
             Vector3d old = shape.X[0];

@@ -7,10 +7,10 @@ namespace Guidewire.Core
     /// other half (position Verlet, order 2), on lumped masses and the wire's own rotary inertia.</summary>
     /// <remarks>Stable below 2/omega_max. The largest frequency is that of elements turning against their shear,
     /// sqrt(GA/(rho I)) = 2 sqrt(G/rho)/r, however coarse the wire is.</remarks>
-    internal sealed class ExplicitStep : ITimeStep, IReportingStep, IWatchedStep, IContactStep
+    internal sealed class ExplicitStep : TimeStepper
     {
         private readonly MaterialScene _scene;
-        private readonly RodStatics _statics;
+        private readonly RodTerms _terms;
         private readonly MaterialDrive _drive;
         private readonly NodalInertia _inertia;
         private readonly RodShape _shape;
@@ -19,58 +19,48 @@ namespace Guidewire.Core
         private readonly RodVector[] _gradient;
         private readonly double _timeStep;
         private readonly int _substeps;
-        private readonly double _kept;
+        private readonly double _remainingVelocity;
         private readonly HeldEnds _ends;
         private readonly EnergyWatch _energy;
         private readonly double _stable;    // s
+        private readonly SolverReport _report;
         private double _time;
 
         /// <summary>A step for this scene.</summary>
         /// <param name="record">Takes the support's force after each step, or null.</param>
-        public ExplicitStep(MaterialScene scene, RodStatics statics, MaterialDrive drive,
-            SimulationParameters parameters, SolverReport report, ContactRecord? record)
+        public ExplicitStep(MaterialScene scene, RodTerms terms, MaterialDrive drive, MethodParameters method,
+            SolverReport report, ContactRecord? record)
         {
             _scene = scene;
-            _statics = statics;
+            _terms = terms;
             _drive = drive;
-            _inertia = new NodalInertia(scene.Rod, scene.Supports);
+            _inertia = new NodalInertia(terms.Mass, terms.Supports);
             _shape = scene.Shape;
             _velocities = scene.Velocities;
             _spins = scene.Spins;
             _gradient = new RodVector[_shape.ElementCount + 2];
-            _timeStep = parameters.TimeStep;
-            _substeps = parameters.Material.Substeps;
-            _kept = Math.Pow(1.0 - parameters.Damping, 1.0 / _substeps);
-            _ends = new HeldEnds(scene, statics);
+            _timeStep = method.TimeStep;
+            _substeps = method.Substeps;
+            _remainingVelocity = Math.Pow(1.0 - method.Damping, 1.0 / _substeps);
+            _ends = new HeldEnds(terms, scene.Schedule);
             _stable = StableTimeStep(scene.Rod, scene.Supports);
             double part = _timeStep / _substeps / _stable;
-            double room = part < 1.0 ? Math.Max(EnergyWatch.Room, 2.0 / (1.0 - part * part)) : EnergyWatch.Room;
-            _energy = new EnergyWatch(scene, statics, _inertia, _ends, room);
-            Report = report;
-            Record = record;
+            double allowance = part < 1.0
+                ? Math.Max(EnergyWatch.Allowance, 2.0 / (1.0 - part * part)) : EnergyWatch.Allowance;
+            _energy = new EnergyWatch(scene, terms, _inertia, _ends, allowance);
+            _report = report;
+            Contacts = record;
         }
 
         /// <inheritdoc/>
-        public double PredictionError { get; private set; }
-
-        /// <inheritdoc/>
-        public string? Failure => null;
-
-        /// <inheritdoc/>
-        public string? Divergence { get; private set; }
-
-        /// <inheritdoc/>
-        public string? Doubt => _timeStep / _substeps <= _stable ? null
+        public override string? AccuracyWarning => _timeStep / _substeps <= _stable ? null
             : Text("the substep of {0:G4} s is above {1:G4} s, where explicit steps become unstable; raise substeps");
 
         /// <inheritdoc/>
-        public SolverReport Report { get; }
+        public override ContactRecord? Contacts { get; }
 
         /// <inheritdoc/>
-        public ContactRecord? Record { get; }
-
-        /// <inheritdoc/>
-        public void Advance(RodState state)
+        public override void Advance(RodState state)
         {
             int last = _shape.ElementCount;
             double h = _timeStep / _substeps;
@@ -86,24 +76,45 @@ namespace Guidewire.Core
                 Drift(0.5 * h, start + h);
             }
             _time += _timeStep;
-            Divergence = _energy.Judge(_statics.Loads);
+            Divergence = _energy.Blowup();
             if (Divergence != null)
             {
                 Divergence += Text(": a substep of {0:G4} s, in its rest shape stable below {1:G4} s; raise substeps");
                 return;
             }
             PredictionError = Vector3d.Distance(free, _shape.X[last]) / _scene.Metres;
-            if (Record != null)
+            if (Contacts != null)
             {
-                Record.Reaction = reaction / _substeps;
+                Contacts.Reaction = reaction / _substeps;
             }
             _scene.Write(state, _shape, _velocities, _spins);
         }
 
         /// <inheritdoc/>
-        public void CompleteReport()
+        public override SolverReport? Report()
         {
-            Report.Method = Text("explicit; stable below a substep of {1:G4} s");
+            _report.Method = Text("explicit; stable below a substep of {1:G4} s");
+            _report.StableSubstep = _stable;
+            return _report;
+        }
+
+        /// <inheritdoc/>
+        public override void Exchange(Snapshot snapshot)
+        {
+            MaterialSnapshot.Exchange(snapshot, _scene.Schedule, _shape, _velocities, _spins, ref _time);
+            _ends.ExchangeTurns(snapshot);
+            if (!snapshot.Section("explicit", ExchangeOwn))
+            {
+                _energy.Start();
+            }
+        }
+
+        private void ExchangeOwn(Snapshot snapshot)
+        {
+            _terms.Exchange(snapshot);
+            _energy.Exchange(snapshot);
+            _ends.ExchangeWork(snapshot);
+            _report.Exchange(snapshot);
         }
 
         /// <summary>2/omega_max of the wire in its rest shape, s; the true limit of an even wire is no
@@ -162,24 +173,21 @@ namespace Guidewire.Core
         private void Kick(double h, double time)
         {
             int n = _spins.Length;
-            _scene.Schedule.SetLoads(_scene.Rod, _scene.Supports.Mass, _statics.Loads, time);
+            _terms.SetTime(_scene.Schedule, time);
             Array.Clear(_gradient, 0, _gradient.Length);
-            _statics.Stretch.AddGradient(_shape, _gradient, 0, n + 1);
-            _statics.Bending.AddGradient(_shape, _gradient, 0, n + 1);
-            _statics.Loads.AddGradient(_shape, _gradient, 0, n + 1);
-            _statics.Moment.AddGradient(_shape, _gradient, 0, n + 1);
+            _terms.AddGradient(_shape, _gradient);
             for (int i = 0; i <= n; i++)
             {
                 ref RodVector g = ref _gradient[i];
-                _velocities[i] = _kept * _velocities[i]
+                _velocities[i] = _remainingVelocity * _velocities[i]
                     - (h * _inertia.InverseMass[i]) * new Vector3d(g.X1, g.X2, g.X3);
                 if (i < n)
                 {
                     Vector3d w = _spins[i];
                     Vector3d inverse = _inertia.InverseInertia[i];
                     // I' = diag(1, 1, 2): w x I w over I is (w2 w3, -w1 w3, 0).
-                    _spins[i] = _kept * w - h * new Vector3d(inverse.X * g.T1 + w.Y * w.Z, inverse.Y * g.T2 - w.X * w.Z,
-                        inverse.Z * g.T3);
+                    _spins[i] = _remainingVelocity * w - h * new Vector3d(inverse.X * g.T1 + w.Y * w.Z,
+                        inverse.Y * g.T2 - w.X * w.Z, inverse.Z * g.T3);
                 }
             }
         }

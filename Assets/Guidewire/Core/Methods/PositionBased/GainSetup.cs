@@ -2,91 +2,126 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Builds the step of a run with gains, once, from its parameters.</summary>
+    /// <summary>Builds a run with gains, once, from its parameters.</summary>
     internal static class GainSetup
     {
-        /// <summary>Sets the state to the start, sphere 0 displaced, and returns the step.</summary>
-        /// <exception cref="ArgumentException">A drive that is not known.</exception>
-        public static ITimeStep Create(SimulationParameters parameters, RodState state)
+        /// <summary>The wire at its start, sphere 0 displaced, and its stepper.</summary>
+        /// <exception cref="ArgumentException">A wire that starts outside the vessel.</exception>
+        public static MethodStart Build(SimulationParameters parameters, Scene scene)
         {
-            Vector3d origin = state.Positions[0];
-            IDriveMotion? drive = CreateDrive(parameters, state);
-            bool euler = parameters.Integrator == Integrator.Euler
-                || parameters.Integrator == Integrator.EulerOrientationVerlet;
-            IPositionPrediction prediction = euler
-                ? (IPositionPrediction)new EulerPrediction(parameters.Damping, parameters.Gravity)
-                : new VerletPrediction(parameters.Damping, parameters.Gravity);
-            bool orientationVerlet = parameters.Integrator == Integrator.OrientationVerlet
-                || parameters.Integrator == Integrator.EulerOrientationVerlet;
-            IOrientationPrediction orientationPrediction = orientationVerlet
-                ? (IOrientationPrediction)new OrientationVerletPrediction(parameters.NumberRodElements)
-                : new OrientationEulerPrediction();
-            IContactRule? rule = parameters.Walls.Length == 0 ? null
-                : parameters.ElementContact == ElementContact.Seed ? new SeedContactRule(state, parameters)
-                : (IContactRule)new ContactRule(state, parameters);
-            var scalar = new ScalarSweeps(new StretchConstraint(state, parameters.StretchStiffness),
-                new BendTwistConstraint(state, parameters.BendStiffness), parameters.SweepOrder);
-            int iterations = parameters.ConstraintSolverSteps;
-            ISweeps fastest = SweepChoice.Fastest(scalar, iterations);
-            var solver = new GaussSeidelSolver(iterations, scalar, fastest, rule);
-            if (rule == null)
+            string? problem = WireStart.FindProblem(scene);
+            if (problem != null)
             {
-                return new PositionBasedStep(parameters.TimeStep, prediction, orientationPrediction, drive, solver);
+                throw new ArgumentException(problem);
             }
-            var step = new ContactStep(state, parameters, prediction, orientationPrediction, drive, solver, rule);
-            if (parameters.Drive == Drive.Hold)
+            var state = new RodState(parameters.Scene.NumberRodElements, parameters.Scene.GuidewireLength,
+                parameters.Gains.TotalMass, parameters.Scene.GuidewireOffset);
+            state.Load(scene);
+            Vector3d asked = state.Positions[0] + scene.Displacement;
+            IDriveMotion? drive = CreateDrive(parameters, scene, state);
+            IPositionPrediction prediction = CreatePrediction(parameters);
+            IOrientationPrediction orientationPrediction = CreateOrientationPrediction(parameters);
+            IConstraintSolver solver = CreateSolver(parameters, scene, state, out ContactRecord? contacts);
+            if (contacts != null && parameters.Drive.Kind == Drive.Hold)
             {
-                Vector3d asked = origin + parameters.Displacement * Direction(parameters);
-                step.Record.DriveAsked = Math.Abs(parameters.Displacement);
-                step.Record.DriveShortfall = Vector3d.Distance(state.Positions[0], asked);
+                contacts.DriveAsked = Math.Abs(parameters.Drive.Displacement);
+                contacts.DriveShortfall = Vector3d.Distance(state.Positions[0], asked);
             }
-            return step;
+            return new MethodStart(state, new PositionBasedStep(parameters.Method.TimeStep, prediction,
+                orientationPrediction, drive, solver, contacts));
         }
 
-        private static IDriveMotion? CreateDrive(SimulationParameters parameters, RodState state)
+        private static IConstraintSolver CreateSolver(SimulationParameters parameters, Scene scene, RodState state,
+            out ContactRecord? record)
+        {
+            MethodParameters method = parameters.Method;
+            GainParameters gains = parameters.Gains;
+            ContactParameters contact = parameters.Contact;
+            record = null;
+            int iterations = method.ConstraintSolverSteps;
+            var scalar = new ScalarSweeps(new StretchConstraint(state, gains.StretchStiffness),
+                new BendTwistConstraint(state, gains.BendStiffness), method.SweepOrder);
+            ISweeps fastest = SweepChoice.Fastest(scalar, iterations);
+            if (scene.Walls.Length == 0)
+            {
+                return new GaussSeidelSolver(iterations, scalar, fastest, null);
+            }
+            int walls = scene.Walls.Length;
+            double radius = contact.SphereRadius;
+            double reach = radius + contact.CollisionMargin;
+            bool asPublished = contact.ElementContact == ElementContact.Seed;
+            IContactSearch search = asPublished
+                ? (IContactSearch)new SeedContactSearch(scene.Walls, state.ElementCount, radius)
+                : new ContactSearch(scene.Walls, state.ElementCount, state.ElementLength, radius, reach,
+                    contact.ElementContact == ElementContact.Barycentric);
+            IContactResponse response = asPublished
+                ? (IContactResponse)new SeedContactResponse(state, walls, radius, reach, contact.CollisionStiffness)
+                : new ContactResponse(state, walls, radius, reach, contact.CollisionStiffness);
+            var sweeps = new GaussSeidelSolver(iterations, scalar, fastest, response);
+            record = new ContactRecord(state.SphereCount);
+            return new ContactSolver(state, method.TimeStep, sweeps, search, response, record);
+        }
+
+        private static IPositionPrediction CreatePrediction(SimulationParameters parameters)
+        {
+            bool euler = parameters.Method.Integrator == Integrator.Euler
+                || parameters.Method.Integrator == Integrator.EulerOrientationVerlet;
+            return euler
+                ? (IPositionPrediction)new EulerPrediction(parameters.Method.Damping, parameters.Scene.Gravity)
+                : new VerletPrediction(parameters.Method.Damping, parameters.Scene.Gravity);
+        }
+
+        private static IOrientationPrediction CreateOrientationPrediction(SimulationParameters parameters)
+        {
+            bool verlet = parameters.Method.Integrator == Integrator.OrientationVerlet
+                || parameters.Method.Integrator == Integrator.EulerOrientationVerlet;
+            return verlet ? (IOrientationPrediction)new OrientationVerletPrediction(parameters.Scene.NumberRodElements)
+                : new OrientationEulerPrediction();
+        }
+
+        private static IDriveMotion? CreateDrive(SimulationParameters parameters, Scene scene, RodState state)
         {
             IDriveMotion? drive = null;
-            switch (parameters.Drive)
+            bool isFree = parameters.Drive.Kind == Drive.Force;
+            if (isFree)
             {
-                case Drive.Hold:
-                    state.InverseMasses[0] = 0.0;
-                    Vector3d asked = state.Positions[0] + parameters.Displacement * Direction(parameters);
-                    state.Place(0, WireStart.Displaced(parameters, state, asked));
-                    break;
-                case Drive.Displace:
-                    state.InverseMasses[0] = 0.0;
-                    drive = new FixedAxisDrive(Direction(parameters), parameters.DisplacementPerStep);
-                    break;
-                case Drive.Push:
-                    state.InverseMasses[0] = 0.0;
-                    drive = new PushDrive(parameters.DisplacementPerStep);
-                    break;
-                case Drive.Force:
-                    state.Forces[0] = parameters.ExternalForce;
-                    break;
-                default:
-                    throw new ArgumentException("unknown drive " + parameters.Drive);
+                state.Forces[0] = scene.Schedule.ProximalForce;
             }
-            if (parameters.Material.ProximalEnd == ProximalEnd.Clamped && parameters.Drive != Drive.Force)
+            else
+            {
+                state.InverseMasses[0] = 0.0;
+            }
+            if (scene.Drive != null)
+            {
+                drive = new ProximalDrive(scene.Drive, parameters.Drive.DisplacementPerStep);
+            }
+            else if (parameters.Drive.Kind == Drive.Hold)
+            {
+                Vector3d asked = state.Positions[0] + scene.Displacement;
+                state.Place(0, Reachable(scene.Walls, parameters.Contact.SphereRadius, state, asked));
+            }
+            if (parameters.Scene.ProximalEnd == ProximalEnd.Clamped && !isFree)
             {
                 HoldFrame(state, 0);
             }
-            if (parameters.TwistPerStep != 0.0)
+            if (parameters.Drive.TwistPerStep != 0.0)
             {
                 state.OrientationWeights[0] = 0.0;
-                drive = new TwistDrive(drive, parameters.TwistPerStep);
+                drive = new TwistDrive(drive, parameters.Drive.TwistPerStep);
             }
-            if (parameters.Steering != null)
+            if (scene.Steering != null)
             {
                 state.InverseMasses[0] = 0.0;
                 state.OrientationWeights[0] = 0.0;
-                drive = new SteeredDrive(parameters.Steering);
+                drive = new SteeredDrive(scene.Steering);
             }
-            if (parameters.Material.DistalEnd == DistalEnd.Clamped)
+            if (parameters.Scene.DistalEnd == DistalEnd.Clamped)
             {
-                state.InverseMasses[state.ElementCount] = 0.0;
-                HoldFrame(state, state.ElementCount - 1);
-                drive = new DistalClampDrive(drive, state, parameters);
+                int last = state.ElementCount - 1;
+                state.InverseMasses[last + 1] = 0.0;
+                HoldFrame(state, last);
+                scene.Schedule.DistalFrame = state.Orientations[last];
+                drive = new DistalClampDrive(drive, scene.Schedule, parameters.Method.TimeStep);
             }
             return drive;
         }
@@ -98,9 +133,20 @@ namespace Guidewire.Core
             state.AngularVelocities[element] = Vector3d.Zero;
         }
 
-        private static Vector3d Direction(SimulationParameters parameters)
+        // Sphere 0 after its first displacement: as far as the walls let it and its element go.
+        private static Vector3d Reachable(ContactShape[] walls, double radius, RodState state, in Vector3d asked)
         {
-            return Vector3d.Normalize(parameters.DisplacementDirection);
+            Vector3d from = state.Positions[0];
+            Vector3d next = state.Positions[1];
+            double clearance = SweptSearch.ClearanceFor(radius);
+            double part = 1.0;
+            foreach (ContactShape wall in walls)
+            {
+                double own = wall.Sweep(from, from, asked, asked, clearance, out _);
+                double shared = wall.Sweep(from, next, asked, next, clearance, out _);
+                part = Math.Min(part, Math.Min(own, shared));
+            }
+            return part >= 1.0 ? asked : Vector3d.Lerp(from, asked, part);
         }
     }
 }

@@ -8,13 +8,13 @@ namespace Guidewire.Core
         private readonly int _iterations;
         private readonly ScalarSweeps _scalar;
         private readonly ISweeps _sweeps;
-        private readonly IContactRule? _contacts;
+        private readonly IContactResponse? _contacts;
 
         /// <param name="iterations">m, 0 or more.</param>
         /// <param name="scalar">What does them where the others cannot take the contacts.</param>
         /// <param name="sweeps">What does the iterations, bit for bit the same.</param>
         /// <param name="contacts">Contacts, or null in a scene without walls.</param>
-        public GaussSeidelSolver(int iterations, ScalarSweeps scalar, ISweeps sweeps, IContactRule? contacts)
+        public GaussSeidelSolver(int iterations, ScalarSweeps scalar, ISweeps sweeps, IContactResponse? contacts)
         {
             _iterations = iterations;
             _scalar = scalar;
@@ -29,6 +29,11 @@ namespace Guidewire.Core
             {
                 _scalar.Iterate(state.PredictedPositions, state.PredictedOrientations, _iterations, _contacts);
             }
+        }
+
+        /// <inheritdoc/>
+        public void Exchange(Snapshot snapshot)
+        {
         }
     }
 }

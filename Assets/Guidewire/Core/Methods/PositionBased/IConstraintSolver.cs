@@ -6,5 +6,8 @@ namespace Guidewire.Core
         /// <summary>Corrects <see cref="RodState.PredictedPositions"/> and
         /// <see cref="RodState.PredictedOrientations"/> in place.</summary>
         void Solve(RodState state);
+
+        /// <summary>Writes into a snapshot, or takes over from one, what it keeps from step to step.</summary>
+        void Exchange(Snapshot snapshot);
     }
 }

@@ -2,7 +2,7 @@ namespace Guidewire.Core
 {
     /// <summary>One step of position-and-orientation-based dynamics (thesis 2.1.3): prediction, the drive's motion,
     /// constraint solver, velocity update.</summary>
-    internal sealed class PositionBasedStep : ITimeStep
+    internal sealed class PositionBasedStep : TimeStepper
     {
         private readonly double _timeStep;
         private readonly IPositionPrediction _prediction;
@@ -15,24 +15,24 @@ namespace Guidewire.Core
         /// <param name="orientationPrediction">How orientations are predicted.</param>
         /// <param name="drive">What moves sphere 0 each step, or null where nothing does.</param>
         /// <param name="solver">What corrects the prediction.</param>
+        /// <param name="contacts">What the solver notes of its contacts, or null in a scene without walls.</param>
         public PositionBasedStep(double timeStep, IPositionPrediction prediction,
-            IOrientationPrediction orientationPrediction, IDriveMotion? drive, IConstraintSolver solver)
+            IOrientationPrediction orientationPrediction, IDriveMotion? drive, IConstraintSolver solver,
+            ContactRecord? contacts)
         {
             _timeStep = timeStep;
             _prediction = prediction;
             _orientationPrediction = orientationPrediction;
             _drive = drive;
             _solver = solver;
+            Contacts = contacts;
         }
 
         /// <inheritdoc/>
-        public double PredictionError { get; private set; }
+        public override ContactRecord? Contacts { get; }
 
         /// <inheritdoc/>
-        public string? Failure => null;
-
-        /// <inheritdoc/>
-        public void Advance(RodState state)
+        public override void Advance(RodState state)
         {
             _prediction.Predict(state, _timeStep);
             _orientationPrediction.Predict(state, _timeStep);
@@ -41,6 +41,16 @@ namespace Guidewire.Core
             _solver.Solve(state);
             PredictionError = Vector3d.Distance(predictedTip, state.PredictedPositions[state.ElementCount]);
             VelocityUpdate.Apply(state, _timeStep);
+        }
+
+        /// <inheritdoc/>
+        public override void Exchange(Snapshot snapshot)
+        {
+            ExchangePredictionError(snapshot);
+            _drive?.Exchange(snapshot);
+            _solver.Exchange(snapshot);
+            _prediction.Exchange(snapshot, _timeStep);
+            _orientationPrediction.Exchange(snapshot, _timeStep);
         }
     }
 }

@@ -15,18 +15,10 @@ namespace Guidewire.Core.Tests
         private const double GradientTolerance = 1e-6;
         private const double NearestToAWall = 1e-3;
 
-        private static readonly string[] Names =
-        {
-            "plane", "tube", "wavy tube", "cube", "bumpy ball", "open tube", "sphere", "capsule", "box", "hull",
-        };
-
-        private static readonly double[] StraightRadii = { 0.8, 0.8 };
-        private static readonly double[] WavyRadii = { 0.5, 0.7, 0.4, 0.6 };
-
-        [TestCaseSource(nameof(Names))]
+        [TestCaseSource(typeof(TestShapes), nameof(TestShapes.Names))]
         public void Normal_IsTheGradientOfTheDistance(string name)
         {
-            ContactShape shape = Make(name);
+            ContactShape shape = TestShapes.Make(name);
             var random = new RandomGeometry(31);
             int cases = RandomGeometry.Cases(20_000);
             int tested = 0;
@@ -53,7 +45,7 @@ namespace Guidewire.Core.Tests
         public void Inside_AgreesWithTheWindingNumber(string name)
         {
             TestMeshes mesh = name == "cube" ? TestMeshes.Cube() : TestMeshes.Ball(9, 0.4);
-            ContactShape shape = Make(name);
+            ContactShape shape = TestShapes.Make(name);
             var random = new RandomGeometry(32);
             for (int i = 0; i < RandomGeometry.Cases(20_000); i++)
             {
@@ -69,7 +61,7 @@ namespace Guidewire.Core.Tests
         {
             // Points displaced from corners and edges of a dented ball, where a plain face normal gives the wrong side.
             TestMeshes mesh = TestMeshes.Ball(9, 0.4);
-            ContactShape shape = Make("bumpy ball");
+            ContactShape shape = TestShapes.Make("bumpy ball");
             var random = new RandomGeometry(33);
             Vector3d[] corners = mesh.Corners;
             for (int i = 0; i < RandomGeometry.Cases(20_000); i++)
@@ -82,10 +74,10 @@ namespace Guidewire.Core.Tests
             }
         }
 
-        [TestCaseSource(nameof(Names))]
+        [TestCaseSource(typeof(TestShapes), nameof(TestShapes.Names))]
         public void Nearest_OfASegment_IsTheSmallestDistanceOfItsPoints(string name)
         {
-            ContactShape shape = Make(name);
+            ContactShape shape = TestShapes.Make(name);
             var random = new RandomGeometry(34);
             for (int i = 0; i < RandomGeometry.Cases(3_000); i++)
             {
@@ -108,11 +100,11 @@ namespace Guidewire.Core.Tests
             }
         }
 
-        [TestCaseSource(nameof(Names))]
+        [TestCaseSource(typeof(TestShapes), nameof(TestShapes.Names))]
         public void Sweep_KeepsItsDistanceUntilTheImpact_AndSeesEveryPassage(string name)
         {
             const double Clearance = 1e-3;
-            ContactShape shape = Make(name);
+            ContactShape shape = TestShapes.Make(name);
             var random = new RandomGeometry(35);
             int impacts = 0;
             int passes = 0;
@@ -153,7 +145,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void Sweep_AlongAFlatWall_IsFreeHoweverFar()
         {
-            ContactShape cube = Make("cube");
+            ContactShape cube = TestShapes.Make("cube");
             double impact = cube.Sweep(
                 new Vector3d(-0.9, 0.1, -0.999), new Vector3d(-0.8, 0.1, -0.999), new Vector3d(0.8, -0.3, -0.999),
                 new Vector3d(0.9, -0.3, -0.999), 1e-2, out _);
@@ -164,7 +156,7 @@ namespace Guidewire.Core.Tests
         public void Sweep_FindsTheMomentOfImpact()
         {
             // From z = 0 towards the wall at z = -1 with speed 4: contact at 1/4, less the clearance.
-            ContactShape cube = Make("cube");
+            ContactShape cube = TestShapes.Make("cube");
             double impact = cube.Sweep(
                 new Vector3d(0.1, 0.2, 0.0), new Vector3d(0.4, 0.2, 0.0), new Vector3d(0.1, 0.2, -4.0),
                 new Vector3d(0.4, 0.2, -4.0), 1e-3, out SurfaceContact contact);
@@ -204,49 +196,6 @@ namespace Guidewire.Core.Tests
         {
             Vector3d turned = Quaterniond.Rotate(Placement.FromEulerDegrees(degrees), from);
             Assert.That((turned - to).Length, Is.LessThan(1e-12), "Euler angles " + degrees);
-        }
-
-        private static ContactShape Make(string name)
-        {
-            var random = new RandomGeometry(36);
-            switch (name)
-            {
-                case "plane":
-                    return new PlaneShape(0.2 * random.Point(), random.Direction());
-                case "tube":
-                    return new TubeShape(
-                        new[] { -2.0 * Vector3d.UnitZ, 2.0 * Vector3d.UnitZ }, StraightRadii, true, true);
-                case "wavy tube":
-                    return new TubeShape(
-                        new[]
-                        {
-                            new Vector3d(0.0, 0.0, -1.2), new Vector3d(0.1, 0.0, -0.3), new Vector3d(0.5, 0.2, 0.4),
-                            new Vector3d(0.2, 0.8, 1.1),
-                        },
-                        WavyRadii, true, false);
-                case "cube":
-                    return new MeshShape(TestMeshes.Cube().Build());
-                case "bumpy ball":
-                    return new MeshShape(TestMeshes.Ball(9, 0.4).Build());
-                case "open tube":
-                    return new MeshShape(
-                        TestMeshes.Tube(16, 8, 6.0).Build(Vector3d.Zero, new Vector3d(0.0, 0.0, 6.0)),
-                        new Placement(new Vector3d(0.0, 0.0, -3.0), Quaterniond.Identity, new Vector3d(1.0, 1.0, 1.0)));
-                case "sphere":
-                    return ConvexObstacle.Sphere(0.2 * random.Point(), 0.4);
-                case "capsule":
-                    return ConvexObstacle.Capsule(0.5 * random.Point(), 0.5 * random.Point(), 0.3);
-                case "box":
-                    return ConvexObstacle.Box(
-                        0.2 * random.Point(), new Vector3d(0.3, 0.5, 0.7), random.Orientation());
-                default:
-                    var points = new Vector3d[20];
-                    for (int i = 0; i < points.Length; i++)
-                    {
-                        points[i] = 0.6 * random.Point();
-                    }
-                    return new ConvexObstacle(points, 0.05);
-            }
         }
 
         private static SurfaceContact At(ContactShape shape, in Vector3d x)

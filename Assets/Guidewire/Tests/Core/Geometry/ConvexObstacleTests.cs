@@ -53,7 +53,8 @@ namespace Guidewire.Core.Tests
             var random = new RandomGeometry(13);
             double worst = 0.0;
             int overlapping = 0;
-            for (int i = 0; i < RandomGeometry.Cases(100_000); i++)
+            int cases = RandomGeometry.Cases(100_000);
+            for (int i = 0; i < cases; i++)
             {
                 Vector3d centre = random.Point();
                 var half = new Vector3d(random.Number(0.05, 0.8), random.Number(0.05, 0.8), random.Number(0.05, 0.8));
@@ -73,7 +74,7 @@ namespace Guidewire.Core.Tests
                 worst = Math.Max(worst, Math.Abs(contact.Distance - expected));
                 worst = Math.Max(worst, Inconsistency(contact, s));
             }
-            Assert.That(overlapping, Is.GreaterThan(1000));
+            Assert.That(overlapping, Is.GreaterThan(cases / 10));
             Assert.That(worst, Is.LessThan(Tolerance));
         }
 

@@ -1,4 +1,5 @@
 using System;
+using System.Globalization;
 using Guidewire.Core;
 
 namespace Guidewire.Core.Tests
@@ -13,12 +14,16 @@ namespace Guidewire.Core.Tests
             _random = new Random(seed);
         }
 
-        /// <summary>How many cases to try: all of them when the environment variable GUIDEWIRE_ALL is set, a tenth
-        /// otherwise.</summary>
+        /// <summary>How many cases to try: all of them when the environment variable GUIDEWIRE_ALL is set, otherwise
+        /// one in GUIDEWIRE_ONE_IN of them, or a tenth where that is not set either.</summary>
         public static int Cases(int all)
         {
-            bool full = !string.IsNullOrEmpty(Environment.GetEnvironmentVariable("GUIDEWIRE_ALL"));
-            return full ? all : all / 10;
+            if (!string.IsNullOrEmpty(Environment.GetEnvironmentVariable("GUIDEWIRE_ALL")))
+            {
+                return all;
+            }
+            string? oneIn = Environment.GetEnvironmentVariable("GUIDEWIRE_ONE_IN");
+            return all / (string.IsNullOrEmpty(oneIn) ? 10 : int.Parse(oneIn, CultureInfo.InvariantCulture));
         }
 
         public double Number(double from, double to)

@@ -90,6 +90,27 @@ namespace Guidewire.Core.Tests
             return mesh;
         }
 
+        /// <summary>The same surface with every triangle cut in four at the middles of its edges.</summary>
+        public TestMeshes CutInFour()
+        {
+            var mesh = new TestMeshes();
+            mesh._vertices.AddRange(_vertices);
+            for (int t = 0; t < _triangles.Count; t += 3)
+            {
+                int i = _triangles[t];
+                int j = _triangles[t + 1];
+                int k = _triangles[t + 2];
+                int ij = mesh.Vertex(0.5 * (_vertices[i] + _vertices[j]));
+                int jk = mesh.Vertex(0.5 * (_vertices[j] + _vertices[k]));
+                int ki = mesh.Vertex(0.5 * (_vertices[k] + _vertices[i]));
+                mesh.Triangle(i, ij, ki);
+                mesh.Triangle(ij, j, jk);
+                mesh.Triangle(ki, jk, k);
+                mesh.Triangle(ij, jk, ki);
+            }
+            return mesh;
+        }
+
         public void Triangle(int i, int j, int k)
         {
             _triangles.Add(i);

@@ -12,8 +12,8 @@ namespace Guidewire.Core.Tests
         public void MaterialRun_ChoosesItsOwnDefaults()
         {
             RunParameters values = Load(("solver", "direct"));
-            Assert.That(values.Simulation.Integrator, Is.EqualTo(Integrator.Sdirk3));
-            Assert.That(values.Simulation.Displacement, Is.Zero);
+            Assert.That(values.Simulation.Method.Integrator, Is.EqualTo(Integrator.Sdirk3));
+            Assert.That(values.Simulation.Drive.Displacement, Is.Zero);
         }
 
         [TestCase("stretchStiffness", 0.5)]
@@ -35,8 +35,8 @@ namespace Guidewire.Core.Tests
         [Test]
         public void EndsOfTheWire_AreTakenWithGainsToo()
         {
-            MaterialParameters ends = Load(("proximalEnd", "clamped"), ("distalEnd", "clamped"),
-                ("distalRotation", 3.0), ("distalRampTime", 0.1)).Simulation.Material;
+            SceneParameters ends = Load(("proximalEnd", "clamped"), ("distalEnd", "clamped"),
+                ("distalRotation", 3.0), ("distalRampTime", 0.1)).Simulation.Scene;
             Assert.That(ends.ProximalEnd, Is.EqualTo(ProximalEnd.Clamped));
             Assert.That(ends.DistalEnd, Is.EqualTo(DistalEnd.Clamped));
             Assert.That(ends.DistalRotation, Is.EqualTo(3.0));
@@ -44,7 +44,7 @@ namespace Guidewire.Core.Tests
 
         [TestCase("distalEnd", "sliding", "direct")]
         [TestCase("proximalEnd", "free", "force")]
-        [TestCase("axialForce", 1.0, "not a material")]
+        [TestCase("axialForce", 1.0, "solver direct")]
         public void EndsThatGainsDoNotKnow_AreRefused(string key, object value, string needed)
         {
             Assert.That(() => Load((key, JToken.FromObject(value))),

@@ -28,16 +28,16 @@ namespace Guidewire.Core.Tests
         public void Defaults_AreThesisTable41()
         {
             SimulationParameters defaults = Load("{}").Values.Simulation;
-            Assert.That(defaults.ConstraintSolverSteps, Is.EqualTo(500));
-            Assert.That(defaults.NumberRodElements, Is.EqualTo(30));
-            Assert.That(defaults.TimeStep, Is.EqualTo(0.01));
-            Assert.That(defaults.GuidewireLength, Is.EqualTo(300.0));
-            Assert.That(defaults.TotalMass, Is.EqualTo(0.01));
-            Assert.That(defaults.Displacement, Is.EqualTo(10.0));
-            Assert.That(defaults.SphereRadius, Is.EqualTo(5.0));
-            Assert.That(defaults.StretchStiffness, Is.EqualTo(0.1));
-            Assert.That(defaults.BendStiffness, Is.EqualTo(0.1));
-            Assert.That(defaults.CollisionStiffness, Is.EqualTo(1e-4));
+            Assert.That(defaults.Method.ConstraintSolverSteps, Is.EqualTo(500));
+            Assert.That(defaults.Scene.NumberRodElements, Is.EqualTo(30));
+            Assert.That(defaults.Method.TimeStep, Is.EqualTo(0.01));
+            Assert.That(defaults.Scene.GuidewireLength, Is.EqualTo(300.0));
+            Assert.That(defaults.Gains.TotalMass, Is.EqualTo(0.01));
+            Assert.That(defaults.Drive.Displacement, Is.EqualTo(10.0));
+            Assert.That(defaults.Contact.SphereRadius, Is.EqualTo(5.0));
+            Assert.That(defaults.Gains.StretchStiffness, Is.EqualTo(0.1));
+            Assert.That(defaults.Gains.BendStiffness, Is.EqualTo(0.1));
+            Assert.That(defaults.Contact.CollisionStiffness, Is.EqualTo(1e-4));
         }
 
         [Test]
@@ -49,7 +49,7 @@ namespace Guidewire.Core.Tests
                 + "\"VerletIntegration\": true, \"SteadyState\": true}");
             Assert.That(handler.Warnings, Has.Count.EqualTo(1));
             Assert.That(handler.Warnings[0], Does.Contain("rodElementLength = 10").And.Contain("33.33"));
-            Assert.That(handler.Values.Simulation.Position.X, Is.EqualTo(1.0));
+            Assert.That(handler.Values.Position.X, Is.EqualTo(1.0));
             Assert.That(handler.Values.LogFilePath, Is.EqualTo("results/seed/"));
         }
 
@@ -57,15 +57,15 @@ namespace Guidewire.Core.Tests
         [TestCase("{\"VerletIntegration\": true, \"integrator\": \"verlet\"}", Integrator.Verlet)]
         public void OlderWords_SayTheSameAsTheNewer(string text, Integrator expected)
         {
-            Assert.That(Load(text).Values.Simulation.Integrator, Is.EqualTo(expected));
+            Assert.That(Load(text).Values.Simulation.Method.Integrator, Is.EqualTo(expected));
         }
 
         [Test]
         public void SteadyStateFalse_MovesTheFirstSphereEachStepByTheDisplacement()
         {
             SimulationParameters simulation = Load("{\"SteadyState\": false, \"displacement\": 0.5}").Values.Simulation;
-            Assert.That(simulation.Drive, Is.EqualTo(Drive.Displace));
-            Assert.That(simulation.DisplacementPerStep, Is.EqualTo(0.5));
+            Assert.That(simulation.Drive.Kind, Is.EqualTo(Drive.Displace));
+            Assert.That(simulation.Drive.DisplacementPerStep, Is.EqualTo(0.5));
         }
 
         [TestCase("{\"VerletIntegration\": true, \"integrator\": \"euler\"}", "disagree")]
@@ -101,7 +101,7 @@ namespace Guidewire.Core.Tests
         public void Override_CountsInsteadOfTheFilesOlderWord()
         {
             ParameterHandler handler = Load("{\"VerletIntegration\": true}", ("integrator", "euler"));
-            Assert.That(handler.Values.Simulation.Integrator, Is.EqualTo(Integrator.Euler));
+            Assert.That(handler.Values.Simulation.Method.Integrator, Is.EqualTo(Integrator.Euler));
         }
 
         [Test]
@@ -111,7 +111,7 @@ namespace Guidewire.Core.Tests
                 "{\"drive\": \"push\", \"displacementPerStep\": 0.1, \"timeStep\": 0.1234567890123}");
             ParameterHandler second = Load(first.ToJson().ToString());
             Assert.That(second.Hash, Is.EqualTo(first.Hash));
-            Assert.That(second.Values.Simulation.TimeStep, Is.EqualTo(0.1234567890123));
+            Assert.That(second.Values.Simulation.Method.TimeStep, Is.EqualTo(0.1234567890123));
         }
 
         [Test]
@@ -139,7 +139,7 @@ namespace Guidewire.Core.Tests
                 "{\"positions\": [[0,0,0],[0,0,5],[0,5,5]], \"orientations\": [[0,0,0,1],[0,0,0,2]]}");
             SimulationParameters simulation = Load("{\"numberRodElements\": 2}", ("startFile", start))
                 .Values.Simulation;
-            Assert.That(simulation.Start!.Positions[2], Is.EqualTo(new Vector3d(0.0, 5.0, 5.0)));
+            Assert.That(simulation.Scene.Start!.Positions[2], Is.EqualTo(new Vector3d(0.0, 5.0, 5.0)));
             ParameterException error = Assert.Throws<ParameterException>(
                 () => Load("{\"numberRodElements\": 3}", ("startFile", start)))!;
             Assert.That(error.Message, Does.Contain("start.json").And.Contain("positions").Or.Contain("orientations"));
@@ -153,7 +153,13 @@ namespace Guidewire.Core.Tests
                 Assert.That(entry.Help, Is.Not.Empty, entry.Key);
                 Assert.That(entry.Allowed, Is.Not.Empty, entry.Key);
                 Assert.That(ParameterTable.Find(entry.Key), Is.SameAs(entry));
-                Assert.DoesNotThrow(() => Load("{\"" + entry.Key + "\": " + entry.Default + "}"), entry.Key);
+                foreach (Solver method in entry.Methods)
+                {
+                    string text = entry.Key == "solver" ? "{\"solver\": " + entry.Default(method) + "}"
+                        : "{\"solver\": \"" + method.ToString().ToLowerInvariant() + "\", \"" + entry.Key + "\": "
+                        + entry.Default(method) + "}";
+                    Assert.That(Load(text).Ignored, Is.Empty, entry.Key);
+                }
             }
         }
 

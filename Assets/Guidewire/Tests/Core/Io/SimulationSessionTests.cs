@@ -43,11 +43,11 @@ namespace Guidewire.Core.Tests
             using SimulationSession session = Open("", false, "bendStiffness=0.3");
             session.Step(0.0, 0.0);
             session.Set("stretchStiffness", 0.2);
-            Assert.That(session.Parameters.StretchStiffness, Is.EqualTo(0.2));
-            Assert.That(session.Parameters.BendStiffness, Is.EqualTo(0.3), "the override");
-            Assert.That(session.Parameters.ConstraintSolverSteps, Is.EqualTo(20), "the file");
+            Assert.That(session.Parameters.Gains.StretchStiffness, Is.EqualTo(0.2));
+            Assert.That(session.Parameters.Gains.BendStiffness, Is.EqualTo(0.3), "the override");
+            Assert.That(session.Parameters.Method.ConstraintSolverSteps, Is.EqualTo(20), "the file");
             session.Set("damping", 0.1);
-            Assert.That(session.Parameters.StretchStiffness, Is.EqualTo(0.2), "the earlier change");
+            Assert.That(session.Parameters.Gains.StretchStiffness, Is.EqualTo(0.2), "the earlier change");
             Assert.That(session.Simulation.StepCount, Is.EqualTo(1));
         }
 
@@ -58,7 +58,7 @@ namespace Guidewire.Core.Tests
             Simulation before = session.Simulation;
             Assert.Throws<ParameterException>(() => session.Set("timeStep", 0.0));
             Assert.That(session.Simulation, Is.SameAs(before));
-            Assert.That(session.Parameters.TimeStep, Is.EqualTo(0.01));
+            Assert.That(session.Parameters.Method.TimeStep, Is.EqualTo(0.01));
         }
 
         [Test]
@@ -76,7 +76,7 @@ namespace Guidewire.Core.Tests
         {
             using SimulationSession session = Open("", true);
             Assert.That(session.Switch("solver"), Is.False);
-            Assert.That(session.Parameters.Solver, Is.EqualTo(Solver.Pbd));
+            Assert.That(session.Parameters.Method.Solver, Is.EqualTo(Solver.Pbd));
         }
 
         [Test]

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
@@ -6,17 +7,12 @@ namespace Guidewire.Core.Tests
     [TestFixture]
     public sealed class ContinueTests
     {
-        // The first step after a change is Euler's, x + dt v with v = (x_k - x_{k-1})/dt: Verlet's to rounding.
-        private const double Rounding = 1e-9;    // units, after 60 steps
-
         private static SimulationParameters Transversal()
         {
             return new SimulationParameters
             {
-                DisplacementDirection = Vector3d.UnitY,
-                ConstraintSolverSteps = 50,
-                DeltaThreshold = 0.0,
-                MaxSimulationSteps = 100,
+                Drive = { DisplacementDirection = Vector3d.UnitY },
+                Method = { ConstraintSolverSteps = 50, DeltaThreshold = 0.0, MaxSimulationSteps = 100 },
             };
         }
 
@@ -28,23 +24,142 @@ namespace Guidewire.Core.Tests
             }
         }
 
-        [Test]
-        public void Continue_ChangesNothing_WhenNothingIsChanged()
+        private static IEnumerable<TestCaseData> Runs()
         {
-            Simulation through = Simulation.Create(Transversal());
-            Step(through, 100);
-            Simulation first = Simulation.Create(Transversal());
-            Step(first, 40);
-            Simulation second = first.Continue(Transversal());
-            Assert.That(second.StepCount, Is.EqualTo(40));
-            Step(second, 60);
-            for (int i = 0; i < through.State.SphereCount; i++)
+            yield return Gains("swings", p => p.Drive.DisplacementDirection = Vector3d.UnitY);
+            foreach (Integrator integrator in MethodTable.Of(Solver.Pbd).Integrators)
             {
-                Assert.That(Vector3d.Distance(second.State.Positions[i], through.State.Positions[i]),
-                    Is.LessThan(Rounding), "sphere " + i);
+                yield return Gains("twists and pushes, " + integrator, p =>
+                {
+                    p.Method.Integrator = integrator;
+                    p.Method.Damping = 0.01;
+                    p.Drive.Kind = Drive.Push;
+                    p.Drive.DisplacementPerStep = 0.3;
+                    p.Drive.TwistPerStep = 0.04;
+                });
             }
-            Assert.That(second.Outcome, Is.EqualTo(Outcome.Finished), "its steps count on from the first's");
-            Assert.That(second.Time, Is.EqualTo(through.Time).Within(1e-12));
+            yield return Gains("is turned at both clamps, in the middle of the ramp", p =>
+            {
+                p.Scene.ProximalEnd = ProximalEnd.Clamped;
+                p.Scene.DistalEnd = DistalEnd.Clamped;
+                p.Scene.DistalRotation = 2.0;
+                p.Scene.DistalDisplacement = -4.0;
+                p.Scene.DistalRampTime = 0.5;
+            });
+            yield return Gains("is pushed into a bend", p =>
+            {
+                p.Scene.GuidewireOffset = -310.0;
+                p.Scene.Walls = new ContactShape[] { ArchVessel.Shape };
+                p.Contact.SphereRadius = 2.0;
+                p.Drive.Kind = Drive.Push;
+                p.Drive.DisplacementPerStep = 4.0;
+            });
+            foreach (MethodTraits method in MethodTable.All)
+            {
+                if (!method.TakesMaterial)
+                {
+                    continue;
+                }
+                foreach (Integrator integrator in method.Integrators.Count > 0 ? method.Integrators
+                    : new[] { Integrator.Verlet })
+                {
+                    yield return Material(method.Solver, integrator, "turns in a ramp, under weight", p =>
+                    {
+                        p.Scene.DistalEnd = DistalEnd.Clamped;
+                        p.Scene.DistalRotation = 0.8;
+                        p.Scene.DistalDisplacement = -0.5;
+                        p.Scene.DistalRampTime = 0.004;
+                    });
+                    yield return Material(method.Solver, integrator, "is pushed and twisted", p =>
+                    {
+                        p.Drive.Kind = Drive.Push;
+                        p.Drive.DisplacementPerStep = 0.01;
+                        p.Drive.TwistPerStep = 0.01;
+                    });
+                    yield return Material(method.Solver, integrator, "is let go, after its rest shape", p =>
+                    {
+                        p.Scene.InitialState = InitialState.Equilibrium;
+                        p.Scene.TipForce = new Vector3d(0.0, 0.1, 0.0);
+                        p.Scene.TipForceReleaseTime = 0.002;
+                        p.Method.StatesReactions = true;
+                    });
+                    yield return Material(method.Solver, integrator, "is displaced at the start", p =>
+                    {
+                        p.Drive.Displacement = 2.0;
+                        p.Drive.DisplacementDirection = Vector3d.UnitY;
+                    });
+                }
+            }
+        }
+
+        private static TestCaseData Gains(string name, Action<SimulationParameters> set)
+        {
+            SimulationParameters parameters = Transversal();
+            set(parameters);
+            return new TestCaseData(parameters).SetName("ContinuedRun_GivesTheSameBits(gains " + name + ")");
+        }
+
+        private static TestCaseData Material(Solver solver, Integrator integrator, string name,
+            Action<SimulationParameters> set)
+        {
+            SimulationParameters parameters = SimulationParameters.DefaultsOf(solver);
+            parameters.Method.Integrator = integrator;
+            parameters.Method.TimeStep = 1e-4;
+            parameters.Method.Substeps = solver == Solver.Explicit ? 500 : 50;
+            parameters.Method.DeltaThreshold = 0.0;
+            parameters.Method.MaxSimulationSteps = 60;
+            parameters.Scene.NumberRodElements = 12;
+            parameters.Scene.Gravity = new Vector3d(0.0, -9.81, 0.0);
+            parameters.Scene.ProximalEnd = ProximalEnd.Clamped;
+            set(parameters);
+            return new TestCaseData(parameters).SetName("ContinuedRun_GivesTheSameBits(" + solver + ", " + integrator
+                + ", " + name + ")");
+        }
+
+        [TestCaseSource(nameof(Runs))]
+        public void ContinuedRun_GivesTheSameBits_AtAnyStep(SimulationParameters parameters)
+        {
+            Simulation through = Simulation.Create(parameters);
+            Simulation continued = Simulation.Create(parameters);
+            for (int k = 0; k < 60; k++)
+            {
+                // At every step of the first ten, in the middle, and near the end.
+                if (k < 10 || k == 25 || k == 47)
+                {
+                    continued = continued.Continue(parameters);
+                }
+                through.Step();
+                continued.Step();
+                AssertSameBits(continued, through, "step " + k);
+            }
+            Assert.That(through.Outcome, Is.Not.EqualTo(Outcome.Diverged), through.Reason);
+        }
+
+        private static void AssertSameBits(Simulation a, Simulation b, string when)
+        {
+            Assert.That(a.State.Positions, Is.EqualTo(b.State.Positions), when);
+            Assert.That(a.State.Velocities, Is.EqualTo(b.State.Velocities), when);
+            Assert.That(a.State.Orientations, Is.EqualTo(b.State.Orientations), when);
+            Assert.That(a.State.AngularVelocities, Is.EqualTo(b.State.AngularVelocities), when);
+            Assert.That(a.Time, Is.EqualTo(b.Time), when);
+            Assert.That(a.StepCount, Is.EqualTo(b.StepCount), when);
+            Assert.That(a.PredictionError, Is.EqualTo(b.PredictionError), when);
+            Assert.That(a.Outcome, Is.EqualTo(b.Outcome), when);
+            Assert.That(a.Reason, Is.EqualTo(b.Reason), when);
+            Assert.That(a.Contacts?.MaxPenetration, Is.EqualTo(b.Contacts?.MaxPenetration), when);
+            Assert.That(a.Contacts?.DriveShortfall, Is.EqualTo(b.Contacts?.DriveShortfall), when);
+            Assert.That(a.Report()?.Method, Is.EqualTo(b.Report()?.Method), when);
+            Assert.That(a.Contacts?.Reaction, Is.EqualTo(b.Contacts?.Reaction), when);
+        }
+
+        [Test]
+        public void Continue_Refuses_GainsAsAMaterial_AndTheReverse()
+        {
+            SimulationParameters material = SimulationParameters.DefaultsOf(Solver.Direct);
+            Assert.That(() => Simulation.Create(Transversal()).Continue(material), Throws.ArgumentException
+                .With.Message.StartsWith("solver"));
+            Assert.That(() => Simulation.Create(material).Continue(Transversal()), Throws.ArgumentException
+                .With.Message.StartsWith("solver"));
         }
 
         [Test]
@@ -53,7 +168,7 @@ namespace Guidewire.Core.Tests
             Simulation first = Simulation.Create(Transversal());
             Step(first, 10);
             SimulationParameters finer = Transversal();
-            finer.TimeStep = 0.001;
+            finer.Method.TimeStep = 0.001;
             Simulation second = first.Continue(finer);
             Step(second, 5);
             Assert.That(second.Time, Is.EqualTo(10 * 0.01 + 5 * 0.001).Within(1e-12));
@@ -74,10 +189,10 @@ namespace Guidewire.Core.Tests
         {
             Simulation first = Simulation.Create(Transversal());
             SimulationParameters parameters = Transversal();
-            double displacement = parameters.Displacement;
+            double displacement = parameters.Drive.Displacement;
             first.Continue(parameters);
-            Assert.That(parameters.Start, Is.Null);
-            Assert.That(parameters.Displacement, Is.EqualTo(displacement).And.Not.Zero);
+            Assert.That(parameters.Scene.Start, Is.Null);
+            Assert.That(parameters.Drive.Displacement, Is.EqualTo(displacement).And.Not.Zero);
         }
 
         [Test]
@@ -85,7 +200,7 @@ namespace Guidewire.Core.Tests
         {
             Simulation first = Simulation.Create(Transversal());
             SimulationParameters longer = Transversal();
-            longer.NumberRodElements = 31;
+            longer.Scene.NumberRodElements = 31;
             Assert.Throws<ArgumentException>(() => first.Continue(longer));
         }
     }

@@ -11,13 +11,15 @@ namespace Guidewire.Core.Tests
         {
             Simulation run = Simulation.Create(new SimulationParameters
             {
-                Integrator = integrator,
-                SweepOrder = order,
-                ConstraintSolverSteps = 10,
-                DeltaThreshold = 0.0,
-                Drive = Drive.Push,
-                DisplacementPerStep = 0.01,
-                Gravity = new Vector3d(0.0, -1.0, 0.0),
+                Method =
+                {
+                    Integrator = integrator,
+                    SweepOrder = order,
+                    ConstraintSolverSteps = 10,
+                    DeltaThreshold = 0.0,
+                },
+                Drive = { Kind = Drive.Push, DisplacementPerStep = 0.01 },
+                Scene = { Gravity = new Vector3d(0.0, -1.0, 0.0) },
             });
             for (int step = 0; step < 50; step++)
             {
@@ -37,12 +39,13 @@ namespace Guidewire.Core.Tests
         {
             var parameters = new SimulationParameters
             {
-                NumberRodElements = 17,
-                Start = Wires.Random(17, 300.0, 4),
-                Gravity = new Vector3d(1.0, -2.0, 0.5),
-                DeltaThreshold = 0.0,
-                MaxSimulationSteps = 100,
-                ConstraintSolverSteps = 50,
+                Scene =
+                {
+                    NumberRodElements = 17,
+                    Start = Wires.Random(17, 300.0, 4),
+                    Gravity = new Vector3d(1.0, -2.0, 0.5),
+                },
+                Method = { DeltaThreshold = 0.0, MaxSimulationSteps = 100, ConstraintSolverSteps = 50 },
             };
             RodState first = Wires.Run(parameters).State;
             RodState second = Wires.Run(parameters).State;
@@ -88,8 +91,8 @@ namespace Guidewire.Core.Tests
         public void OneElement_IsAWireToo()
         {
             SimulationParameters parameters = Wires.Longitudinal(200);
-            parameters.NumberRodElements = 1;
-            parameters.TotalMass = 1e-6;
+            parameters.Scene.NumberRodElements = 1;
+            parameters.Gains.TotalMass = 1e-6;
             Simulation run = Wires.Run(parameters);
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished));
             Assert.That(run.State.Positions[1].Z, Is.EqualTo(190.0).Within(1e-9));
@@ -99,12 +102,9 @@ namespace Guidewire.Core.Tests
         {
             return Simulation.Create(new SimulationParameters
             {
-                NumberRodElements = n,
-                GuidewireLength = 10.0 * n,
-                Drive = Drive.Force,
-                Start = start,
-                DeltaThreshold = 0.0,
-                ConstraintSolverSteps = 30,
+                Scene = { NumberRodElements = n, GuidewireLength = 10.0 * n, Start = start },
+                Drive = { Kind = Drive.Force },
+                Method = { DeltaThreshold = 0.0, ConstraintSolverSteps = 30 },
             });
         }
     }

@@ -13,8 +13,8 @@ namespace Guidewire.Core.Tests
         public void GainBeyondItsLimit_IsDiverged(double stretch, double bend)
         {
             SimulationParameters parameters = Wires.Transversal(1000);
-            parameters.StretchStiffness = stretch;
-            parameters.BendStiffness = bend;
+            parameters.Gains.StretchStiffness = stretch;
+            parameters.Gains.BendStiffness = bend;
             Simulation run = Wires.Run(parameters);
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Diverged), run.Reason);
             Assert.That(run.Reason, Does.Contain("wrong in length"));
@@ -25,8 +25,8 @@ namespace Guidewire.Core.Tests
         public void GainWithinItsLimit_IsNotDiverged(double stretch, double bend)
         {
             SimulationParameters parameters = Wires.Transversal(1000);
-            parameters.StretchStiffness = stretch;
-            parameters.BendStiffness = bend;
+            parameters.Gains.StretchStiffness = stretch;
+            parameters.Gains.BendStiffness = bend;
             Assert.That(Wires.Run(parameters).Outcome, Is.EqualTo(Outcome.Finished));
         }
 
@@ -35,7 +35,7 @@ namespace Guidewire.Core.Tests
         {
             // A correction of units in the shortest step that a double can hold.
             SimulationParameters parameters = Wires.Transversal(10);
-            parameters.TimeStep = 2.3e-308;
+            parameters.Method.TimeStep = 2.3e-308;
             Simulation run = Wires.Run(parameters);
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Diverged));
             Assert.That(run.Reason, Does.Contain("no finite velocity"));
@@ -45,10 +45,10 @@ namespace Guidewire.Core.Tests
         public void LongitudinalMotion_BreaksDownBeyond213()
         {
             SimulationParameters held = Wires.Longitudinal(600);
-            held.StretchStiffness = 2.12;
+            held.Gains.StretchStiffness = 2.12;
             Assert.That(Wires.Run(held).Outcome, Is.EqualTo(Outcome.Finished));
             SimulationParameters lost = Wires.Longitudinal(600);
-            lost.StretchStiffness = 2.14;
+            lost.Gains.StretchStiffness = 2.14;
             Assert.That(Wires.Run(lost).Outcome, Is.EqualTo(Outcome.Diverged));
         }
 
@@ -62,9 +62,9 @@ namespace Guidewire.Core.Tests
             foreach (Vector3d direction in new[] { Vector3d.UnitY, Vector3d.UnitZ })
             {
                 SimulationParameters parameters = Wires.Transversal(steps);
-                parameters.DisplacementDirection = direction;
-                parameters.Displacement = 100.0;
-                parameters.ConstraintSolverSteps = iterations;
+                parameters.Drive.DisplacementDirection = direction;
+                parameters.Drive.Displacement = 100.0;
+                parameters.Method.ConstraintSolverSteps = iterations;
                 Simulation run = Wires.Run(parameters);
                 Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
             }
@@ -74,9 +74,9 @@ namespace Guidewire.Core.Tests
         public void WireThatHardlyMoves_IsNotCalledSteady_WhileItsElementsAreWrongInLength()
         {
             SimulationParameters parameters = Wires.Longitudinal(400);
-            parameters.DeltaThreshold = 0.001;
-            parameters.StretchStiffness = 1e-4;
-            parameters.ConstraintSolverSteps = 1;
+            parameters.Method.DeltaThreshold = 0.001;
+            parameters.Gains.StretchStiffness = 1e-4;
+            parameters.Method.ConstraintSolverSteps = 1;
             Assert.That(Wires.Run(parameters).Outcome, Is.Not.EqualTo(Outcome.Converged));
         }
 

@@ -19,38 +19,22 @@ namespace Guidewire.Core
         private readonly double[] _rotary;    // rho I l, kg m^2, n
         private readonly Quaterniond[] _anchor;
         private readonly Vector3d[] _anchorCouple;
+        private readonly Vector3d[] _countedTurn;  // phi with its full turns, in the shape that was last looked at
 
-        /// <summary>The inertia of a rod under one mass rule.</summary>
-        public InertiaEnergy(MaterialRod rod, MassRule rule)
+        /// <summary>The inertia of a rod.</summary>
+        public InertiaEnergy(RodMass mass)
         {
-            int n = rod.ElementCount;
-            _diagonal = new double[n + 1];
-            _coupling = new double[n];
-            _rotary = new double[n];
+            _diagonal = mass.Diagonal;
+            _coupling = mass.Coupling;
+            _rotary = mass.Rotary;
+            int n = _rotary.Length;
             _anchor = new Quaterniond[n];
             _anchorCouple = new Vector3d[n];
-            LastTurn = new Vector3d[n];
-            LastSpin = new Vector3d[n];
+            _countedTurn = new Vector3d[n];
             Start = new Quaterniond[n];
             FreePositions = new Vector3d[n + 1];
             TurnHistory = new Vector3d[n];
             SpinHistory = new Vector3d[n];
-            double total = 0.0;
-            for (int j = 0; j < n; j++)
-            {
-                double mass = rod.LineDensity[j] * rod.Length[j];
-                double share = rule == MassRule.Consistent ? mass / 3.0 : 0.5 * mass;
-                _coupling[j] = rule == MassRule.Consistent ? mass / 6.0 : 0.0;
-                _diagonal[j] += share;
-                _diagonal[j + 1] += share;
-                _rotary[j] = rod.RotaryInertia[j] * rod.Length[j];
-                total += mass;
-            }
-            TotalMass = total;
-            if (rule == MassRule.Uniform)
-            {
-                Array.Fill(_diagonal, total / (n + 1));
-            }
         }
 
         /// <summary>h, s: the diagonal coefficient of the scheme times the time step.</summary>
@@ -68,79 +52,69 @@ namespace Guidewire.Core
         /// <summary>w^, the angular velocity that earlier stages have contributed, rad/s.</summary>
         public Vector3d[] SpinHistory { get; }
 
-        /// <summary>phi when it was last asked for, radians.</summary>
-        public Vector3d[] LastTurn { get; }
-
-        /// <summary>w when it was last asked for, rad/s.</summary>
-        public Vector3d[] LastSpin { get; }
-
-        /// <summary>kg.</summary>
-        public double TotalMass { get; }
-
-        /// <summary>A new step begins: turns count from these orientations.</summary>
-        public void BeginStep(Quaterniond[] orientations)
+        /// <summary>Turns count from the orientations of this shape.</summary>
+        public override void BeginStep(RodShape shape, double dt)
         {
-            Array.Copy(orientations, Start, Start.Length);
-            Array.Clear(LastTurn, 0, LastTurn.Length);
+            Array.Copy(shape.Q, Start, Start.Length);
+            Array.Clear(_countedTurn, 0, _countedTurn.Length);
+        }
+
+        /// <summary>phi' and w' of the stage in this shape, by which its turns and angular velocities have grown over
+        /// what earlier stages contributed.</summary>
+        /// <param name="turnRate">Receives phi', rad/s, n.</param>
+        /// <param name="spinRate">Receives w', rad/s^2, n.</param>
+        public void SetRates(RodShape shape, Vector3d[] turnRate, Vector3d[] spinRate)
+        {
+            double perStage = 1.0 / StageLength;
+            for (int j = 0; j < turnRate.Length; j++)
+            {
+                Vector3d turn = Turn(shape.Q[j], j);
+                turnRate[j] = perStage * (turn - TurnHistory[j]);
+                spinRate[j] = perStage * (Spin(turn, j) - SpinHistory[j]);
+            }
+        }
+
+        /// <summary>How far a turn phi of element j is from that of the shape last looked at, square radians.</summary>
+        public double SquaredChange(in Vector3d turn, int j)
+        {
+            return (turn - _countedTurn[j]).LengthSquared;
         }
 
         /// <summary>phi of element j in this orientation: of all rotation vectors that lead there, the one nearest to
         /// the last that was asked for in this step, so that more than half a turn a step is counted.</summary>
         [MethodImpl(Compiled.AtOnce)]
-        public Vector3d Turn(in Quaterniond orientation, int j)
+        private Vector3d Turn(in Quaterniond orientation, int j)
         {
             Vector3d turn = RotationVector.Log(Start[j].Conjugate * orientation);
-            Vector3d last = LastTurn[j];
+            Vector3d last = _countedTurn[j];
             if (last.LengthSquared > SurelyFirst && turn.LengthSquared > 0.0)
             {
                 Vector3d axis = Vector3d.Normalize(turn);
                 double turns = Math.Round(Vector3d.Dot(last - turn, axis) / (2.0 * Math.PI));
                 turn += (2.0 * Math.PI * turns) * axis;
             }
-            LastTurn[j] = turn;
+            _countedTurn[j] = turn;
             return turn;
         }
 
-        /// <summary>w of element j in this orientation; phi is then the last that was asked for.</summary>
+        /// <summary>w of element j that has turned by phi.</summary>
         [MethodImpl(Compiled.AtOnce)]
-        public Vector3d Spin(in Quaterniond orientation, int j)
+        private Vector3d Spin(in Vector3d turn, int j)
         {
-            Vector3d turn = Turn(orientation, j);
-            Vector3d spin = (1.0 / StageLength) * RotationVector.TangentMap(turn, turn - TurnHistory[j]);
-            LastSpin[j] = spin;
-            return spin;
+            return (1.0 / StageLength) * RotationVector.TangentMap(turn, turn - TurnHistory[j]);
         }
 
-        /// <summary>Linear momentum, kg m/s, of these velocities.</summary>
-        public Vector3d Momentum(Vector3d[] velocities)
+        /// <summary>Writes or takes over the last stage, by which forces are told between steps.</summary>
+        public override void Exchange(Snapshot snapshot)
         {
-            Vector3d sum = Vector3d.Zero;
-            for (int i = 0; i < _diagonal.Length; i++)
-            {
-                sum += _diagonal[i] * velocities[i];
-                if (i < _coupling.Length)
-                {
-                    sum += _coupling[i] * (velocities[i] + velocities[i + 1]);
-                }
-            }
-            return sum;
-        }
-
-        /// <summary>Kinetic energy, J, of these velocities and angular velocities.</summary>
-        public double KineticEnergy(Vector3d[] velocities, Vector3d[] spins)
-        {
-            double sum = 0.0;
-            for (int i = 0; i < _diagonal.Length; i++)
-            {
-                sum += 0.5 * _diagonal[i] * velocities[i].LengthSquared;
-                if (i < _coupling.Length)
-                {
-                    Vector3d w = spins[i];
-                    sum += _coupling[i] * Vector3d.Dot(velocities[i], velocities[i + 1])
-                        + 0.5 * _rotary[i] * (w.LengthSquared + w.Z * w.Z);
-                }
-            }
-            return sum;
+            double length = StageLength;
+            snapshot.Exchange(ref length);
+            StageLength = length;
+            snapshot.Exchange(Start);
+            snapshot.Exchange(FreePositions);
+            snapshot.Exchange(TurnHistory);
+            snapshot.Exchange(SpinHistory);
+            snapshot.Exchange(_countedTurn);
         }
 
         /// <inheritdoc/>
@@ -175,7 +149,8 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override void AddGradient(RodShape shape, RodVector[] gradient, int from, int to)
+        public override void AddGradient(RodShape shape, RodVector[] gradient, int from, int to,
+            ref GradientMeasures measured)
         {
             double perSquare = 1.0 / (StageLength * StageLength);
             int nodes = Math.Min(to, _diagonal.Length);
@@ -206,7 +181,8 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void AddBlocks(RodShape shape, RodBlock[] blocks, RodVector[] gradient, int from, int to)
         {
-            AddGradient(shape, gradient, from, to);
+            var measured = default(GradientMeasures);
+            AddGradient(shape, gradient, from, to, ref measured);
             double perSquare = 1.0 / (StageLength * StageLength);
             int end = Math.Min(to, _coupling.Length);
             for (int i = from; i < end; i++)
@@ -239,7 +215,7 @@ namespace Guidewire.Core
         [MethodImpl(Compiled.AtOnce)]
         private Vector3d Couple(in Quaterniond orientation, int j)
         {
-            Vector3d w = Spin(orientation, j);
+            Vector3d w = Spin(Turn(orientation, j), j);
             Vector3d rate = (1.0 / StageLength) * (w - SpinHistory[j]);
             double i = _rotary[j];
             return new Vector3d(i * (rate.X + w.Y * w.Z), i * (rate.Y - w.X * w.Z), 2.0 * i * rate.Z);

@@ -1,4 +1,5 @@
 using System;
+using System.Globalization;
 
 namespace Guidewire.Core
 {
@@ -12,9 +13,8 @@ namespace Guidewire.Core
         private const double LargestFrameTurn = 0.5;  // radians a stage; more is taken in parts
         private const double LargestPredictedTurn = 1.0;
 
-        private readonly MaterialRod _rod;
         private readonly RodSupports _supports;
-        private readonly RodStatics _statics;
+        private readonly RodTerms _terms;
         private readonly RodSchedule _schedule;
         private readonly InertiaEnergy _inertia;
         private readonly StageSolver _solver;
@@ -25,40 +25,36 @@ namespace Guidewire.Core
         private readonly Vector3d[][] _acceleration;  // v'
         private readonly Vector3d[][] _turnRate;      // phi'
         private readonly Vector3d[][] _spinRate;      // w', two or more
-        private readonly Vector3d[] _oldPositions;    // BDF2: one step ago
-        private readonly Vector3d[] _oldVelocities;
-        private readonly Quaterniond[] _oldOrientations;
-        private readonly Vector3d[] _oldSpins;
+        private readonly Bdf2History _history;
         private readonly RodShape _before;            // the last stage's
         private readonly Quaterniond[] _predicted;
         private readonly int _last;                   // index of the stage that ends a step
         private readonly double _mass;
         private Vector3d _oldMomentum;
-        private bool _hasHistory;
+        private bool _hasStepped;
         private double _proximalTurn;
         private double _distalTurn;
 
         /// <summary>A rod at rest in this shape.</summary>
-        /// <param name="statics">The rod's energies and loads.</param>
+        /// <param name="terms">The rod's energies and loads.</param>
         /// <param name="shape">Where it starts; the rod moves it from then on.</param>
         /// <param name="scheme">A Runge-Kutta scheme, or null for BDF2.</param>
         /// <param name="tolerance">On each stage's error: radians, or displacement over L; and on what a step may leave
         /// of the balance of forces, over the largest force in the rod.</param>
         /// <param name="mostIterations">Newton iterations of a stage.</param>
-        public RodDynamics(MaterialRod rod, RodSupports supports, RodStatics statics, RodSchedule schedule,
-            RodShape shape, RungeKuttaScheme? scheme, double tolerance, int mostIterations)
+        public RodDynamics(RodTerms terms, RodSchedule schedule, RodShape shape, RungeKuttaScheme? scheme,
+            double tolerance, int mostIterations)
         {
-            int n = rod.ElementCount;
-            _rod = rod;
-            _supports = supports;
-            _statics = statics;
+            int n = shape.ElementCount;
+            _supports = terms.Supports;
+            _terms = terms;
             _schedule = schedule;
             _scheme = scheme;
             Shape = shape;
             Velocities = new Vector3d[n + 1];
             Spins = new Vector3d[n];
-            _inertia = new InertiaEnergy(rod, supports.Mass);
-            _solver = new StageSolver(rod, supports, statics, _inertia)
+            _inertia = new InertiaEnergy(terms.Mass);
+            _solver = new StageSolver(terms, _inertia)
             {
                 Tolerance = tolerance,
                 Balance = tolerance / (2.0 * (scheme == null ? 1.0 : scheme.WeightSum)),
@@ -66,7 +62,7 @@ namespace Guidewire.Core
             };
             _before = new RodShape(n);
             _predicted = new Quaterniond[n];
-            _mass = _inertia.TotalMass;
+            _mass = terms.Mass.Total;
             _startPositions = new Vector3d[n + 1];
             _velocityHistory = new Vector3d[n + 1];
             int stages = scheme == null ? 1 : scheme.StageCount;
@@ -75,10 +71,7 @@ namespace Guidewire.Core
             _acceleration = Arrays(stages, n + 1);
             _turnRate = Arrays(stages, n);
             _spinRate = Arrays(Math.Max(stages, 2), n);
-            _oldPositions = new Vector3d[scheme == null ? n + 1 : 0];
-            _oldVelocities = new Vector3d[scheme == null ? n + 1 : 0];
-            _oldOrientations = new Quaterniond[scheme == null ? n : 0];
-            _oldSpins = new Vector3d[scheme == null ? n : 0];
+            _history = new Bdf2History(scheme == null ? n : 0);
         }
 
         /// <summary>Takes over the velocities of the start.</summary>
@@ -89,6 +82,9 @@ namespace Guidewire.Core
             Array.Copy(spins, Spins, Spins.Length);
             _distalTurn = isTurned ? _schedule.DistalTurnAt(0.0) : 0.0;
         }
+
+        /// <summary>The rod's energies and loads.</summary>
+        public RodTerms Terms => _terms;
 
         /// <summary>Positions and orientations.</summary>
         public RodShape Shape { get; }
@@ -126,17 +122,16 @@ namespace Guidewire.Core
         public Vector3d MeanLoad { get; private set; }
 
         /// <summary>Linear momentum, kg m/s.</summary>
-        public Vector3d Momentum => _inertia.Momentum(Velocities);
+        public Vector3d Momentum => _terms.Mass.Momentum(Velocities);
 
         /// <summary>Elastic plus kinetic energy less the work of the loads, J.</summary>
-        public double Energy => _inertia.KineticEnergy(Velocities, Spins) + _statics.Stretch.Value(Shape)
-            + _statics.Bending.Value(Shape) + _statics.Loads.Value(Shape);
+        public double Energy => _terms.Mass.KineticEnergy(Velocities, Spins) + _terms.Potential(Shape);
 
         /// <summary>Force of the supports on a node as the rod is now, N.</summary>
         public Vector3d ReactionAt(int node)
         {
-            _schedule.SetLoads(_rod, _supports.Mass, _statics.Loads, Time);
-            RodVector g = Time > 0.0 ? _solver.Reactions(Shape)[node] : _solver.StaticReactions(Shape, _inertia)[node];
+            _terms.SetTime(_schedule, Time);
+            RodVector g = _hasStepped ? _solver.Reactions(Shape)[node] : _solver.StaticReactions(Shape)[node];
             return new Vector3d(g.X1, g.X2, g.X3);
         }
 
@@ -146,14 +141,19 @@ namespace Guidewire.Core
         public string? Step(double dt)
         {
             Array.Copy(Shape.X, _startPositions, _startPositions.Length);
-            _inertia.BeginStep(Shape.Q);
+            _inertia.BeginStep(Shape, dt);
+            foreach (EnergyTerm term in _terms.All)
+            {
+                term.BeginStep(Shape, dt);
+            }
             MeanReaction = Vector3d.Zero;
             MeanDistalReaction = Vector3d.Zero;
             MeanLoad = Vector3d.Zero;
             Vector3d momentum = TracksReactions ? Momentum : Vector3d.Zero;
-            bool isTwoStep = _scheme == null && _hasHistory;
+            bool isTwoStep = _scheme == null && _history.IsComplete;
             string? failure = _scheme == null ? StepByBdf2(dt) : StepByRungeKutta(_scheme, dt);
             Time += dt;
+            _hasStepped = true;
             if (TracksReactions)
             {
                 Vector3d change = Momentum - momentum;
@@ -161,6 +161,43 @@ namespace Guidewire.Core
                 _oldMomentum = momentum;
             }
             return failure;
+        }
+
+        /// <summary>Writes or takes over where the rod is and how it moves: what a motion by any scheme goes on
+        /// from.</summary>
+        public void Exchange(Snapshot snapshot)
+        {
+            double time = Time;
+            MaterialSnapshot.Exchange(snapshot, _schedule, Shape, Velocities, Spins, ref time);
+            Time = time;
+            snapshot.Exchange(ref _proximalTurn);
+            snapshot.Exchange(ref _distalTurn);
+        }
+
+        /// <summary>Writes or takes over what went before, as far as it means something to a motion by this scheme
+        /// and steps of dt (s).</summary>
+        public void ExchangeHistory(Snapshot snapshot, double dt)
+        {
+            _terms.Exchange(snapshot);
+            _solver.ExchangeCounts(snapshot);
+            string scheme = _scheme == null ? "BDF2" : _scheme.StageCount + " stages " + Text(_scheme.Diagonal);
+            snapshot.Section(scheme + " " + Text(dt), ExchangeStages);
+        }
+
+        private void ExchangeStages(Snapshot snapshot)
+        {
+            snapshot.Exchange(ref _hasStepped);
+            snapshot.Exchange(ref _oldMomentum);
+            snapshot.Exchange(_acceleration);
+            snapshot.Exchange(_spinRate);
+            _history.Exchange(snapshot);
+            _inertia.Exchange(snapshot);
+            _solver.ExchangeTrust(snapshot);
+        }
+
+        private static string Text(double value)
+        {
+            return value.ToString("R", CultureInfo.InvariantCulture);
         }
 
         private string? StepByRungeKutta(RungeKuttaScheme scheme, double dt)
@@ -209,41 +246,12 @@ namespace Guidewire.Core
 
         private string? StepByBdf2(double dt)
         {
-            double h = _hasHistory ? 2.0 / 3.0 * dt : dt;
-            _inertia.StageLength = h;
-            for (int i = 0; i < _startPositions.Length; i++)
-            {
-                Vector3d x = _startPositions[i];
-                Vector3d v = Velocities[i];
-                if (_hasHistory)
-                {
-                    x = (4.0 / 3.0) * x - (1.0 / 3.0) * _oldPositions[i];
-                    v = (4.0 / 3.0) * v - (1.0 / 3.0) * _oldVelocities[i];
-                }
-                _velocityHistory[i] = v;
-                _inertia.FreePositions[i] = x + h * v;
-                _oldPositions[i] = _startPositions[i];
-                _oldVelocities[i] = Velocities[i];
-            }
-            for (int j = 0; j < Spins.Length; j++)
-            {
-                Vector3d turn = Vector3d.Zero;
-                Vector3d spin = Spins[j];
-                if (_hasHistory)
-                {
-                    turn = (-1.0 / 3.0) * RotationVector.Log(_inertia.Start[j].Conjugate * _oldOrientations[j]);
-                    spin = (4.0 / 3.0) * spin - (1.0 / 3.0) * _oldSpins[j];
-                }
-                _inertia.TurnHistory[j] = turn;
-                _inertia.SpinHistory[j] = spin;
-                _oldOrientations[j] = _inertia.Start[j];
-                _oldSpins[j] = Spins[j];
-            }
+            double h = _history.Prepare(_inertia, _startPositions, Velocities, Spins, _velocityHistory, dt);
             string? failure = SolveStage(Time + dt, h, 0, StagePredictor.OneStage, 1.0);
             if (failure == null)
             {
                 Accept(h);
-                _hasHistory = true;
+                _history.Complete();
             }
             return failure;
         }
@@ -252,7 +260,7 @@ namespace Guidewire.Core
         /// derivatives.</summary>
         private string? SolveStage(double time, double h, int stage, in StagePredictor predictor, double weight)
         {
-            _schedule.SetLoads(_rod, _supports.Mass, _statics.Loads, time);
+            _terms.SetTime(_schedule, time);
             string? failure = TurnFrames(time, out bool inParts);
             if (failure != null)
             {
@@ -267,7 +275,7 @@ namespace Guidewire.Core
             }
             Vector3d end = _schedule.DistalPositionAt(time);
             _before.CopyFrom(Shape);
-            RodStep.Lay(_supports, Shape, _predicted, start, end);
+            RodStep.PlaceElements(_supports, Shape, _predicted, start, end);
             double loads = _schedule.LoadAt(time, _mass);
             if (!_solver.Iterate(Shape, h, loads))
             {
@@ -288,13 +296,8 @@ namespace Guidewire.Core
                 _acceleration[stage][i] = a;
                 _velocity[stage][i] = _velocityHistory[i] + h * a;
             }
-            for (int j = 0; j < Spins.Length; j++)
-            {
-                Vector3d spin = _solver.GradientIsCurrent ? _inertia.LastSpin[j] : _inertia.Spin(Shape.Q[j], j);
-                _turnRate[stage][j] = perStage * (_inertia.LastTurn[j] - _inertia.TurnHistory[j]);
-                _spinRate[stage][j] = perStage * (spin - _inertia.SpinHistory[j]);
-            }
-            if (_last == 0 && Time == 0.0)
+            _inertia.SetRates(Shape, _turnRate[stage], _spinRate[stage]);
+            if (_last == 0 && !_hasStepped)
             {
                 // The first step stands for the one before it too.
                 Array.Copy(_spinRate[0], _spinRate[1], Spins.Length);
@@ -310,7 +313,7 @@ namespace Guidewire.Core
         private string? Search(double h, double loads, in Vector3d start, in Vector3d end)
         {
             Shape.CopyFrom(_before);
-            RodStep.Lay(_supports, Shape, Shape.Q, start, end);
+            RodStep.PlaceElements(_supports, Shape, Shape.Q, start, end);
             string? failure = _solver.Search(Shape);
             if (failure == null)
             {
@@ -330,13 +333,13 @@ namespace Guidewire.Core
             double largest = 0.0;
             Vector3d[] first = _spinRate[predictor.First];
             Vector3d[] second = _spinRate[predictor.Second];
-            double share = Time > 0.0 ? predictor.Share : 0.0;
+            double share = _hasStepped ? predictor.Share : 0.0;
             for (int j = 0; j < _predicted.Length; j++)
             {
                 Vector3d rate = first[j] + share * (second[j] - first[j]);
                 Vector3d turn = _inertia.TurnHistory[j] + h * (_inertia.SpinHistory[j] + h * rate);
                 _predicted[j] = _inertia.Start[j] * RotationVector.Exp(turn);
-                largest = Math.Max(largest, (turn - _inertia.LastTurn[j]).LengthSquared);
+                largest = Math.Max(largest, _inertia.SquaredChange(turn, j));
             }
             return Math.Sqrt(largest);
         }
@@ -394,7 +397,7 @@ namespace Guidewire.Core
             int last = _startPositions.Length - 1;
             MeanReaction += weight * new Vector3d(gradient[0].X1, gradient[0].X2, gradient[0].X3);
             MeanDistalReaction += weight * new Vector3d(gradient[last].X1, gradient[last].X2, gradient[last].X3);
-            foreach (Vector3d force in _statics.Loads.Force)
+            foreach (Vector3d force in _terms.Loads.Force)
             {
                 MeanLoad += weight * force;
             }

@@ -16,7 +16,8 @@ namespace Guidewire.Core
     /// turning of fast spins): from the last that was measured it is expected to grow with |d1|^2 and to fall with
     /// |d1|. Where that promises S with a margin it is trusted, but for every 16th stage. A correction d2 with the
     /// factorisation that is kept takes the stiff direction of each element where it was a turn d1 ago, so it leaves
-    /// EA |d1| |d2|: where that is below S, and |d2| below the tolerance, nothing more is looked at.</remarks>
+    /// EA |d1| |d2|: where that is below S, and |d2| below the tolerance, nothing more is looked at. A step that a term
+    /// cuts promises nothing: the next one begins anew.</remarks>
     internal sealed class StageSolver
     {
         private const double WorstContraction = 0.3;
@@ -29,16 +30,16 @@ namespace Guidewire.Core
 
         private readonly MaterialRod _rod;
         private readonly RodSupports _supports;
-        private readonly StretchEnergy _stretch;
-        private readonly EnergyTerm[] _terms;
+        private readonly RodTerms _rodTerms;  // without inertia
+        private readonly EnergyTerm[] _terms;  // with it
         private readonly BlockTridiagonal _system;
         private readonly EquilibriumSolver _search;
         private readonly DragFlow? _creep;  // in place of the search where a couple at the tip has no potential
         private readonly RodVector[] _gradient;
         private readonly RodVector[] _direction;
-        private readonly double _length;
+        private readonly double _totalLength;
         private readonly double _mass;
-        private readonly double _bendForce;        // EI/L^2 of the softest element, N
+        private readonly double _softestBendForce;  // EI/L^2 of the softest element, N
         private readonly double _stiffest;         // EA, N
         private readonly double _axialSpring;      // EA/l, N/m
         private double _largestForce;              // in the rod when last measured, N
@@ -46,33 +47,29 @@ namespace Guidewire.Core
         private double _knownForce = double.PositiveInfinity;
         private int _stagesOnTrust;
 
-        /// <summary>A solver for this rod under the terms of its statics and its inertia.</summary>
-        public StageSolver(MaterialRod rod, RodSupports supports, RodStatics statics, EnergyTerm inertia)
+        /// <summary>A solver for a rod under its terms and its inertia.</summary>
+        public StageSolver(RodTerms terms, EnergyTerm inertia)
         {
+            MaterialRod rod = terms.Rod;
             _rod = rod;
-            _supports = supports;
-            _stretch = statics.Stretch;
-            _terms = statics.DynamicTerms(inertia);
-            _system = new BlockTridiagonal(rod, supports);
-            _search = new EquilibriumSolver(rod, supports, _terms);
-            _creep = statics.Moment.Moment == Vector3d.Zero ? null
-                : new DragFlow(rod, supports, _terms, statics.Moment);
+            _supports = terms.Supports;
+            _rodTerms = terms;
+            _terms = terms.With(inertia);
+            _system = new BlockTridiagonal(rod, _supports);
+            _search = new EquilibriumSolver(rod, _supports, _terms);
+            _creep = terms.HavePotential ? null : new DragFlow(rod, _supports, _terms, terms.Moment);
             _gradient = new RodVector[_system.VectorCount];
             _direction = new RodVector[_system.VectorCount];
-            _length = rod.TotalLength;
-            _bendForce = double.PositiveInfinity;
+            _totalLength = rod.TotalLength;
+            _mass = terms.Mass.Total;
+            _softestBendForce = double.PositiveInfinity;
             for (int j = 0; j < rod.ElementCount; j++)
             {
-                _mass += rod.LineDensity[j] * rod.Length[j];
-                _bendForce = Math.Min(_bendForce, rod.BendStiffness[j] / (_length * _length));
+                _softestBendForce = Math.Min(_softestBendForce, rod.BendStiffness[j] / (_totalLength * _totalLength));
                 _stiffest = Math.Max(_stiffest, rod.StretchStiffness[j]);
                 _axialSpring = Math.Max(_axialSpring, rod.StretchStiffness[j] / rod.Length[j]);
             }
         }
-
-        /// <summary>Whether the last gradient, with all that its terms remember of it, was that of the shape
-        /// returned.</summary>
-        public bool GradientIsCurrent { get; private set; }
 
         /// <summary>Error that a stage's shape may have: radians, or displacement over L.</summary>
         public double Tolerance { get; set; } = 1e-6;
@@ -99,10 +96,9 @@ namespace Guidewire.Core
         /// <returns>False where the iteration does not converge; the shape is then not to be used.</returns>
         public bool Iterate(RodShape shape, double stageLength, double loads)
         {
-            double rounding = LastPlace * (shape.X[0].Length + _length)
+            double rounding = LastPlace * (shape.X[0].Length + _totalLength)
                 * (_axialSpring + _mass / (stageLength * stageLength));
             double unbalanced = double.PositiveInfinity;
-            GradientIsCurrent = false;
             for (int f = 0; f < MostFactorisations; f++)
             {
                 Factorisations++;
@@ -111,7 +107,11 @@ namespace Guidewire.Core
                     return false;
                 }
                 _system.Back(_direction);
-                double first = Move(shape);
+                double first = Move(shape, out double share);
+                if (share < 1.0)
+                {
+                    continue;
+                }
                 double allowed = Allowed(rounding, loads);
                 _stagesOnTrust++;
                 if (_stagesOnTrust < MostOnTrust && Caution * Expected(first) <= allowed)
@@ -134,12 +134,15 @@ namespace Guidewire.Core
                     bool atRounding = k == 0 && unbalanced >= 0.5 * last && first <= Tolerance;
                     if (unbalanced <= allowed || atRounding)
                     {
-                        GradientIsCurrent = true;
                         return true;
                     }
                     KeptSolutions++;
                     _system.Solve(_direction);
-                    double next = Move(shape);
+                    double next = Move(shape, out share);
+                    if (share < 1.0)
+                    {
+                        break;
+                    }
                     if (Safety * _stiffest * first * next <= allowed && next <= Tolerance)
                     {
                         return true;
@@ -163,7 +166,6 @@ namespace Guidewire.Core
         public string? Search(RodShape shape)
         {
             Searches++;
-            GradientIsCurrent = false;
             _knownForce = double.PositiveInfinity;
             EquilibriumResult result = _creep == null ? _search.Solve(shape, Tolerance, MostIterations, false)
                 : _creep.Settle(shape, Tolerance, MostIterations);
@@ -178,17 +180,48 @@ namespace Guidewire.Core
         }
 
         /// <summary>The same before the first step, without inertia.</summary>
-        public RodVector[] StaticReactions(RodShape shape, EnergyTerm inertia)
+        public RodVector[] StaticReactions(RodShape shape)
         {
             Array.Clear(_gradient, 0, _gradient.Length);
-            foreach (EnergyTerm term in _terms)
-            {
-                if (term != inertia)
-                {
-                    term.AddGradient(shape, _gradient, 0, shape.ElementCount + 1);
-                }
-            }
+            _rodTerms.AddGradient(shape, _gradient);
             return _gradient;
+        }
+
+        /// <summary>Writes or takes over the counts.</summary>
+        public void ExchangeCounts(Snapshot snapshot)
+        {
+            long factorisations = Factorisations;
+            long kept = KeptSolutions;
+            long searches = Searches;
+            snapshot.Exchange(ref factorisations);
+            snapshot.Exchange(ref kept);
+            snapshot.Exchange(ref searches);
+            Factorisations = factorisations;
+            KeptSolutions = kept;
+            Searches = searches;
+        }
+
+        /// <summary>Writes or takes over what is expected of the next stage; a rod that answers otherwise than the
+        /// writer's is measured anew.</summary>
+        public void ExchangeTrust(Snapshot snapshot)
+        {
+            bool isSame = Agrees(snapshot, _stiffest) & Agrees(snapshot, _axialSpring) & Agrees(snapshot, _mass)
+                & Agrees(snapshot, _softestBendForce) & Agrees(snapshot, Tolerance) & Agrees(snapshot, Balance);
+            snapshot.Exchange(ref _largestForce);
+            snapshot.Exchange(ref _knownStep);
+            snapshot.Exchange(ref _knownForce);
+            snapshot.Exchange(ref _stagesOnTrust);
+            if (!isSame)
+            {
+                _knownForce = double.PositiveInfinity;
+            }
+        }
+
+        private static bool Agrees(Snapshot snapshot, double own)
+        {
+            double value = own;
+            snapshot.Exchange(ref value);
+            return value == own;
         }
 
         /// <summary>The force that a full step of this length is expected to leave, N.</summary>
@@ -201,23 +234,24 @@ namespace Guidewire.Core
         /// <summary>S, N.</summary>
         private double Allowed(double rounding, double loads)
         {
-            return Math.Min(Balance * Math.Max(_largestForce, loads), Tolerance * _bendForce) + rounding;
+            return Math.Min(Balance * Math.Max(_largestForce, loads), Tolerance * _softestBendForce) + rounding;
         }
 
         /// <summary>The largest force on a piece of the rod from its start to any node, or the sum of the couples over
         /// L, N; the direction is set to minus the gradient.</summary>
         private double Unbalanced(RodShape shape)
         {
-            _system.Gradient(_terms, shape, _gradient, _direction);
-            _largestForce = _stretch.LargestForce;
+            _largestForce = _system.Gradient(_terms, shape, _gradient, _direction).LargestForce;
             double force = RodVectors.LargestPartialForce(_direction, out double couples);
-            return Math.Max(force, couples / _length);
+            return Math.Max(force, couples / _totalLength);
         }
 
-        private double Move(RodShape shape)
+        /// <summary>Takes the step, or the share of it that the terms allow; returns its full size.</summary>
+        private double Move(RodShape shape, out double share)
         {
-            double size = RodStep.Size(_direction, _rod.ElementCount, _length, out _);
-            RodStep.Apply(_rod, _supports, shape, _direction, 1.0, shape);
+            double size = RodStep.Size(_direction, _rod.ElementCount, _totalLength, out _);
+            share = EnergySum.LargestShare(_terms, shape, _direction, 1.0);
+            RodStep.Apply(_rod, _supports, shape, _direction, share, shape);
             return size;
         }
     }

@@ -23,10 +23,11 @@ namespace Guidewire.Core
 
         private readonly MaterialRod _rod;
         private readonly RodSupports _supports;
+        private readonly EnergyTerm[] _terms;
         private readonly FollowerTangent _tangent;
         private readonly RodVector[] _step;
         private readonly RodShape _trial;
-        private readonly double _length;
+        private readonly double _totalLength;
         private readonly double _bendForce;  // EI/L^2 of the stiffest element, N
 
         /// <summary>A solver for this rod; <paramref name="moment"/> is among the terms.</summary>
@@ -34,14 +35,16 @@ namespace Guidewire.Core
         {
             _rod = rod;
             _supports = supports;
+            _terms = terms;
             _tangent = new FollowerTangent(rod, supports, terms, moment);
             _step = new RodVector[_tangent.System.VectorCount];
             _trial = new RodShape(rod.ElementCount);
-            _length = rod.TotalLength;
+            _totalLength = rod.TotalLength;
             _bendForce = rod.BendForce;
         }
 
-        /// <summary>Moves <paramref name="shape"/> to the rest shape that it creeps to, and judges it.</summary>
+        /// <summary>Moves <paramref name="shape"/> to the rest shape that it creeps to, and looks whether it
+        /// is stable.</summary>
         /// <param name="tolerance">On the last Newton step, radians or displacement over L.</param>
         /// <param name="mostIterations">Steps, after which the search gives up.</param>
         public EquilibriumResult Solve(RodShape shape, double tolerance, int mostIterations)
@@ -72,7 +75,7 @@ namespace Guidewire.Core
             {
                 result.Iterations++;
                 FindStep(shape, ref drag, ref result);
-                double size = RodStep.Size(_step, _rod.ElementCount, _length, out double relative);
+                double size = RodStep.Size(_step, _rod.ElementCount, _totalLength, out double relative);
                 result.LastStep = size;
                 if (!(size < double.MaxValue))
                 {
@@ -80,9 +83,11 @@ namespace Guidewire.Core
                     return result;
                 }
                 double scale = Math.Min(1.0, LargestTurn / Math.Max(size, relative));
+                double share = EnergySum.LargestShare(_terms, shape, _step, scale);
+                scale *= share;
                 RodStep.Apply(_rod, _supports, shape, _step, scale, _trial);
                 shape.CopyFrom(_trial);
-                if (size <= tolerance)
+                if (size <= tolerance && share == 1.0)
                 {
                     result.Converged = true;
                     return result;

@@ -16,7 +16,7 @@ namespace Guidewire.Core
 
         private readonly FollowerTangent _tangent;
         private readonly double _bendForce;  // EI/L^2, N
-        private readonly double _length;
+        private readonly double _totalLength;
         private readonly RodVector[][] _basis = new RodVector[MostVectors + 1][];
 
         /// <summary>The spectrum of this rod's tangent.</summary>
@@ -24,7 +24,7 @@ namespace Guidewire.Core
         {
             _tangent = tangent;
             _bendForce = rod.BendForce;
-            _length = rod.TotalLength;
+            _totalLength = rod.TotalLength;
             for (int k = 0; k <= MostVectors; k++)
             {
                 _basis[k] = new RodVector[tangent.System.VectorCount];
@@ -89,7 +89,7 @@ namespace Guidewire.Core
         private double[,] Project()
         {
             BlockTridiagonal system = _tangent.System;
-            RodVectors.SetWithoutSymmetry(_basis[0], _length);
+            RodVectors.SetWithoutSymmetry(_basis[0], _totalLength);
             system.Project(_basis[0]);
             RodVectors.Scale(_basis[0], 1.0 / Math.Sqrt(system.MetricDot(_basis[0], _basis[0])));
             var h = new double[MostVectors, MostVectors];

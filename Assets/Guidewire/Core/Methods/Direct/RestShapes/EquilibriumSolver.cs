@@ -31,7 +31,7 @@ namespace Guidewire.Core
         private readonly RodVector[] _direction;
         private readonly RodVector[] _work;
         private readonly RodShape _trial;
-        private readonly double _length;
+        private readonly double _totalLength;
         private readonly double _bendForce;  // EI/L^2 of the stiffest element, N
         private readonly double _neutral;    // eigenvalues above its negative count as not negative, N
 
@@ -46,20 +46,18 @@ namespace Guidewire.Core
             _direction = new RodVector[_system.VectorCount];
             _work = new RodVector[_system.VectorCount];
             _trial = new RodShape(rod.ElementCount);
-            _length = rod.TotalLength;
+            _totalLength = rod.TotalLength;
             _bendForce = rod.BendForce;
             _neutral = Neutral * _bendForce;
         }
 
-        /// <summary>The gradient at the last shape: at a support, minus the reaction.</summary>
-        public RodVector[] LastGradient => _gradient;
-
         /// <summary>Moves <paramref name="shape"/> to a rest shape near it.</summary>
         /// <param name="tolerance">On the last Newton step, radians or displacement over L.</param>
         /// <param name="mostIterations">After which the search gives up.</param>
-        /// <param name="judge">Whether the result states the smallest eigenvalue, which costs some
+        /// <param name="findsEigenvalue">Whether the result states the smallest eigenvalue, which costs some
         /// solutions.</param>
-        public EquilibriumResult Solve(RodShape shape, double tolerance, int mostIterations, bool judge = true)
+        public EquilibriumResult Solve(RodShape shape, double tolerance, int mostIterations,
+            bool findsEigenvalue = true)
         {
             EquilibriumResult result = default;
             result.Reason = string.Empty;
@@ -67,9 +65,9 @@ namespace Guidewire.Core
             while (result.Iterations < mostIterations)
             {
                 result.Iterations++;
-                Anchor(shape);
+                EnergySum.Anchor(_terms, shape);
                 bool convex = FindDirection(shape, ref shift, ref result);
-                double size = RodStep.Size(_direction, _rod.ElementCount, _length, out double relative);
+                double size = RodStep.Size(_direction, _rod.ElementCount, _totalLength, out double relative);
                 result.LastStep = size;
                 if (!IsFinite(size))
                 {
@@ -88,9 +86,11 @@ namespace Guidewire.Core
                 // Along a direction that costs no energy rounding alone makes steps: there the energy they gain is
                 // asked.
                 double energyStep = Math.Sqrt(Math.Max(0.0, -RodVectors.Dot(_gradient, _direction))
-                    / (_bendForce * _length));
-                bool done = convex && (size <= tolerance || energyStep <= tolerance);
+                    / (_bendForce * _totalLength));
                 double scale = Math.Min(1.0, Math.Min(LargestTurn / size, LargestRelativeTurn / relative));
+                double share = EnergySum.LargestShare(_terms, shape, _direction, scale);
+                scale *= share;
+                bool done = convex && share == 1.0 && (size <= tolerance || energyStep <= tolerance);
                 if (done)
                 {
                     RodStep.Apply(_rod, _supports, shape, _direction, 1.0, _trial);
@@ -103,7 +103,7 @@ namespace Guidewire.Core
                 shape.CopyFrom(_trial);
                 if (done)
                 {
-                    if (!judge)
+                    if (!findsEigenvalue)
                     {
                         result.Converged = true;
                         result.Reason = string.Empty;
@@ -145,7 +145,7 @@ namespace Guidewire.Core
         private bool Search(RodShape shape, double scale, double size)
         {
             double slope = RodVectors.Dot(_gradient, _direction);
-            double start = Value(shape, out double magnitude);
+            double start = EnergySum.Value(_terms, shape, out double magnitude);
             double rounding = 1e-13 * magnitude;
             if (-slope < 1e3 * rounding && size < 1e-2)
             {
@@ -156,7 +156,7 @@ namespace Guidewire.Core
             for (int cut = 0; cut < MostCuts; cut++)
             {
                 RodStep.Apply(_rod, _supports, shape, _direction, scale, _trial);
-                double value = Value(_trial, out _);
+                double value = EnergySum.Value(_terms, _trial, out _);
                 if (value <= start + SufficientDecrease * scale * slope + rounding)
                 {
                     return true;
@@ -182,13 +182,14 @@ namespace Guidewire.Core
             _system.Factorise(_terms, shape, _gradient, _direction, high);
             InverseIteration(out _);
             Array.Copy(_work, _direction, _work.Length);
-            double size = RodStep.Size(_direction, _rod.ElementCount, _length, out _);
+            double size = RodStep.Size(_direction, _rod.ElementCount, _totalLength, out _);
             double sign = RodVectors.Dot(_gradient, _direction) > 0.0 ? -1.0 : 1.0;
-            double start = Value(shape, out double magnitude);
-            for (double turn = 0.3; turn > 1e-6; turn *= 0.5)
+            double start = EnergySum.Value(_terms, shape, out double magnitude);
+            double largest = 0.3 * EnergySum.LargestShare(_terms, shape, _direction, sign * 0.3 / size);
+            for (double turn = largest; turn > 1e-6; turn *= 0.5)
             {
                 RodStep.Apply(_rod, _supports, shape, _direction, sign * turn / size, _trial);
-                if (Value(_trial, out _) < start - 1e-14 * magnitude)
+                if (EnergySum.Value(_terms, _trial, out _) < start - 1e-14 * magnitude)
                 {
                     shape.CopyFrom(_trial);
                     return true;
@@ -201,7 +202,7 @@ namespace Guidewire.Core
         /// smallest.</summary>
         private void InverseIteration(out double eigenvalue)
         {
-            RodVectors.SetWithoutSymmetry(_work, _length);
+            RodVectors.SetWithoutSymmetry(_work, _totalLength);
             _system.Project(_work);
             double norm = Math.Sqrt(_system.MetricDot(_work, _work));
             eigenvalue = 0.0;
@@ -218,7 +219,7 @@ namespace Guidewire.Core
 
         private EquilibriumResult Finish(RodShape shape, EquilibriumResult result)
         {
-            Anchor(shape);
+            EnergySum.Anchor(_terms, shape);
             double shift = 0.0;
             int negative = _system.Factorise(_terms, shape, _gradient, _direction, shift);
             result.Factorisations++;
@@ -240,27 +241,6 @@ namespace Guidewire.Core
                 result.Reason = "the energy is not convex at the shape found";
             }
             return result;
-        }
-
-        private void Anchor(RodShape shape)
-        {
-            foreach (EnergyTerm term in _terms)
-            {
-                term.Anchor(shape);
-            }
-        }
-
-        private double Value(RodShape shape, out double magnitude)
-        {
-            double sum = 0.0;
-            magnitude = 0.0;
-            foreach (EnergyTerm term in _terms)
-            {
-                double value = term.Value(shape);
-                sum += value;
-                magnitude += Math.Abs(value);
-            }
-            return sum;
         }
 
         private static bool IsFinite(double value)

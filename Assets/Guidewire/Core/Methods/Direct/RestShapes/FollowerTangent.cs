@@ -44,10 +44,7 @@ namespace Guidewire.Core
         /// anywhere.</returns>
         public int Factorise(RodShape shape, RodVector[] step, double drag)
         {
-            foreach (EnergyTerm term in _terms)
-            {
-                term.Anchor(shape);
-            }
+            EnergySum.Anchor(_terms, shape);
             int negative = _system.Factorise(_terms, shape, _gradient, step, drag);
             _system.Back(step);
             Prepare();

@@ -43,7 +43,8 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override void AddGradient(RodShape shape, RodVector[] gradient, int from, int to)
+        public override void AddGradient(RodShape shape, RodVector[] gradient, int from, int to,
+            ref GradientMeasures measured)
         {
             for (int i = from; i < to; i++)
             {
@@ -57,7 +58,8 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void AddBlocks(RodShape shape, RodBlock[] blocks, RodVector[] gradient, int from, int to)
         {
-            AddGradient(shape, gradient, from, to);
+            var measured = default(GradientMeasures);
+            AddGradient(shape, gradient, from, to, ref measured);
             for (int i = from; i < to; i++)
             {
                 ref RodBlock b = ref blocks[i];

@@ -13,11 +13,12 @@ namespace Guidewire.Core
         /// <summary>Moves the shape to rest.</summary>
         /// <param name="report">Told how the rest shape was found and how good it is.</param>
         /// <returns>Null, or why there is no rest shape.</returns>
-        public static string? Find(MaterialScene scene, RodStatics statics, RodShape shape, double tolerance,
+        public static string? Find(MaterialScene scene, RodTerms terms, RodShape shape, double tolerance,
             int mostIterations, SolverReport report)
         {
             RodSchedule schedule = scene.Schedule;
-            schedule.SetLoads(scene.Rod, scene.Supports.Mass, statics.Loads, 0.0);
+            var statics = new RodStatics(terms);
+            terms.SetTime(schedule, 0.0);
             bool clamped = scene.Supports.HasDistalJoint;
             int last = shape.ElementCount;
             double turn = clamped ? schedule.DistalTurnAt(0.0) : 0.0;
@@ -46,7 +47,7 @@ namespace Guidewire.Core
                 report.Factorisations += result.Factorisations;
                 report.EquilibriumResidual = result.Residual;
                 report.SmallestEigenvalue = result.SmallestEigenvalue;
-                report.Method = statics.Method;
+                report.Method = result.Method ?? string.Empty;
                 if (!result.Converged)
                 {
                     return "no rest shape: " + result.Reason;

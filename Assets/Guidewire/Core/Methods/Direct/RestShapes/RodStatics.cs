@@ -12,44 +12,14 @@ namespace Guidewire.Core
 
         private readonly MaterialRod _rod;
         private readonly RodSupports _supports;
-        private readonly EnergyTerm[] _terms;
+        private readonly RodTerms _terms;
 
-        /// <summary>A rod without loads.</summary>
-        public RodStatics(MaterialRod rod, RodSupports supports)
+        /// <summary>A rod under these terms, as their loads stand when it is solved.</summary>
+        public RodStatics(RodTerms terms)
         {
-            _rod = rod;
-            _supports = supports;
-            Stretch = new StretchEnergy(rod);
-            Bending = CreateBending(rod, supports);
-            Loads = new DeadLoads(rod.ElementCount);
-            Moment = new TipMoment();
-            _terms = new EnergyTerm[] { Stretch, Bending, Loads };
-        }
-
-        /// <summary>The stretch energy, for stresses and reactions.</summary>
-        public StretchEnergy Stretch { get; }
-
-        /// <summary>The bending energy.</summary>
-        public BendTwistTerm Bending { get; }
-
-        /// <summary>Forces on the nodes.</summary>
-        public DeadLoads Loads { get; }
-
-        /// <summary>The couple on the last element, along its own axes.</summary>
-        public TipMoment Moment { get; }
-
-        /// <summary>How the last rest shape was found, in one line.</summary>
-        public string Method { get; private set; } = "";
-
-        /// <summary>The bending energy of a rod for the law that its supports name.</summary>
-        public static BendTwistTerm CreateBending(MaterialRod rod, RodSupports supports)
-        {
-            Joint[] joints = rod.Joints(supports);
-            if (supports.Bend == BendLaw.Darboux)
-            {
-                return new BendTwistEnergy<DarbouxLaw>(joints, supports.HasProximalJoint, supports.HasDistalJoint);
-            }
-            return new BendTwistEnergy<RotationVectorLaw>(joints, supports.HasProximalJoint, supports.HasDistalJoint);
+            _rod = terms.Rod;
+            _supports = terms.Supports;
+            _terms = terms;
         }
 
         /// <summary>Moves <paramref name="shape"/> to a rest shape near it.</summary>
@@ -58,27 +28,29 @@ namespace Guidewire.Core
         public EquilibriumResult Solve(RodShape shape, double tolerance, int mostIterations)
         {
             EquilibriumResult result;
-            if (Moment.Moment == Vector3d.Zero)
+            string method;
+            if (_terms.HavePotential)
             {
-                Method = "minimum of the energy";
-                result = new EquilibriumSolver(_rod, _supports, _terms).Solve(shape, tolerance, mostIterations);
+                method = "minimum of the energy";
+                result = new EquilibriumSolver(_rod, _supports, _terms.All).Solve(shape, tolerance, mostIterations);
             }
             else if (FindPlane(shape, out Vector3d normal))
             {
-                Method = "minimum of the energy in the plane of the loads, kept to that plane";
+                method = "minimum of the energy in the plane of the loads, kept to that plane";
                 PlaneGuide guide = new PlaneGuide(_rod, normal, shape.X[0]);
-                EnergyTerm[] inPlane = { Stretch, Bending, Loads, Moment, guide };
-                result = new EquilibriumSolver(_rod, _supports, inPlane).Solve(shape, tolerance, mostIterations);
+                result = new EquilibriumSolver(_rod, _supports, _terms.With(guide)).Solve(
+                    shape, tolerance, mostIterations);
                 if (result.Converged && !IsStableInSpace(shape))
                 {
-                    Method += "; free to leave it, the wire would not stay";
+                    method += "; free to leave it, the wire would not stay";
                 }
             }
             else
             {
-                Method = "tipMoment has no potential in space: where a wire with drag comes to rest";
+                method = "tipMoment has no potential in space: where a wire with drag comes to rest";
                 result = Creep(shape, tolerance, mostIterations);
             }
+            result.Method = method;
             result.Residual = Residual(shape);
             return result;
         }
@@ -86,13 +58,13 @@ namespace Guidewire.Core
         /// <summary>Minimises without the couple, then puts it on and creeps.</summary>
         private EquilibriumResult Creep(RodShape shape, double tolerance, int mostIterations)
         {
-            EquilibriumResult first = new EquilibriumSolver(_rod, _supports, _terms).Solve(
+            EquilibriumResult first = new EquilibriumSolver(_rod, _supports, _terms.WithPotential()).Solve(
                 shape, tolerance, mostIterations, false);
             if (!first.Converged)
             {
                 return first;
             }
-            EquilibriumResult result = new DragFlow(_rod, _supports, AllTerms(), Moment).Solve(
+            EquilibriumResult result = new DragFlow(_rod, _supports, _terms.All, _terms.Moment).Solve(
                 shape, tolerance, mostIterations);
             result.Iterations += first.Iterations;
             result.Factorisations += first.Factorisations;
@@ -101,13 +73,8 @@ namespace Guidewire.Core
 
         private bool IsStableInSpace(RodShape shape)
         {
-            var tangent = new FollowerTangent(_rod, _supports, AllTerms(), Moment);
+            var tangent = new FollowerTangent(_rod, _supports, _terms.All, _terms.Moment);
             return new DragSpectrum(tangent, _rod).IsStable(shape);
-        }
-
-        private EnergyTerm[] AllTerms()
-        {
-            return new EnergyTerm[] { Stretch, Bending, Loads, Moment };
         }
 
         /// <summary>Largest unbalanced force over EI/L^2 + the sum of the loads, or couple over that times L.</summary>
@@ -115,35 +82,41 @@ namespace Guidewire.Core
         {
             var system = new BlockTridiagonal(_rod, _supports);
             var free = new RodVector[system.VectorCount];
-            system.Gradient(AllTerms(), shape, new RodVector[system.VectorCount], free);
+            system.Gradient(_terms.All, shape, new RodVector[system.VectorCount], free);
             double loads = _rod.BendForce;
-            foreach (Vector3d force in Loads.Force)
+            foreach (Vector3d force in LoadGradient(shape))
             {
                 loads += force.Length;
             }
             return RodVectors.Largest(free, _rod.TotalLength) / loads;
         }
 
-        /// <summary>The terms of a motion: all that stores energy or does work, and the inertia.</summary>
-        public EnergyTerm[] DynamicTerms(EnergyTerm inertia)
+        /// <summary>Minus the force of all loads on each node, N.</summary>
+        private Vector3d[] LoadGradient(RodShape shape)
         {
-            return Moment.Moment == Vector3d.Zero
-                ? new EnergyTerm[] { Stretch, Bending, Loads, inertia }
-                : new EnergyTerm[] { Stretch, Bending, Loads, Moment, inertia };
+            var gradient = new RodVector[shape.ElementCount + 2];
+            _terms.AddLoadGradient(shape, gradient);
+            var forces = new Vector3d[shape.ElementCount + 1];
+            for (int i = 0; i < forces.Length; i++)
+            {
+                forces[i] = new Vector3d(gradient[i].X1, gradient[i].X2, gradient[i].X3);
+            }
+            return forces;
         }
 
         /// <summary>True where shape, rest shape and loads lie in one plane, across the couple.</summary>
         private bool FindPlane(RodShape shape, out Vector3d normal)
         {
             int n = _rod.ElementCount;
-            normal = Vector3d.Normalize(Quaterniond.Rotate(shape.Q[n - 1], Moment.Moment));
+            normal = Vector3d.Normalize(Quaterniond.Rotate(shape.Q[n - 1], _terms.Moment.Moment));
             Vector3d start = shape.X[0];
             double length = _rod.TotalLength;
             bool flat = _supports.Distal == DistalEnd.Free
                 && Math.Abs(Vector3d.Dot(shape.ProximalFrame.Director3, normal)) < PlaneTolerance;
+            Vector3d[] forces = LoadGradient(shape);
             for (int i = 0; i <= n; i++)
             {
-                Vector3d force = Loads.Force[i];
+                Vector3d force = forces[i];
                 flat &= Math.Abs(Vector3d.Dot(force, normal)) <= PlaneTolerance * force.Length;
                 flat &= Math.Abs(Vector3d.Dot(shape.X[i] - start, normal)) < PlaneTolerance * length;
             }

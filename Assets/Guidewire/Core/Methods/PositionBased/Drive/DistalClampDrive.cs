@@ -7,35 +7,34 @@ namespace Guidewire.Core
     {
         private readonly IDriveMotion? _motion;
         private readonly RodSchedule _schedule;
-        private readonly double _timeStep;
-        private int _step;
+        private readonly StepClock _clock;
 
         /// <param name="motion">What moves sphere 0, or null.</param>
-        /// <param name="state">The wire at its start.</param>
-        /// <param name="parameters">dt, and the clamp's displacement in units, turn and ramp.</param>
-        public DistalClampDrive(IDriveMotion? motion, RodState state, SimulationParameters parameters)
+        /// <param name="schedule">The clamp's place, frame and motion in time.</param>
+        /// <param name="timeStep">dt, s.</param>
+        public DistalClampDrive(IDriveMotion? motion, RodSchedule schedule, double timeStep)
         {
-            int last = state.ElementCount - 1;
             _motion = motion;
-            _timeStep = parameters.TimeStep;
-            _schedule = new RodSchedule
-            {
-                DistalPosition = state.Positions[last + 1],
-                DistalFrame = state.Orientations[last],
-                DistalDisplacement = parameters.Material.DistalDisplacement,
-                DistalRotation = parameters.Material.DistalRotation,
-                DistalRampTime = parameters.Material.DistalRampTime,
-            };
+            _schedule = schedule;
+            _clock = new StepClock(timeStep);
         }
 
         /// <inheritdoc/>
         public void Move(RodState state)
         {
             _motion?.Move(state);
-            _step++;
-            double time = _step * _timeStep;
+            _clock.Advance();
+            double time = _clock.Time;
             state.PredictedPositions[state.ElementCount] = _schedule.DistalPositionAt(time);
             state.PredictedOrientations[state.ElementCount - 1] = _schedule.DistalFrameAt(time);
+        }
+
+        /// <inheritdoc/>
+        public void Exchange(Snapshot snapshot)
+        {
+            _motion?.Exchange(snapshot);
+            _clock.Exchange(snapshot);
+            _schedule.Exchange(snapshot, _clock.Time);
         }
     }
 }

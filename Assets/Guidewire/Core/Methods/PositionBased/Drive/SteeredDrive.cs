@@ -8,6 +8,7 @@ namespace Guidewire.Core
     internal sealed class SteeredDrive : IDriveMotion
     {
         private readonly Steering _hand;
+        private readonly AlongFirstElement _direction = new AlongFirstElement();
 
         /// <param name="hand">What is asked.</param>
         public SteeredDrive(Steering hand)
@@ -18,10 +19,15 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public void Move(RodState state)
         {
-            Vector3d direction = Vector3d.Normalize(state.Positions[1] - state.Positions[0]);
-            state.PredictedPositions[0] = state.Positions[0] + _hand.Push * direction;
+            Vector3d[] x = state.Positions;
+            state.PredictedPositions[0] = x[0] + _hand.Push * _direction.At(x[0], x[1]);
             Quaterniond turn = Quaterniond.FromAxisAngle(Vector3d.UnitZ, _hand.Turn);
             state.PredictedOrientations[0] = Quaterniond.Normalize(state.Orientations[0] * turn);
+        }
+
+        /// <inheritdoc/>
+        public void Exchange(Snapshot snapshot)
+        {
         }
     }
 }

@@ -31,5 +31,11 @@ namespace Guidewire.Core
                 state.PredictedPositions[i] = state.Positions[i] + timeStep * v;
             }
         }
+
+        /// <inheritdoc/>
+        public void Exchange(Snapshot snapshot, double timeStep)
+        {
+            snapshot.Section("Euler", _ => { });
+        }
     }
 }

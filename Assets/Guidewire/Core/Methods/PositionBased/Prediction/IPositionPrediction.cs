@@ -8,5 +8,9 @@ namespace Guidewire.Core
         /// <param name="state">Its positions, velocities and forces are read.</param>
         /// <param name="timeStep">dt in s.</param>
         void Predict(RodState state, double timeStep);
+
+        /// <summary>Writes into a snapshot, or takes over from one, what it remembers of earlier steps; from a
+        /// prediction of its kind and the same step size only.</summary>
+        void Exchange(Snapshot snapshot, double timeStep);
     }
 }

@@ -14,5 +14,11 @@ namespace Guidewire.Core
                 state.PredictedOrientations[j] = Quaterniond.Normalize(q + (0.5 * timeStep) * spin);
             }
         }
+
+        /// <inheritdoc/>
+        public void Exchange(Snapshot snapshot, double timeStep)
+        {
+            snapshot.Section("Euler, orientations", _ => { });
+        }
     }
 }

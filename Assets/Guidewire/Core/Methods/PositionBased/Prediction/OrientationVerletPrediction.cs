@@ -40,5 +40,15 @@ namespace Guidewire.Core
                 _previous[j] = q;
             }
         }
+
+        /// <inheritdoc/>
+        public void Exchange(Snapshot snapshot, double timeStep)
+        {
+            snapshot.Section("Verlet, orientations", history =>
+            {
+                history.Exchange(ref _started);
+                history.Exchange(_previous);
+            }, timeStep);
+        }
     }
 }

@@ -36,5 +36,11 @@ namespace Guidewire.Core
                         + (timeStep * timeStep) * (w * state.Forces[i] + _gravity);
             }
         }
+
+        /// <inheritdoc/>
+        public void Exchange(Snapshot snapshot, double timeStep)
+        {
+            snapshot.Section("Verlet", history => history.Exchange(ref _started), timeStep);
+        }
     }
 }

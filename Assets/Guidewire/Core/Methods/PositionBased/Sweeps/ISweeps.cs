@@ -10,7 +10,7 @@ namespace Guidewire.Core
         /// <param name="iterations">How many, 0 or more.</param>
         /// <param name="contacts">Contacts, or null where there are none.</param>
         /// <returns>False, with nothing done, where these sweeps cannot take these contacts.</returns>
-        bool Iterate(Vector3d[] x, Quaterniond[] q, int iterations, IContactRule? contacts);
+        bool Iterate(Vector3d[] x, Quaterniond[] q, int iterations, IContactResponse? contacts);
 
         /// <summary>About how long so many iterations take, counted in elements of a scalar sweep.</summary>
         double Cost(int iterations);

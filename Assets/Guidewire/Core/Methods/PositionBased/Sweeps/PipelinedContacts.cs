@@ -21,7 +21,7 @@ namespace Guidewire.Core
         private readonly int[] _first;      // the first contact at each place, or -1
         private readonly int[] _last;
         private readonly int[] _next;       // the contact after each at the same place, or -1
-        private IContactRule? _rule;
+        private IContactResponse? _rule;
 
         /// <param name="elements">n.</param>
         /// <param name="period">Places of a sweep.</param>
@@ -47,7 +47,7 @@ namespace Guidewire.Core
         public double[] Held { get; }
 
         /// <summary>Finds the place of each contact; false where there is none for some.</summary>
-        public bool TryPlan(IContactRule? rule)
+        public bool TryPlan(IContactResponse? rule)
         {
             Array.Clear(Lanes, 0, Lanes.Length);
             _rule = rule;

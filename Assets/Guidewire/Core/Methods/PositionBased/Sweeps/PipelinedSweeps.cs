@@ -78,7 +78,7 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public bool Iterate(Vector3d[] x, Quaterniond[] q, int iterations, IContactRule? contacts)
+        public bool Iterate(Vector3d[] x, Quaterniond[] q, int iterations, IContactResponse? contacts)
         {
             double contactCost = ContactCost * iterations * (contacts?.ContactCount ?? 0);
             bool isSlower = contactCost > 0.0 && Cost(iterations) + contactCost > (double)_elements * iterations;

@@ -28,7 +28,7 @@ namespace Guidewire.Core
         public SweepOrder Order { get; }
 
         /// <inheritdoc/>
-        public bool Iterate(Vector3d[] x, Quaterniond[] q, int iterations, IContactRule? contacts)
+        public bool Iterate(Vector3d[] x, Quaterniond[] q, int iterations, IContactResponse? contacts)
         {
             for (int iteration = 0; iteration < iterations; iteration++)
             {

@@ -31,7 +31,7 @@ namespace Guidewire.Core.Tests
 
         [TestCase(30, 0.5e-3)]
         [TestCase(20, 2e-3)]
-        public void ExplicitStepsBelowTheirLimit_EndFinishedWithoutADoubt(int n, double radius)
+        public void ExplicitStepsBelowTheirLimit_EndFinishedWithoutAWarning(int n, double radius)
         {
             Simulation run = Explicit(n, radius, 0.98 * Limit(n, radius));
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
@@ -39,10 +39,10 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        public void ExplicitStepsAboveTheirLimit_AreDoubtful_WhereNothingMovesYet()
+        public void ExplicitStepsAboveTheirLimit_WarnOfIt_WhereNothingMovesYet()
         {
             SimulationParameters parameters = Wire(Solver.Explicit, 30, Rods.Radius, 3e-7, 10);
-            parameters.Gravity = Vector3d.Zero;
+            parameters.Scene.Gravity = Vector3d.Zero;
             Simulation run = Wires.Run(parameters);
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished));
             Assert.That(run.Reason, Does.Contain("unstable"));
@@ -55,9 +55,9 @@ namespace Guidewire.Core.Tests
             foreach (int substeps in new[] { 1, 4, 16, 64, 256 })
             {
                 SimulationParameters parameters = Wire(Solver.Xpbd, 30, Rods.Radius, 1e-3, 100);
-                parameters.Material.TipForce = new Vector3d(0.0, 2.0 * Rods.BendForce, 0.0);
-                parameters.Material.Substeps = substeps;
-                parameters.ConstraintSolverSteps = sweeps;
+                parameters.Scene.TipForce = new Vector3d(0.0, 2.0 * Rods.BendForce, 0.0);
+                parameters.Method.Substeps = substeps;
+                parameters.Method.ConstraintSolverSteps = sweeps;
                 Simulation run = Wires.Run(parameters);
                 Assert.That(Wires.IsFinite(run.State), Is.True);
                 if (run.Outcome != Outcome.Diverged)
@@ -77,11 +77,11 @@ namespace Guidewire.Core.Tests
             // high; a turn goes into a wave that gives almost all of it back to the clamp.
             double substep = 0.97 * Limit(9, 1.8e-3);
             SimulationParameters parameters = Wire(Solver.Explicit, 9, 1.8e-3, 2000.0 * substep, 20);
-            parameters.Gravity = Vector3d.Zero;
-            parameters.DisplacementDirection = Vector3d.UnitY;
-            parameters.Displacement = jump;
-            parameters.TwistPerStep = turn;
-            parameters.Material.Substeps = 2000;
+            parameters.Scene.Gravity = Vector3d.Zero;
+            parameters.Drive.DisplacementDirection = Vector3d.UnitY;
+            parameters.Drive.Displacement = jump;
+            parameters.Drive.TwistPerStep = turn;
+            parameters.Method.Substeps = 2000;
             Simulation run = Wires.Run(parameters);
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
         }
@@ -92,13 +92,13 @@ namespace Guidewire.Core.Tests
         {
             // A wire without a load is pushed, turned at one end and displaced at the other, and let go by its force.
             SimulationParameters parameters = Wire(solver, 8, 5e-3, 1e-4, 200);
-            parameters.Drive = Drive.Push;
-            parameters.DisplacementPerStep = 0.05;
-            parameters.TwistPerStep = 0.02;
-            parameters.Gravity = Vector3d.Zero;
-            parameters.Material.Substeps = 100;
-            parameters.Material.TipForce = new Vector3d(0.0, 300.0, 100.0);
-            parameters.Material.TipForceReleaseTime = 0.01;
+            parameters.Drive.Kind = Drive.Push;
+            parameters.Drive.DisplacementPerStep = 0.05;
+            parameters.Drive.TwistPerStep = 0.02;
+            parameters.Scene.Gravity = Vector3d.Zero;
+            parameters.Method.Substeps = 100;
+            parameters.Scene.TipForce = new Vector3d(0.0, 300.0, 100.0);
+            parameters.Scene.TipForceReleaseTime = 0.01;
             Simulation run = Wires.Run(parameters);
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
         }
@@ -106,14 +106,14 @@ namespace Guidewire.Core.Tests
         private static Simulation Explicit(int n, double radius, double substep)
         {
             SimulationParameters parameters = Wire(Solver.Explicit, n, radius, 1000.0 * substep, 20);
-            parameters.Material.Substeps = 1000;
+            parameters.Method.Substeps = 1000;
             return Wires.Run(parameters);
         }
 
         private static SimulationParameters Wire(Solver solver, int n, double radius, double step, int steps)
         {
             SimulationParameters parameters = Rods.Clamped(n, solver, step, steps);
-            parameters.Gravity = new Vector3d(0.0, -9.81, 0.0);
+            parameters.Scene.Gravity = new Vector3d(0.0, -9.81, 0.0);
             parameters.Material.WireRadius = radius;
             return parameters;
         }

@@ -35,7 +35,7 @@ namespace Guidewire.Core.Tests
                 SimulationParameters parameters = Case(random, damped);
                 Simulation run = Simulation.Create(parameters);
                 double error = go(parameters, run);
-                SolverReport report = run.CompleteReport()!;
+                SolverReport report = run.Report()!;
                 string name = "case " + i + ": " + run.Outcome + ", " + run.Reason;
                 if (run.Outcome == Outcome.Diverged)
                 {
@@ -82,32 +82,32 @@ namespace Guidewire.Core.Tests
             int substeps = (int)Math.Ceiling(step / substep);
             SimulationParameters parameters = Rods.Clamped(n, Solver.Xpbd, step,
                 (int)((damped ? Settled : 2.0 * Math.PI) / (omega * step)));
-            parameters.Damping = damped ? 2.0 * omega * step : 0.0;
-            parameters.ConstraintSolverSteps = sweeps;
-            MaterialParameters material = parameters.Material;
-            material.WireRadius = radius;
-            material.YoungsModulus = young;
-            material.ShearModulus = shear;
-            material.Substeps = substeps;
-            material.MassRule = MassRule.Lumped;
-            material.RestCurvature = random.Next(2) == 0 ? Vector3d.Zero : 2.0 / Rods.Length * Wires.Any(random);
+            parameters.Method.Damping = damped ? 2.0 * omega * step : 0.0;
+            parameters.Method.ConstraintSolverSteps = sweeps;
+            parameters.Material.WireRadius = radius;
+            parameters.Material.YoungsModulus = young;
+            parameters.Material.ShearModulus = shear;
+            parameters.Method.Substeps = substeps;
+            parameters.Material.MassRule = MassRule.Lumped;
+            parameters.Material.RestCurvature = random.Next(2) == 0 ? Vector3d.Zero
+                : 2.0 / Rods.Length * Wires.Any(random);
             double load = 0.1 * Math.Pow(20.0, random.NextDouble());
             int kind = random.Next(3);
             if (kind == 0)
             {
                 // A jump of sphere 0 across the wire.
-                parameters.DisplacementDirection = new Vector3d(random.NextDouble(), random.NextDouble(), 0.0);
-                parameters.Displacement = 1e3 * 0.02 * random.NextDouble() * Rods.Length / n;
+                parameters.Drive.DisplacementDirection = new Vector3d(random.NextDouble(), random.NextDouble(), 0.0);
+                parameters.Drive.Displacement = 1e3 * 0.02 * random.NextDouble() * Rods.Length / n;
             }
             else if (kind == 1)
             {
                 // A pull: near the load at which a thrust bends the wire, its motion has no end.
                 Vector3d any = Vector3d.Normalize(Wires.Any(random));
-                material.TipForce = load * force * new Vector3d(any.X, any.Y, Math.Abs(any.Z));
+                parameters.Scene.TipForce = load * force * new Vector3d(any.X, any.Y, Math.Abs(any.Z));
             }
             else
             {
-                parameters.Gravity = 2.0 * load * force / (Rods.Density * area * Rods.Length)
+                parameters.Scene.Gravity = 2.0 * load * force / (Rods.Density * area * Rods.Length)
                     * Vector3d.Normalize(Wires.Any(random));
             }
             return parameters;
@@ -120,27 +120,27 @@ namespace Guidewire.Core.Tests
             {
                 run.Step();
             }
-            parameters.Solver = Solver.Direct;
-            parameters.Integrator = Integrator.ImplicitEuler;
-            parameters.Material.InitialState = InitialState.Equilibrium;
-            parameters.MaxSimulationSteps = 0;
+            parameters.Method.Solver = Solver.Direct;
+            parameters.Method.Integrator = Integrator.ImplicitEuler;
+            parameters.Scene.InitialState = InitialState.Equilibrium;
+            parameters.Method.MaxSimulationSteps = 0;
             Simulation exact = Simulation.Create(parameters);
             Assert.That(exact.Outcome, Is.EqualTo(Outcome.Converged), exact.Reason);
             return Wires.Distance(exact.State, run.State)
-                / Wires.Distance(exact.State, Simulation.StartOf(parameters));
+                / Wires.Distance(exact.State, Wires.Straight(parameters));
         }
 
         // The same at any step against implicit Euler with time steps of one substep.
         private static double ErrorInMotion(SimulationParameters parameters, Simulation run)
         {
-            int substeps = parameters.Material.Substeps;
-            parameters.Solver = Solver.Direct;
-            parameters.Integrator = Integrator.ImplicitEuler;
-            parameters.Material.SolverTolerance = 1e-9;
-            parameters.TimeStep /= substeps;
-            parameters.MaxSimulationSteps = int.MaxValue;
+            int substeps = parameters.Method.Substeps;
+            parameters.Method.Solver = Solver.Direct;
+            parameters.Method.Integrator = Integrator.ImplicitEuler;
+            parameters.Method.SolverTolerance = 1e-9;
+            parameters.Method.TimeStep /= substeps;
+            parameters.Method.MaxSimulationSteps = int.MaxValue;
             Simulation exact = Simulation.Create(parameters);
-            RodState start = Simulation.StartOf(parameters);
+            RodState start = Wires.Straight(parameters);
             double error = 0.0;
             double moved = 0.0;
             while (run.Outcome == Outcome.Running)

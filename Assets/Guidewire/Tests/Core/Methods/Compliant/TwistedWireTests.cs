@@ -36,7 +36,7 @@ namespace Guidewire.Core.Tests
         {
             SimulationParameters parameters = Damped(n, sweeps, twist);
             parameters.Material.ShearModulus = 0.5 * Rods.Young;
-            parameters.Material.StartShape = StartShape.Ring;
+            parameters.Scene.StartShape = StartShape.Ring;
             RodState ring = Simulation.Create(parameters).State;
             for (int i = 0; i <= n; i++)
             {
@@ -61,7 +61,7 @@ namespace Guidewire.Core.Tests
         // Over the whole run: a ring that has left its plane passes through itself and comes back with fewer turns.
         private static double Farthest(SimulationParameters parameters, RodState start, Func<RodState, double> away)
         {
-            parameters.Start = new RodStart(start.Positions, start.Orientations, start.Velocities,
+            parameters.Scene.Start = new RodStart(start.Positions, start.Orientations, start.Velocities,
                 start.AngularVelocities);
             Simulation run = Simulation.Create(parameters);
             double farthest = 0.0;
@@ -78,15 +78,15 @@ namespace Guidewire.Core.Tests
         {
             double sound = Rods.Length / n / Math.Sqrt(Rods.Young / Rods.Density);
             SimulationParameters parameters = Rods.Clamped(n, Solver.Xpbd, 4e-5, 2000);
-            parameters.ConstraintSolverSteps = sweeps;
-            parameters.Damping = 3e-3;
-            MaterialParameters material = parameters.Material;
-            material.WireRadius = Radius;
-            material.Substeps = (int)Math.Ceiling(parameters.TimeStep / (0.35 * Math.Sqrt(sweeps) * sound));
-            material.DistalEnd = DistalEnd.Clamped;
-            material.ClampRule = ClampRule.HalfElement;
-            material.DistalRotation = twist;
-            material.DistalRampTime = 0.02;
+            parameters.Method.ConstraintSolverSteps = sweeps;
+            parameters.Method.Damping = 3e-3;
+            parameters.Material.WireRadius = Radius;
+            parameters.Method.Substeps =
+                (int)Math.Ceiling(parameters.Method.TimeStep / (0.35 * Math.Sqrt(sweeps) * sound));
+            parameters.Scene.DistalEnd = DistalEnd.Clamped;
+            parameters.Material.ClampRule = ClampRule.HalfElement;
+            parameters.Scene.DistalRotation = twist;
+            parameters.Scene.DistalRampTime = 0.02;
             return parameters;
         }
 

@@ -54,11 +54,11 @@ namespace Guidewire.Core.Tests
         {
             MaterialRod rod = Rods.Wire(n);
             RodShape shape = Rods.Straight(rod);
-            var statics = new RodStatics(rod, new RodSupports());
-            statics.Loads.Set(rod, MassRule.Consistent, Vector3d.Zero, new Vector3d(0.0, -3.0 * Rods.BendForce, 0.0));
-            EquilibriumResult result = statics.Solve(shape, 1e-12, 500);
-            EnergyTerm[] terms = { statics.Stretch, statics.Bending, statics.Loads, statics.Moment };
-            var tangent = new FollowerTangent(rod, new RodSupports(), terms, statics.Moment);
+            var rodTerms = new RodTerms(rod, new RodSupports());
+            rodTerms.Loads.Set(Vector3d.Zero, new Vector3d(0.0, -3.0 * Rods.BendForce, 0.0));
+            EquilibriumResult result = new RodStatics(rodTerms).Solve(shape, 1e-12, 500);
+            EnergyTerm[] terms = rodTerms.All;
+            var tangent = new FollowerTangent(rod, new RodSupports(), terms, rodTerms.Moment);
             Assert.That(new DragSpectrum(tangent, rod).SmallestRealPart(shape),
                 Is.EqualTo(result.SmallestEigenvalue).Within(1e-5 * Rods.BendForce));
         }
@@ -70,12 +70,12 @@ namespace Guidewire.Core.Tests
         {
             // 3.60 EI/L from the eigenvalues of the full tangent of the circular arc, by a dense solver in Python.
             MaterialRod rod = Rods.Wire(40);
-            var statics = new RodStatics(rod, new RodSupports());
+            var rodTerms = new RodTerms(rod, new RodSupports());
             // A force across the couple's plane, too small to matter, makes it a problem in space.
-            statics.Loads.Set(rod, MassRule.Consistent, Vector3d.Zero,
+            rodTerms.Loads.Set(Vector3d.Zero,
                 new Vector3d(1e-4 * Rods.BendForce, 0.0, pull * Rods.BendForce));
-            statics.Moment.Moment = new Vector3d(couple * Rods.BendStiffness / Rods.Length, 0.0, 0.0);
-            EquilibriumResult result = statics.Solve(Rods.Straight(rod), 1e-9, 500);
+            rodTerms.Moment.Moment = new Vector3d(couple * Rods.BendStiffness / Rods.Length, 0.0, 0.0);
+            EquilibriumResult result = new RodStatics(rodTerms).Solve(Rods.Straight(rod), 1e-9, 500);
             Assert.That(result.Converged, Is.EqualTo(rests), result.Reason);
             Assert.That(result.Converged ? "tipMoment" : result.Reason, Does.Contain("tipMoment"));
         }
@@ -86,11 +86,11 @@ namespace Guidewire.Core.Tests
             // Another way to the same shape: 5 s of overdamped motion, each stage solved with its inertia. Damped less,
             // the wire would flutter: eigenvalues a + ib grow in a motion unless the damping exceeds b/sqrt(a).
             SimulationParameters parameters = CoupleInSpace(3.0);
-            parameters.Damping = 0.5;
-            parameters.MaxSimulationSteps = 1000;
+            parameters.Method.Damping = 0.5;
+            parameters.Method.MaxSimulationSteps = 1000;
             RodState moved = Wires.Run(parameters).State;
-            parameters.MaxSimulationSteps = 0;
-            parameters.Material.InitialState = InitialState.Equilibrium;
+            parameters.Method.MaxSimulationSteps = 0;
+            parameters.Scene.InitialState = InitialState.Equilibrium;
             Simulation rest = Simulation.Create(parameters);
             Assert.That(rest.Outcome, Is.EqualTo(Outcome.Converged), rest.Reason);
             Assert.That(Wires.Distance(moved, rest.State), Is.LessThan(1e-5 * 300.0));
@@ -112,10 +112,10 @@ namespace Guidewire.Core.Tests
             for (int k = 0; k < tip.Length; k++)
             {
                 SimulationParameters parameters = CoupleInSpace(2.0);
-                parameters.NumberRodElements = 20 << k;
-                parameters.MaxSimulationSteps = 0;
-                parameters.Material.InitialState = InitialState.Equilibrium;
-                parameters.Material.TipForce = Rods.BendForce * new Vector3d(1.0, -2.0, 0.0);
+                parameters.Scene.NumberRodElements = 20 << k;
+                parameters.Method.MaxSimulationSteps = 0;
+                parameters.Scene.InitialState = InitialState.Equilibrium;
+                parameters.Scene.TipForce = Rods.BendForce * new Vector3d(1.0, -2.0, 0.0);
                 Simulation rest = Simulation.Create(parameters);
                 Assert.That(rest.Outcome, Is.EqualTo(Outcome.Converged), rest.Reason);
                 tip[k] = rest.State.Positions[20 << k].Y;
@@ -130,9 +130,9 @@ namespace Guidewire.Core.Tests
         private static SimulationParameters CoupleInSpace(double couple)
         {
             SimulationParameters parameters = Rods.Clamped(30, Solver.Direct, 5e-3, 400);
-            parameters.Integrator = Integrator.ImplicitEuler;
+            parameters.Method.Integrator = Integrator.ImplicitEuler;
             Vector3d axis = Vector3d.Normalize(new Vector3d(1.0, 0.0, 0.5));
-            parameters.Material.TipMoment = couple * Rods.BendStiffness / Rods.Length * axis;
+            parameters.Scene.TipMoment = couple * Rods.BendStiffness / Rods.Length * axis;
             return parameters;
         }
 
@@ -142,10 +142,11 @@ namespace Guidewire.Core.Tests
             MaterialRod rod = Rods.Wire(40);
             foreach (double angle in new[] { Math.PI, 2.0 * Math.PI })
             {
-                var statics = new RodStatics(rod, new RodSupports());
-                statics.Moment.Moment = new Vector3d(angle * Rods.BendStiffness / Rods.Length, 0.0, 0.0);
-                Assert.That(statics.Solve(Rods.Straight(rod), 1e-9, 500).Converged, Is.True);
-                Assert.That(statics.Method.Contains("would not stay"), Is.EqualTo(angle > 3.6), statics.Method);
+                var rodTerms = new RodTerms(rod, new RodSupports());
+                rodTerms.Moment.Moment = new Vector3d(angle * Rods.BendStiffness / Rods.Length, 0.0, 0.0);
+                EquilibriumResult result = new RodStatics(rodTerms).Solve(Rods.Straight(rod), 1e-9, 500);
+                Assert.That(result.Converged, Is.True);
+                Assert.That(result.Method!.Contains("would not stay"), Is.EqualTo(angle > 3.6), result.Method);
             }
         }
     }

@@ -152,8 +152,8 @@ namespace Guidewire.Core.Tests
                 case "plane":
                     return Plane(rod, shape);
                 default:
-                    var inertia = new InertiaEnergy(rod, MassRule.Consistent) { StageLength = 0.8 };
-                    inertia.BeginStep(shape.Q);
+                    var inertia = new InertiaEnergy(new RodMass(rod, MassRule.Consistent)) { StageLength = 0.8 };
+                    inertia.BeginStep(shape, 1.0);
                     inertia.FreePositions[2] = new Vector3d(0.1, 0.2, 0.3);
                     inertia.SpinHistory[1] = new Vector3d(0.4, -0.2, 0.1);
                     inertia.Anchor(shape);
@@ -177,7 +177,8 @@ namespace Guidewire.Core.Tests
         private static RodVector[] Gradient(EnergyTerm term, RodShape shape)
         {
             var gradient = new RodVector[N + 2];
-            term.AddGradient(shape, gradient, 0, N + 1);
+            var measured = default(GradientMeasures);
+            term.AddGradient(shape, gradient, 0, N + 1, ref measured);
             return gradient;
         }
 

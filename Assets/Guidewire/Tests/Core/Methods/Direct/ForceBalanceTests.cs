@@ -17,7 +17,8 @@ namespace Guidewire.Core.Tests
         };
 
         [Test]
-        public void LetGo([ValueSource(nameof(Schemes))] Integrator scheme, [Values(10, 30)] int n,
+        public void Forces_Balance_AfterABentWireIsLetGo(
+            [ValueSource(nameof(Schemes))] Integrator scheme, [Values(10, 30)] int n,
             [Values(0.5e-3, 2e-3)] double step)
         {
             MaterialRod rod = Rods.Wire(n);
@@ -27,7 +28,8 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        public void FallingFromTheStraight([ValueSource(nameof(Schemes))] Integrator scheme, [Values(12, 60)] int n,
+        public void Forces_Balance_WhileAWireFallsFromTheStraight(
+            [ValueSource(nameof(Schemes))] Integrator scheme, [Values(12, 60)] int n,
             [Values(1e-3, 5e-3)] double step)
         {
             MaterialRod rod = Rods.Wire(n);
@@ -36,7 +38,7 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        public void ClampedAtBothEnds([ValueSource(nameof(Schemes))] Integrator scheme,
+        public void Forces_Balance_OfAWireClampedAtBothEnds([ValueSource(nameof(Schemes))] Integrator scheme,
             [Values(0.5e-3, 1e-3, 5e-3)] double step)
         {
             const int N = 24;
@@ -48,7 +50,8 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        public void PushedTogetherUntilItBuckles([ValueSource(nameof(Schemes))] Integrator scheme,
+        public void Forces_Balance_WhileClampedEndsComeCloserUntilTheWireBuckles(
+            [ValueSource(nameof(Schemes))] Integrator scheme,
             [Values(1e-3, 5e-3)] double step)
         {
             // Clamped ends that come 2 % closer, under weight.
@@ -67,7 +70,7 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        public void UnderWeightAndATipForce([ValueSource(nameof(Schemes))] Integrator scheme,
+        public void Forces_Balance_UnderWeightAndATipForce([ValueSource(nameof(Schemes))] Integrator scheme,
             [Values(1e-3, 5e-3)] double step)
         {
             // Ten times what bends it by its own length, until it is let go.
@@ -83,7 +86,8 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        public void FlyingFree([ValueSource(nameof(Schemes))] Integrator scheme)
+        public void Weight_AloneChangesTheMomentum_OfAWireThatNothingHolds(
+            [ValueSource(nameof(Schemes))] Integrator scheme)
         {
             // Bent and held by nothing: the weight alone changes the momentum, while larger forces within the rod must
             // cancel each other.

@@ -13,7 +13,7 @@ namespace Guidewire.Core.Tests
         };
 
         [Test]
-        public void DroppedFromTheStraight([ValueSource(nameof(Schemes))] Integrator scheme,
+        public void Wire_DroppedFromTheStraight_IsNeverLost([ValueSource(nameof(Schemes))] Integrator scheme,
             [Values(1e-3, 5e-3, 20e-3, 50e-3)] double step, [Values(15, 30, 120)] int n,
             [Values(0.456, 10.0, 100.0)] double weight)
         {

@@ -13,8 +13,8 @@ namespace Guidewire.Core.Tests
             // The same wire told in millimetres and in metres.
             SimulationParameters millimetres = Cantilever(12, Solver.Direct, Integrator.Sdirk3, 1e-3, 40);
             SimulationParameters metres = Cantilever(12, Solver.Direct, Integrator.Sdirk3, 1e-3, 40);
-            metres.GuidewireLength = Rods.Length;
-            metres.Material.MetresPerUnit = 1.0;
+            metres.Scene.GuidewireLength = Rods.Length;
+            metres.Scene.MetresPerUnit = 1.0;
             RodState a = Wires.Run(millimetres).State;
             RodState b = Wires.Run(metres).State;
             for (int i = 0; i <= 12; i++)
@@ -28,13 +28,13 @@ namespace Guidewire.Core.Tests
         public void RestShapeWithoutTime_IsAllThatIsComputed()
         {
             SimulationParameters parameters = Cantilever(30, Solver.Direct, Integrator.Sdirk3, 1e-3, 0);
-            parameters.Gravity = Vector3d.Zero;
-            parameters.Material.TipForce = new Vector3d(0.0, Rods.BendForce, 0.0);
-            parameters.Material.InitialState = InitialState.Equilibrium;
+            parameters.Scene.Gravity = Vector3d.Zero;
+            parameters.Scene.TipForce = new Vector3d(0.0, Rods.BendForce, 0.0);
+            parameters.Scene.InitialState = InitialState.Equilibrium;
             Simulation run = Simulation.Create(parameters);
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Converged));
             Assert.That(run.State.Positions[30].Y, Is.EqualTo(300.0 * 0.301720774).Within(0.3));
-            SolverReport report = run.CompleteReport()!;
+            SolverReport report = run.Report()!;
             // The clamp carries the load, and the couple F times the tip's distance along z.
             Assert.That(report.ProximalForce.Y, Is.EqualTo(-Rods.BendForce).Within(1e-6 * Rods.BendForce));
             double couple = Rods.BendForce * 1e-3 * run.State.Positions[30].Z;
@@ -48,10 +48,10 @@ namespace Guidewire.Core.Tests
             // Both on lumped masses, so both discretise the same chain; 2 ms from the straight start under gravity.
             SimulationParameters direct = Cantilever(8, Solver.Direct, Integrator.Sdirk4, 5e-5, 40);
             direct.Material.MassRule = MassRule.Lumped;
-            direct.Material.SolverTolerance = 1e-12;
+            direct.Method.SolverTolerance = 1e-12;
             SimulationParameters other = Cantilever(8, Solver.Explicit, Integrator.Sdirk4, 5e-5, 40);
             other.Material.MassRule = MassRule.Lumped;
-            other.Material.Substeps = 400;
+            other.Method.Substeps = 400;
             double fall = 0.5 * 9810.0 * 0.002 * 0.002;
             Assert.That(Wires.Distance(Wires.Run(direct).State, Wires.Run(other).State), Is.LessThan(1e-3 * fall));
         }
@@ -65,9 +65,9 @@ namespace Guidewire.Core.Tests
             const int N = 8;
             const double Step = 1e-3;
             SimulationParameters parameters = Cantilever(N, solver, integrator, Step, 20);
-            parameters.Material.SolverTolerance = 1e-14;
-            parameters.Material.Substeps = solver == Solver.Explicit ? 5000 : 1;
-            parameters.StatesReactions = true;
+            parameters.Method.SolverTolerance = 1e-14;
+            parameters.Method.Substeps = solver == Solver.Explicit ? 5000 : 1;
+            parameters.Method.StatesReactions = true;
             Simulation run = Simulation.Create(parameters);
             MaterialRod rod = Rods.Wire(N);
             double mass = rod.LineDensity[0] * rod.Length[0];
@@ -83,7 +83,7 @@ namespace Guidewire.Core.Tests
                     after += (0.5e-3 * mass) * (run.State.Velocities[j] + run.State.Velocities[j + 1]);
                 }
                 Vector3d reaction = run.Contacts!.Reaction;
-                Vector3d weight = (N * mass) * parameters.Gravity;
+                Vector3d weight = (N * mass) * parameters.Scene.Gravity;
                 worst = Math.Max(worst, ((after - before) / Step - reaction - weight).Length);
                 peak = Math.Max(peak, reaction.Length);
                 before = after;
@@ -96,12 +96,12 @@ namespace Guidewire.Core.Tests
         {
             SimulationParameters direct = Cantilever(6, Solver.Direct, Integrator.ImplicitEuler, 2e-6, 100);
             direct.Material.MassRule = MassRule.Lumped;
-            direct.Material.SolverTolerance = 1e-12;
+            direct.Method.SolverTolerance = 1e-12;
             SimulationParameters other = Cantilever(6, Solver.Xpbd, Integrator.ImplicitEuler, 2e-6, 100);
             other.Material.MassRule = MassRule.Lumped;
-            other.ConstraintSolverSteps = 60;
+            other.Method.ConstraintSolverSteps = 60;
             Simulation run = Wires.Run(other);
-            Assert.That(run.CompleteReport()!.StepsNotConverged, Is.Zero);
+            Assert.That(run.Report()!.StepsNotConverged, Is.Zero);
             double fall = 0.5 * 9810.0 * 2e-4 * 2e-4;
             Assert.That(Wires.Distance(Wires.Run(direct).State, run.State), Is.LessThan(1e-3 * fall));
         }
@@ -110,8 +110,8 @@ namespace Guidewire.Core.Tests
         public void CompliantSolver_SaysWhenItHasNotConverged()
         {
             SimulationParameters parameters = Cantilever(30, Solver.Xpbd, Integrator.ImplicitEuler, 1e-3, 5);
-            parameters.ConstraintSolverSteps = 5;
-            Assert.That(Wires.Run(parameters).CompleteReport()!.StepsNotConverged, Is.EqualTo(5));
+            parameters.Method.ConstraintSolverSteps = 5;
+            Assert.That(Wires.Run(parameters).Report()!.StepsNotConverged, Is.EqualTo(5));
         }
 
         [TestCase(0.05)]
@@ -132,7 +132,7 @@ namespace Guidewire.Core.Tests
         {
             // 50 ms is five periods of the third mode a step, and the load 100 times the wire's weight.
             SimulationParameters parameters = Cantilever(20, Solver.Direct, scheme, 0.05, 60);
-            parameters.Gravity = new Vector3d(300.0, -700.0, 400.0);
+            parameters.Scene.Gravity = new Vector3d(300.0, -700.0, 400.0);
             Simulation run = Wires.Run(parameters);
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished).Or.EqualTo(Outcome.Failed));
             Assert.That(run.Reason, Is.Not.Empty);
@@ -147,11 +147,11 @@ namespace Guidewire.Core.Tests
         public void TooFewIterations_FailTheRun()
         {
             SimulationParameters parameters = Cantilever(30, Solver.Direct, Integrator.Sdirk3, 1e-3, 10);
-            parameters.Material.InitialState = InitialState.Equilibrium;
-            parameters.Material.TipForce = new Vector3d(0.0, 100.0 * Rods.BendForce, 0.0);
-            parameters.Material.MaxNewtonIterations = 1;
-            parameters.Material.SolverTolerance = 1e-12;
-            parameters.Gravity = new Vector3d(0.0, 5000.0, 0.0);
+            parameters.Scene.InitialState = InitialState.Equilibrium;
+            parameters.Scene.TipForce = new Vector3d(0.0, 100.0 * Rods.BendForce, 0.0);
+            parameters.Method.MaxNewtonIterations = 1;
+            parameters.Method.SolverTolerance = 1e-12;
+            parameters.Scene.Gravity = new Vector3d(0.0, 5000.0, 0.0);
             Simulation run = Simulation.Create(parameters);
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Failed));
             Assert.That(run.Reason, Does.Contain("no rest shape"));
@@ -165,10 +165,10 @@ namespace Guidewire.Core.Tests
         {
             // 2.5 turns at once or ramped: the frames' turns from clamp to clamp add up to all of it.
             SimulationParameters parameters = Cantilever(40, Solver.Direct, Integrator.ImplicitEuler, 5e-3, 40);
-            parameters.Gravity = Vector3d.Zero;
-            parameters.Material.DistalEnd = DistalEnd.Clamped;
-            parameters.Material.DistalRotation = 5.0 * Math.PI;
-            parameters.Material.DistalRampTime = ramp;
+            parameters.Scene.Gravity = Vector3d.Zero;
+            parameters.Scene.DistalEnd = DistalEnd.Clamped;
+            parameters.Scene.DistalRotation = 5.0 * Math.PI;
+            parameters.Scene.DistalRampTime = ramp;
             // Stiff in bending against twist, so that it stays straight: Greenhill's moment is 8.99 EI/L, here 15.7
             // GJ/L.
             parameters.Material.ShearModulus = 0.2 * Rods.Young;
@@ -193,18 +193,17 @@ namespace Guidewire.Core.Tests
             const double Radius = 0.1;
             const int N = 200;
             SimulationParameters parameters = Cantilever(N, Solver.Direct, Integrator.Sdirk3, 1e-3, 0);
-            MaterialParameters material = parameters.Material;
-            parameters.Gravity = Vector3d.Zero;
-            parameters.GuidewireLength = 100.0;
-            material.MetresPerUnit = 1.0;
-            material.WireRadius = Radius;
-            material.YoungsModulus = B * 4.0 / (Math.PI * Math.Pow(Radius, 4));
-            material.ShearModulus = C * 2.0 / (Math.PI * Math.Pow(Radius, 4));
-            material.Density = 1.0;
-            material.DistalEnd = DistalEnd.Clamped;
-            material.DistalDisplacement = -3.0;
-            material.DistalRotation = 27.0 * 2.0 * Math.PI;
-            material.InitialState = InitialState.Equilibrium;
+            parameters.Scene.Gravity = Vector3d.Zero;
+            parameters.Scene.GuidewireLength = 100.0;
+            parameters.Scene.MetresPerUnit = 1.0;
+            parameters.Material.WireRadius = Radius;
+            parameters.Material.YoungsModulus = B * 4.0 / (Math.PI * Math.Pow(Radius, 4));
+            parameters.Material.ShearModulus = C * 2.0 / (Math.PI * Math.Pow(Radius, 4));
+            parameters.Material.Density = 1.0;
+            parameters.Scene.DistalEnd = DistalEnd.Clamped;
+            parameters.Scene.DistalDisplacement = -3.0;
+            parameters.Scene.DistalRotation = 27.0 * 2.0 * Math.PI;
+            parameters.Scene.InitialState = InitialState.Equilibrium;
             Simulation run = Simulation.Create(parameters);
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Converged), run.Reason);
             double angle = 0.0;
@@ -212,7 +211,7 @@ namespace Guidewire.Core.Tests
             {
                 angle = Math.Max(angle, Math.Acos(q.Director3.Z) * 180.0 / Math.PI);
             }
-            SolverReport report = run.CompleteReport()!;
+            SolverReport report = run.Report()!;
             double ratio = report.DistalMoment.Z / (2.0 * Math.Sqrt(B * report.DistalForce.Z));
             Assert.That(angle, Is.EqualTo(47.65).Within(0.05 * 47.65));
             Assert.That(ratio, Is.EqualTo(0.914778).Within(0.05 * 0.914778));
@@ -225,7 +224,7 @@ namespace Guidewire.Core.Tests
         public void Step_AllocatesNothing(Solver solver, Integrator scheme)
         {
             SimulationParameters parameters = Cantilever(20, solver, scheme, 1e-5, 1000);
-            parameters.Material.Substeps = 50;
+            parameters.Method.Substeps = 50;
             Simulation run = Simulation.Create(parameters);
             for (int i = 0; i < 100; i++)
             {
@@ -244,8 +243,8 @@ namespace Guidewire.Core.Tests
         private static SimulationParameters Cantilever(int n, Solver solver, Integrator scheme, double step, int steps)
         {
             SimulationParameters parameters = Rods.Clamped(n, solver, step, steps);
-            parameters.Integrator = scheme;
-            parameters.Gravity = new Vector3d(0.0, -9.81, 0.0);
+            parameters.Method.Integrator = scheme;
+            parameters.Scene.Gravity = new Vector3d(0.0, -9.81, 0.0);
             return parameters;
         }
     }

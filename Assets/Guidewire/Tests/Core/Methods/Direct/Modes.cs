@@ -31,13 +31,13 @@ namespace Guidewire.Core.Tests
         {
             int n = rod.ElementCount;
             RodShape shape = Rods.Straight(rod);
-            var statics = new RodStatics(rod, supports);
+            var rodTerms = new RodTerms(rod, supports);
             var stiffness = new RodBlock[n + 2];
             var gradient = new RodVector[n + 2];
-            statics.Stretch.AddBlocks(shape, stiffness, gradient, 0, n + 1);
-            statics.Bending.AddBlocks(shape, stiffness, gradient, 0, n + 1);
-            var inertia = new InertiaEnergy(rod, supports.Mass) { StageLength = 1.0 };
-            inertia.BeginStep(shape.Q);
+            rodTerms.Stretch.AddBlocks(shape, stiffness, gradient, 0, n + 1);
+            rodTerms.Bending.AddBlocks(shape, stiffness, gradient, 0, n + 1);
+            var inertia = new InertiaEnergy(rodTerms.Mass) { StageLength = 1.0 };
+            inertia.BeginStep(shape, 1.0);
             var mass = new RodBlock[n + 2];
             inertia.AddBlocks(shape, mass, gradient, 0, n + 1);
             // y of nodes 1..n, turn about x of elements 0..n-1.

@@ -130,7 +130,7 @@ namespace Guidewire.Core.Tests
                 Quaterniond r = k == 0 ? Quaterniond.Identity : turn;
                 MaterialRod rod = Rods.Wire(N);
                 var shape = new RodShape(N);
-                shape.SetStraight(k == 0 ? Vector3d.Zero : offset, r, rod.Length);
+                shape.SetStraight(k == 0 ? Vector3d.Zero : offset, r, Rods.Stations(rod));
                 var schedule = new RodSchedule
                 {
                     Gravity = Quaterniond.Rotate(r, new Vector3d(3.0, -9.81, 1.0)),
@@ -171,9 +171,8 @@ namespace Guidewire.Core.Tests
         internal static RodDynamics Start(MaterialRod rod, RodSupports supports, RodSchedule schedule, RodShape shape,
             Integrator scheme, double tolerance)
         {
-            var statics = new RodStatics(rod, supports);
-            return new RodDynamics(rod, supports, statics, schedule, shape, MaterialSetup.Scheme(scheme), tolerance,
-                100);
+            return new RodDynamics(new RodTerms(rod, supports), schedule, shape, MaterialSetup.Scheme(scheme),
+                tolerance, 100);
         }
 
         /// <summary>Error of orientation and angular velocity of one element that nothing holds: a symmetric top with

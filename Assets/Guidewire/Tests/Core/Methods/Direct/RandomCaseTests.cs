@@ -98,9 +98,9 @@ namespace Guidewire.Core.Tests
             {
                 MaterialRod rod = Rods.Wire(random.Next(15, 121));
                 Vector3d gravity = k * Rods.BendForce / (Rods.Density * Rods.Area * Rods.Length) * Direction(random);
-                var statics = new RodStatics(rod, new RodSupports());
-                statics.Loads.Set(rod, MassRule.Consistent, gravity, Vector3d.Zero);
-                EquilibriumResult result = statics.Solve(Rods.Straight(rod), 1e-9, 500);
+                var rodTerms = new RodTerms(rod, new RodSupports());
+                rodTerms.Loads.Set(gravity, Vector3d.Zero);
+                EquilibriumResult result = new RodStatics(rodTerms).Solve(Rods.Straight(rod), 1e-9, 500);
                 Assert.That(result.Converged, Is.True, "case " + i + ": " + result.Reason);
                 Assert.That(result.SmallestEigenvalue, Is.GreaterThan(0.0));
             }
@@ -111,10 +111,10 @@ namespace Guidewire.Core.Tests
             MaterialRod rod = Rods.Wire(n);
             RodShape shape = Rods.Straight(rod);
             var supports = new RodSupports();
-            var statics = new RodStatics(rod, supports);
-            statics.Loads.Set(rod, MassRule.Consistent, Vector3d.Zero, force);
-            statics.Moment.Moment = moment;
-            EquilibriumResult result = statics.Solve(shape, 1e-9, 500);
+            var rodTerms = new RodTerms(rod, supports);
+            rodTerms.Loads.Set(Vector3d.Zero, force);
+            rodTerms.Moment.Moment = moment;
+            EquilibriumResult result = new RodStatics(rodTerms).Solve(shape, 1e-9, 500);
             if (!hasPotential && !result.Converged)
             {
                 Assert.That(result.Reason, Does.Contain("tipMoment"), name);
@@ -122,7 +122,7 @@ namespace Guidewire.Core.Tests
             }
             Assert.That(result.Converged, Is.True, name + ": " + result.Reason);
             Assert.That(result.SmallestEigenvalue, Is.GreaterThan(0.0), name);
-            Assert.That(Unbalanced(rod, supports, statics, shape), Is.LessThan(LargestResidual), name);
+            Assert.That(Unbalanced(rod, supports, rodTerms, shape), Is.LessThan(LargestResidual), name);
             for (int j = 0; j < n; j++)
             {
                 Quaterniond before = j == 0 ? shape.ProximalFrame : shape.Q[j - 1];
@@ -132,11 +132,11 @@ namespace Guidewire.Core.Tests
         }
 
         /// <summary>Largest force on a free node, or couple on an element over L, over EI/L^2 + load.</summary>
-        private static double Unbalanced(MaterialRod rod, RodSupports supports, RodStatics statics, RodShape shape)
+        private static double Unbalanced(MaterialRod rod, RodSupports supports, RodTerms rodTerms, RodShape shape)
         {
             var system = new BlockTridiagonal(rod, supports);
             var free = new RodVector[system.VectorCount];
-            EnergyTerm[] terms = { statics.Stretch, statics.Bending, statics.Loads, statics.Moment };
+            EnergyTerm[] terms = rodTerms.All;
             system.Gradient(terms, shape, new RodVector[system.VectorCount], free);
             double worst = 0.0;
             foreach (RodVector v in free)
@@ -144,7 +144,7 @@ namespace Guidewire.Core.Tests
                 worst = Math.Max(worst, Math.Sqrt(v.X1 * v.X1 + v.X2 * v.X2 + v.X3 * v.X3));
                 worst = Math.Max(worst, Math.Sqrt(v.T1 * v.T1 + v.T2 * v.T2 + v.T3 * v.T3) / Rods.Length);
             }
-            return worst / (Rods.BendForce + statics.Loads.Force[rod.ElementCount].Length);
+            return worst / (Rods.BendForce + rodTerms.Loads.Force[rod.ElementCount].Length);
         }
 
         private static double LogUniform(System.Random random, double low, double high)

@@ -113,10 +113,10 @@ namespace Guidewire.Core.Tests
             // K sin(angle) carries no more than K = EI/l.
             const int N = 10;
             MaterialRod rod = Rods.Wire(N);
-            var statics = new RodStatics(rod,
+            var rodTerms = new RodTerms(rod,
                 new RodSupports { Bend = BendLaw.Darboux, Clamp = ClampRule.HalfElement });
-            statics.Moment.Moment = new Vector3d(1.1 * Rods.BendStiffness * N / Rods.Length, 0.0, 0.0);
-            EquilibriumResult result = statics.Solve(Rods.Straight(rod), 1e-10, 300);
+            rodTerms.Moment.Moment = new Vector3d(1.1 * Rods.BendStiffness * N / Rods.Length, 0.0, 0.0);
+            EquilibriumResult result = new RodStatics(rodTerms).Solve(Rods.Straight(rod), 1e-10, 300);
             Assert.That(result.Converged, Is.False);
             Assert.That(result.Reason, Is.Not.Empty);
         }
@@ -131,12 +131,12 @@ namespace Guidewire.Core.Tests
             var supports = new RodSupports { Distal = DistalEnd.Clamped, Clamp = ClampRule.HalfElement };
             RodShape shape = Rods.Straight(rod);
             shape.DistalFrame = Quaterniond.FromAxisAngle(Vector3d.UnitZ, Turn);
-            var statics = new RodStatics(rod, supports);
-            EquilibriumResult result = statics.Solve(shape, 1e-11, 100);
+            var rodTerms = new RodTerms(rod, supports);
+            EquilibriumResult result = new RodStatics(rodTerms).Solve(shape, 1e-11, 100);
             Assert.That(result.Converged, Is.True, result.Reason);
             double torque = Rods.TwistStiffness * Turn / Rods.Length;
-            Assert.That(statics.Bending.DistalCouple(shape).Z, Is.EqualTo(torque).Within(1e-3 * torque));
-            Assert.That(statics.Bending.ProximalCouple(shape).Z, Is.EqualTo(-torque).Within(1e-3 * torque));
+            Assert.That(rodTerms.Bending.DistalCouple(shape).Z, Is.EqualTo(torque).Within(1e-3 * torque));
+            Assert.That(rodTerms.Bending.ProximalCouple(shape).Z, Is.EqualTo(-torque).Within(1e-3 * torque));
             for (int j = 0; j < N; j++)
             {
                 Assert.That(RotationVector.Log(shape.Q[j]).Z, Is.EqualTo(Turn * (j + 0.5) / N).Within(1e-6));
@@ -168,9 +168,9 @@ namespace Guidewire.Core.Tests
             RodShape shape = Rods.AtRest(rod, supports, Vector3d.Zero, Vector3d.Zero, Vector3d.Zero);
             Vector3d free = Arc(Math.PI / 4.0, length);
             Assert.That(Vector3d.Distance(shape.X[N], free), Is.LessThan(1e-3 * length), "the unloaded arc");
-            var statics = new RodStatics(rod, supports);
-            statics.Loads.Set(rod, MassRule.Consistent, Vector3d.Zero, new Vector3d(600.0, 0.0, 0.0));
-            EquilibriumResult result = statics.Solve(shape, 1e-10, 200);
+            var rodTerms = new RodTerms(rod, supports);
+            rodTerms.Loads.Set(Vector3d.Zero, new Vector3d(600.0, 0.0, 0.0));
+            EquilibriumResult result = new RodStatics(rodTerms).Solve(shape, 1e-10, 200);
             Assert.That(result.Converged, Is.True, result.Reason);
             // Ours: across the bend y, along z, load x.
             Assert.That(shape.X[N].Y, Is.EqualTo(15.685).Within(0.01 * 15.685));

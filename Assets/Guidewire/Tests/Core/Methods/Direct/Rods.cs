@@ -34,17 +34,18 @@ namespace Guidewire.Core.Tests
         {
             var parameters = new SimulationParameters
             {
-                Solver = solver,
-                NumberRodElements = n,
-                GuidewireLength = 1e3 * Length,
-                GuidewireOffset = 0.0,
-                Displacement = 0.0,
-                TimeStep = step,
-                MaxSimulationSteps = steps,
-                ConstraintSolverSteps = 1,
-                DeltaThreshold = 0.0,
+                Method =
+                {
+                    Solver = solver,
+                    TimeStep = step,
+                    MaxSimulationSteps = steps,
+                    ConstraintSolverSteps = 1,
+                    DeltaThreshold = 0.0,
+                },
+                Scene = { NumberRodElements = n, GuidewireLength = 1e3 * Length, GuidewireOffset = 0.0 },
+                Drive = { Displacement = 0.0 },
             };
-            parameters.Material.ProximalEnd = ProximalEnd.Clamped;
+            parameters.Scene.ProximalEnd = ProximalEnd.Clamped;
             return parameters;
         }
 
@@ -52,8 +53,19 @@ namespace Guidewire.Core.Tests
         public static RodShape Straight(MaterialRod rod)
         {
             var shape = new RodShape(rod.ElementCount);
-            shape.SetStraight(Vector3d.Zero, Quaterniond.Identity, rod.Length);
+            shape.SetStraight(Vector3d.Zero, Quaterniond.Identity, Stations(rod));
             return shape;
+        }
+
+        /// <summary>How far each node is from node 0 along the straight wire.</summary>
+        public static double[] Stations(MaterialRod rod)
+        {
+            var stations = new double[rod.ElementCount + 1];
+            for (int j = 0; j < rod.ElementCount; j++)
+            {
+                stations[j + 1] = stations[j] + rod.Length[j];
+            }
+            return stations;
         }
 
         /// <summary>A shape bent, twisted and strained at random.</summary>
@@ -79,10 +91,10 @@ namespace Guidewire.Core.Tests
             in Vector3d tipMoment)
         {
             RodShape shape = Straight(rod);
-            var statics = new RodStatics(rod, supports);
-            statics.Loads.Set(rod, supports.Mass, gravity, tipForce);
-            statics.Moment.Moment = tipMoment;
-            EquilibriumResult result = statics.Solve(shape, 1e-10, 500);
+            var rodTerms = new RodTerms(rod, supports);
+            rodTerms.Loads.Set(gravity, tipForce);
+            rodTerms.Moment.Moment = tipMoment;
+            EquilibriumResult result = new RodStatics(rodTerms).Solve(shape, 1e-10, 500);
             if (!result.Converged)
             {
                 throw new InvalidOperationException(result.Reason);

@@ -119,9 +119,8 @@ namespace Guidewire.Core.Tests
 
         private static int Negative(MaterialRod rod, RodSupports supports, RodShape shape)
         {
-            var statics = new RodStatics(rod, supports);
             var system = new BlockTridiagonal(rod, supports);
-            var terms = new EnergyTerm[] { statics.Stretch, statics.Bending };
+            EnergyTerm[] terms = new RodTerms(rod, supports).All;
             // A shift of 1e-4 EI/L^2: the ring may turn about the clamp's tangent without energy, an eigenvalue 0.
             return system.Factorise(terms, shape, new RodVector[system.VectorCount], new RodVector[system.VectorCount],
                 1e-4 * Rods.BendForce);
@@ -131,9 +130,8 @@ namespace Guidewire.Core.Tests
         /// force across the ring's plane, GJ tau kappa, which the even polygon has not yet.</summary>
         private static void Balance(MaterialRod rod, RodSupports supports, RodShape shape)
         {
-            var statics = new RodStatics(rod, supports);
             var system = new BlockTridiagonal(rod, supports);
-            var terms = new EnergyTerm[] { statics.Stretch, statics.Bending };
+            EnergyTerm[] terms = new RodTerms(rod, supports).All;
             var direction = new RodVector[system.VectorCount];
             RodShape moved = Rods.Copy(shape);
             double size = 1.0;

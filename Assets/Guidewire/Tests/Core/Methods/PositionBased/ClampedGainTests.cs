@@ -16,9 +16,9 @@ namespace Guidewire.Core.Tests
             const double Turn = 0.5 * Math.PI;
             const double Gain = 0.004;
             SimulationParameters parameters = Clamped(n, Turn, 0.2, 1500);
-            parameters.ConstraintSolverSteps = 1000;
-            parameters.BendStiffness = 0.5 * Gain * parameters.GuidewireLength / n;
-            parameters.SweepOrder = order;
+            parameters.Method.ConstraintSolverSteps = 1000;
+            parameters.Gains.BendStiffness = 0.5 * Gain * parameters.Scene.GuidewireLength / n;
+            parameters.Method.SweepOrder = order;
             RodState state = Wires.Run(parameters).State;
             for (int j = 1; j < n - 1; j++)
             {
@@ -34,8 +34,8 @@ namespace Guidewire.Core.Tests
         public void ClampedEnds_AreWhereTheyArePrescribed_InEveryStep()
         {
             SimulationParameters parameters = Clamped(10, -2.0, 0.5, 120);
-            parameters.Gravity = new Vector3d(0.0, -50.0, 0.0);
-            parameters.Material.DistalDisplacement = -8.0;
+            parameters.Scene.Gravity = new Vector3d(0.0, -50.0, 0.0);
+            parameters.Scene.DistalDisplacement = -8.0;
             Simulation run = Simulation.Create(parameters);
             while (run.Outcome == Outcome.Running)
             {
@@ -57,12 +57,12 @@ namespace Guidewire.Core.Tests
         {
             // Held by its sphere alone the wire turns about it like a pendulum and hangs down.
             SimulationParameters clamped = Clamped(10, 0.0, 0.0, 300);
-            clamped.Material.DistalEnd = DistalEnd.Free;
-            clamped.Gravity = new Vector3d(0.0, -50.0, 0.0);
+            clamped.Scene.DistalEnd = DistalEnd.Free;
+            clamped.Scene.Gravity = new Vector3d(0.0, -50.0, 0.0);
             SimulationParameters held = Clamped(10, 0.0, 0.0, 300);
-            held.Material.ProximalEnd = ProximalEnd.Held;
-            held.Material.DistalEnd = DistalEnd.Free;
-            held.Gravity = clamped.Gravity;
+            held.Scene.ProximalEnd = ProximalEnd.Held;
+            held.Scene.DistalEnd = DistalEnd.Free;
+            held.Scene.Gravity = clamped.Scene.Gravity;
             double stiff = Wires.Run(clamped).State.Positions[1].Y;
             double loose = Wires.Run(held).State.Positions[1].Y;
             Assert.That(stiff, Is.LessThan(0.0).And.GreaterThan(0.2 * loose));
@@ -97,14 +97,14 @@ namespace Guidewire.Core.Tests
         private static SimulationParameters Clamped(int n, double turn, double ramp, int steps)
         {
             SimulationParameters parameters = Wires.Longitudinal(steps);
-            parameters.NumberRodElements = n;
-            parameters.Displacement = 0.0;
-            parameters.ConstraintSolverSteps = 100;
-            parameters.BendStiffness = 0.5;
-            parameters.Material.ProximalEnd = ProximalEnd.Clamped;
-            parameters.Material.DistalEnd = DistalEnd.Clamped;
-            parameters.Material.DistalRotation = turn;
-            parameters.Material.DistalRampTime = ramp;
+            parameters.Scene.NumberRodElements = n;
+            parameters.Drive.Displacement = 0.0;
+            parameters.Method.ConstraintSolverSteps = 100;
+            parameters.Gains.BendStiffness = 0.5;
+            parameters.Scene.ProximalEnd = ProximalEnd.Clamped;
+            parameters.Scene.DistalEnd = DistalEnd.Clamped;
+            parameters.Scene.DistalRotation = turn;
+            parameters.Scene.DistalRampTime = ramp;
             return parameters;
         }
     }

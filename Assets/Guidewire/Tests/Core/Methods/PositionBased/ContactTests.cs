@@ -93,7 +93,7 @@ namespace Guidewire.Core.Tests
             // mean differs from the weight by the change of momentum over that time only.
             const int Steps = 2000;
             SimulationParameters p = LyingWire(Drive.Force);
-            p.Damping = 0.1;
+            p.Method.Damping = 0.1;
             Simulation simulation = Simulation.Create(p);
             Vector3d sum = Vector3d.Zero;
             for (int k = 0; k < 2 * Steps; k++)
@@ -102,7 +102,7 @@ namespace Guidewire.Core.Tests
                 sum += k >= Steps ? simulation.Contacts!.Total : Vector3d.Zero;
             }
             Vector3d mean = sum / Steps;
-            double weight = p.TotalMass * -p.Gravity.Y;
+            double weight = p.Gains.TotalMass * -p.Scene.Gravity.Y;
             Assert.That(mean.Y, Is.EqualTo(weight).Within(ForceTolerance * weight));
             Assert.That(mean.X, Is.EqualTo(0.0).Within(ForceTolerance * weight));
             Assert.That(simulation.Contacts!.Reaction, Is.EqualTo(Vector3d.Zero));
@@ -113,16 +113,16 @@ namespace Guidewire.Core.Tests
         {
             // Held above the plane: the wire hangs from sphere 0 and rests with its far part.
             SimulationParameters p = LyingWire(Drive.Hold);
-            p.Displacement = 3.0;
-            p.DisplacementDirection = Vector3d.UnitY;
-            p.Damping = 0.05;
+            p.Drive.Displacement = 3.0;
+            p.Drive.DisplacementDirection = Vector3d.UnitY;
+            p.Method.Damping = 0.05;
             Simulation simulation = Simulation.Create(p);
             for (int k = 0; k < 6000; k++)
             {
                 simulation.Step();
             }
-            double free = p.TotalMass * p.NumberRodElements / (p.NumberRodElements + 1.0);
-            double weight = free * -p.Gravity.Y;
+            double free = p.Gains.TotalMass * p.Scene.NumberRodElements / (p.Scene.NumberRodElements + 1.0);
+            double weight = free * -p.Scene.Gravity.Y;
             ContactRecord contacts = simulation.Contacts!;
             Assert.That(contacts.Total.Y, Is.GreaterThan(0.1 * weight));
             Assert.That(contacts.Reaction.Y, Is.GreaterThan(0.01 * weight));
@@ -134,18 +134,18 @@ namespace Guidewire.Core.Tests
         public void ForceBalance_HoldsInEveryStep()
         {
             SimulationParameters p = LyingWire(Drive.Hold);
-            p.Displacement = 3.0;
-            p.DisplacementDirection = Vector3d.UnitY;
+            p.Drive.Displacement = 3.0;
+            p.Drive.DisplacementDirection = Vector3d.UnitY;
             Simulation simulation = Simulation.Create(p);
-            double weight = p.TotalMass * -p.Gravity.Y;
-            double mass = p.TotalMass / (p.NumberRodElements + 1.0);
+            double weight = p.Gains.TotalMass * -p.Scene.Gravity.Y;
+            double mass = p.Gains.TotalMass / (p.Scene.NumberRodElements + 1.0);
             for (int k = 0; k < 200; k++)
             {
                 Vector3d before = Momentum(simulation.State, mass);
                 simulation.Step();
-                Vector3d change = (Momentum(simulation.State, mass) - before) / p.TimeStep;
+                Vector3d change = (Momentum(simulation.State, mass) - before) / p.Method.TimeStep;
                 Vector3d forces = simulation.Contacts!.Total + simulation.Contacts.Reaction
-                    + (mass * p.NumberRodElements) * p.Gravity;
+                    + (mass * p.Scene.NumberRodElements) * p.Scene.Gravity;
                 Assert.That((change - forces).Length, Is.LessThan(ForceTolerance * 100.0 * weight), "step " + k);
             }
         }
@@ -156,13 +156,19 @@ namespace Guidewire.Core.Tests
             // Sphere 0 is asked 60 units across a tube of radius 8: it gets to the wall, less the clearance.
             var p = new SimulationParameters
             {
-                NumberRodElements = 10, GuidewireLength = 100.0, GuidewireOffset = 0.0, Drive = Drive.Displace,
-                DisplacementPerStep = 6.0, DisplacementDirection = Vector3d.UnitY, MaxSimulationSteps = 10,
-                SphereRadius = 2.0, ConstraintSolverSteps = 50, DeltaThreshold = 0.0, CollisionStiffness = 0.1,
-                Walls = new ContactShape[]
+                Scene =
+                {
+                    NumberRodElements = 10,
+                    GuidewireLength = 100.0,
+                    GuidewireOffset = 0.0,
+                    Walls = new ContactShape[]
                 {
                     new TubeShape(new[] { Vector3d.Zero, 50.0 * Vector3d.UnitZ }, TubeRadii, true, true),
                 },
+                },
+                Drive = { Kind = Drive.Displace, DisplacementPerStep = 6.0, DisplacementDirection = Vector3d.UnitY },
+                Method = { MaxSimulationSteps = 10, ConstraintSolverSteps = 50, DeltaThreshold = 0.0 },
+                Contact = { SphereRadius = 2.0, CollisionStiffness = 0.1 },
             };
             Simulation simulation = Simulation.Create(p);
             while (simulation.Outcome == Outcome.Running)
@@ -182,8 +188,8 @@ namespace Guidewire.Core.Tests
         public void Displacement_AtTheStart_EndsAtTheWall()
         {
             SimulationParameters p = LyingWire(Drive.Hold);
-            p.Displacement = -50.0;
-            p.DisplacementDirection = Vector3d.UnitY;
+            p.Drive.Displacement = -50.0;
+            p.Drive.DisplacementDirection = Vector3d.UnitY;
             Simulation simulation = Simulation.Create(p);
             Assert.That(simulation.State.Positions[0].Y, Is.GreaterThan(-1.0));
             Assert.That(simulation.State.Positions[0].Y, Is.LessThan(-0.99));
@@ -194,16 +200,20 @@ namespace Guidewire.Core.Tests
         public void Wire_ThatStartsOutside_IsRefused()
         {
             SimulationParameters p = LyingWire(Drive.Hold);
-            p.Walls = new ContactShape[] { new PlaneShape(10.0 * Vector3d.UnitY, Vector3d.UnitY) };
+            p.Scene.Walls = new ContactShape[] { new PlaneShape(10.0 * Vector3d.UnitY, Vector3d.UnitY) };
             Assert.That(() => Simulation.Create(p), Throws.ArgumentException.With.Message.Contains("starts outside"));
         }
 
         [Test]
         public void Scene_WithAWallOutOfReach_MovesAsOneWithout_UpToRounding()
         {
-            var p = new SimulationParameters { MaxSimulationSteps = 50, DisplacementDirection = Vector3d.UnitY };
+            var p = new SimulationParameters
+            {
+                Method = { MaxSimulationSteps = 50 },
+                Drive = { DisplacementDirection = Vector3d.UnitY },
+            };
             Simulation free = Simulation.Create(p);
-            p.Walls = new ContactShape[] { new PlaneShape(-1000.0 * Vector3d.UnitY, Vector3d.UnitY) };
+            p.Scene.Walls = new ContactShape[] { new PlaneShape(-1000.0 * Vector3d.UnitY, Vector3d.UnitY) };
             Simulation walled = Simulation.Create(p);
             for (int k = 0; k < 50; k++)
             {
@@ -222,8 +232,10 @@ namespace Guidewire.Core.Tests
         {
             var p = new SimulationParameters
             {
-                NumberRodElements = 10, Drive = Drive.Push, TwistPerStep = 0.01, MaxSimulationSteps = 400,
-                Damping = 0.1, DeltaThreshold = 0.0, BendStiffness = 10.0,
+                Scene = { NumberRodElements = 10 },
+                Drive = { Kind = Drive.Push, TwistPerStep = 0.01 },
+                Method = { MaxSimulationSteps = 400, Damping = 0.1, DeltaThreshold = 0.0 },
+                Gains = { BendStiffness = 10.0 },
             };
             Simulation simulation = Simulation.Create(p);
             double tip = 0.0;
@@ -244,8 +256,8 @@ namespace Guidewire.Core.Tests
         public void Step_WithContacts_AllocatesNothing()
         {
             SimulationParameters p = LyingWire(Drive.Push);
-            p.DisplacementPerStep = 3.0;
-            p.Walls = new ContactShape[]
+            p.Drive.DisplacementPerStep = 3.0;
+            p.Scene.Walls = new ContactShape[]
             {
                 new MeshShape(TestMeshes.Tube(16, 40, 900.0).Build(Vector3d.Zero, new Vector3d(0.0, 0.0, 900.0)),
                     new Placement(new Vector3d(0.0, 2.0, -100.0), Quaterniond.Identity, new Vector3d(6.0, 6.0, 1.0))),
@@ -273,13 +285,26 @@ namespace Guidewire.Core.Tests
             double small = Length / 100.0;
             return Simulation.Create(new SimulationParameters
             {
-                NumberRodElements = 1, GuidewireLength = Length, GuidewireOffset = 0.0, SphereRadius = Radius,
-                CollisionStiffness = 0.5, ConstraintSolverSteps = 20, Drive = Drive.Force, DeltaThreshold = 0.0,
-                TotalMass = 1.0, TimeStep = 3e-4, ElementContact = rule, MaxSimulationSteps = 1000,
-                Walls = new ContactShape[]
+                Scene =
+                {
+                    NumberRodElements = 1,
+                    GuidewireLength = Length,
+                    GuidewireOffset = 0.0,
+                    Walls = new ContactShape[]
                 {
                     ConvexObstacle.Sphere(new Vector3d(0.0, -(Radius + small), s * Length), small),
                 },
+                },
+                Contact = { SphereRadius = Radius, CollisionStiffness = 0.5, ElementContact = rule },
+                Method =
+                {
+                    ConstraintSolverSteps = 20,
+                    DeltaThreshold = 0.0,
+                    TimeStep = 3e-4,
+                    MaxSimulationSteps = 1000,
+                },
+                Drive = { Kind = Drive.Force },
+                Gains = { TotalMass = 1.0 },
             });
         }
 
@@ -288,10 +313,17 @@ namespace Guidewire.Core.Tests
         {
             return new SimulationParameters
             {
-                NumberRodElements = 10, GuidewireLength = 100.0, GuidewireOffset = 0.0, SphereRadius = 1.0,
-                CollisionStiffness = 0.01, ConstraintSolverSteps = 50, Drive = drive, DeltaThreshold = 0.0,
-                MaxSimulationSteps = 100_000, Gravity = new Vector3d(0.0, -10.0, 0.0), Displacement = 0.0,
-                Walls = new ContactShape[] { new PlaneShape(-1.0 * Vector3d.UnitY, Vector3d.UnitY) },
+                Scene =
+                {
+                    NumberRodElements = 10,
+                    GuidewireLength = 100.0,
+                    GuidewireOffset = 0.0,
+                    Gravity = new Vector3d(0.0, -10.0, 0.0),
+                    Walls = new ContactShape[] { new PlaneShape(-1.0 * Vector3d.UnitY, Vector3d.UnitY) },
+                },
+                Contact = { SphereRadius = 1.0, CollisionStiffness = 0.01 },
+                Method = { ConstraintSolverSteps = 50, DeltaThreshold = 0.0, MaxSimulationSteps = 100_000 },
+                Drive = { Kind = drive, Displacement = 0.0 },
             };
         }
 

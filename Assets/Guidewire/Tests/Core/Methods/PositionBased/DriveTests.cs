@@ -11,9 +11,9 @@ namespace Guidewire.Core.Tests
             foreach (Integrator integrator in new[] { Integrator.Verlet, Integrator.Euler })
             {
                 SimulationParameters parameters = Wires.Transversal(50);
-                parameters.DisplacementDirection = new Vector3d(1.0, 2.0, -2.0);
-                parameters.Displacement = 6.0;
-                parameters.Integrator = integrator;
+                parameters.Drive.DisplacementDirection = new Vector3d(1.0, 2.0, -2.0);
+                parameters.Drive.Displacement = 6.0;
+                parameters.Method.Integrator = integrator;
                 Simulation run = Wires.Run(parameters);
                 Assert.That(Vector3d.Distance(run.State.Positions[0], new Vector3d(2.0, 4.0, -124.0)),
                     Is.LessThan(1e-13));
@@ -25,9 +25,9 @@ namespace Guidewire.Core.Tests
         public void Displace_MovesTheFirstSphereAlongAFixedAxis()
         {
             SimulationParameters parameters = Wires.Longitudinal(40);
-            parameters.Drive = Drive.Displace;
-            parameters.DisplacementPerStep = 0.25;
-            parameters.DisplacementDirection = new Vector3d(0.0, 3.0, 4.0);
+            parameters.Drive.Kind = Drive.Displace;
+            parameters.Drive.DisplacementPerStep = 0.25;
+            parameters.Drive.DisplacementDirection = new Vector3d(0.0, 3.0, 4.0);
             Simulation run = Wires.Run(parameters);
             Assert.That(run.State.Positions[0].Y, Is.EqualTo(40 * 0.25 * 0.6).Within(1e-12));
             Assert.That(run.State.Positions[0].Z, Is.EqualTo(-120.0 + 40 * 0.25 * 0.8).Within(1e-12));
@@ -40,10 +40,8 @@ namespace Guidewire.Core.Tests
             RodStart start = Wires.Random(10, 300.0, 3);
             Simulation run = Simulation.Create(new SimulationParameters
             {
-                NumberRodElements = 10,
-                Start = start,
-                Drive = Drive.Push,
-                DisplacementPerStep = 0.5,
+                Scene = { NumberRodElements = 10, Start = start },
+                Drive = { Kind = Drive.Push, DisplacementPerStep = 0.5 },
             });
             for (int step = 0; step < 20; step++)
             {
@@ -61,10 +59,9 @@ namespace Guidewire.Core.Tests
             // rest it has gone a dt^2 k (k + 1)/2.
             Simulation run = Simulation.Create(new SimulationParameters
             {
-                Drive = Drive.Force,
-                ExternalForce = new Vector3d(0.0, 0.003, -0.002),
-                TotalMass = 0.01,
-                ConstraintSolverSteps = 20,
+                Drive = { Kind = Drive.Force, ExternalForce = new Vector3d(0.0, 0.003, -0.002) },
+                Gains = { TotalMass = 0.01 },
+                Method = { ConstraintSolverSteps = 20 },
             });
             for (int step = 0; step < 50; step++)
             {
@@ -85,9 +82,9 @@ namespace Guidewire.Core.Tests
         {
             Simulation run = Simulation.Create(new SimulationParameters
             {
-                Drive = Drive.Force,
-                Gravity = new Vector3d(0.0, -9.81, 0.0),
-                Integrator = Integrator.Euler,
+                Drive = { Kind = Drive.Force },
+                Scene = { Gravity = new Vector3d(0.0, -9.81, 0.0) },
+                Method = { Integrator = Integrator.Euler },
             });
             for (int step = 0; step < 100; step++)
             {
@@ -103,11 +100,11 @@ namespace Guidewire.Core.Tests
         public void PushAlongAStraightWire_EqualsDisplacementAlongItsAxis()
         {
             SimulationParameters push = Wires.Longitudinal(60);
-            push.Drive = Drive.Push;
-            push.DisplacementPerStep = 0.1;
+            push.Drive.Kind = Drive.Push;
+            push.Drive.DisplacementPerStep = 0.1;
             SimulationParameters displace = Wires.Longitudinal(60);
-            displace.Drive = Drive.Displace;
-            displace.DisplacementPerStep = 0.1;
+            displace.Drive.Kind = Drive.Displace;
+            displace.Drive.DisplacementPerStep = 0.1;
             Assert.That(Wires.Distance(Wires.Run(push).State, Wires.Run(displace).State), Is.LessThan(1e-10));
             Assert.That(Math.Abs(Wires.Run(push).State.Positions[0].Z + 114.0), Is.LessThan(1e-10));
         }

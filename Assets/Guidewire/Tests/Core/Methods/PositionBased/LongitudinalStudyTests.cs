@@ -48,9 +48,8 @@ namespace Guidewire.Core.Tests
             // An independent double-precision implementation gives these digits.
             Simulation run = Simulation.Create(new SimulationParameters
             {
-                StretchStiffness = 0.3,
-                BendStiffness = 0.05,
-                DeltaThreshold = 0.0,
+                Gains = { StretchStiffness = 0.3, BendStiffness = 0.05 },
+                Method = { DeltaThreshold = 0.0 },
             });
             Assert.That(TipAfter(run, 10), Is.EqualTo(10.2667809).Within(1e-7));
             Assert.That(TipAfter(run, 50), Is.EqualTo(10.0147801).Within(1e-7));
@@ -64,7 +63,7 @@ namespace Guidewire.Core.Tests
             foreach (double timeStep in new[] { 1e-4, 1e-1 })
             {
                 SimulationParameters parameters = Wires.Longitudinal(120);
-                parameters.TimeStep = timeStep;
+                parameters.Method.TimeStep = timeStep;
                 Assert.That(Wires.Distance(coarse.State, Wires.Run(parameters).State), Is.LessThan(1e-9));
             }
         }
@@ -73,7 +72,7 @@ namespace Guidewire.Core.Tests
         public void BilateralOrder_ReachesTheSameRestState()
         {
             SimulationParameters parameters = Wires.Longitudinal(1500);
-            parameters.SweepOrder = SweepOrder.Bilateral;
+            parameters.Method.SweepOrder = SweepOrder.Bilateral;
             Simulation bilateral = Wires.Run(parameters);
             Simulation naive = Wires.Run(Wires.Longitudinal(1500));
             Assert.That(Wires.Distance(bilateral.State, naive.State), Is.LessThan(1e-9));

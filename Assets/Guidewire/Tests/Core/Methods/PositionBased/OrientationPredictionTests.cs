@@ -60,11 +60,11 @@ namespace Guidewire.Core.Tests
         private static double Difference(Integrator euler, Integrator verlet, double displacement)
         {
             SimulationParameters a = Wires.Transversal(50);
-            a.Integrator = euler;
-            a.Displacement = displacement;
+            a.Method.Integrator = euler;
+            a.Drive.Displacement = displacement;
             SimulationParameters b = Wires.Transversal(50);
-            b.Integrator = verlet;
-            b.Displacement = displacement;
+            b.Method.Integrator = verlet;
+            b.Drive.Displacement = displacement;
             return Wires.Distance(Wires.Run(a).State, Wires.Run(b).State);
         }
 

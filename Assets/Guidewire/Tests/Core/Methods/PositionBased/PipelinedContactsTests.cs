@@ -20,16 +20,16 @@ namespace Guidewire.Core.Tests
             SimulationParameters parameters = Scene(rule, walls);
             var expected = new RodState(Elements, Length, 0.01, 0.0);
             var state = new RodState(Elements, Length, 0.01, 0.0);
-            ContactStep reference = StepOf(expected, parameters, null);
+            PositionBasedStep reference = StepOf(expected, parameters, null);
             var used = new CountingSweeps(lanes);
-            ContactStep step = StepOf(state, parameters, used);
+            PositionBasedStep step = StepOf(state, parameters, used);
             for (int k = 0; k < Steps; k++)
             {
                 reference.Advance(expected);
                 step.Advance(state);
                 Assert.That(state.Positions, Is.EqualTo(expected.Positions), "step " + k);
                 Assert.That(state.Orientations, Is.EqualTo(expected.Orientations), "step " + k);
-                Assert.That(step.Record.Impulses, Is.EqualTo(reference.Record.Impulses), "step " + k);
+                Assert.That(step.Contacts!.Impulses, Is.EqualTo(reference.Contacts!.Impulses), "step " + k);
             }
             Assert.That(Wires.IsFinite(state));
             Assert.That(used.WithContacts, Is.GreaterThan(0), "contacts in lanes");
@@ -47,25 +47,42 @@ namespace Guidewire.Core.Tests
                 : new ContactShape[] { ConvexObstacle.Sphere(new Vector3d(0.5, -4.0, 150.0), 3.0) };
             return new SimulationParameters
             {
-                SphereRadius = 1.0,
-                CollisionMargin = 0.1,
-                CollisionStiffness = 0.05,
-                ElementContact = rule,
-                Walls = shapes,
+                Contact =
+                {
+                    SphereRadius = 1.0,
+                    CollisionMargin = 0.1,
+                    CollisionStiffness = 0.05,
+                    ElementContact = rule,
+                },
+                Scene = { Walls = shapes },
             };
         }
 
-        private static ContactStep StepOf(RodState state, SimulationParameters parameters, CountingSweeps? counting)
+        private static PositionBasedStep StepOf(RodState state, SimulationParameters parameters,
+            CountingSweeps? counting)
         {
             state.InverseMasses[0] = 0.0;
             var scalar = new ScalarSweeps(
                 new StretchConstraint(state, 0.3), new BendTwistConstraint(state, 0.2), SweepOrder.Naive);
             ISweeps sweeps = counting == null ? scalar : (ISweeps)counting.Of(scalar);
-            IContactRule rule = parameters.ElementContact == ElementContact.Seed
-                ? new SeedContactRule(state, parameters) : (IContactRule)new ContactRule(state, parameters);
-            return new ContactStep(state, parameters,
-                new VerletPrediction(0.02, new Vector3d(-3.0, -10.0, 0.0)), new OrientationEulerPrediction(),
-                new PushDrive(0.3), new GaussSeidelSolver(Iterations, scalar, sweeps, rule), rule);
+            ContactParameters contact = parameters.Contact;
+            ContactShape[] walls = parameters.Scene.Walls;
+            double radius = contact.SphereRadius;
+            double reach = radius + contact.CollisionMargin;
+            bool asPublished = contact.ElementContact == ElementContact.Seed;
+            IContactResponse response = asPublished
+                ? (IContactResponse)new SeedContactResponse(state, walls.Length, radius, reach,
+                    contact.CollisionStiffness)
+                : new ContactResponse(state, walls.Length, radius, reach, contact.CollisionStiffness);
+            IContactSearch search = asPublished ? (IContactSearch)new SeedContactSearch(walls, Elements, radius)
+                : new ContactSearch(walls, Elements, Length / Elements, radius, reach,
+                    contact.ElementContact == ElementContact.Barycentric);
+            var record = new ContactRecord(state.SphereCount);
+            double dt = parameters.Method.TimeStep;
+            return new PositionBasedStep(dt, new VerletPrediction(0.02, new Vector3d(-3.0, -10.0, 0.0)),
+                new OrientationEulerPrediction(), new ProximalDrive(new AlongFirstElement(), 0.3),
+                new ContactSolver(state, dt, new GaussSeidelSolver(Iterations, scalar, sweeps, response), search,
+                    response, record), record);
         }
 
         // Counts the solves with contacts that lanes took.
@@ -91,7 +108,7 @@ namespace Guidewire.Core.Tests
                 return this;
             }
 
-            public bool Iterate(Vector3d[] x, Quaterniond[] q, int iterations, IContactRule? contacts)
+            public bool Iterate(Vector3d[] x, Quaterniond[] q, int iterations, IContactResponse? contacts)
             {
                 bool taken = _sweeps!.Iterate(x, q, iterations, contacts);
                 if (taken && contacts!.ContactCount > 0)

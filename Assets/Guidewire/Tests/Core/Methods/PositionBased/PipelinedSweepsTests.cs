@@ -105,14 +105,14 @@ namespace Guidewire.Core.Tests
         private static PositionBasedStep StepWith(ScalarSweeps scalar, ISweeps sweeps, int iterations)
         {
             return new PositionBasedStep(TimeStep, new VerletPrediction(0.01, new Vector3d(0.0, -2.0, 0.3)),
-                new OrientationEulerPrediction(), null, new GaussSeidelSolver(iterations, scalar, sweeps, null));
+                new OrientationEulerPrediction(), null, new GaussSeidelSolver(iterations, scalar, sweeps, null), null);
         }
 
         private static RodState Bent(int n, int seed, out ScalarSweeps scalar)
         {
             var random = new System.Random(seed);
             var state = new RodState(n, 10.0 * n, 0.1, 0.0);
-            state.Load(Wires.Random(n, 10.0 * n, seed));
+            Wires.Load(state, Wires.Random(n, 10.0 * n, seed));
             Bend(state, random);
             scalar = new ScalarSweeps(
                 new StretchConstraint(state, 0.7), new BendTwistConstraint(state, 0.4), SweepOrder.Naive);
@@ -140,7 +140,7 @@ namespace Guidewire.Core.Tests
             var state = new RodState(n, length, Math.Pow(10.0, 6.0 * random.NextDouble() - 3.0), -5.0);
             if (seed % 2 == 0)
             {
-                state.Load(Wires.Random(n, length, seed));
+                Wires.Load(state, Wires.Random(n, length, seed));
             }
             else
             {

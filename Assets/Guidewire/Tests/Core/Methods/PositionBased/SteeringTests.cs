@@ -14,12 +14,14 @@ namespace Guidewire.Core.Tests
             _hand.Turn = 0.0;
             return Simulation.Create(new SimulationParameters
             {
-                Displacement = 0.0,
-                ConstraintSolverSteps = 100,
-                DeltaThreshold = 0.0,
-                Damping = 0.05,
-                MaxSimulationSteps = 100_000,
-                Steering = _hand,
+                Drive = { Displacement = 0.0, Steering = _hand },
+                Method =
+                {
+                    ConstraintSolverSteps = 100,
+                    DeltaThreshold = 0.0,
+                    Damping = 0.05,
+                    MaxSimulationSteps = 100_000,
+                },
             });
         }
 
@@ -86,7 +88,8 @@ namespace Guidewire.Core.Tests
         [Test]
         public void WireWithAMaterial_IsNotSteered()
         {
-            var parameters = new SimulationParameters { Solver = Solver.Direct, Steering = _hand };
+            SimulationParameters parameters = SimulationParameters.DefaultsOf(Solver.Direct);
+            parameters.Drive.Steering = _hand;
             Assert.That(() => Simulation.Create(parameters), Throws.ArgumentException.With.Message.Contains("pbd"));
         }
 
@@ -95,7 +98,8 @@ namespace Guidewire.Core.Tests
         {
             var parameters = new SimulationParameters
             {
-                Drive = Drive.Push, DisplacementPerStep = 1.0, Steering = _hand, DeltaThreshold = 0.0,
+                Drive = { Kind = Drive.Push, DisplacementPerStep = 1.0, Steering = _hand },
+                Method = { DeltaThreshold = 0.0 },
             };
             Simulation simulation = Simulation.Create(parameters);
             double start = simulation.State.Positions[0].Z;

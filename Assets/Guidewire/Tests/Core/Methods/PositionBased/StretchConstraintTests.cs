@@ -27,9 +27,8 @@ namespace Guidewire.Core.Tests
         [Test]
         public void Stretch_KeepsCentreOfMass_WhenNoSphereIsHeld()
         {
-            var parameters = new SimulationParameters { NumberRodElements = 12, Start = Wires.Random(12, 300.0, 5) };
             var state = new RodState(12, 300.0, 0.5, 0.0);
-            state.Load(parameters.Start);
+            Wires.Load(state, Wires.Random(12, 300.0, 5));
             Vector3d before = Sum(state.Positions);
             new StretchConstraint(state, 0.7).Sweep(state.Positions, state.Orientations,
                 SweepOrders.Indices(SweepOrder.Naive, 12));
@@ -55,7 +54,7 @@ namespace Guidewire.Core.Tests
         public void Sweep_ReturnsUnitOrientations()
         {
             var state = new RodState(20, 300.0, 0.01, 0.0);
-            state.Load(Wires.Random(20, 300.0, 9));
+            Wires.Load(state, Wires.Random(20, 300.0, 9));
             new StretchConstraint(state, 0.9).Sweep(state.Positions, state.Orientations,
                 SweepOrders.Indices(SweepOrder.Naive, 20));
             foreach (Quaterniond q in state.Orientations)

@@ -11,7 +11,7 @@ namespace Guidewire.Core.Tests
         {
             // Last sphere's y and z - z(0) of an independent double-precision implementation.
             SimulationParameters parameters = Wires.Transversal(1000);
-            parameters.Integrator = integrator;
+            parameters.Method.Integrator = integrator;
             Simulation run = Simulation.Create(parameters);
             foreach ((int step, double y, double z) in new[]
             {
@@ -35,10 +35,10 @@ namespace Guidewire.Core.Tests
             foreach (double damping in new[] { 0.0, 0.01 })
             {
                 SimulationParameters verlet = Wires.Transversal(500);
-                verlet.Damping = damping;
+                verlet.Method.Damping = damping;
                 SimulationParameters euler = Wires.Transversal(500);
-                euler.Damping = damping;
-                euler.Integrator = Integrator.Euler;
+                euler.Method.Damping = damping;
+                euler.Method.Integrator = Integrator.Euler;
                 Assert.That(Wires.Distance(Wires.Run(verlet).State, Wires.Run(euler).State), Is.LessThan(1e-9),
                     "damping " + damping);
             }

@@ -1,0 +1,36 @@
+namespace Guidewire.Core
+{
+    /// <summary>Tells which spheres and rod elements are near which wall, and where. It does nothing about it. One
+    /// implementation a rule of contact, chosen once.</summary>
+    internal interface IContactSearch
+    {
+        /// <summary>The walls that are searched.</summary>
+        ContactShape[] Walls { get; }
+
+        /// <summary>r of the spheres, units.</summary>
+        double Radius { get; }
+
+        /// <summary>Whether spheres may not pass a wall, so that the swept test looks for places where they
+        /// would.</summary>
+        bool GuardsSpheres { get; }
+
+        /// <summary>Whether rod elements may not pass either.</summary>
+        bool GuardsElements { get; }
+
+        /// <summary>What the last search found, wall by wall and along the wire.</summary>
+        StructList<WireContact> Contacts { get; }
+
+        /// <summary>What of it the swept test met on the way; it would pass the wall, were it not held up there.
+        /// </summary>
+        StructList<WireContact> Impacts { get; }
+
+        /// <summary>Finds the contacts of a motion of the wire.</summary>
+        /// <param name="from">Where the n + 1 spheres are, units; under a rule that guards, clear of the walls.</param>
+        /// <param name="to">Where the prediction takes them.</param>
+        void Find(Vector3d[] from, Vector3d[] to);
+
+        /// <summary>Lower bound of the distance of element j from all walls at <c>from</c>, as the last search saw it,
+        /// units.</summary>
+        double ClearanceOf(int j);
+    }
+}

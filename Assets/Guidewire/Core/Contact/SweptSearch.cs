@@ -1,0 +1,101 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>Where a motion of the wire would pass a wall.</summary>
+    /// <remarks>The start of every motion is clear of the wall by induction: a motion is only accepted when the swept
+    /// test finds it clear, and the wire does not move at all where nothing else is. An element whose distance at the
+    /// start is known to exceed the way of its ends cannot meet the wall and is not swept.</remarks>
+    internal sealed class SweptSearch
+    {
+        private readonly IContactSearch _search;
+        private readonly ContactShape[] _walls;
+        private readonly double _clearance;
+
+        /// <param name="search">Its walls and radius; which parts of the wire it guards, and what it knows of their
+        /// distance at the start of the motion.</param>
+        /// <param name="sphereCount">n + 1.</param>
+        public SweptSearch(IContactSearch search, int sphereCount)
+        {
+            _search = search;
+            _walls = search.Walls;
+            _clearance = ClearanceFor(search.Radius);
+            Impacts = new StructList<WireContact>(2 * sphereCount);
+        }
+
+        /// <summary>What the last <see cref="Find"/> met, along the wire: each guarded sphere's and element's first
+        /// impact.</summary>
+        public StructList<WireContact> Impacts { get; }
+
+        /// <summary>What the swept test keeps between core line and wall, units: enough to stay clear of rounding, too
+        /// little to be felt.</summary>
+        public static double ClearanceFor(double radius)
+        {
+            return 1e-3 * radius;
+        }
+
+        /// <summary>Lists every place where the motion would pass a wall; true when there is one.</summary>
+        /// <param name="from">Where the n + 1 spheres are, clear of the walls; units.</param>
+        /// <param name="to">Where they would go.</param>
+        public bool Find(Vector3d[] from, Vector3d[] to)
+        {
+            Impacts.Clear();
+            for (int i = 0; i < to.Length; i++)
+            {
+                if (SphereImpact(from, to, i, out WireContact impact) < ContactShape.NoImpact)
+                {
+                    Impacts.Add(impact);
+                }
+                if (i + 1 < to.Length && ElementImpact(from, to, i, out impact) < ContactShape.NoImpact)
+                {
+                    Impacts.Add(impact);
+                }
+            }
+            return Impacts.Count > 0;
+        }
+
+        /// <summary>Fraction of the motion after which sphere i meets a wall, <see cref="ContactShape.NoImpact"/> where
+        /// it meets none or is not guarded.</summary>
+        public double SphereImpact(Vector3d[] from, Vector3d[] to, int i, out WireContact impact)
+        {
+            impact = default;
+            if (!_search.GuardsSpheres)
+            {
+                return ContactShape.NoImpact;
+            }
+            int last = to.Length - 2;
+            double known = Math.Max(
+                i > 0 ? _search.ClearanceOf(i - 1) : 0.0, i <= last ? _search.ClearanceOf(i) : 0.0);
+            return Impact(from, to, i, i, known, out impact);
+        }
+
+        /// <summary>The same for the rod element from sphere j to sphere j + 1.</summary>
+        public double ElementImpact(Vector3d[] from, Vector3d[] to, int j, out WireContact impact)
+        {
+            impact = default;
+            return _search.GuardsElements
+                ? Impact(from, to, j, j + 1, _search.ClearanceOf(j), out impact) : ContactShape.NoImpact;
+        }
+
+        private double Impact(Vector3d[] from, Vector3d[] to, int i, int k, double known, out WireContact impact)
+        {
+            impact = default;
+            double motion = Math.Max(Vector3d.Distance(from[i], to[i]), Vector3d.Distance(from[k], to[k]));
+            if (motion + _clearance < known || motion == 0.0)
+            {
+                return ContactShape.NoImpact;
+            }
+            double first = ContactShape.NoImpact;
+            for (int w = 0; w < _walls.Length; w++)
+            {
+                double time = _walls[w].Sweep(from[i], from[k], to[i], to[k], _clearance, out SurfaceContact at);
+                if (time < first)
+                {
+                    first = time;
+                    impact = new WireContact(w, i, i != k, at);
+                }
+            }
+            return first;
+        }
+    }
+}

@@ -1,0 +1,43 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>What is asked of a list of energy terms as a whole.</summary>
+    internal static class EnergySum
+    {
+        /// <summary>The sum of the energies, J.</summary>
+        /// <param name="magnitude">Sum of their magnitudes, J: what rounding goes with.</param>
+        public static double Value(EnergyTerm[] terms, RodShape shape, out double magnitude)
+        {
+            double sum = 0.0;
+            magnitude = 0.0;
+            foreach (EnergyTerm term in terms)
+            {
+                double value = term.Value(shape);
+                sum += value;
+                magnitude += Math.Abs(value);
+            }
+            return sum;
+        }
+
+        /// <summary>Every term counts work from this shape on.</summary>
+        public static void Anchor(EnergyTerm[] terms, RodShape shape)
+        {
+            foreach (EnergyTerm term in terms)
+            {
+                term.Anchor(shape);
+            }
+        }
+
+        /// <summary>The largest share of a step, at most 1, that no term forbids.</summary>
+        public static double LargestShare(EnergyTerm[] terms, RodShape shape, RodVector[] direction, double scale)
+        {
+            double share = 1.0;
+            foreach (EnergyTerm term in terms)
+            {
+                share = Math.Min(share, term.LargestShare(shape, direction, scale));
+            }
+            return share;
+        }
+    }
+}

@@ -1,0 +1,18 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>What the terms found on the way while they added their gradients, over all of them and all
+    /// ranges.</summary>
+    internal struct GradientMeasures
+    {
+        /// <summary>The largest force in an element, N.</summary>
+        public double LargestForce;
+
+        /// <summary>Takes in the largest force that one term found in one range, N.</summary>
+        public void IncludeForce(double force)
+        {
+            LargestForce = Math.Max(LargestForce, force);
+        }
+    }
+}

@@ -1,0 +1,97 @@
+namespace Guidewire.Core
+{
+    /// <summary>A scene whose wire is a material, in SI units: the rod and how it is held, beside what is simulated.
+    /// Every method for a material begins here.</summary>
+    internal sealed class MaterialScene
+    {
+        private readonly Scene _scene;
+
+        /// <summary>The scene of these parameters.</summary>
+        public MaterialScene(SimulationParameters parameters, Scene scene)
+        {
+            _scene = scene;
+            Rod = CreateRod(parameters, scene.ElementLengths);
+            Supports = new RodSupports
+            {
+                Proximal = parameters.Drive.Kind == Core.Drive.Force ? ProximalEnd.Free : parameters.Scene.ProximalEnd,
+                Distal = parameters.Scene.DistalEnd,
+                SlidingAxis = scene.Shape.DistalFrame.Director3,
+                Clamp = parameters.Material.ClampRule,
+                Mass = parameters.Material.MassRule,
+                Bend = parameters.Material.BendLaw,
+            };
+            scene.Schedule.ProximalPosition += scene.Displacement;
+            Drive = new MaterialDrive(parameters, scene);
+        }
+
+        /// <summary>Metres per unit.</summary>
+        public double Metres => _scene.UnitLength;
+
+        /// <summary>The rod.</summary>
+        public MaterialRod Rod { get; }
+
+        /// <summary>How it is held.</summary>
+        public RodSupports Supports { get; }
+
+        /// <summary>What moves node 0 in every step.</summary>
+        public MaterialDrive Drive { get; }
+
+        /// <summary>Where the rod is at the start, before the displacement of sphere 0, m.</summary>
+        public RodShape Shape => _scene.Shape;
+
+        /// <summary>Velocities at the start, m/s.</summary>
+        public Vector3d[] Velocities => _scene.Velocities;
+
+        /// <summary>Angular velocities at the start along the elements' axes, rad/s.</summary>
+        public Vector3d[] Spins => _scene.Spins;
+
+        /// <summary>What is prescribed.</summary>
+        public RodSchedule Schedule => _scene.Schedule;
+
+        /// <summary>Writes a moment of the rod into a state: positions and velocities in units, orientations and
+        /// angular velocities.</summary>
+        public void Write(RodState state, RodShape shape, Vector3d[] velocities, Vector3d[] spins)
+        {
+            double units = 1.0 / Metres;
+            for (int i = 0; i < shape.X.Length; i++)
+            {
+                state.PredictedPositions[i] = units * shape.X[i];
+                state.Velocities[i] = units * velocities[i];
+            }
+            System.Array.Copy(shape.Q, state.PredictedOrientations, shape.Q.Length);
+            System.Array.Copy(spins, state.AngularVelocities, spins.Length);
+            state.Advance();
+        }
+
+        private static MaterialRod CreateRod(SimulationParameters parameters, double[] lengths)
+        {
+            MaterialParameters material = parameters.Material;
+            int n = parameters.Scene.NumberRodElements;
+            var rod = new MaterialRod(n);
+            for (int j = 0; j < n; j++)
+            {
+                double radius = material.WireRadius;
+                double young = material.YoungsModulus;
+                double shear = material.ShearModulus;
+                double density = material.Density;
+                Vector3d curvature = material.RestCurvature;
+                double middle = (j + 0.5) / n * parameters.Scene.GuidewireLength;
+                foreach (WireSection section in material.Sections)
+                {
+                    if (middle >= section.From && middle < section.To)
+                    {
+                        radius = section.WireRadius ?? radius;
+                        young = section.YoungsModulus ?? young;
+                        shear = section.ShearModulus ?? shear;
+                        density = section.Density ?? density;
+                        curvature = section.RestCurvature ?? curvature;
+                    }
+                }
+                rod.Length[j] = lengths[j];
+                rod.SetRound(j, radius, young, shear, density);
+                rod.RestCurvature[j] = curvature;
+            }
+            return rod;
+        }
+    }
+}

@@ -1,0 +1,82 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>How the mass of a rod acts on its nodes and elements: the one place where it is shared out.</summary>
+    internal sealed class RodMass
+    {
+        /// <summary>The mass of a rod under one rule.</summary>
+        public RodMass(MaterialRod rod, MassRule rule)
+        {
+            int n = rod.ElementCount;
+            Nodal = new double[n + 1];
+            Diagonal = new double[n + 1];
+            Coupling = new double[n];
+            Rotary = new double[n];
+            for (int j = 0; j < n; j++)
+            {
+                double mass = rod.LineDensity[j] * rod.Length[j];
+                double share = rule == MassRule.Consistent ? mass / 3.0 : 0.5 * mass;
+                Nodal[j] += 0.5 * mass;
+                Nodal[j + 1] += 0.5 * mass;
+                Diagonal[j] += share;
+                Diagonal[j + 1] += share;
+                Coupling[j] = rule == MassRule.Consistent ? mass / 6.0 : 0.0;
+                Rotary[j] = rod.RotaryInertia[j] * rod.Length[j];
+                Total += mass;
+            }
+            if (rule == MassRule.Uniform)
+            {
+                Array.Fill(Nodal, Total / (n + 1));
+                Array.Fill(Diagonal, Total / (n + 1));
+            }
+        }
+
+        /// <summary>kg.</summary>
+        public double Total { get; }
+
+        /// <summary>What each node weighs, kg, n+1: half of each element beside it, or its even share.</summary>
+        public double[] Nodal { get; }
+
+        /// <summary>Diagonal of the mass matrix, kg, n+1.</summary>
+        public double[] Diagonal { get; }
+
+        /// <summary>The mass matrix between nodes i and i+1, kg, n.</summary>
+        public double[] Coupling { get; }
+
+        /// <summary>rho I l about d1 and d2, kg m^2, n; about d3 it is twice that.</summary>
+        public double[] Rotary { get; }
+
+        /// <summary>Linear momentum, kg m/s, of these velocities.</summary>
+        public Vector3d Momentum(Vector3d[] velocities)
+        {
+            Vector3d sum = Vector3d.Zero;
+            for (int i = 0; i < Diagonal.Length; i++)
+            {
+                sum += Diagonal[i] * velocities[i];
+                if (i < Coupling.Length)
+                {
+                    sum += Coupling[i] * (velocities[i] + velocities[i + 1]);
+                }
+            }
+            return sum;
+        }
+
+        /// <summary>Kinetic energy, J, of these velocities and angular velocities.</summary>
+        public double KineticEnergy(Vector3d[] velocities, Vector3d[] spins)
+        {
+            double sum = 0.0;
+            for (int i = 0; i < Diagonal.Length; i++)
+            {
+                sum += 0.5 * Diagonal[i] * velocities[i].LengthSquared;
+                if (i < Coupling.Length)
+                {
+                    Vector3d w = spins[i];
+                    sum += Coupling[i] * Vector3d.Dot(velocities[i], velocities[i + 1])
+                        + 0.5 * Rotary[i] * (w.LengthSquared + w.Z * w.Z);
+                }
+            }
+            return sum;
+        }
+    }
+}

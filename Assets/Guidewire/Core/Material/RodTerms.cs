@@ -1,0 +1,194 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>All that stores energy in a material rod or does work on it: the one list of energy terms. Rest shapes,
+    /// motions, explicit forces, energies and reactions are made of what stands here.</summary>
+    /// <remarks>A new load or a new kind of energy is a class of its own and one entry in the list. Elastic terms store
+    /// energy, 0 or more, in the wire; loads act on it from outside. The compliant solver has constraints in place of
+    /// stretch and bending, and takes the loads from here.</remarks>
+    internal sealed class RodTerms
+    {
+        private readonly EnergyTerm[] _elastic;
+        private readonly EnergyTerm[] _loads;
+        private readonly RodVector[] _endGradient;
+
+        /// <summary>The terms of a rod on which nothing acts yet.</summary>
+        public RodTerms(MaterialRod rod, RodSupports supports)
+            : this(rod, supports, new SceneParameters())
+        {
+        }
+
+        /// <summary>The terms of a rod in a scene.</summary>
+        /// <param name="scene">What acts on it; loads that change in time come with <see cref="SetTime"/>.</param>
+        /// <param name="others">Loads besides those of the scene.</param>
+        public RodTerms(MaterialRod rod, RodSupports supports, SceneParameters scene, params EnergyTerm[] others)
+        {
+            Rod = rod;
+            Supports = supports;
+            Mass = new RodMass(rod, supports.Mass);
+            Stretch = new StretchEnergy(rod);
+            Bending = CreateBending(rod, supports);
+            Loads = new DeadLoads(Mass);
+            Moment = new TipMoment();
+            Moment.ActAtEnd(rod, scene.TipMoment);
+            _elastic = new EnergyTerm[]
+            {
+                Stretch,
+                Bending,
+            };
+            _loads = Joined(new EnergyTerm[]
+            {
+                Loads,
+                Moment,
+            }, others);
+            All = Joined(_elastic, _loads);
+            _endGradient = new RodVector[rod.ElementCount + 2];
+        }
+
+        /// <summary>The rod.</summary>
+        public MaterialRod Rod { get; }
+
+        /// <summary>How it is held.</summary>
+        public RodSupports Supports { get; }
+
+        /// <summary>How its mass is shared out.</summary>
+        public RodMass Mass { get; }
+
+        /// <summary>Stretch and shear.</summary>
+        public StretchEnergy Stretch { get; }
+
+        /// <summary>Bending and twist.</summary>
+        public BendTwistTerm Bending { get; }
+
+        /// <summary>Weight and forces on the nodes.</summary>
+        public DeadLoads Loads { get; }
+
+        /// <summary>The couple on the last element, along its own axes.</summary>
+        public TipMoment Moment { get; }
+
+        /// <summary>Every term.</summary>
+        public EnergyTerm[] All { get; }
+
+        /// <summary>Whether every term is a true energy, so that rest shapes are its minima.</summary>
+        public bool HavePotential => Array.TrueForAll(All, term => term.HasPotential);
+
+        /// <summary>The terms that are true energies.</summary>
+        public EnergyTerm[] WithPotential()
+        {
+            return Array.FindAll(All, term => term.HasPotential);
+        }
+
+        /// <summary>Every term and one more.</summary>
+        public EnergyTerm[] With(EnergyTerm more)
+        {
+            return Joined(All, new[] { more });
+        }
+
+        /// <summary>Sets all that is prescribed at this time.</summary>
+        public void SetTime(RodSchedule schedule, double time)
+        {
+            schedule.SetLoads(Loads, time);
+            foreach (EnergyTerm term in All)
+            {
+                term.SetTime(time);
+            }
+        }
+
+        /// <summary>Adds the gradient of all terms.</summary>
+        public void AddGradient(RodShape shape, RodVector[] gradient)
+        {
+            AddGradient(All, shape, gradient);
+        }
+
+        /// <summary>Adds the gradient of the loads: minus the forces and couples that act from outside.</summary>
+        public void AddLoadGradient(RodShape shape, RodVector[] gradient)
+        {
+            AddGradient(_loads, shape, gradient);
+        }
+
+        /// <summary>Energy stored in the wire, J.</summary>
+        public double ElasticEnergy(RodShape shape)
+        {
+            double sum = 0.0;
+            foreach (EnergyTerm term in _elastic)
+            {
+                sum += term.Value(shape);
+            }
+            return sum;
+        }
+
+        /// <summary>Energy stored in the wire less the work of the loads that have a potential, J.</summary>
+        public double Potential(RodShape shape)
+        {
+            double sum = 0.0;
+            foreach (EnergyTerm term in All)
+            {
+                sum += term.HasPotential ? term.Value(shape) : 0.0;
+            }
+            return sum;
+        }
+
+        /// <summary>Work of the loads, as they are now, on a wire that goes from one shape to another, J.</summary>
+        public double LoadWork(RodShape from, RodShape to)
+        {
+            double sum = 0.0;
+            foreach (EnergyTerm term in _loads)
+            {
+                term.Anchor(from);
+                sum += term.Value(from) - term.Value(to);
+            }
+            return sum;
+        }
+
+        /// <summary>Gradient of the elastic energy at node 0 or n, N: minus the force of the wire on it.</summary>
+        public Vector3d EndGradient(RodShape shape, int node)
+        {
+            int from = Math.Max(node - 1, 0);
+            Array.Clear(_endGradient, from, Math.Min(3, _endGradient.Length - from));
+            var measured = default(GradientMeasures);
+            foreach (EnergyTerm term in _elastic)
+            {
+                term.AddGradient(shape, _endGradient, from, node + 1, ref measured);
+            }
+            RodVector g = _endGradient[node];
+            return new Vector3d(g.X1, g.X2, g.X3);
+        }
+
+        /// <summary>Writes or takes over what the terms keep from step to step.</summary>
+        public void Exchange(Snapshot snapshot)
+        {
+            foreach (EnergyTerm term in All)
+            {
+                term.Exchange(snapshot);
+            }
+        }
+
+        private static void AddGradient(EnergyTerm[] terms, RodShape shape, RodVector[] gradient)
+        {
+            var measured = default(GradientMeasures);
+            foreach (EnergyTerm term in terms)
+            {
+                term.AddGradient(shape, gradient, 0, shape.ElementCount + 1, ref measured);
+            }
+        }
+
+        private static EnergyTerm[] Joined(EnergyTerm[] first, EnergyTerm[] second)
+        {
+            var joined = new EnergyTerm[first.Length + second.Length];
+            first.CopyTo(joined, 0);
+            second.CopyTo(joined, first.Length);
+            return joined;
+        }
+
+        private static BendTwistTerm CreateBending(MaterialRod rod, RodSupports supports)
+        {
+            Joint[] joints = rod.Joints(supports);
+            if (supports.Bend == BendLaw.Darboux)
+            {
+                return new BendTwistEnergy<DarbouxLaw>(joints, supports.HasProximalJoint, supports.HasDistalJoint);
+            }
+            return new BendTwistEnergy<RotationVectorLaw>(joints, supports.HasProximalJoint, supports.HasDistalJoint);
+        }
+    }
+}

@@ -1,0 +1,83 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>Where a rod was one step ago, for BDF2: y = 4/3 y_0 - 1/3 y_-1 + 2/3 dt y'. The first step is one of
+    /// implicit Euler.</summary>
+    internal sealed class Bdf2History
+    {
+        private readonly Vector3d[] _positions;
+        private readonly Vector3d[] _velocities;
+        private readonly Quaterniond[] _orientations;
+        private readonly Vector3d[] _spins;
+        private bool _isComplete;
+
+        /// <summary>No history yet, of a rod of n elements.</summary>
+        public Bdf2History(int elementCount)
+        {
+            _positions = new Vector3d[elementCount + 1];
+            _velocities = new Vector3d[elementCount + 1];
+            _orientations = new Quaterniond[elementCount];
+            _spins = new Vector3d[elementCount];
+        }
+
+        /// <summary>Whether there is a step before the one that began last.</summary>
+        public bool IsComplete => _isComplete;
+
+        /// <summary>A step has been done: what <see cref="Prepare"/> took is its start.</summary>
+        public void Complete()
+        {
+            _isComplete = true;
+        }
+
+        /// <summary>Sets what a step of dt has from the two steps before it, and takes its start as history.</summary>
+        /// <param name="inertia">Its step has begun; receives the stage.</param>
+        /// <param name="velocityHistory">Receives v^, m/s.</param>
+        /// <returns>h, the length of the step's one stage, s.</returns>
+        public double Prepare(InertiaEnergy inertia, Vector3d[] positions, Vector3d[] velocities, Vector3d[] spins,
+            Vector3d[] velocityHistory, double dt)
+        {
+            double h = _isComplete ? 2.0 / 3.0 * dt : dt;
+            inertia.StageLength = h;
+            for (int i = 0; i < positions.Length; i++)
+            {
+                Vector3d x = positions[i];
+                Vector3d v = velocities[i];
+                if (_isComplete)
+                {
+                    x = (4.0 / 3.0) * x - (1.0 / 3.0) * _positions[i];
+                    v = (4.0 / 3.0) * v - (1.0 / 3.0) * _velocities[i];
+                }
+                velocityHistory[i] = v;
+                inertia.FreePositions[i] = x + h * v;
+                _positions[i] = positions[i];
+                _velocities[i] = velocities[i];
+            }
+            for (int j = 0; j < spins.Length; j++)
+            {
+                Vector3d turn = Vector3d.Zero;
+                Vector3d spin = spins[j];
+                if (_isComplete)
+                {
+                    turn = (-1.0 / 3.0) * RotationVector.Log(inertia.Start[j].Conjugate * _orientations[j]);
+                    spin = (4.0 / 3.0) * spin - (1.0 / 3.0) * _spins[j];
+                }
+                inertia.TurnHistory[j] = turn;
+                inertia.SpinHistory[j] = spin;
+                _orientations[j] = inertia.Start[j];
+                _spins[j] = spins[j];
+            }
+            return h;
+        }
+
+        /// <summary>Writes or takes over the step before.</summary>
+        public void Exchange(Snapshot snapshot)
+        {
+            snapshot.Exchange(ref _isComplete);
+            snapshot.Exchange(_positions);
+            snapshot.Exchange(_velocities);
+            snapshot.Exchange(_orientations);
+            snapshot.Exchange(_spins);
+        }
+    }
+}

@@ -1,0 +1,55 @@
+namespace Guidewire.Core
+{
+    /// <summary>How a run is simulated: the method, its steps, and what ends it.</summary>
+    public sealed class MethodParameters
+    {
+        /// <summary>What keeps the wire together: gains (pbd) or a material (the others).</summary>
+        public Solver Solver { get; set; } = Solver.Pbd;
+
+        /// <summary>dt in s.</summary>
+        public double TimeStep { get; set; } = 0.01;
+
+        /// <summary>m, Gauss-Seidel iterations a step.</summary>
+        public int ConstraintSolverSteps { get; set; } = 500;
+
+        /// <summary>How positions are predicted.</summary>
+        public Integrator Integrator { get; set; } = Integrator.Verlet;
+
+        /// <summary>The order of one sweep.</summary>
+        public SweepOrder SweepOrder { get; set; } = SweepOrder.Naive;
+
+        /// <summary>d, the share of its velocity that a sphere loses a step.</summary>
+        public double Damping { get; set; }
+
+        /// <summary>Parts into which the explicit and the compliant solver divide a time step.</summary>
+        public int Substeps { get; set; } = 1;
+
+        /// <summary>Error that a solver may leave in a step: radians, or displacement over L; of the direct solver also
+        /// what it may leave of the balance of forces, over the largest force in the wire.</summary>
+        public double SolverTolerance { get; set; } = 1e-6;
+
+        /// <summary>Newton iterations after which the direct solver gives up a stage; a rest shape gets ten times as
+        /// many. </summary>
+        public int MaxNewtonIterations { get; set; } = 50;
+
+        /// <summary>epsilon, in units: a steady state's prediction errors lie below it; 0 switches the test
+        /// off.</summary>
+        public double DeltaThreshold { get; set; } = 0.001;
+
+        /// <summary>Steps in a row that a steady state must last.</summary>
+        public int SteadyStateHold { get; set; } = 100;
+
+        /// <summary>Steps after which a run is finished.</summary>
+        public int MaxSimulationSteps { get; set; } = 4000;
+
+        /// <summary>Whether a run with a material states the support's force at the first sphere after each step; it
+        /// costs a little of each. With gains it is stated wherever there are walls.</summary>
+        public bool StatesReactions { get; set; }
+
+        /// <summary>The same values; lists and walls are shared.</summary>
+        internal MethodParameters Copy()
+        {
+            return (MethodParameters)MemberwiseClone();
+        }
+    }
+}

@@ -1,0 +1,84 @@
+using System;
+using System.Collections.Generic;
+
+namespace Guidewire.Core
+{
+    /// <summary>Every method, once: what it takes and how it is built.</summary>
+    public static class MethodTable
+    {
+        /// <summary>The methods in the order of <see cref="Solver"/>.</summary>
+        public static IReadOnlyList<MethodTraits> All { get; } = new[]
+        {
+            new MethodTraits
+            {
+                Solver = Solver.Pbd,
+                MeetsWalls = true,
+                TakesSteering = true,
+                Integrators = new[]
+                {
+                    Integrator.Verlet, Integrator.Euler, Integrator.OrientationVerlet,
+                    Integrator.EulerOrientationVerlet,
+                },
+                Build = GainSetup.Build,
+            },
+            new MethodTraits
+            {
+                Solver = Solver.Xpbd,
+                TakesMaterial = true,
+                SetDefaults = SetMaterialDefaults,
+                Build = (p, scene) => MaterialSetup.Build(p, scene, MaterialSetup.Compliant),
+            },
+            new MethodTraits
+            {
+                Solver = Solver.Direct,
+                TakesMaterial = true,
+                Slides = true,
+                TakesTipMoment = true,
+                TakesDarbouxLaw = true,
+                WindsUpAtOnce = true,
+                Integrators = new[]
+                {
+                    Integrator.Sdirk3, Integrator.ImplicitEuler, Integrator.Bdf2, Integrator.Sdirk2, Integrator.Sdirk4,
+                },
+                SetDefaults = SetDirectDefaults,
+                Build = (p, scene) => MaterialSetup.Build(p, scene, MaterialSetup.Direct),
+            },
+            new MethodTraits
+            {
+                Solver = Solver.Explicit,
+                TakesMaterial = true,
+                TakesTipMoment = true,
+                TakesDarbouxLaw = true,
+                SetDefaults = SetMaterialDefaults,
+                Build = (p, scene) => MaterialSetup.Build(p, scene, MaterialSetup.Explicit),
+            },
+        };
+
+        /// <summary>A method's row.</summary>
+        /// <exception cref="ArgumentException">A method that is not known.</exception>
+        public static MethodTraits Of(Solver solver)
+        {
+            foreach (MethodTraits method in All)
+            {
+                if (method.Solver == solver)
+                {
+                    return method;
+                }
+            }
+            throw new ArgumentException("unknown solver " + solver);
+        }
+
+        // A material wire starts where it is; its sweeps, where it has any, are one a substep.
+        private static void SetMaterialDefaults(SimulationParameters parameters)
+        {
+            parameters.Drive.Displacement = 0.0;
+            parameters.Method.ConstraintSolverSteps = 1;
+        }
+
+        private static void SetDirectDefaults(SimulationParameters parameters)
+        {
+            SetMaterialDefaults(parameters);
+            parameters.Method.Integrator = Integrator.Sdirk3;
+        }
+    }
+}

@@ -1,0 +1,45 @@
+using System;
+using System.Collections.Generic;
+
+namespace Guidewire.Core
+{
+    /// <summary>What a method takes: one row of the <see cref="MethodTable"/>.</summary>
+    public sealed class MethodTraits
+    {
+        /// <summary>The method.</summary>
+        public Solver Solver { get; internal set; }
+
+        /// <summary>Whether its wire is a material in SI units; else it is gains in mass units, units and
+        /// seconds.</summary>
+        public bool TakesMaterial { get; internal set; }
+
+        /// <summary>Whether it meets walls.</summary>
+        public bool MeetsWalls { get; internal set; }
+
+        /// <summary>Whether a hand may steer it.</summary>
+        public bool TakesSteering { get; internal set; }
+
+        /// <summary>Whether its distal end can slide along the clamp's axis.</summary>
+        public bool Slides { get; internal set; }
+
+        /// <summary>Whether it carries a couple at the tip.</summary>
+        public bool TakesTipMoment { get; internal set; }
+
+        /// <summary>Whether it has joints whose couple is K sin(angle), beside K angle.</summary>
+        public bool TakesDarbouxLaw { get; internal set; }
+
+        /// <summary>Whether it winds a clamp up that is turned at once by more than a joint can tell from the shorter
+        /// way round.</summary>
+        public bool WindsUpAtOnce { get; internal set; }
+
+        /// <summary>Its integrators, the default first; empty where it has one of its own.</summary>
+        public IReadOnlyList<Integrator> Integrators { get; internal set; } = Array.Empty<Integrator>();
+
+        /// <summary>Sets the defaults that are not those of the thesis (table 4.1).</summary>
+        internal Action<SimulationParameters> SetDefaults { get; set; } = _ => { };
+
+        /// <summary>Builds the wire and what steps it.</summary>
+        internal Func<SimulationParameters, Scene, MethodStart> Build { get; set; } =
+            (_, _) => throw new InvalidOperationException("a method without a step");
+    }
+}

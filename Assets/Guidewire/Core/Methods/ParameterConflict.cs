@@ -1,0 +1,144 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>A parameter that the method, or another parameter, does not go with.</summary>
+    public sealed class ParameterConflict
+    {
+        private ParameterConflict(string key, string needed)
+        {
+            Key = key;
+            Needed = needed;
+        }
+
+        /// <summary>The parameter's key in files.</summary>
+        public string Key { get; }
+
+        /// <summary>What it needs, as a noun phrase.</summary>
+        public string Needed { get; }
+
+        /// <summary>The first conflict of these parameters, or null.</summary>
+        public static ParameterConflict? Find(SimulationParameters parameters)
+        {
+            MethodTraits method = MethodTable.Of(parameters.Method.Solver);
+            return OfMethod(parameters, method) ?? OfEnds(parameters, method) ?? OfStart(parameters, method);
+        }
+
+        private static ParameterConflict? OfMethod(SimulationParameters parameters, MethodTraits method)
+        {
+            if (method.Integrators.Count > 0 && !Contains(method, parameters.Method.Integrator))
+            {
+                return new ParameterConflict("integrator", "one of \"" + string.Join("\", \"", Words(method))
+                    + "\" with solver \"" + Word(method.Solver) + "\"");
+            }
+            if (!method.MeetsWalls && parameters.Scene.Walls.Length > 0)
+            {
+                return new ParameterConflict("vessel", "solver pbd: a wire with a material meets no walls");
+            }
+            if (!method.TakesSteering && parameters.Drive.Steering != null)
+            {
+                return new ParameterConflict("solver", "pbd where a hand steers: it steers wires with gains only");
+            }
+            if (!method.TakesTipMoment && parameters.Scene.TipMoment != Vector3d.Zero)
+            {
+                return new ParameterConflict("tipMoment", "solver direct or explicit: the others have no couples");
+            }
+            if (!method.TakesDarbouxLaw && parameters.Material.BendLaw == BendLaw.Darboux)
+            {
+                return new ParameterConflict("bendLaw",
+                    "solver direct or explicit: xpbd has the rotation vector only");
+            }
+            return null;
+        }
+
+        private static ParameterConflict? OfEnds(SimulationParameters parameters, MethodTraits method)
+        {
+            SceneParameters scene = parameters.Scene;
+            Drive drive = parameters.Drive.Kind;
+            if (!method.TakesMaterial && scene.ProximalEnd == ProximalEnd.Free)
+            {
+                return new ParameterConflict("proximalEnd",
+                    "\"held\" or \"clamped\" with solver pbd; drive \"force\" frees sphere 0");
+            }
+            if (!method.Slides && scene.DistalEnd == DistalEnd.Sliding)
+            {
+                return new ParameterConflict("distalEnd",
+                    "\"free\" or \"clamped\": only solver direct lets an end slide");
+            }
+            // The last joint sees a turn at once as one by less than half a turn, and the shorter way round.
+            if (!method.WindsUpAtOnce && scene.DistalEnd == DistalEnd.Clamped && scene.DistalRampTime == 0.0
+                && Math.Abs(scene.DistalRotation) > 1.0)
+            {
+                return new ParameterConflict("distalRotation",
+                    "solver direct, or a distalRampTime > 0: turned at once by more than 1 rad");
+            }
+            if (method.TakesMaterial && parameters.Drive.TwistPerStep != 0.0 && !IsClamped(parameters))
+            {
+                return new ParameterConflict("twistPerStep", "proximalEnd \"clamped\" in a run with a material");
+            }
+            if (method.TakesMaterial && scene.ProximalEnd == ProximalEnd.Free
+                && (drive == Drive.Displace || drive == Drive.Push))
+            {
+                return new ParameterConflict("proximalEnd",
+                    "\"held\" or \"clamped\" with a drive that moves sphere 0");
+            }
+            return null;
+        }
+
+        private static ParameterConflict? OfStart(SimulationParameters parameters, MethodTraits method)
+        {
+            SceneParameters scene = parameters.Scene;
+            if (parameters.Drive.DisplacementDirection.Length == 0.0)
+            {
+                return new ParameterConflict("displacementDirection", "a length other than 0");
+            }
+            if (scene.StartShape == StartShape.Helix && 2.0 * Math.PI * Math.Abs(scene.StartTurns)
+                * scene.StartRadius >= scene.GuidewireLength)
+            {
+                return new ParameterConflict("startTurns",
+                    "a helix shorter than guidewireLength: 2 pi startTurns startRadius is more");
+            }
+            if (method.TakesMaterial && scene.InitialState == InitialState.Equilibrium && !IsClamped(parameters)
+                && scene.DistalEnd == DistalEnd.Free)
+            {
+                return new ParameterConflict("initialState",
+                    "a clamped end: a wire that turns freely has no single rest shape");
+            }
+            return null;
+        }
+
+        private static bool IsClamped(SimulationParameters parameters)
+        {
+            return parameters.Scene.ProximalEnd == ProximalEnd.Clamped && parameters.Drive.Kind != Drive.Force;
+        }
+
+        private static bool Contains(MethodTraits method, Integrator integrator)
+        {
+            foreach (Integrator own in method.Integrators)
+            {
+                if (own == integrator)
+                {
+                    return true;
+                }
+            }
+            return false;
+        }
+
+        private static string[] Words(MethodTraits method)
+        {
+            var words = new string[method.Integrators.Count];
+            for (int k = 0; k < words.Length; k++)
+            {
+                words[k] = Word(method.Integrators[k]);
+            }
+            return words;
+        }
+
+        // As in files: in camelCase.
+        private static string Word(Enum value)
+        {
+            string name = value.ToString();
+            return char.ToLowerInvariant(name[0]) + name.Substring(1);
+        }
+    }
+}

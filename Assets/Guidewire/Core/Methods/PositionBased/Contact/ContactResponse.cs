@@ -1,0 +1,140 @@
+using System;
+using System.Runtime.CompilerServices;
+
+namespace Guidewire.Core
+{
+    /// <summary>Contact of spheres and of rod elements by the lever rule, with hard stops where the swept test met a
+    /// wall; see <see cref="SphereContactConstraint"/> and <see cref="ElementContactConstraint"/>.</summary>
+    internal sealed class ContactResponse : IContactResponse
+    {
+        private const int ContactsPerSphere = 8;
+        private readonly double _radius;
+        private readonly double _reach;
+        private readonly double _gain;
+        private readonly double _stop;    // what a stop keeps between core line and wall, units
+        private readonly SphereContactConstraint _spheres;
+        private readonly ElementContactConstraint _elements;
+        private readonly SphereContactConstraint _sphereStops;
+        private readonly ElementContactConstraint _elementStops;
+
+        /// <param name="state">The wire, with its final masses.</param>
+        /// <param name="wallCount">Walls of the scene.</param>
+        /// <param name="radius">r in units.</param>
+        /// <param name="reach">r + margin in units: the distance that contacts keep.</param>
+        /// <param name="gain">k_C in [0, 1], per iteration.</param>
+        public ContactResponse(RodState state, int wallCount, double radius, double reach, double gain)
+        {
+            int capacity = ContactsPerSphere * wallCount * state.SphereCount;
+            _radius = radius;
+            _reach = reach;
+            _gain = gain;
+            _stop = 2.0 * SweptSearch.ClearanceFor(radius);
+            _spheres = new SphereContactConstraint(state, capacity);
+            _elements = new ElementContactConstraint(state, capacity);
+            _sphereStops = new SphereContactConstraint(state, capacity);
+            _elementStops = new ElementContactConstraint(state, capacity);
+        }
+
+        /// <inheritdoc/>
+        public int ContactCount => _spheres.Count + _elements.Count + _elementStops.Count + _sphereStops.Count;
+
+        /// <inheritdoc/>
+        public void Start(IContactSearch found, Vector3d[] x)
+        {
+            _spheres.Clear();
+            _elements.Clear();
+            _sphereStops.Clear();
+            _elementStops.Clear();
+            Add(found.Contacts, _spheres, _elements, _reach, _gain);
+            Stop(found.Impacts);
+        }
+
+        /// <inheritdoc/>
+        public void Stop(StructList<WireContact> impacts)
+        {
+            Add(impacts, _sphereStops, _elementStops, _stop, 1.0);
+        }
+
+        /// <inheritdoc/>
+        public void Sweep(Vector3d[] x)
+        {
+            _spheres.Sweep(x);
+            _elements.Sweep(x);
+            _elementStops.Sweep(x);
+            _sphereStops.Sweep(x);
+        }
+
+        /// <inheritdoc/>
+        public void SpheresOf(int k, out int first, out int last)
+        {
+            SphereContactConstraint? spheres = At(ref k, out ElementContactConstraint? elements);
+            first = spheres?.SphereOf(k) ?? elements!.ElementOf(k);
+            last = spheres != null ? first : first + 1;
+        }
+
+        /// <inheritdoc/>
+        [MethodImpl(Compiled.AtOnce)]
+        public bool Project(int k, Vector3d[] x)
+        {
+            SphereContactConstraint? spheres = At(ref k, out ElementContactConstraint? elements);
+            return spheres != null ? spheres.Project(k, x) : elements!.Project(k, x);
+        }
+
+        /// <inheritdoc/>
+        public void AddImpulses(Vector3d[] impulses)
+        {
+            _spheres.AddImpulses(impulses);
+            _elements.AddImpulses(impulses);
+            _elementStops.AddImpulses(impulses);
+            _sphereStops.AddImpulses(impulses);
+        }
+
+        /// <inheritdoc/>
+        public double Penetration(Vector3d[] x)
+        {
+            return Math.Max(_spheres.LargestGap(x), _elements.LargestGap(x)) - (_reach - _radius);
+        }
+
+        // Where contact k of a sweep stands, and which it is there: spheres, or where that is null, elements.
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        private SphereContactConstraint? At(ref int k, out ElementContactConstraint? elements)
+        {
+            elements = null;
+            if (k < _spheres.Count)
+            {
+                return _spheres;
+            }
+            k -= _spheres.Count;
+            if (k < _elements.Count)
+            {
+                elements = _elements;
+                return null;
+            }
+            k -= _elements.Count;
+            if (k < _elementStops.Count)
+            {
+                elements = _elementStops;
+                return null;
+            }
+            k -= _elementStops.Count;
+            return _sphereStops;
+        }
+
+        private static void Add(StructList<WireContact> contacts, SphereContactConstraint spheres,
+            ElementContactConstraint elements, double reach, double gain)
+        {
+            for (int k = 0; k < contacts.Count; k++)
+            {
+                ref readonly WireContact contact = ref contacts[k];
+                if (contact.IsElement)
+                {
+                    elements.Add(contact.Index, contact.Nearest, reach, gain);
+                }
+                else
+                {
+                    spheres.Add(contact.Index, contact.Nearest, reach, gain);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,167 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>Corrects a predicted state between walls (thesis 2.1.3, 3.1.2): collision detection, constraint solver
+    /// with contacts, swept test.</summary>
+    /// <remarks>A contact plane holds near the place where it was found. So a step whose drive moves farther than half
+    /// an element or a radius is done in parts, each with its own detection and solve; a part after which something
+    /// would have passed a wall is solved again against the places where it met it, then halved, and at the end
+    /// shortened. What the drive did not get is reported.</remarks>
+    internal sealed class ContactSolver : IConstraintSolver
+    {
+        private const int Resolves = 2;
+        private const double SmallestPart = 1.0 / 256.0;
+        private readonly double _timeStep;
+        private readonly IConstraintSolver _solver;
+        private readonly IContactSearch _search;
+        private readonly IContactResponse _response;
+        private readonly ContactRecord _record;
+        private readonly SweptSearch _swept;
+        private readonly ShortenedMotion _shortened;
+        private readonly PassageCount _passages;
+        private readonly double _longestPart;
+        private readonly Vector3d[] _target;
+        private readonly Vector3d[] _safe;
+        private readonly Vector3d[] _unshortened;
+        private readonly Quaterniond[] _targetTurn;
+        private readonly Quaterniond[] _safeTurn;
+
+        /// <param name="state">The wire.</param>
+        /// <param name="timeStep">dt in s.</param>
+        /// <param name="solver">What corrects each part; its sweeps include the response.</param>
+        /// <param name="search">Which contacts there are.</param>
+        /// <param name="response">What they do.</param>
+        /// <param name="record">Takes down what they came to.</param>
+        public ContactSolver(RodState state, double timeStep, IConstraintSolver solver, IContactSearch search,
+            IContactResponse response, ContactRecord record)
+        {
+            _timeStep = timeStep;
+            _solver = solver;
+            _search = search;
+            _response = response;
+            _record = record;
+            _swept = new SweptSearch(search, state.SphereCount);
+            _shortened = new ShortenedMotion(_swept, state.SphereCount);
+            _passages = new PassageCount(search, state.ElementCount);
+            _longestPart = search.GuardsSpheres
+                ? Math.Min(0.5 * state.ElementLength, search.Radius) : double.PositiveInfinity;
+            _target = new Vector3d[state.SphereCount];
+            _safe = new Vector3d[state.SphereCount];
+            _unshortened = new Vector3d[state.SphereCount];
+            _targetTurn = new Quaterniond[state.ElementCount];
+            _safeTurn = new Quaterniond[state.ElementCount];
+        }
+
+        /// <inheritdoc/>
+        public void Solve(RodState state)
+        {
+            Array.Copy(state.PredictedPositions, _target, _target.Length);
+            Array.Copy(state.PredictedOrientations, _targetTurn, _targetTurn.Length);
+            Array.Copy(state.Positions, _safe, _safe.Length);
+            Array.Copy(state.Orientations, _safeTurn, _safeTurn.Length);
+            _record.StartStep();
+            MoveInParts(state);
+            _passages.EndStep(state.Positions, state.PredictedPositions);
+            _record.Passages = _passages.Total;
+            _record.EndStep(state, _target, _timeStep);
+        }
+
+        /// <inheritdoc/>
+        public void Exchange(Snapshot snapshot)
+        {
+            snapshot.Section("contact", sums =>
+            {
+                _passages.Exchange(sums);
+                _record.Exchange(sums);
+            });
+        }
+
+        private void MoveInParts(RodState state)
+        {
+            bool driven = state.InverseMasses[0] == 0.0;
+            double asked = driven ? Vector3d.Distance(_target[0], state.Positions[0]) : 0.0;
+            _record.DriveAsked += asked;
+            double part = 1.0 / Math.Max(1.0, Math.Ceiling(asked / _longestPart));
+            double left = 1.0;
+            while (left > 0.5 * SmallestPart)
+            {
+                part = Math.Min(part, left);
+                if (TryPart(state, part, left - part <= 0.5 * SmallestPart, part <= SmallestPart))
+                {
+                    left -= part;
+                }
+                else
+                {
+                    part *= 0.5;
+                }
+            }
+        }
+
+        private bool TryPart(RodState state, double part, bool isLast, bool shorten)
+        {
+            Vector3d[] p = state.PredictedPositions;
+            PredictPart(state, part, isLast);
+            Vector3d driveTo = p[0];
+            _search.Find(_safe, p);
+            _response.Start(_search, p);
+            _solver.Solve(state);
+            for (int round = 0; _swept.Find(_safe, p); round++)
+            {
+                if (round < Resolves)
+                {
+                    _response.Stop(_swept.Impacts);
+                    _solver.Solve(state);
+                }
+                else if (!shorten)
+                {
+                    return false;
+                }
+                else
+                {
+                    ShortenPart(state, p);
+                    break;
+                }
+            }
+            if (state.InverseMasses[0] == 0.0)
+            {
+                _record.DriveShortfall += Vector3d.Distance(driveTo, p[0]);
+            }
+            _passages.AddPart(_safe, p);
+            _response.AddImpulses(_record.Impulses);
+            _record.MaxPenetration = Math.Max(_record.MaxPenetration, _response.Penetration(p));
+            Array.Copy(p, _safe, p.Length);
+            Array.Copy(state.PredictedOrientations, _safeTurn, _safeTurn.Length);
+            return true;
+        }
+
+        private void PredictPart(RodState state, double part, bool isLast)
+        {
+            for (int i = 0; i < _safe.Length; i++)
+            {
+                state.PredictedPositions[i] = _safe[i] + part * (_target[i] - state.Positions[i]);
+            }
+            for (int j = 0; j < _safeTurn.Length; j++)
+            {
+                Quaterniond change = _targetTurn[j] + (-1.0) * state.Orientations[j];
+                bool prescribed = isLast && state.OrientationWeights[j] == 0.0;
+                state.PredictedOrientations[j] = prescribed
+                    ? _targetTurn[j] : Quaterniond.Normalize(_safeTurn[j] + part * change);
+            }
+        }
+
+        // What the wall took of a sphere's motion is a push of the wall.
+        private void ShortenPart(RodState state, Vector3d[] p)
+        {
+            Array.Copy(p, _unshortened, p.Length);
+            _shortened.Shorten(_safe, p);
+            for (int i = 0; i < p.Length; i++)
+            {
+                if (state.InverseMasses[i] > 0.0)
+                {
+                    _record.Impulses[i] += (1.0 / state.InverseMasses[i]) * (p[i] - _unshortened[i]);
+                }
+            }
+        }
+    }
+}

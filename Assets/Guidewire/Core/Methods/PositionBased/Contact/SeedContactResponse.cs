@@ -1,0 +1,88 @@
+using System;
+using System.Runtime.CompilerServices;
+
+namespace Guidewire.Core
+{
+    /// <summary>Contact as published (thesis 3.1.2); see <see cref="SeedContactConstraint"/>. Nothing keeps the wire
+    /// from passing a wall.</summary>
+    internal sealed class SeedContactResponse : IContactResponse
+    {
+        private const int ContactsPerSphere = 4;
+        private readonly double _radius;
+        private readonly SeedContactConstraint _contacts;
+        private double _deepest;    // at the predicted state, units
+
+        /// <param name="state">The wire, with its final masses.</param>
+        /// <param name="wallCount">Walls of the scene.</param>
+        /// <param name="radius">r in units.</param>
+        /// <param name="reach">r + margin in units.</param>
+        /// <param name="gain">k_C, per iteration.</param>
+        public SeedContactResponse(RodState state, int wallCount, double radius, double reach, double gain)
+        {
+            _radius = radius;
+            _contacts = new SeedContactConstraint(
+                state, ContactsPerSphere * wallCount * state.SphereCount, reach, gain);
+        }
+
+        /// <inheritdoc/>
+        public int ContactCount => _contacts.Count;
+
+        /// <inheritdoc/>
+        public void Start(IContactSearch found, Vector3d[] x)
+        {
+            _contacts.Clear();
+            _deepest = 0.0;
+            for (int k = 0; k < found.Contacts.Count; k++)
+            {
+                ref readonly WireContact contact = ref found.Contacts[k];
+                if (contact.IsElement)
+                {
+                    _contacts.AddElement(contact.Index, contact.Nearest, x);
+                }
+                else
+                {
+                    _contacts.AddSphere(contact.Index, contact.Nearest);
+                }
+                _deepest = Math.Max(_deepest, _radius - contact.Nearest.Distance);
+            }
+        }
+
+        /// <inheritdoc/>
+        public void Stop(StructList<WireContact> impacts)
+        {
+            throw new InvalidOperationException("the published rule has no swept test");
+        }
+
+        /// <inheritdoc/>
+        public void Sweep(Vector3d[] x)
+        {
+            _contacts.Sweep(x);
+        }
+
+        /// <inheritdoc/>
+        public void SpheresOf(int k, out int first, out int last)
+        {
+            first = last = _contacts.SphereOf(k);
+        }
+
+        /// <inheritdoc/>
+        [MethodImpl(Compiled.AtOnce)]
+        public bool Project(int k, Vector3d[] x)
+        {
+            _contacts.Project(k, x);
+            return true;
+        }
+
+        /// <inheritdoc/>
+        public void AddImpulses(Vector3d[] impulses)
+        {
+            _contacts.AddImpulses(impulses);
+        }
+
+        /// <inheritdoc/>
+        public double Penetration(Vector3d[] x)
+        {
+            return _deepest;
+        }
+    }
+}

@@ -1,0 +1,193 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>All that a run depends on at one moment, as bits: a run that goes on from it takes the same steps, bit
+    /// for bit, as one that was not interrupted.</summary>
+    /// <remarks>What belongs together is listed once, in a method that takes a snapshot and hands it each number by
+    /// reference: the same list writes a snapshot and reads one, so the two cannot differ. Every number takes 64
+    /// bits.</remarks>
+    internal sealed class Snapshot
+    {
+        private long[] _bits = new long[256];
+        private int _count;
+        private int _at;
+
+        /// <summary>Whether numbers are written; else they are taken over.</summary>
+        public bool IsWritten { get; private set; } = true;
+
+        /// <summary>What has been written, to be read from its start.</summary>
+        public Snapshot ToRead()
+        {
+            return new Snapshot { _bits = _bits, _count = _count, IsWritten = false };
+        }
+
+        /// <summary>A count.</summary>
+        public void Exchange(ref long value)
+        {
+            if (!IsWritten)
+            {
+                if (_at == _count)
+                {
+                    throw new InvalidOperationException("more is read from a snapshot than was written");
+                }
+                value = _bits[_at++];
+                return;
+            }
+            if (_count == _bits.Length)
+            {
+                Array.Resize(ref _bits, 2 * _count);
+            }
+            _bits[_count++] = value;
+        }
+
+        /// <summary>A number.</summary>
+        public void Exchange(ref double value)
+        {
+            long bits = BitConverter.DoubleToInt64Bits(value);
+            Exchange(ref bits);
+            value = BitConverter.Int64BitsToDouble(bits);
+        }
+
+        /// <summary>A whole number.</summary>
+        public void Exchange(ref int value)
+        {
+            long wide = value;
+            Exchange(ref wide);
+            value = (int)wide;
+        }
+
+        /// <summary>Yes or no.</summary>
+        public void Exchange(ref bool value)
+        {
+            long wide = value ? 1 : 0;
+            Exchange(ref wide);
+            value = wide != 0;
+        }
+
+        /// <summary>A vector.</summary>
+        public void Exchange(ref Vector3d value)
+        {
+            double x = value.X;
+            double y = value.Y;
+            double z = value.Z;
+            Exchange(ref x);
+            Exchange(ref y);
+            Exchange(ref z);
+            value = new Vector3d(x, y, z);
+        }
+
+        /// <summary>An orientation.</summary>
+        public void Exchange(ref Quaterniond value)
+        {
+            double x = value.X;
+            double y = value.Y;
+            double z = value.Z;
+            double w = value.W;
+            Exchange(ref x);
+            Exchange(ref y);
+            Exchange(ref z);
+            Exchange(ref w);
+            value = new Quaterniond(x, y, z, w);
+        }
+
+        /// <summary>A text.</summary>
+        public void Exchange(ref string value)
+        {
+            int length = value.Length;
+            Exchange(ref length);
+            char[] characters = IsWritten ? value.ToCharArray() : new char[length];
+            for (int i = 0; i < length; i++)
+            {
+                int character = characters[i];
+                Exchange(ref character);
+                characters[i] = (char)character;
+            }
+            value = new string(characters);
+        }
+
+        /// <summary>Counts; a reader has as many.</summary>
+        public void Exchange(long[] values)
+        {
+            for (int i = 0; i < values.Length; i++)
+            {
+                Exchange(ref values[i]);
+            }
+        }
+
+        /// <summary>Numbers; a reader has as many.</summary>
+        public void Exchange(double[] values)
+        {
+            for (int i = 0; i < values.Length; i++)
+            {
+                Exchange(ref values[i]);
+            }
+        }
+
+        /// <summary>Vectors; a reader has as many.</summary>
+        public void Exchange(Vector3d[] values)
+        {
+            for (int i = 0; i < values.Length; i++)
+            {
+                Exchange(ref values[i]);
+            }
+        }
+
+        /// <summary>Several lists of vectors; a reader has as many, of the same lengths.</summary>
+        public void Exchange(Vector3d[][] values)
+        {
+            foreach (Vector3d[] list in values)
+            {
+                Exchange(list);
+            }
+        }
+
+        /// <summary>Orientations; a reader has as many.</summary>
+        public void Exchange(Quaterniond[] values)
+        {
+            for (int i = 0; i < values.Length; i++)
+            {
+                Exchange(ref values[i]);
+            }
+        }
+
+        /// <summary>A section that means something only to a reader made like its writer: written whole, and read where
+        /// the reader's key is the writer's (method, scheme, step size), else left out.</summary>
+        /// <param name="key">What both must agree in.</param>
+        /// <param name="content">Exchanges the section's numbers.</param>
+        /// <param name="timeStep">The step size, s, in which they must agree too; 0 where it means nothing.</param>
+        /// <returns>False where a reader leaves it out: what it would have taken over is then as it was made.</returns>
+        /// <exception cref="InvalidOperationException">The section is read otherwise than it was written.</exception>
+        public bool Section(string key, Action<Snapshot> content, double timeStep = 0.0)
+        {
+            if (IsWritten)
+            {
+                int start = _count;
+                long end = 0;
+                Exchange(ref end);
+                Exchange(ref key);
+                Exchange(ref timeStep);
+                content(this);
+                _bits[start] = _count;
+                return true;
+            }
+            long next = 0;
+            Exchange(ref next);
+            string written = key;
+            double writtenStep = timeStep;
+            Exchange(ref written);
+            Exchange(ref writtenStep);
+            bool agrees = written == key && writtenStep == timeStep;
+            if (agrees)
+            {
+                content(this);
+                if (_at != next)
+                {
+                    throw new InvalidOperationException("section " + key + " is read otherwise than it was written");
+                }
+            }
+            _at = (int)next;
+            return agrees;
+        }
+    }
+}

@@ -1,0 +1,49 @@
+namespace Guidewire.Core
+{
+    /// <summary>A method at work: takes a wire from one moment to the next, and says how that went. One implementation
+    /// a method; which one a run has is chosen once, in the <see cref="MethodTable"/>.</summary>
+    internal abstract class TimeStepper
+    {
+        /// <summary>Distance in units between the last sphere's prediction and where the constraints left it in the
+        /// last step (Delta_p, thesis 4.1.1).</summary>
+        public double PredictionError { get; protected set; }
+
+        /// <summary>Why the method gave up in the last step, in one line, or null.</summary>
+        public string? Failure { get; protected set; }
+
+        /// <summary>How the last step lost the wire, in one line, or null. The state is that of the step
+        /// before.</summary>
+        public string? Divergence { get; protected set; }
+
+        /// <summary>What is not accurate in the steps so far, and what helps, in one line, or null: small steps or few
+        /// sweeps may leave a wire wrong without losing it.</summary>
+        public virtual string? AccuracyWarning => null;
+
+        /// <summary>The forces that act on the wire from outside, and what contact came to; null where nobody asked for
+        /// them.</summary>
+        public virtual ContactRecord? Contacts => null;
+
+        /// <summary>Advances the state by one step.</summary>
+        public abstract void Advance(RodState state);
+
+        /// <summary>What the solver says of itself after the steps so far; null with gains.</summary>
+        public virtual SolverReport? Report()
+        {
+            return null;
+        }
+
+        /// <summary>Writes into a snapshot, or takes over from one, all that the next step depends on besides the
+        /// <see cref="RodState"/>: history, predictors, counters, what is prescribed.</summary>
+        public virtual void Exchange(Snapshot snapshot)
+        {
+        }
+
+        /// <summary>The same for <see cref="PredictionError"/>.</summary>
+        protected void ExchangePredictionError(Snapshot snapshot)
+        {
+            double error = PredictionError;
+            snapshot.Exchange(ref error);
+            PredictionError = error;
+        }
+    }
+}

@@ -1,0 +1,41 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>A list of structs that is filled anew again and again: its memory grows where it must and is kept, so
+    /// that filling it allocates nothing once it has been as long before.</summary>
+    internal sealed class StructList<T>
+        where T : struct
+    {
+        private T[] _items;
+
+        /// <param name="capacity">Items that fit before the list grows for the first time, 1 or more.</param>
+        public StructList(int capacity)
+        {
+            _items = new T[capacity];
+        }
+
+        /// <summary>Items at present.</summary>
+        public int Count { get; private set; }
+
+        /// <summary>Item k, from 0 to Count - 1, where it stands; it is lost with the next <see cref="Add"/> or
+        /// <see cref="Clear"/>.</summary>
+        public ref T this[int k] => ref _items[k];
+
+        /// <summary>Forgets all items and keeps their memory.</summary>
+        public void Clear()
+        {
+            Count = 0;
+        }
+
+        /// <summary>Puts an item at the end.</summary>
+        public void Add(in T item)
+        {
+            if (Count == _items.Length)
+            {
+                Array.Resize(ref _items, 2 * Count);
+            }
+            _items[Count++] = item;
+        }
+    }
+}

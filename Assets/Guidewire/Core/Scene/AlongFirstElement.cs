@@ -1,0 +1,12 @@
+namespace Guidewire.Core
+{
+    /// <summary>Along the first element, d = (x_1 - x_0)/|x_1 - x_0| (thesis eq. 3.6).</summary>
+    internal sealed class AlongFirstElement : IDriveDirection
+    {
+        /// <inheritdoc/>
+        public Vector3d At(in Vector3d first, in Vector3d second)
+        {
+            return Vector3d.Normalize(second - first);
+        }
+    }
+}

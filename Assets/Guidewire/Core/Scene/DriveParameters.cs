@@ -1,0 +1,36 @@
+namespace Guidewire.Core
+{
+    /// <summary>How the proximal end is moved: by a drive, or by a hand in its place.</summary>
+    public sealed class DriveParameters
+    {
+        /// <summary>What moves sphere 0.</summary>
+        public Drive Kind { get; set; } = Drive.Hold;
+
+        /// <summary>Displacement of sphere 0 at the start in units; only with <see cref="Core.Drive.Hold"/>.</summary>
+        public double Displacement { get; set; } = 10.0;
+
+        /// <summary>Direction of the displacement; any length but 0, it is normalised.</summary>
+        public Vector3d DisplacementDirection { get; set; } = Vector3d.UnitZ;
+
+        /// <summary>Motion of sphere 0 in units a step; with <see cref="Core.Drive.Displace"/> and
+        /// <see cref="Core.Drive.Push"/>.</summary>
+        public double DisplacementPerStep { get; set; }
+
+        /// <summary>Turn of element 0 about its own axis in radians a step; where it is not 0 the element's frame is
+        /// held.</summary>
+        public double TwistPerStep { get; set; }
+
+        /// <summary>Force on sphere 0 in mass unit * unit / s^2; with <see cref="Core.Drive.Force"/>.</summary>
+        public Vector3d ExternalForce { get; set; }
+
+        /// <summary>A hand that pushes and turns the wire as it goes, in place of the drive's motion, or
+        /// null.</summary>
+        public Steering? Steering { get; set; }
+
+        /// <summary>The same values; lists and walls are shared.</summary>
+        internal DriveParameters Copy()
+        {
+            return (DriveParameters)MemberwiseClone();
+        }
+    }
+}

@@ -1,0 +1,142 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>What is simulated, the same for every method: the wire's start, what is prescribed in time, what drives
+    /// it, and the walls. Lengths are in the method's own: units with gains, metres with a material.</summary>
+    internal sealed class Scene
+    {
+        /// <summary>The scene of these parameters.</summary>
+        /// <exception cref="ArgumentException">The start has another number of elements than the wire, or a helix is
+        /// longer than it.</exception>
+        public Scene(SimulationParameters parameters)
+        {
+            SceneParameters scene = parameters.Scene;
+            DriveParameters drive = parameters.Drive;
+            UnitLength = MethodTable.Of(parameters.Method.Solver).TakesMaterial ? scene.MetresPerUnit : 1.0;
+            int n = scene.NumberRodElements;
+            double l = UnitLength * scene.GuidewireLength / n;
+            ElementLengths = new double[n];
+            Stations = new double[n + 1];
+            for (int j = 0; j < n; j++)
+            {
+                ElementLengths[j] = l;
+                Stations[j + 1] = (j + 1) * l;
+            }
+            Shape = new RodShape(n);
+            Velocities = new Vector3d[n + 1];
+            Spins = new Vector3d[n];
+            SetStart(scene);
+            Walls = scene.Walls;
+            Steering = drive.Steering;
+            Drive = CreateDrive(drive);
+            Schedule = new RodSchedule
+            {
+                Gravity = scene.Gravity,
+                TipForce = scene.TipForce,
+                TipForceReleaseTime = scene.TipForceReleaseTime,
+                AxialForce = scene.DistalEnd == DistalEnd.Sliding ? scene.AxialForce : 0.0,
+                ProximalForce = drive.Kind == Core.Drive.Force ? drive.ExternalForce : Vector3d.Zero,
+                ProximalPosition = Shape.X[0],
+                ProximalFrame = Shape.ProximalFrame,
+                ProximalTwistRate = drive.TwistPerStep / parameters.Method.TimeStep,
+                DistalPosition = Shape.X[n],
+                DistalFrame = Shape.DistalFrame,
+                DistalDisplacement = UnitLength * scene.DistalDisplacement,
+                DistalRotation = scene.DistalRotation,
+                DistalRampTime = scene.DistalRampTime,
+            };
+            if (drive.Kind == Core.Drive.Hold)
+            {
+                Displacement = (UnitLength * drive.Displacement) * Vector3d.Normalize(drive.DisplacementDirection);
+            }
+        }
+
+        /// <summary>Length of one unit in the method's lengths: 1 with gains, metresPerUnit with a material.</summary>
+        public double UnitLength { get; }
+
+        /// <summary>l = L/n, the length of each of the n elements at rest (thesis eq. 3.1).</summary>
+        public double[] ElementLengths { get; }
+
+        /// <summary>Where each of the n + 1 spheres stands along the wire at rest, from sphere 0 on.</summary>
+        public double[] Stations { get; }
+
+        /// <summary>Where the wire is at the start, before the displacement of sphere 0.</summary>
+        public RodShape Shape { get; }
+
+        /// <summary>Velocities of the n + 1 spheres at the start.</summary>
+        public Vector3d[] Velocities { get; }
+
+        /// <summary>Angular velocities of the n elements at the start along their own axes, rad/s.</summary>
+        public Vector3d[] Spins { get; }
+
+        /// <summary>What is prescribed in time: loads, and the motion of held ends.</summary>
+        public RodSchedule Schedule { get; }
+
+        /// <summary>Which way the drive moves sphere 0 in every step, or null where it does not.</summary>
+        public IDriveDirection? Drive { get; }
+
+        /// <summary>Displacement of sphere 0 at the start; 0 but for <see cref="Core.Drive.Hold"/>.</summary>
+        public Vector3d Displacement { get; }
+
+        /// <summary>The vessel and what stands in it.</summary>
+        public ContactShape[] Walls { get; }
+
+        /// <summary>A hand in place of the drive, or null.</summary>
+        public Steering? Steering { get; }
+
+        private static IDriveDirection? CreateDrive(DriveParameters drive)
+        {
+            switch (drive.Kind)
+            {
+                case Core.Drive.Displace:
+                    return new FixedAxis(drive.DisplacementDirection);
+                case Core.Drive.Push:
+                    return new AlongFirstElement();
+                default:
+                    return null;
+            }
+        }
+
+        private void SetStart(SceneParameters scene)
+        {
+            var start = new Vector3d(0.0, 0.0, UnitLength * scene.GuidewireOffset);
+            switch (scene.StartShape)
+            {
+                case StartShape.Ring:
+                    StartShapes.Ring(Shape, start, ElementLengths);
+                    break;
+                case StartShape.Helix:
+                    StartShapes.Helix(Shape, start, ElementLengths, UnitLength * scene.StartRadius,
+                        scene.StartTurns);
+                    break;
+                default:
+                    Shape.SetStraight(start, Quaterniond.Identity, Stations);
+                    break;
+            }
+            if (scene.Start != null)
+            {
+                Load(scene.Start);
+            }
+        }
+
+        private void Load(RodStart start)
+        {
+            if (start.Orientations.Length != Shape.ElementCount)
+            {
+                throw new ArgumentException("the start has " + start.Orientations.Length + " elements, the wire "
+                    + Shape.ElementCount);
+            }
+            for (int i = 0; i < Shape.X.Length; i++)
+            {
+                Shape.X[i] = UnitLength * start.Positions[i];
+                Velocities[i] = UnitLength * start.Velocities[i];
+            }
+            for (int j = 0; j < Shape.Q.Length; j++)
+            {
+                Shape.Q[j] = Quaterniond.Normalize(start.Orientations[j]);
+                Spins[j] = start.AngularVelocities[j];
+            }
+        }
+    }
+}

@@ -1,0 +1,76 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>What is simulated, whatever the method: the wire's length and start, how its ends are held, what acts
+    /// on it, and the walls around it. Lengths are in units; loads are in mass units, units and seconds with gains, in
+    /// SI units with a material.</summary>
+    public sealed class SceneParameters
+    {
+        /// <summary>L in units.</summary>
+        public double GuidewireLength { get; set; } = 300.0;
+
+        /// <summary>n; the wire has n + 1 spheres.</summary>
+        public int NumberRodElements { get; set; } = 30;
+
+        /// <summary>z of sphere 0 before its displacement, in units.</summary>
+        public double GuidewireOffset { get; set; } = -120.0;
+
+        /// <summary>Length of one unit, m.</summary>
+        public double MetresPerUnit { get; set; } = 1e-3;
+
+        /// <summary>The shape it sets out from.</summary>
+        public StartShape StartShape { get; set; } = StartShape.Straight;
+
+        /// <summary>Radius of a helix to start from, units.</summary>
+        public double StartRadius { get; set; } = 10.0;
+
+        /// <summary>Turns of a helix to start from.</summary>
+        public double StartTurns { get; set; } = 1.0;
+
+        /// <summary>A start other than the straight wire along z at rest, or null.</summary>
+        public RodStart? Start { get; set; }
+
+        /// <summary>How the run starts.</summary>
+        public InitialState InitialState { get; set; } = InitialState.Straight;
+
+        /// <summary>What holds the proximal end; a drive that moves sphere 0 needs it held or clamped.</summary>
+        public ProximalEnd ProximalEnd { get; set; } = ProximalEnd.Held;
+
+        /// <summary>What holds the distal end.</summary>
+        public DistalEnd DistalEnd { get; set; } = DistalEnd.Free;
+
+        /// <summary>Turn of the distal frame about its own d3, radians; more than one turn counts.</summary>
+        public double DistalRotation { get; set; }
+
+        /// <summary>Displacement of the distal end along its frame's d3, units.</summary>
+        public double DistalDisplacement { get; set; }
+
+        /// <summary>Time over which rotation and displacement of the distal end grow, s; 0: at once.</summary>
+        public double DistalRampTime { get; set; }
+
+        /// <summary>Acceleration of every free sphere in unit/s^2.</summary>
+        public Vector3d Gravity { get; set; }
+
+        /// <summary>Force on the last sphere, N.</summary>
+        public Vector3d TipForce { get; set; }
+
+        /// <summary>When the tip force ends, s; it acts up to and including this time.</summary>
+        public double TipForceReleaseTime { get; set; } = 1e9;
+
+        /// <summary>Couple at the wire's end along the axes there, N m: it turns with them.</summary>
+        public Vector3d TipMoment { get; set; }
+
+        /// <summary>Force along the axis of a sliding distal end, N; a pull is positive.</summary>
+        public double AxialForce { get; set; }
+
+        /// <summary>The vessel and what stands in it, placed; none costs nothing.</summary>
+        public ContactShape[] Walls { get; set; } = Array.Empty<ContactShape>();
+
+        /// <summary>The same values; lists and walls are shared.</summary>
+        internal SceneParameters Copy()
+        {
+            return (SceneParameters)MemberwiseClone();
+        }
+    }
+}

@@ -1,0 +1,37 @@
+using Guidewire.Core;
+
+namespace Guidewire.Io
+{
+    /// <summary>The keys of group "contact": how the wire touches walls.</summary>
+    internal static class ContactEntries
+    {
+        /// <summary>The group, a part of the parameter table.</summary>
+        public static ParameterGroup Group { get; } = new ParameterGroup(
+            "contact", "how the wire touches walls", new ParameterEntry[]
+        {
+            new NumberEntry("sphereRadius", "units", NumberRange.Positive, "r",
+                p => p.Simulation.Contact.SphereRadius, (p, v) => p.Simulation.Contact.SphereRadius = v)
+            {
+                Methods = Takers.Gains,
+            },
+            new NumberEntry("collisionMargin", "units", NumberRange.NotNegative, "distance kept beyond the radius",
+                p => p.Simulation.Contact.CollisionMargin, (p, v) => p.Simulation.Contact.CollisionMargin = v)
+            {
+                Methods = Takers.Gains,
+            },
+            new NumberEntry("collisionStiffness", "", NumberRange.Between(0.0, 1.0),
+                "k_C, gain of a contact an iteration",
+                p => p.Simulation.Contact.CollisionStiffness, (p, v) => p.Simulation.Contact.CollisionStiffness = v)
+            {
+                Methods = Takers.Gains,
+            },
+            new ChoiceEntry<ElementContact>("elementContact",
+                "what touches a wall besides the spheres: rod elements by the"
+                + " lever rule, nothing, or rod elements by the rule as published",
+                p => p.Simulation.Contact.ElementContact, (p, v) => p.Simulation.Contact.ElementContact = v)
+            {
+                Methods = Takers.Gains,
+            },
+        });
+    }
+}

@@ -1,0 +1,33 @@
+using Guidewire.Core;
+
+namespace Guidewire.Io
+{
+    /// <summary>The keys of group "log": what is written.</summary>
+    internal static class LogEntries
+    {
+        /// <summary>The group, a part of the parameter table.</summary>
+        public static ParameterGroup Group { get; } = new ParameterGroup(
+            "log", "what is written", new ParameterEntry[]
+        {
+            new IntegerEntry("logEvery", "steps", 1, 1_000_000_000, "every k-th step is logged",
+                p => p.LogEvery, (p, v) => p.LogEvery = v),
+            new ChoiceEntry<LoggedSpheres>("logSpheres", "which spheres are logged",
+                p => p.LogSpheres, (p, v) => p.LogSpheres = v),
+            new SwitchEntry("logOrientations", "whether orientations are logged too",
+                p => p.LogOrientations, (p, v) => p.LogOrientations = v),
+            new SwitchEntry("logContacts",
+                "whether each entry of the log also has \"contact\": the walls' force on each sphere"
+                + " they touch, their total, and the first sphere's reaction (mass unit * unit/s^2; with a material N,"
+                + " its mean over the step)",
+                p => p.LogContacts, (p, v) => p.LogContacts = p.Simulation.Method.StatesReactions = v)
+            {
+                Methods = Takers.Only(Solver.Pbd, Solver.Direct, Solver.Explicit),
+            },
+            new TextEntry("logFilePath", "folder of the results, where -out does not name one",
+                p => p.LogFilePath, (p, v) => p.LogFilePath = v)
+            {
+                IsOutputPath = true,
+            },
+        });
+    }
+}

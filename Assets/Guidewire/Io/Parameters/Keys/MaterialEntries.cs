@@ -1,0 +1,62 @@
+using Guidewire.Core;
+
+namespace Guidewire.Io
+{
+    /// <summary>The keys of group "material": the wire as a material.</summary>
+    internal static class MaterialEntries
+    {
+        /// <summary>The group, a part of the parameter table.</summary>
+        public static ParameterGroup Group { get; } = new ParameterGroup(
+            "material", "the wire as a material", new ParameterEntry[]
+        {
+            new NumberEntry("youngsModulus", "Pa", NumberRange.Positive, "E",
+                p => p.Simulation.Material.YoungsModulus, (p, v) => p.Simulation.Material.YoungsModulus = v)
+            {
+                Methods = Takers.Material,
+            },
+            new NumberEntry("shearModulus", "Pa", NumberRange.Positive, "G",
+                p => p.Simulation.Material.ShearModulus, (p, v) => p.Simulation.Material.ShearModulus = v)
+            {
+                Methods = Takers.Material,
+            },
+            new NumberEntry("density", "kg/m^3", NumberRange.Positive, "rho; the wire's mass follows from it",
+                p => p.Simulation.Material.Density, (p, v) => p.Simulation.Material.Density = v)
+            {
+                Methods = Takers.Material,
+            },
+            new NumberEntry("wireRadius", "m", NumberRange.Positive, "radius of the wire as a material",
+                p => p.Simulation.Material.WireRadius, (p, v) => p.Simulation.Material.WireRadius = v)
+            {
+                Methods = Takers.Material,
+            },
+            new VectorEntry("restCurvature", "rad/m", true, "curvature about d1 and d2 and twist about d3 at rest",
+                p => p.Simulation.Material.RestCurvature, (p, v) => p.Simulation.Material.RestCurvature = v)
+            {
+                Methods = Takers.Material,
+            },
+            new SectionsEntry("wireSections",
+                "pieces of the wire with a material or rest curvature of their own, such as a soft, bent tip",
+                p => p.Simulation.Material.Sections, (p, v) => p.Simulation.Material.Sections = v)
+            {
+                Methods = Takers.Material,
+            },
+            new ChoiceEntry<ClampRule>("clampRule",
+                "weights of the joints at a clamp: order 4, order 2 (exact for an arc), order 1",
+                p => p.Simulation.Material.ClampRule, (p, v) => p.Simulation.Material.ClampRule = v)
+            {
+                Methods = Takers.Material,
+            },
+            new ChoiceEntry<MassRule>("massRule",
+                "mass matrix; xpbd and explicit take \"consistent\" as \"lumped\"",
+                p => p.Simulation.Material.MassRule, (p, v) => p.Simulation.Material.MassRule = v)
+            {
+                Methods = Takers.Material,
+            },
+            new ChoiceEntry<BendLaw>("bendLaw", "couple of a joint: K angle, or K sin(angle)",
+                p => p.Simulation.Material.BendLaw, (p, v) => p.Simulation.Material.BendLaw = v)
+            {
+                Methods = Takers.Material,
+            },
+        });
+    }
+}

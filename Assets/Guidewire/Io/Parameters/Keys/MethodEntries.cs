@@ -1,0 +1,70 @@
+using Guidewire.Core;
+
+namespace Guidewire.Io
+{
+    /// <summary>The keys of group "method": how it is simulated, and what ends the run.</summary>
+    internal static class MethodEntries
+    {
+        /// <summary>The group, a part of the parameter table.</summary>
+        public static ParameterGroup Group { get; } = new ParameterGroup(
+            "method", "how it is simulated, and what ends the run", new ParameterEntry[]
+        {
+            new ChoiceEntry<Solver>(ParameterTable.SolverKey,
+                "the method: pbd takes gains; xpbd, direct and explicit take a material",
+                p => p.Simulation.Method.Solver, (p, v) => p.Simulation.Method.Solver = v),
+            new NumberEntry("timeStep", "s", NumberRange.Positive, "dt",
+                p => p.Simulation.Method.TimeStep, (p, v) => p.Simulation.Method.TimeStep = v),
+            new IntegerEntry("maxSimulationSteps", "steps", 0, 1_000_000_000, "where the run ends at the latest",
+                p => p.Simulation.Method.MaxSimulationSteps, (p, v) => p.Simulation.Method.MaxSimulationSteps = v),
+            new IntegerEntry("constraintSolverSteps", "iterations a step", 0, 1_000_000,
+                "m, Gauss-Seidel iterations, of each substep with xpbd; with gains, more of them make a stiffer wire",
+                p => p.Simulation.Method.ConstraintSolverSteps,
+                (p, v) => p.Simulation.Method.ConstraintSolverSteps = v)
+            {
+                Methods = Takers.Only(Solver.Pbd, Solver.Xpbd),
+            },
+            new ChoiceEntry<Integrator>("integrator", "how positions are predicted",
+                p => p.Simulation.Method.Integrator, (p, v) => p.Simulation.Method.Integrator = v)
+            {
+                Methods = Takers.Only(Solver.Pbd, Solver.Direct),
+            },
+            new SwitchEntry("VerletIntegration", "older word for integrator: true is \"verlet\", false \"euler\"",
+                p => p.Simulation.Method.Integrator == Integrator.Verlet,
+                (p, v) => p.Simulation.Method.Integrator = v ? Integrator.Verlet : Integrator.Euler)
+            {
+                Methods = Takers.Gains,
+            },
+            new ChoiceEntry<SweepOrder>("sweepOrder", "order of one sweep over the elements",
+                p => p.Simulation.Method.SweepOrder, (p, v) => p.Simulation.Method.SweepOrder = v)
+            {
+                Methods = Takers.Gains,
+            },
+            new IntegerEntry("substeps", "", 1, 100_000_000, "parts of a time step",
+                p => p.Simulation.Method.Substeps, (p, v) => p.Simulation.Method.Substeps = v)
+            {
+                Methods = Takers.Only(Solver.Xpbd, Solver.Explicit),
+            },
+            new NumberEntry("solverTolerance", "rad, or displacement over L", NumberRange.PositiveUpTo(1e-2),
+                "error that the direct solver may leave in a stage; also of the balance of forces in a step, "
+                + "over the largest",
+                p => p.Simulation.Method.SolverTolerance, (p, v) => p.Simulation.Method.SolverTolerance = v)
+            {
+                Methods = Takers.Material,
+            },
+            new IntegerEntry("maxNewtonIterations", "", 1, 1_000_000,
+                "after which the direct solver gives up a stage; ten times as many for a rest shape",
+                p => p.Simulation.Method.MaxNewtonIterations, (p, v) => p.Simulation.Method.MaxNewtonIterations = v)
+            {
+                Methods = Takers.Material,
+            },
+            new NumberEntry("damping", "", NumberRange.Between(0.0, 1.0),
+                "share of its velocity that a sphere loses a step",
+                p => p.Simulation.Method.Damping, (p, v) => p.Simulation.Method.Damping = v),
+            new NumberEntry("deltaThreshold", "units", NumberRange.NotNegative,
+                "prediction errors below it make a steady state, which ends the run; 0 never does",
+                p => p.Simulation.Method.DeltaThreshold, (p, v) => p.Simulation.Method.DeltaThreshold = v),
+            new IntegerEntry("steadyStateHold", "steps", 1, 1_000_000_000, "how long a steady state must last",
+                p => p.Simulation.Method.SteadyStateHold, (p, v) => p.Simulation.Method.SteadyStateHold = v),
+        });
+    }
+}

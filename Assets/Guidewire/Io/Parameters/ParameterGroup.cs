@@ -1,0 +1,24 @@
+using System.Collections.Generic;
+
+namespace Guidewire.Io
+{
+    /// <summary>Keys that belong together: a part of the parameter table, with a type of its own in Core.</summary>
+    public sealed class ParameterGroup
+    {
+        internal ParameterGroup(string name, string about, IReadOnlyList<ParameterEntry> entries)
+        {
+            Name = name;
+            About = about;
+            Entries = entries;
+        }
+
+        /// <summary>One word.</summary>
+        public string Name { get; }
+
+        /// <summary>What its keys are about, in one phrase.</summary>
+        public string About { get; }
+
+        /// <summary>The keys in the order of the help text.</summary>
+        public IReadOnlyList<ParameterEntry> Entries { get; }
+    }
+}

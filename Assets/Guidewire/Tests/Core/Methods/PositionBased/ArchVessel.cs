@@ -1,0 +1,72 @@
+using System;
+using System.IO;
+using Guidewire.Core;
+using Guidewire.Io;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>The vessel of the scenes: a straight sheath along z from an open rim, then an arch.</summary>
+    internal static class ArchVessel
+    {
+        /// <summary>z of the open rim, a circle around the z axis, units.</summary>
+        public const double Entrance = -320.0;
+
+        /// <summary>z where the straight sheath ends, units.</summary>
+        public const double SheathEnd = 0.0;
+
+        private const double EntranceRadius = 8.0;
+
+        /// <summary>Its wall.</summary>
+        public static readonly MeshShape Shape = new MeshShape(MeshFile.Read(
+            Path.Combine(Root(), "params", "meshes", "arch.obj"), 1.0, new[] { new Vector3d(0.0, 0.0, Entrance) }));
+
+        /// <summary>How many of the wire's points, ten an element, lie beyond the wall. What left through the rim's
+        /// disc lies outside but has passed no wall.</summary>
+        public static int PointsOutside(RodState state)
+        {
+            // From the tip, the end far from the open rim: wherever the wire lies after it left by the rim, even beside
+            // the sheath, it has passed no wall.
+            Vector3d last = state.Positions[state.ElementCount];
+            bool isInside = Shape.Contains(last);
+            bool throughRim = false;
+            int count = isInside ? 0 : 1;
+            for (int k = 10 * state.ElementCount - 1; k >= 0; k--)
+            {
+                int j = k / 10;
+                Vector3d x = Vector3d.Lerp(state.Positions[j], state.Positions[j + 1], (k - 10 * j) / 10.0);
+                bool wasInside = isInside;
+                isInside = Shape.Contains(x);
+                if (isInside != wasInside)
+                {
+                    bool crossesRim = CrossesRim(last, x);
+                    count += isInside && throughRim && !crossesRim ? 1 : 0;
+                    throughRim = !isInside && crossesRim;
+                }
+                count += isInside || throughRim ? 0 : 1;
+                last = x;
+            }
+            return count;
+        }
+
+        private static bool CrossesRim(in Vector3d from, in Vector3d to)
+        {
+            if (from.Z < Entrance == to.Z < Entrance)
+            {
+                return false;
+            }
+            Vector3d at = Vector3d.Lerp(from, to, (Entrance - from.Z) / (to.Z - from.Z));
+            return Math.Sqrt(at.X * at.X + at.Y * at.Y) < EntranceRadius;
+        }
+
+        private static string Root()
+        {
+            string folder = TestContext.CurrentContext.TestDirectory;
+            while (!Directory.Exists(Path.Combine(folder, "ProjectSettings")))
+            {
+                folder = Path.GetDirectoryName(folder) ?? throw new DirectoryNotFoundException("no project around");
+            }
+            return folder;
+        }
+    }
+}

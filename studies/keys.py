@@ -1,0 +1,68 @@
+"""Names of runs and of their folders, exact: from a name the values can be read back, so no two share one.
+
+A run's name is its variant and its values, such as `seed,numberRodElements=30,timeStep=0.03333333333333333`. A number
+is written with as many digits as it takes to read the same number again, a whole number without a point and any other
+with one, so that 1 and 1.0 are two names. A text that is no plain word stands percent-encoded between apostrophes.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from typing import Union
+from urllib.parse import quote
+
+Value = Union[int, float, bool, str]  # what an axis can take; anything else is a variant, which has a name
+
+TABLE = "study.json"  # beside the folders of the runs
+_LONGEST = 200  # bytes of a folder's name; file systems take 255
+_WORD = re.compile(r"[A-Za-z][A-Za-z0-9-]*", re.ASCII)
+_FOLDER = re.compile(r"[A-Za-z0-9'][A-Za-z0-9 .,=+%'_~-]*(?<![ .])", re.ASCII)
+_NO_WORDS = ("true", "false")  # as texts they are written like other texts, between apostrophes
+
+
+def value_text(value: Value) -> str:
+    """A value as it stands in names; different values, also of different types, have different texts.
+
+    Raises
+    ------
+    ValueError : it is neither a finite number nor true or false nor a text.
+    """
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int):
+        return int.__repr__(value)
+    if isinstance(value, float) and math.isfinite(value):
+        return float.__repr__(value)
+    if isinstance(value, str):
+        plain = _WORD.fullmatch(value) and value not in _NO_WORDS
+        return value if plain else f"'{quote(value, safe='', errors='surrogatepass')}'"
+    raise ValueError(f"{value!r} cannot be a value of an axis: a number, true, false or a text can, "
+                     "and anything else as a variant, which has a name")
+
+
+def run_key(variant: str, values: Mapping[str, Value]) -> str:
+    """Name of the run of a variant (may be empty) with these values by key; "default" where there is neither."""
+    parts = [variant] if variant else []
+    parts += [f"{key}={value_text(value)}" for key, value in values.items()]
+    return checked_key(",".join(parts) or "default")
+
+
+def checked_key(key: str) -> str:
+    """The name itself, where it can be that of a folder.
+
+    Raises
+    ------
+    ValueError : it cannot, on one of the file systems in use.
+    """
+    if not _FOLDER.fullmatch(key) or key.lower() == TABLE:
+        raise ValueError(f"{key!r} cannot name a run: letters, digits and .,=+%'_~- can, and spaces between them")
+    if len(key) > _LONGEST:
+        raise ValueError(f"{key!r} is too long to name a run: {len(key)} bytes, at most {_LONGEST}")
+    return key
+
+
+def repeat_folder(repeat: int) -> str:
+    """Folder of a timed repeat (from 1), below that of its run."""
+    return f"repeat-{repeat}"
