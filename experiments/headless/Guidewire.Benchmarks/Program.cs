@@ -14,14 +14,14 @@ using Guidewire.Core;
 
 namespace Guidewire.Benchmarks
 {
-    /// <summary>Prints what a step costs, part by part, in nanoseconds per unit of work and as ratios to the sweep at
-    /// n = 30, all measured in this one process, because machines differ and are shared.</summary>
+    /// <summary>Prints what a step costs, part by part, in nanoseconds per unit of work and as ratios to the scalar
+    /// sweep at n = 30, all measured in this one process, because machines differ and are shared.</summary>
     internal static class Program
     {
         private static readonly Type[] Families =
         {
-            typeof(SweepBenchmark), typeof(RunBenchmark), typeof(LogBenchmark), typeof(DetectionBenchmark),
-            typeof(NewtonBenchmark), typeof(CantileverBenchmark),
+            typeof(ScalarBenchmark), typeof(SweepBenchmark), typeof(RunBenchmark), typeof(LogBenchmark),
+            typeof(DetectionBenchmark), typeof(NewtonBenchmark), typeof(CantileverBenchmark),
         };
 
         private static int Main(string[] arguments)
@@ -50,6 +50,7 @@ namespace Guidewire.Benchmarks
             Print(rows);
             if (rows.All(row => row.Measured))
             {
+                LaneBenchmark.Print();
                 PrintNewton();
                 PrintCantilever();
             }
@@ -108,7 +109,7 @@ namespace Guidewire.Benchmarks
 
         private static void Print(List<Row> rows)
         {
-            double sweep = rows.First(row => row.Name.StartsWith("Sweep", StringComparison.Ordinal)).PerUnit;
+            double sweep = rows.First(row => row.Name.StartsWith("ScalarSweep", StringComparison.Ordinal)).PerUnit;
             Console.WriteLine("{0,-46} {1,12} {2,24} {3,9} {4,8} {5,12}", "what", "median", "per unit", "spread",
                 "ratio", "allocated");
             foreach (Row row in rows)
@@ -117,8 +118,8 @@ namespace Guidewire.Benchmarks
                     "{0,-46} {1,9:0.0} us {2,9:0.0} ns / {3,-10} {4,7:0.0} % {5,8:0.00} {6,10} B", row.Name,
                     1e-3 * row.Median, row.PerUnit, row.Unit, row.Spread, row.PerUnit / sweep, row.Allocated));
             }
-            Console.WriteLine("ratio: to the time of one element-iteration (stretch and bend-twist) at n = 30. Spread:"
-                + " interquartile range over median.");
+            Console.WriteLine("ratio: to the time of one element-iteration (stretch and bend-twist) of the scalar sweeps at n = 30."
+                + " Spread: interquartile range over median.");
         }
     }
 }

@@ -38,10 +38,13 @@ namespace Guidewire.Core
             GainParameters gains = parameters.Gains;
             ContactParameters contact = parameters.Contact;
             record = null;
+            int iterations = method.ConstraintSolverSteps;
+            var scalar = new ScalarSweeps(new StretchConstraint(state, gains.StretchStiffness),
+                new BendTwistConstraint(state, gains.BendStiffness), method.SweepOrder);
+            ISweeps fastest = SweepChoice.Fastest(scalar, iterations);
             if (scene.Walls.Length == 0)
             {
-                return new GaussSeidelSolver(state, method.ConstraintSolverSteps, gains.StretchStiffness,
-                    gains.BendStiffness, method.SweepOrder, null);
+                return new GaussSeidelSolver(iterations, scalar, fastest, null);
             }
             int walls = scene.Walls.Length;
             double radius = contact.SphereRadius;
@@ -54,8 +57,7 @@ namespace Guidewire.Core
             IContactResponse response = asPublished
                 ? (IContactResponse)new SeedContactResponse(state, walls, radius, reach, contact.CollisionStiffness)
                 : new ContactResponse(state, walls, radius, reach, contact.CollisionStiffness);
-            var sweeps = new GaussSeidelSolver(state, method.ConstraintSolverSteps, gains.StretchStiffness,
-                gains.BendStiffness, method.SweepOrder, response);
+            var sweeps = new GaussSeidelSolver(iterations, scalar, fastest, response);
             record = new ContactRecord(state.SphereCount);
             return new ContactSolver(state, method.TimeStep, sweeps, search, response, record);
         }

@@ -33,6 +33,21 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>n - 1.</summary>
+        public int Count => _first.Length;
+
+        /// <summary>2/l in 1/units.</summary>
+        public double DarbouxScale => _darbouxScale;
+
+        /// <summary>gain w_j/(w_j + w_{j+1}) per joint, units.</summary>
+        public double[] First => _first;
+
+        /// <summary>gain w_{j+1}/(w_j + w_{j+1}) per joint, units.</summary>
+        public double[] Second => _second;
+
+        /// <summary>Omega_0 per joint, 1/units.</summary>
+        public Vector3d[] Rest => _rest;
+
         /// <summary>Projects all joints once, in the given order.</summary>
         /// <param name="q">n orientations, corrected in place and of unit length again.</param>
         /// <param name="order">The joints in the order of the sweep; joint j is between elements j and j + 1.</param>

@@ -40,6 +40,21 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>n.</summary>
+        public int Count => _lower.Length;
+
+        /// <summary>l in units.</summary>
+        public double Length => _length;
+
+        /// <summary>gain w_j l/D per element.</summary>
+        public double[] Lower => _lower;
+
+        /// <summary>gain w_{j+1} l/D per element.</summary>
+        public double[] Upper => _upper;
+
+        /// <summary>gain 2 w_q l^2/D per element.</summary>
+        public double[] Orientation => _orientation;
+
         /// <summary>Projects all elements once, in the given order.</summary>
         /// <param name="x">n + 1 positions in units, corrected in place.</param>
         /// <param name="q">n orientations, corrected in place and of unit length again.</param>

@@ -1,4 +1,5 @@
 using System;
+using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
@@ -35,6 +36,9 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
+        public int ContactCount => _spheres.Count + _elements.Count + _elementStops.Count + _sphereStops.Count;
+
+        /// <inheritdoc/>
         public void Start(IContactSearch found, Vector3d[] x)
         {
             _spheres.Clear();
@@ -61,6 +65,22 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
+        public void SpheresOf(int k, out int first, out int last)
+        {
+            SphereContactConstraint? spheres = At(ref k, out ElementContactConstraint? elements);
+            first = spheres?.SphereOf(k) ?? elements!.ElementOf(k);
+            last = spheres != null ? first : first + 1;
+        }
+
+        /// <inheritdoc/>
+        [MethodImpl(Compiled.AtOnce)]
+        public bool Project(int k, Vector3d[] x)
+        {
+            SphereContactConstraint? spheres = At(ref k, out ElementContactConstraint? elements);
+            return spheres != null ? spheres.Project(k, x) : elements!.Project(k, x);
+        }
+
+        /// <inheritdoc/>
         public void AddImpulses(Vector3d[] impulses)
         {
             _spheres.AddImpulses(impulses);
@@ -73,6 +93,31 @@ namespace Guidewire.Core
         public double Penetration(Vector3d[] x)
         {
             return Math.Max(_spheres.LargestGap(x), _elements.LargestGap(x)) - (_reach - _radius);
+        }
+
+        // Where contact k of a sweep stands, and which it is there: spheres, or where that is null, elements.
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        private SphereContactConstraint? At(ref int k, out ElementContactConstraint? elements)
+        {
+            elements = null;
+            if (k < _spheres.Count)
+            {
+                return _spheres;
+            }
+            k -= _spheres.Count;
+            if (k < _elements.Count)
+            {
+                elements = _elements;
+                return null;
+            }
+            k -= _elements.Count;
+            if (k < _elementStops.Count)
+            {
+                elements = _elementStops;
+                return null;
+            }
+            k -= _elementStops.Count;
+            return _sphereStops;
         }
 
         private static void Add(StructList<WireContact> contacts, SphereContactConstraint spheres,

@@ -1,4 +1,5 @@
 using System;
+using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
@@ -60,24 +61,38 @@ namespace Guidewire.Core
             Count++;
         }
 
+        /// <summary>The element of contact k.</summary>
+        public int ElementOf(int k)
+        {
+            return _element[k];
+        }
+
         /// <summary>Projects all contacts once, in the order in which they were added.</summary>
         /// <param name="x">n + 1 positions in units, corrected in place.</param>
         public void Sweep(Vector3d[] x)
         {
             for (int k = 0; k < Count; k++)
             {
-                int j = _element[k];
-                double s = _position[k];
-                Vector3d n = _normal[k];
-                double gap = _offset[k] - (1.0 - s) * Vector3d.Dot(x[j], n) - s * Vector3d.Dot(x[j + 1], n);
-                if (gap > 0.0)
-                {
-                    double impulse = _gain[k] * gap / _denominator[k];
-                    _impulse[k] += impulse;
-                    x[j] += (impulse * (1.0 - s) * _inverseMasses[j]) * n;
-                    x[j + 1] += (impulse * s * _inverseMasses[j + 1]) * n;
-                }
+                Project(k, x);
             }
+        }
+
+        /// <summary>Projects contact k once; false where it moved nothing.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public bool Project(int k, Vector3d[] x)
+        {
+            int j = _element[k];
+            double s = _position[k];
+            Vector3d n = _normal[k];
+            double gap = _offset[k] - (1.0 - s) * Vector3d.Dot(x[j], n) - s * Vector3d.Dot(x[j + 1], n);
+            if (gap > 0.0)
+            {
+                double impulse = _gain[k] * gap / _denominator[k];
+                _impulse[k] += impulse;
+                x[j] += (impulse * (1.0 - s) * _inverseMasses[j]) * n;
+                x[j + 1] += (impulse * s * _inverseMasses[j + 1]) * n;
+            }
+            return gap > 0.0;
         }
 
         /// <summary>Adds to each sphere the momentum over dt, in mass unit * unit, that its elements' contacts gave

@@ -16,6 +16,15 @@ namespace Guidewire.Core
         /// <param name="x">n + 1 positions in units, corrected in place.</param>
         void Sweep(Vector3d[] x);
 
+        /// <summary>Contacts at present, in the order of a sweep.</summary>
+        int ContactCount { get; }
+
+        /// <summary>Which spheres contact k moves: one, or the two of an element.</summary>
+        void SpheresOf(int k, out int first, out int last);
+
+        /// <summary>Projects contact k once, by its spheres alone; false where it moved nothing.</summary>
+        bool Project(int k, Vector3d[] x);
+
         /// <summary>Adds the momentum over dt, in mass unit * unit, that contacts gave each sphere.</summary>
         void AddImpulses(Vector3d[] impulses);
 

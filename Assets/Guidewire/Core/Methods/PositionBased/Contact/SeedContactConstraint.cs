@@ -1,3 +1,5 @@
+using System.Runtime.CompilerServices;
+
 namespace Guidewire.Core
 {
     /// <summary>Contact as published (thesis 3.1.2): each sphere of a touching element is drawn to the point
@@ -57,17 +59,30 @@ namespace Guidewire.Core
             Add(element + 1, contact.Point, second * contact.Normal);
         }
 
+        /// <summary>The sphere of contact k.</summary>
+        public int SphereOf(int k)
+        {
+            return _sphere[k];
+        }
+
         /// <summary>Draws all spheres once, in the order in which contacts were added.</summary>
         /// <param name="x">n + 1 positions in units, corrected in place.</param>
         public void Sweep(Vector3d[] x)
         {
             for (int k = 0; k < Count; k++)
             {
-                int i = _sphere[k];
-                Vector3d push = _gain * (_target[k] - x[i]);
-                _moved[k] += push;
-                x[i] += push;
+                Project(k, x);
             }
+        }
+
+        /// <summary>Draws the sphere of contact k once.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public void Project(int k, Vector3d[] x)
+        {
+            int i = _sphere[k];
+            Vector3d push = _gain * (_target[k] - x[i]);
+            _moved[k] += push;
+            x[i] += push;
         }
 
         /// <summary>Adds to each sphere the momentum over dt, in mass unit * unit, that its contacts gave it.</summary>

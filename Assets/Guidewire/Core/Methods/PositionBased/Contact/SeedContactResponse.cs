@@ -1,4 +1,5 @@
 using System;
+using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
@@ -22,6 +23,9 @@ namespace Guidewire.Core
             _contacts = new SeedContactConstraint(
                 state, ContactsPerSphere * wallCount * state.SphereCount, reach, gain);
         }
+
+        /// <inheritdoc/>
+        public int ContactCount => _contacts.Count;
 
         /// <inheritdoc/>
         public void Start(IContactSearch found, Vector3d[] x)
@@ -53,6 +57,20 @@ namespace Guidewire.Core
         public void Sweep(Vector3d[] x)
         {
             _contacts.Sweep(x);
+        }
+
+        /// <inheritdoc/>
+        public void SpheresOf(int k, out int first, out int last)
+        {
+            first = last = _contacts.SphereOf(k);
+        }
+
+        /// <inheritdoc/>
+        [MethodImpl(Compiled.AtOnce)]
+        public bool Project(int k, Vector3d[] x)
+        {
+            _contacts.Project(k, x);
+            return true;
         }
 
         /// <inheritdoc/>

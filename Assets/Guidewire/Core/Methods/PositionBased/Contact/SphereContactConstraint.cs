@@ -1,4 +1,5 @@
 using System;
+using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
@@ -52,22 +53,36 @@ namespace Guidewire.Core
             Count++;
         }
 
+        /// <summary>The sphere of contact k.</summary>
+        public int SphereOf(int k)
+        {
+            return _sphere[k];
+        }
+
         /// <summary>Projects all contacts once, in the order in which they were added.</summary>
         /// <param name="x">n + 1 positions in units, corrected in place.</param>
         public void Sweep(Vector3d[] x)
         {
             for (int k = 0; k < Count; k++)
             {
-                int i = _sphere[k];
-                Vector3d n = _normal[k];
-                double gap = _offset[k] - Vector3d.Dot(x[i], n);
-                if (gap > 0.0)
-                {
-                    double push = _gain[k] * gap;
-                    _pushed[k] += push;
-                    x[i] += push * n;
-                }
+                Project(k, x);
             }
+        }
+
+        /// <summary>Projects contact k once; false where it moved nothing.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public bool Project(int k, Vector3d[] x)
+        {
+            int i = _sphere[k];
+            Vector3d n = _normal[k];
+            double gap = _offset[k] - Vector3d.Dot(x[i], n);
+            if (gap > 0.0)
+            {
+                double push = _gain[k] * gap;
+                _pushed[k] += push;
+                x[i] += push * n;
+            }
+            return gap > 0.0;
         }
 
         /// <summary>Adds to each sphere the momentum over dt, dp/w, in mass unit * unit, that its contacts gave

@@ -1,0 +1,57 @@
+#if NET8_0_OR_GREATER
+namespace Guidewire.Core
+{
+    /// <summary>A vector register of doubles, one number a lane. Each operation is that of IEEE 754 in every lane,
+    /// rounded by itself, so that a lane holds what the same operations on plain doubles give.</summary>
+    internal interface ILanes<T>
+        where T : struct, ILanes<T>
+    {
+        /// <summary>Number of lanes.</summary>
+        static abstract int Count { get; }
+
+        /// <summary>About how long an element and a joint in all lanes take, counted in elements of a scalar
+        /// sweep.</summary>
+        static abstract double TickCost { get; }
+
+        static abstract T operator +(T a, T b);
+
+        static abstract T operator -(T a, T b);
+
+        static abstract T operator *(T a, T b);
+
+        static abstract T operator /(T a, T b);
+
+        static abstract T operator -(T a);
+
+        /// <summary>All bits set where a &lt; b, none elsewhere, also where one is not a number.</summary>
+        static abstract T operator <(T a, T b);
+
+        /// <summary>All bits set where a &gt; b, none elsewhere, also where one is not a number.</summary>
+        static abstract T operator >(T a, T b);
+
+        /// <summary>Bitwise and.</summary>
+        static abstract T operator &(T a, T b);
+
+        /// <summary>The square roots.</summary>
+        static abstract T Sqrt(T a);
+
+        /// <summary>a where all bits of the mask are set, b where none is.</summary>
+        static abstract T Select(T mask, T a, T b);
+
+        /// <summary>One number in all lanes.</summary>
+        static abstract T Fill(double value);
+
+        /// <summary>Successive numbers in memory, the first in lane 0.</summary>
+        static abstract T Load(ref double first);
+
+        /// <summary>Writes the numbers to successive places in memory, lane 0's first.</summary>
+        static abstract void Store(T a, ref double first);
+
+        /// <summary>Each lane's number in the next lane; lane 0 gets the entering one.</summary>
+        static abstract T Shift(T a, double entering);
+
+        /// <summary>The number in the last lane.</summary>
+        static abstract double Last(T a);
+    }
+}
+#endif

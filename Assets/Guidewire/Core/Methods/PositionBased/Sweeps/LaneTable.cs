@@ -1,0 +1,68 @@
+#if NET8_0_OR_GREATER
+namespace Guidewire.Core
+{
+    /// <summary>Numbers of the wire's constraints, laid out so that lanes that work at places
+    /// <see cref="Lag"/> apart load theirs with one instruction.</summary>
+    /// <remarks>A sweep passes the places 0 to period - 1; while lane 0 is at place p, lane k is at p - lag k, before
+    /// place 0 still at the end of the sweep before. The numbers of every third place make a strand, written
+    /// backwards, so that successive numbers are those of successive lanes.</remarks>
+    internal sealed class LaneTable
+    {
+        /// <summary>How many places each lane is behind the one before.</summary>
+        public const int Lag = 3;
+
+        private readonly int _lanes;
+
+        /// <param name="columns">How many numbers a place has.</param>
+        /// <param name="period">Places of a sweep, at least <see cref="Lag"/> times the lanes.</param>
+        /// <param name="lanes">Number of lanes.</param>
+        public LaneTable(int columns, int period, int lanes)
+        {
+            _lanes = lanes;
+            ColumnLength = Lag * Strand(period);
+            Numbers = new double[columns * ColumnLength];
+            Rows = new int[period];
+            for (int p = 0; p < period; p++)
+            {
+                Rows[p] = Location(p);
+            }
+        }
+
+        /// <summary>The columns one after the other.</summary>
+        public double[] Numbers { get; }
+
+        /// <summary>Numbers in each column.</summary>
+        public int ColumnLength { get; }
+
+        /// <summary>Where in a column the lanes' numbers start while lane 0 is at each place.</summary>
+        public int[] Rows { get; }
+
+        /// <summary>Writes a column.</summary>
+        /// <param name="column">Which, from 0.</param>
+        /// <param name="from">The place of the first number; the places without one get 0.</param>
+        /// <param name="numbers">Those of successive places.</param>
+        public void Write(int column, int from, double[] numbers)
+        {
+            int period = Rows.Length;
+            for (int p = -Lag * (_lanes - 1); p < period; p++)
+            {
+                int k = (p < 0 ? p + period : p) - from;
+                bool has = k >= 0 && k < numbers.Length;
+                Numbers[column * ColumnLength + Location(p)] = has ? numbers[k] : 0.0;
+            }
+        }
+
+        private int Location(int place)
+        {
+            int strand = Strand(Rows.Length);
+            int ahead = place + Lag * (_lanes - 1);
+            return ahead % Lag * strand + strand - 1 - ahead / Lag;
+        }
+
+        private int Strand(int period)
+        {
+            return (period + Lag * (_lanes - 1) + Lag - 1) / Lag;
+        }
+    }
+}
+#endif

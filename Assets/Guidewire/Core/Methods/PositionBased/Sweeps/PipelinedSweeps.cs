@@ -1,0 +1,311 @@
+#if NET8_0_OR_GREATER
+using System;
+using System.Runtime.CompilerServices;
+
+namespace Guidewire.Core
+{
+    /// <summary>Successive iterations of <see cref="ScalarSweeps"/> in the naive order, one in each lane of a vector
+    /// register, each three elements behind the one before: bit for bit what they give one after the other.</summary>
+    /// <remarks>A sweep is a chain: a scalar loop waits for its own results most of the time. But stretch constraint j
+    /// touches x_j, x_{j+1} and q_j only, bend-twist constraint j only q_j and q_{j+1}. While lane 0 is at place p,
+    /// lane k does stretch p - 3 k and bend-twist p - 3 k - 2: nothing is touched twice, and whatever depends on each
+    /// other comes in the order of the scalar sweeps. What a lane is done with, one sphere and one frame a place, goes
+    /// to the next lane; the first takes from memory, the last gives back to it. A sweep has n + 1 places, the last to
+    /// hand on x_n, and at least three a lane, so that nothing is taken before it is given back. A lane at the end
+    /// starts its next sweep at once: lanes fill once a call. A lane that has no constraint at its place or no sweep
+    /// left to do hands on what it was given. That is selected, not multiplied by 0: 0 times infinity is not a number,
+    /// and -0 + 0 is not -0.</remarks>
+    internal sealed class PipelinedSweeps<T> : ISweeps
+        where T : struct, ILanes<T>
+    {
+        private const int Lag = LaneTable.Lag;
+
+        // In elements of a scalar sweep: a node in and out; a contact more than it costs there.
+        private const double CopyCost = 0.5;
+        private const double ContactCost = 0.5;
+
+        private const int JointLag = 2;    // places from a frame's stretch to the joint before it
+
+        // Columns of the table. The first two mark places that have an element, and places that have a joint.
+        private const int IsElement = 0;
+        private const int IsJoint = 1;
+        private const int Lower = 2;
+        private const int Upper = 3;
+        private const int Orientation = 4;
+        private const int First = 5;
+        private const int Second = 6;
+        private const int RestX = 7;
+        private const int RestY = 8;
+        private const int RestZ = 9;
+        private const int Columns = 10;
+
+        // At place p of the nodes: x_{p+1} and q_p, which lane 0 needs there; x_0 at the last.
+        private const int Node = 8;
+        private const int NodeFrame = 4;
+
+        private readonly int _elements;
+        private readonly int _period;
+        private readonly double _inverseLength;
+        private readonly double _darbouxScale;
+        private readonly LaneTable _table;
+        private readonly double[] _nodes;
+        private readonly PipelinedContacts _contacts;
+        private readonly double[] _end;      // ticks after which each lane has no sweep left
+
+        /// <param name="scalar">The sweeps to do, in the naive order.</param>
+        public PipelinedSweeps(ScalarSweeps scalar)
+        {
+            StretchConstraint stretch = scalar.Stretch;
+            BendTwistConstraint bendTwist = scalar.BendTwist;
+            _elements = stretch.Count;
+            _period = Math.Max(_elements + 1, Lag * T.Count);
+            _inverseLength = 1.0 / stretch.Length;
+            _darbouxScale = bendTwist.DarbouxScale;
+            _table = new LaneTable(Columns, _period, T.Count);
+            _table.Write(IsElement, 0, Marks(stretch.Count));
+            _table.Write(IsJoint, JointLag, Marks(bendTwist.Count));
+            _table.Write(Lower, 0, stretch.Lower);
+            _table.Write(Upper, 0, stretch.Upper);
+            _table.Write(Orientation, 0, stretch.Orientation);
+            _table.Write(First, JointLag, bendTwist.First);
+            _table.Write(Second, JointLag, bendTwist.Second);
+            _table.Write(RestX, JointLag, Array.ConvertAll(bendTwist.Rest, omega => omega.X));
+            _table.Write(RestY, JointLag, Array.ConvertAll(bendTwist.Rest, omega => omega.Y));
+            _table.Write(RestZ, JointLag, Array.ConvertAll(bendTwist.Rest, omega => omega.Z));
+            _nodes = new double[Node * _period];
+            _end = new double[T.Count];
+            _contacts = new PipelinedContacts(_elements, _period, T.Count);
+        }
+
+        /// <inheritdoc/>
+        public bool Iterate(Vector3d[] x, Quaterniond[] q, int iterations, IContactResponse? contacts)
+        {
+            double contactCost = ContactCost * iterations * (contacts?.ContactCount ?? 0);
+            bool isSlower = contactCost > 0.0 && Cost(iterations) + contactCost > (double)_elements * iterations;
+            if (isSlower || !_contacts.TryPlan(contacts))
+            {
+                return false;
+            }
+            for (int lane = 0; lane < T.Count; lane++)
+            {
+                long sweeps = (iterations - lane + T.Count - 1L) / T.Count;
+                _end[lane] = Lag * lane + sweeps * _period;
+            }
+            Take(x, q);
+            Run(Ticks(iterations), x);
+            GiveBack(x, q);
+            return true;
+        }
+
+        /// <inheritdoc/>
+        public double Cost(int iterations)
+        {
+            return T.TickCost * Ticks(iterations) + CopyCost * _elements;
+        }
+
+        // The joint's block has the lines of BendTwistConstraint.Sweep, the element's those of StretchConstraint.Sweep.
+        // A frame rests one place between the two, so that at one place neither waits for the other.
+        [MethodImpl(Compiled.AtOnce)]
+        private void Run(long ticks, Vector3d[] x)
+        {
+            T zero = T.Fill(0.0);
+            T one = T.Fill(1.0);
+            T two = T.Fill(2.0);
+            T minusOne = T.Fill(-1.0);
+            T inverseLength = T.Fill(_inverseLength);
+            T darbouxScale = T.Fill(_darbouxScale);
+            T end = T.Load(ref _end[0]);
+            T time = zero;
+
+            int period = _period;
+            int[] rows = _table.Rows;
+            nint column = _table.ColumnLength;
+            ref double table = ref _table.Numbers[0];
+            ref double nodes = ref _nodes[0];
+            ref double start = ref Unsafe.Add(ref nodes, Node * (period - 1));
+
+            // u, v: the spheres a, b of the element at each lane's place, r its frame; a, b: the frames of the joint.
+            T uX = T.Fill(start), uY = T.Fill(Unsafe.Add(ref start, 1)), uZ = T.Fill(Unsafe.Add(ref start, 2));
+            T rX = zero, rY = zero, rZ = zero, rW = zero;
+            T aX = zero, aY = zero, aZ = zero, aW = zero;
+            T bX = zero, bY = zero, bZ = zero, bW = zero;
+
+            // Spheres that lanes are done with since the last place, and since the one before: v of the next lane.
+            T doneX = zero, doneY = zero, doneZ = zero;
+            T lateX = zero, lateY = zero, lateZ = zero;
+
+            int[] lanesInContact = _contacts.Lanes;
+            ref double held = ref _contacts.Held[0];
+            int place = 0;
+            int leaving = -Lag * (T.Count - 1) - JointLag;    // the place of what leaves the last lane
+            for (long tick = 0; tick < ticks; tick++)
+            {
+                ref double entering = ref Unsafe.Add(ref nodes, Node * place);
+                T vX = T.Shift(lateX, entering);
+                T vY = T.Shift(lateY, Unsafe.Add(ref entering, 1));
+                T vZ = T.Shift(lateZ, Unsafe.Add(ref entering, 2));
+                rX = T.Shift(rX, Unsafe.Add(ref entering, NodeFrame));
+                rY = T.Shift(rY, Unsafe.Add(ref entering, NodeFrame + 1));
+                rZ = T.Shift(rZ, Unsafe.Add(ref entering, NodeFrame + 2));
+                rW = T.Shift(rW, Unsafe.Add(ref entering, NodeFrame + 3));
+                lateX = doneX;
+                lateY = doneY;
+                lateZ = doneZ;
+                T going = time < end;
+                ref double row = ref Unsafe.Add(ref table, rows[place]);
+                T turnedX, turnedY, turnedZ, turnedW;
+                {
+                    T isJoint = going & T.Load(ref Unsafe.Add(ref row, IsJoint * column));
+                    T restX = T.Load(ref Unsafe.Add(ref row, RestX * column));
+                    T restY = T.Load(ref Unsafe.Add(ref row, RestY * column));
+                    T restZ = T.Load(ref Unsafe.Add(ref row, RestZ * column));
+                    T ex = darbouxScale * (aW * bX - aX * bW - aY * bZ + aZ * bY);
+                    T ey = darbouxScale * (aW * bY - aY * bW - aZ * bX + aX * bZ);
+                    T ez = darbouxScale * (aW * bZ - aZ * bW - aX * bY + aY * bX);
+                    T sign = T.Select(ex * restX + ey * restY + ez * restZ < zero, minusOne, one);
+                    ex -= sign * restX;
+                    ey -= sign * restY;
+                    ez -= sign * restZ;
+
+                    T f = T.Load(ref Unsafe.Add(ref row, First * column));
+                    T ax = aX + f * (bW * ex + bY * ez - bZ * ey);
+                    T ay = aY + f * (bW * ey + bZ * ex - bX * ez);
+                    T az = aZ + f * (bW * ez + bX * ey - bY * ex);
+                    T aw = aW - f * (bX * ex + bY * ey + bZ * ez);
+                    T s = T.Load(ref Unsafe.Add(ref row, Second * column));
+                    T bx = bX - s * (aW * ex + aY * ez - aZ * ey);
+                    T by = bY - s * (aW * ey + aZ * ex - aX * ez);
+                    T bz = bZ - s * (aW * ez + aX * ey - aY * ex);
+                    T bw = bW + s * (aX * ex + aY * ey + aZ * ez);
+
+                    T scaleA = one / T.Sqrt(ax * ax + ay * ay + az * az + aw * aw);
+                    T scaleB = one / T.Sqrt(bx * bx + by * by + bz * bz + bw * bw);
+                    turnedX = T.Select(isJoint, scaleA * ax, aX);
+                    turnedY = T.Select(isJoint, scaleA * ay, aY);
+                    turnedZ = T.Select(isJoint, scaleA * az, aZ);
+                    turnedW = T.Select(isJoint, scaleA * aw, aW);
+                    aX = T.Select(isJoint, scaleB * bx, bX);
+                    aY = T.Select(isJoint, scaleB * by, bY);
+                    aZ = T.Select(isJoint, scaleB * bz, bZ);
+                    aW = T.Select(isJoint, scaleB * bw, bW);
+                }
+                {
+                    T isElement = going & T.Load(ref Unsafe.Add(ref row, IsElement * column));
+                    T gx = (vX - uX) * inverseLength - two * (rX * rZ + rW * rY);
+                    T gy = (vY - uY) * inverseLength - two * (rY * rZ - rW * rX);
+                    T gz = (vZ - uZ) * inverseLength - (one - two * (rX * rX + rY * rY));
+
+                    T lower = T.Load(ref Unsafe.Add(ref row, Lower * column));
+                    T upper = T.Load(ref Unsafe.Add(ref row, Upper * column));
+                    doneX = T.Select(isElement, uX + lower * gx, uX);
+                    doneY = T.Select(isElement, uY + lower * gy, uY);
+                    doneZ = T.Select(isElement, uZ + lower * gz, uZ);
+                    uX = T.Select(isElement, vX - upper * gx, vX);
+                    uY = T.Select(isElement, vY - upper * gy, vY);
+                    uZ = T.Select(isElement, vZ - upper * gz, vZ);
+
+                    T turn = T.Load(ref Unsafe.Add(ref row, Orientation * column));
+                    T ex = -rY;
+                    T ey = rX;
+                    T ez = -rW;
+                    T ew = rZ;
+                    T qx = rX + turn * (gx * ew + gy * ez - gz * ey);
+                    T qy = rY + turn * (gy * ew + gz * ex - gx * ez);
+                    T qz = rZ + turn * (gz * ew + gx * ey - gy * ex);
+                    T qw = rW - turn * (gx * ex + gy * ey + gz * ez);
+                    T scale = one / T.Sqrt(qx * qx + qy * qy + qz * qz + qw * qw);
+                    bX = T.Select(isElement, scale * qx, rX);
+                    bY = T.Select(isElement, scale * qy, rY);
+                    bZ = T.Select(isElement, scale * qz, rZ);
+                    bW = T.Select(isElement, scale * qw, rW);
+                }
+                rX = turnedX;
+                rY = turnedY;
+                rZ = turnedZ;
+                rW = turnedW;
+                if (lanesInContact[place] != 0)
+                {
+                    T.Store(doneX, ref held);
+                    T.Store(doneY, ref Unsafe.Add(ref held, T.Count));
+                    T.Store(doneZ, ref Unsafe.Add(ref held, 2 * T.Count));
+                    T.Store(lateX, ref Unsafe.Add(ref held, 3 * T.Count));
+                    T.Store(lateY, ref Unsafe.Add(ref held, 4 * T.Count));
+                    T.Store(lateZ, ref Unsafe.Add(ref held, 5 * T.Count));
+                    if (_contacts.Project(place, tick, _end, x))
+                    {
+                        doneX = T.Load(ref held);
+                        doneY = T.Load(ref Unsafe.Add(ref held, T.Count));
+                        doneZ = T.Load(ref Unsafe.Add(ref held, 2 * T.Count));
+                        lateX = T.Load(ref Unsafe.Add(ref held, 3 * T.Count));
+                        lateY = T.Load(ref Unsafe.Add(ref held, 4 * T.Count));
+                        lateZ = T.Load(ref Unsafe.Add(ref held, 5 * T.Count));
+                    }
+                }
+                if (leaving >= -1)
+                {
+                    ref double node = ref Unsafe.Add(ref nodes, Node * (leaving < 0 ? period - 1 : leaving));
+                    node = T.Last(lateX);
+                    Unsafe.Add(ref node, 1) = T.Last(lateY);
+                    Unsafe.Add(ref node, 2) = T.Last(lateZ);
+                    Unsafe.Add(ref node, NodeFrame) = T.Last(rX);
+                    Unsafe.Add(ref node, NodeFrame + 1) = T.Last(rY);
+                    Unsafe.Add(ref node, NodeFrame + 2) = T.Last(rZ);
+                    Unsafe.Add(ref node, NodeFrame + 3) = T.Last(rW);
+                }
+                place = Next(place);
+                leaving = Next(leaving);
+                time += one;
+            }
+        }
+
+        private void Take(Vector3d[] x, Quaterniond[] q)
+        {
+            for (int p = 0; p < _period; p++)
+            {
+                Span<double> node = _nodes.AsSpan(Node * p, Node);
+                Vector3d sphere = p < _elements ? x[p + 1] : x[0];
+                node[0] = sphere.X;
+                node[1] = sphere.Y;
+                node[2] = sphere.Z;
+                Quaterniond frame = p < _elements ? q[p] : Quaterniond.Identity;
+                node[NodeFrame] = frame.X;
+                node[NodeFrame + 1] = frame.Y;
+                node[NodeFrame + 2] = frame.Z;
+                node[NodeFrame + 3] = frame.W;
+            }
+        }
+
+        private void GiveBack(Vector3d[] x, Quaterniond[] q)
+        {
+            for (int j = 0; j < _elements; j++)
+            {
+                ReadOnlySpan<double> node = _nodes.AsSpan(Node * j, Node);
+                x[j + 1] = new Vector3d(node[0], node[1], node[2]);
+                q[j] = new Quaterniond(
+                    node[NodeFrame], node[NodeFrame + 1], node[NodeFrame + 2], node[NodeFrame + 3]);
+            }
+            ReadOnlySpan<double> start = _nodes.AsSpan(Node * (_period - 1), Node);
+            x[0] = new Vector3d(start[0], start[1], start[2]);
+        }
+
+        // From the first lane's first place to the last lane's last, and one for x_n and q_{n-1}, which leave late.
+        private long Ticks(int iterations)
+        {
+            long rounds = (iterations + T.Count - 1L) / T.Count;
+            return rounds * _period + Lag * (T.Count - 1) + 1;
+        }
+
+        private int Next(int place)
+        {
+            return place + 1 == _period ? 0 : place + 1;
+        }
+
+        private static double[] Marks(int count)
+        {
+            var marks = new double[count];
+            Array.Fill(marks, BitConverter.Int64BitsToDouble(-1L));    // all bits set
+            return marks;
+        }
+    }
+}
+#endif

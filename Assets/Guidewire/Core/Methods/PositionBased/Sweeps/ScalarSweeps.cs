@@ -1,0 +1,48 @@
+namespace Guidewire.Core
+{
+    /// <summary>One sweep after the other, one constraint after the other.</summary>
+    internal sealed class ScalarSweeps : ISweeps
+    {
+        private readonly int[] _elements;
+        private readonly int[] _joints;
+
+        /// <param name="stretch">The elements' constraints.</param>
+        /// <param name="bendTwist">The joints' constraints.</param>
+        /// <param name="order">The order of each sweep.</param>
+        public ScalarSweeps(StretchConstraint stretch, BendTwistConstraint bendTwist, SweepOrder order)
+        {
+            Stretch = stretch;
+            BendTwist = bendTwist;
+            Order = order;
+            _elements = SweepOrders.Indices(order, stretch.Count);
+            _joints = SweepOrders.Indices(order, bendTwist.Count);
+        }
+
+        /// <summary>The elements' constraints.</summary>
+        public StretchConstraint Stretch { get; }
+
+        /// <summary>The joints' constraints.</summary>
+        public BendTwistConstraint BendTwist { get; }
+
+        /// <summary>The order of each sweep.</summary>
+        public SweepOrder Order { get; }
+
+        /// <inheritdoc/>
+        public bool Iterate(Vector3d[] x, Quaterniond[] q, int iterations, IContactResponse? contacts)
+        {
+            for (int iteration = 0; iteration < iterations; iteration++)
+            {
+                Stretch.Sweep(x, q, _elements);
+                BendTwist.Sweep(q, _joints);
+                contacts?.Sweep(x);
+            }
+            return true;
+        }
+
+        /// <inheritdoc/>
+        public double Cost(int iterations)
+        {
+            return (double)_elements.Length * iterations;
+        }
+    }
+}
