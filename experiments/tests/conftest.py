@@ -3,11 +3,14 @@
 import json
 import signal
 import sys
+import tempfile
 from pathlib import Path
 
 import pytest
 
 from experiments import building
+from key_table import read_key_table
+from run_claims import Campaign
 
 
 # A shell that starts us in the background leaves Ctrl-C ignored, for us and for every program that we start; the tests
@@ -40,3 +43,30 @@ def fake(tmp_path):
 def runner_command():
     """The real runner's command."""
     return building.build(building.RUNNER, print)
+
+
+@pytest.fixture(scope="session")
+def table(runner_command):
+    """The runner's table of parameters."""
+    return read_key_table(runner_command)
+
+
+@pytest.fixture(scope="session")
+def campaign(runner_command):
+    """A runner that stays up from one random scene to the next."""
+    with tempfile.TemporaryDirectory() as folder:
+        campaign = Campaign(runner_command, Path(folder))
+        yield campaign
+        campaign.close()
+
+
+@pytest.fixture(scope="session")
+def integrators(campaign, table):
+    """Method to the integrators that it takes, as the runner says itself."""
+    key = table["integrator"]
+
+    def takes(solver, word):
+        return campaign.run({"solver": solver, "integrator": word, "maxSimulationSteps": 1})[0].exit_code != 2
+
+    return {solver: [word for word in key.words if solver in key.solvers and takes(solver, word)]
+            for solver in table["solver"].words}

@@ -1,0 +1,234 @@
+"""Strategies for random parameter files: values that the keys of the table allow, and whole scenes of them.
+
+What a key's words and borders are is read from the runner's own table; here stand the sizes that scenes have, which
+also bound what a run costs: few elements, few steps, few iterations.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from hypothesis import HealthCheck, settings
+from hypothesis import strategies as st
+
+from key_table import Key
+
+FULL = os.environ.get("GUIDEWIRE_ALL") == "1"
+SOLVERS = ("pbd", "xpbd", "direct", "explicit")
+# What a run without them would answer another question than the file asks.
+REFUSED_IN_FILES = ("tipMoment", "vessel", "obstacles")
+ARCH = Path(__file__).resolve().parents[2] / "params" / "meshes" / "arch.obj"
+LENGTH, OFFSET = 300.0, -120.0  # what the keys are where a scene does not name them
+whole = st.integers
+
+
+def examples(count: int) -> settings:
+    """Settings for this many examples, seeded, or ten times as many and unseeded."""
+    return settings(
+        max_examples=10 * count if FULL else count, derandomize=not FULL, deadline=None, database=None,
+        suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture,
+                               HealthCheck.data_too_large],
+    )
+
+
+def log_uniform(low: float, high: float) -> st.SearchStrategy[float]:
+    return st.floats(math.log10(low), math.log10(high)).map(lambda exponent: 10.0**exponent)
+
+
+def vectors(component: st.SearchStrategy) -> st.SearchStrategy:
+    """Both ways to write three numbers."""
+    three = st.tuples(component, component, component)
+    return st.one_of(three.map(list), three.map(lambda v: dict(zip("xyz", v))))
+
+
+def around(size: float) -> st.SearchStrategy:
+    """Three numbers of either sign, up to a size that itself varies by a factor of 1e4."""
+    return vectors(st.tuples(log_uniform(1e-4 * size, size), st.floats(-1.0, 1.0)).map(math.prod))
+
+
+not_zero = st.lists(st.floats(-1.0, 1.0), min_size=3, max_size=3).filter(lambda v: np.linalg.norm(v) > 1e-3)
+angles = vectors(st.floats(-360.0, 360.0))
+
+
+@st.composite
+def wire_sections(draw, scene: Mapping[str, Any]) -> list[dict]:
+    length = scene.get("guidewireLength", LENGTH)
+    own = {"youngsModulus": log_uniform(1e6, 1e12), "shearModulus": log_uniform(1e6, 1e12),
+           "density": log_uniform(100.0, 3e4), "wireRadius": log_uniform(1e-5, 2e-3), "restCurvature": around(100.0)}
+    sections = []
+    for _ in range(draw(whole(0, 3))):
+        start, part = draw(st.floats(0.0, 1.0)), draw(log_uniform(1e-3, 1.5))
+        chosen = draw(st.sets(st.sampled_from(sorted(own))))
+        sections.append({"from": start * length, "to": (start + part) * length,
+                         **{key: draw(own[key]) for key in sorted(chosen)}})
+    return sections
+
+
+@st.composite
+def start_files(draw, scene: Mapping[str, Any]) -> dict:
+    """What a file to start from holds: a straight wire with noise."""
+    n = int(scene.get("numberRodElements", 30))
+    length = scene.get("guidewireLength", LENGTH)
+    rng = np.random.default_rng(draw(whole(0, 2**32 - 1)))
+    noise = draw(log_uniform(1e-6, 0.3)) * length / n
+    positions = np.outer(np.linspace(0.0, length, n + 1), draw(not_zero.map(lambda v: v / np.linalg.norm(v))))
+    start = {"positions": (positions + noise * rng.standard_normal((n + 1, 3))).tolist(),
+             "orientations": rng.standard_normal((n, 4)).tolist()}
+    if draw(st.booleans()):
+        start["velocities"] = rng.standard_normal((n + 1, 3)).tolist()
+        start["angularVelocities"] = rng.standard_normal((n, 3)).tolist()
+    return start
+
+
+@st.composite
+def vessels(draw, scene: Mapping[str, Any]) -> dict | None:
+    length, offset = scene.get("guidewireLength", LENGTH), scene.get("guidewireOffset", OFFSET)
+    reach = draw(st.floats(1.0, 5.0)) * (scene.get("sphereRadius", 5.0) + scene.get("collisionMargin", 0.0)) + 20.0
+    shape = draw(st.sampled_from([None, "plane", "tube", "mesh"]))
+    if shape == "plane":
+        normal = draw(not_zero)
+        return {"shape": shape, "point": (-reach * np.array(normal) / np.linalg.norm(normal)).tolist(),
+                "normal": normal}
+    if shape == "tube":
+        heights = [offset - 2.0 * reach, offset + 0.5 * length, offset + length + 2.0 * reach]
+        return {"shape": shape, "knots": [[0.0, draw(st.floats(-0.3, 0.3)) * reach, z] for z in heights],
+                "radius": draw(st.sampled_from([reach, [reach, 2.0 * reach, reach]])),
+                "openStart": draw(st.booleans()), "openEnd": draw(st.booleans())}
+    return shape and {"shape": shape, "file": str(ARCH), "openRims": {"entrance": [0, 0, -320]}}
+
+
+@st.composite
+def obstacles(draw, scene: Mapping[str, Any]) -> list[dict] | None:
+    aside = scene.get("sphereRadius", 5.0) + scene.get("collisionMargin", 0.0) + 15.0
+    kinds = {
+        "sphere": lambda at: {"centre": at, "radius": draw(st.floats(0.1, 10.0))},
+        "capsule": lambda at: {"from": at, "to": [at[0], at[1] + 5.0, at[2]], "radius": draw(st.floats(0.1, 10.0))},
+        "box": lambda at: {"centre": at, "halfSize": [1.0, 2.0, draw(st.floats(0.1, 5.0))], "rotation": [0, 30, 0]},
+        "hull": lambda at: {"points": [at, [at[0], at[1] + 3.0, at[2]], [at[0], at[1], at[2] + 3.0]], "radius": 1.0},
+    }
+    chosen = draw(st.one_of(st.none(), st.lists(st.sampled_from(sorted(kinds)), max_size=3)))
+    return chosen and [{"shape": kind, **kinds[kind]([aside, 0.0, draw(st.floats(-150.0, 150.0))])}
+                       for kind in chosen]
+
+
+# Values that a key allows. A wider campaign widens these, and nothing else.
+VALUES: dict[str, st.SearchStrategy] = {
+    "timeStep": log_uniform(1e-5, 1.0), "maxSimulationSteps": whole(0, 60), "constraintSolverSteps": whole(0, 40),
+    "substeps": whole(1, 20), "solverTolerance": log_uniform(1e-12, 1e-2), "maxNewtonIterations": whole(1, 60),
+    "damping": st.floats(0.0, 1.0), "deltaThreshold": st.one_of(st.just(0), log_uniform(1e-6, 1.0)),
+    "steadyStateHold": whole(1, 80),
+    "guidewireLength": log_uniform(1.0, 1e4), "numberRodElements": st.one_of(whole(1, 20), whole(1, 20).map(float)),
+    "guidewireOffset": st.floats(-1e3, 1e3), "rodElementLength": log_uniform(0.1, 1e3),
+    "metresPerUnit": log_uniform(1e-4, 1e-2), "startRadius": log_uniform(0.1, 100.0),
+    "startTurns": st.floats(-5.0, 5.0), "distalRotation": st.floats(-30.0, 30.0),
+    "distalDisplacement": st.floats(-20.0, 20.0), "distalRampTime": st.one_of(st.just(0), log_uniform(1e-6, 1.0)),
+    "axialForce": st.floats(-1.0, 1.0), "gravity": around(20.0), "tipForce": around(1.0),
+    "tipForceReleaseTime": st.one_of(st.just(0), log_uniform(1e-6, 1.0)), "tipMoment": around(1e-2),
+    "position": vectors(st.floats(-20.0, 20.0)), "scale": vectors(st.sampled_from([0.5, 1.0, 2.0])),
+    "rotation": angles,
+    "displacement": st.floats(-30.0, 30.0), "displacementDirection": not_zero,
+    "displacementPerStep": st.floats(-1.0, 1.0), "twistPerStep": st.floats(-0.3, 0.3), "externalForce": around(1.0),
+    "totalMass": log_uniform(1e-4, 100.0), "stretchStiffness": st.floats(0.0, 3.0),
+    "bendStiffness": log_uniform(1e-3, 100.0),
+    "youngsModulus": log_uniform(1e6, 1e12), "shearModulus": log_uniform(1e6, 1e12),
+    "density": log_uniform(100.0, 3e4), "wireRadius": log_uniform(1e-5, 2e-3), "restCurvature": around(100.0),
+    "sphereRadius": log_uniform(0.01, 20.0), "collisionMargin": st.floats(0.0, 5.0),
+    "collisionStiffness": st.floats(0.0, 1.0),
+    "logEvery": whole(1, 20), "logFilePath": st.sampled_from(["", "elsewhere", "Gefäß 1"]),
+}
+# Those that have to fit the rest of the scene.
+FITTED: dict[str, Callable[[Mapping[str, Any]], st.SearchStrategy]] = {
+    "wireSections": wire_sections, "startFile": start_files, "vessel": vessels, "obstacles": obstacles,
+}
+# An explicit step is stable below some 1e-7 s.
+SMALL_STEPS = {"timeStep": log_uniform(1e-9, 1e-6)}
+
+
+def allowed(key: Key) -> st.SearchStrategy | None:
+    """Values that a key allows whatever the rest of the scene is; None where there is no strategy."""
+    if key.kind == "word":
+        return st.sampled_from(key.words)
+    return st.booleans() if key.kind == "switch" else VALUES.get(key.name)
+
+
+def extreme(key: Key, size: float) -> st.SearchStrategy | None:
+    """As `allowed`, but where size costs nothing numbers from 1/size to size."""
+    anything = st.one_of(st.floats(-size, size), log_uniform(1.0 / size, size))
+    if key.name == "initialState":
+        return st.just("straight")  # a rest shape takes its ends' way in parts, without limit to their number
+    if key.name in ("distalRotation", "twistPerStep"):
+        return allowed(key)  # turns are wound up in parts too: they cost time
+    if key.kind == "vector":
+        return vectors(anything).filter(lambda v: not key.needs_length or any(_numbers(v)))
+    if key.kind == "number" and math.isinf(key.high):
+        low = min(key.low, 0.0) if key.low_is_allowed else 1.0 / size
+        return anything.filter(lambda x: low <= x)
+    return allowed(key)
+
+
+def _numbers(vector: Sequence | Mapping) -> Sequence[float]:
+    return list(vector.values()) if isinstance(vector, Mapping) else vector
+
+
+@st.composite
+def scenes(draw, table: Mapping[str, Key], solver: str, integrators: Sequence[str],
+           values: Callable[[Key], st.SearchStrategy | None] = allowed, **fixed: Any) -> dict:
+    """A scene that a method takes: some of its keys, values that each allows and that go together, and those fixed."""
+    own = [name for name, key in table.items() if solver in key.solvers and name != "solver"]
+    small = SMALL_STEPS if solver == "explicit" and values is allowed else {}
+    chosen = sorted(draw(st.sets(st.sampled_from(own), max_size=14)) | small.keys() - fixed.keys())
+    scene = {name: draw(small[name] if name in small else values(table[name])) for name in chosen if name not in FITTED}
+    # Without these most runs would be long, or over before they can come to rest.
+    scene.setdefault("maxSimulationSteps", 200 if solver == "pbd" else 60)
+    scene.setdefault("steadyStateHold", 10)
+    scene.setdefault("deltaThreshold", draw(log_uniform(1e-4, 0.1)))
+    if "constraintSolverSteps" in own:
+        scene.setdefault("constraintSolverSteps", 20)
+    scene.update({"solver": solver, **fixed})
+    if "integrator" in scene:
+        scene["integrator"] = draw(st.sampled_from(integrators))
+    for name in chosen:
+        if name in FITTED:
+            scene[name] = draw(FITTED[name](scene))
+    if scene.get("vessel") and draw(st.booleans()):
+        for name in ("position", "scale", "rotation"):  # so that the wire starts inside
+            scene.pop(name, None)
+    return reconcile(scene)
+
+
+def reconcile(scene: dict) -> dict:
+    """Changes what does not go together in a scene; `CONFLICTS` in the tests holds what is refused."""
+    solver = scene["solver"]
+    for older, newer in (("VerletIntegration", "integrator"), ("SteadyState", "drive")):
+        if newer in scene:
+            scene.pop(older, None)
+    if solver != "direct":
+        if scene.get("distalEnd") == "sliding":
+            scene["distalEnd"] = "clamped"
+        if abs(scene.get("distalRotation", 0.0)) > 1.0 and not scene.get("distalRampTime"):
+            scene["distalRampTime"] = 0.01
+    if solver == "pbd":
+        if scene.get("proximalEnd") == "free":
+            scene["proximalEnd"] = "held"
+        return scene
+    if solver == "xpbd" and scene.get("bendLaw") == "darboux":
+        del scene["bendLaw"]
+    if scene.get("twistPerStep"):
+        scene["proximalEnd"] = "clamped"
+        if scene.get("drive") == "force":
+            del scene["drive"]
+    moves = scene.get("drive") in ("displace", "push") or scene.get("SteadyState") is False
+    if scene.get("proximalEnd") == "free" and moves:
+        del scene["proximalEnd"]
+    limit = 0.99 * scene.get("guidewireLength", LENGTH) / (2.0 * math.pi * scene.get("startRadius", 10.0))
+    if scene.get("startShape") == "helix":
+        scene["startTurns"] = max(-limit, min(limit, scene.get("startTurns", 1.0)))
+    is_clamped = scene.get("proximalEnd") == "clamped" and scene.get("drive") != "force"
+    if scene.get("initialState") == "equilibrium" and not is_clamped and scene.get("distalEnd", "free") == "free":
+        scene["distalEnd"] = "clamped"
+    return scene
