@@ -222,7 +222,7 @@ def test_a_run_of_100_000_steps_takes_constant_memory_and_linear_time(runner_com
 
 
 MATERIAL = {
-    "numberRodElements": 12, "constraintSolverSteps": 1, "guidewireLength": 300.0, "guidewireOffset": 0.0,
+    "numberRodElements": 12, "guidewireLength": 300.0, "guidewireOffset": 0.0,
     "proximalEnd": "clamped", "timeStep": 1e-3, "maxSimulationSteps": 40, "deltaThreshold": 0.0,
     "tipForce": [0.0, 0.06, 0.0],
 }

@@ -70,7 +70,8 @@ namespace Guidewire.Core.Tests
             var behind = new StructList<WallPlace>(1);
             int tested = 0;
             int all = 0;
-            for (int i = 0; i < RandomGeometry.Cases(3_000); i++)
+            int cases = RandomGeometry.Cases(3_000);
+            for (int i = 0; i < cases; i++)
             {
                 Vector3d x = random.Point();
                 Vector3d e = random.Direction();
@@ -106,7 +107,7 @@ namespace Guidewire.Core.Tests
                 }
             }
             Assert.That(tested, Is.GreaterThan(0.99 * all));
-            Assert.That(tested, Is.GreaterThan(100));
+            Assert.That(tested, Is.GreaterThan(cases / 3));
         }
 
         [TestCaseSource(typeof(TestShapes), nameof(TestShapes.Names))]
@@ -156,7 +157,7 @@ namespace Guidewire.Core.Tests
             const int Features = 5;    // that may take part in one change
             TestContext.WriteLine("largest change " + worst + ", largest sum " + largest);
             Assert.That(worst, Is.LessThan(Features * 2.0 * Step / Range));
-            Assert.That(largest, Is.GreaterThan(0.5));
+            Assert.That(largest, Is.GreaterThan(100.0 * worst), "places were in range");
         }
 
         [TestCaseSource(typeof(TestShapes), nameof(TestShapes.Names))]
@@ -164,18 +165,17 @@ namespace Guidewire.Core.Tests
         {
             ContactShape shape = TestShapes.Make(name);
             var places = new StructList<WallPlace>(1);
-            long before = 0;
-            for (int pass = 0; pass < 2; pass++)
+            Action find = () =>
             {
-                before = GC.GetAllocatedBytesForCurrentThread();
                 for (int i = 0; i < 100; i++)
                 {
                     Vector3d a = new Vector3d(Math.Sin(i), Math.Sin(2.0 * i), Math.Sin(3.0 * i));
                     places.Clear();
                     shape.FindPlaces(a, 0.5 * a, 0.5, places);
                 }
-            }
-            Assert.That(GC.GetAllocatedBytesForCurrentThread() - before, Is.Zero);
+            };
+            find();
+            Assert.That(Garbage.LeftBy(find), Is.Zero);
         }
 
         [Test]

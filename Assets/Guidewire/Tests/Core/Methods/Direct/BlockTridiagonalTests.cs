@@ -135,7 +135,9 @@ namespace Guidewire.Core.Tests
             {
                 Assert.That(all[i], Is.Zero, "inactive");
             }
-            AssertEqual(all.AsSpan(6 * first).ToArray(), part, 1e-11);
+            var active = new double[part.Length];
+            Array.Copy(all, 6 * first, active, 0, part.Length);
+            AssertEqual(active, part, 1e-11);
         }
 
         private static void RodSystem(DistalEnd distal, double angle, out MaterialRod rod, out RodSupports supports,
