@@ -18,8 +18,7 @@ namespace Guidewire.Core
             _hasMaterial = method.TakesMaterial;
             State = start.State;
             _stepper = start.Stepper;
-            _stopRule = new StopRule(parameters.DeltaThreshold, parameters.SteadyStateHold,
-                parameters.MaxSimulationSteps, State);
+            _stopRule = new StopRule(parameters.MaxSimulationSteps);
             _clock = new StepClock(parameters.TimeStep);
         }
 
@@ -88,17 +87,7 @@ namespace Guidewire.Core
             }
             _stepper.Advance(State);
             _clock.Advance();
-            if (_stepper.Failure != null)
-            {
-                End(Outcome.Failed, _stepper.Failure);
-                return;
-            }
-            if (_stepper.Divergence != null)
-            {
-                End(Outcome.Diverged, _stepper.Divergence);
-                return;
-            }
-            Outcome = _stopRule.Check(State, StepCount, PredictionError);
+            Outcome = _stopRule.Check(State, _stepper, StepCount);
             if (Outcome == Outcome.Finished || Outcome == Outcome.Converged)
             {
                 _warning = _stepper.AccuracyWarning;
@@ -147,7 +136,6 @@ namespace Guidewire.Core
         {
             _clock.Exchange(snapshot);
             State.Exchange(snapshot);
-            _stopRule.Exchange(snapshot);
             _stepper.Exchange(snapshot);
         }
     }

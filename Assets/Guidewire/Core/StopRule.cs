@@ -1,52 +1,18 @@
-using System;
 using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>Decides after each step whether a run is at its end, and which end it is.</summary>
-    /// <remarks>Steady state: the prediction error has stayed below epsilon for a number of steps in a row, after it
-    /// was once above (it oscillates, and is 0 before the disturbance arrives at the last sphere). Diverged: a number
-    /// that is not finite; a sphere farther than 10 L from the start; or elements that are wrong in length and do not
-    /// recover. The last finds gains beyond their limit, where all positions stay near. It compares the largest
-    /// |length/l - 1| of two successive windows of 100 steps: both above 0.2 and not falling. A stable sweep with few
-    /// iterations swings, so its windows do not fall one by one, but it never holds more strain than was put in: with S
-    /// the root of the sum of |C|^2 over all stretch constraints at the start plus the drive's way over l, a wire whose
-    /// sum of strains squared is within S^2 is compared over windows of 1,000 steps only.</remarks>
+    /// <summary>Decides after each step whether a run is at its end, and which end it is: what the method says of
+    /// itself (it gave up, lost the wire, came to a steady state), a number that is not finite, the last
+    /// step.</summary>
     internal sealed class StopRule
     {
-        private const double LostDistance = 10.0;     // wire lengths
-        private const double LostStrain = 0.2;        // |length/l - 1|
-
-        private readonly double _threshold;
-        private readonly int _hold;
         private readonly int _maxSteps;
-        private Vector3d _origin;
 
-        private bool _disturbed;
-        private int _quietSteps;
-        private readonly StrainWatch _shortWatch = new StrainWatch(100);
-        private readonly StrainWatch _longWatch = new StrainWatch(1000);
-        private double _strainPutIn;
-        private double _largestSquareSum;
-        private Vector3d _drivenTo;
-
-        /// <param name="threshold">epsilon in units; 0 switches the steady state off.</param>
-        /// <param name="hold">Steps in a row below it.</param>
         /// <param name="maxSteps">Steps after which the run is finished.</param>
-        /// <param name="state">The wire as it starts, sphere 0 displaced.</param>
-        public StopRule(double threshold, int hold, int maxSteps, RodState state)
+        public StopRule(int maxSteps)
         {
-            _threshold = threshold;
-            _hold = hold;
             _maxSteps = maxSteps;
-            _origin = state.Positions[0];
-            _drivenTo = _origin;
-            double sum = 0.0;
-            for (int j = 0; j < state.ElementCount; j++)
-            {
-                sum += StretchConstraint.Residual(state, j).LengthSquared;
-            }
-            _strainPutIn = Math.Sqrt(sum);
         }
 
         /// <summary>The first of the steps that make the steady state, or -1 before there is one.</summary>
@@ -56,116 +22,47 @@ namespace Guidewire.Core
         public string Reason { get; private set; } = "";
 
         /// <summary>The outcome after <paramref name="step"/> steps.</summary>
-        public Outcome Check(RodState state, int step, double predictionError)
+        public Outcome Check(RodState state, TimeStepper stepper, int step)
         {
-            if (IsLost(state, step, out double strain))
+            if (stepper.Failure != null)
             {
-                return Outcome.Diverged;
+                return End(Outcome.Failed, stepper.Failure);
             }
-            if (IsSteady(step, predictionError, strain))
+            // A number that is not finite says more than what was made of it.
+            string? loss = FindNotFinite(state, step) ?? stepper.Divergence;
+            if (loss != null)
             {
-                return Outcome.Converged;
+                return End(Outcome.Diverged, loss);
             }
-            if (step >= _maxSteps)
+            if (stepper.SteadyState != null)
             {
-                Reason = Text("all {0} steps are done", _maxSteps);
-                return Outcome.Finished;
+                SteadyStateStep = step - stepper.SteadySteps + 1;
+                return End(Outcome.Converged, stepper.SteadyState);
             }
-            return Outcome.Running;
+            return step < _maxSteps ? Outcome.Running
+                : End(Outcome.Finished, Text("all {0} steps are done", _maxSteps));
         }
 
-        /// <summary>Writes into a snapshot, or takes over from one, what has been seen so far.</summary>
-        public void Exchange(Snapshot snapshot)
+        private Outcome End(Outcome outcome, string reason)
         {
-            snapshot.Exchange(ref _origin);
-            snapshot.Exchange(ref _disturbed);
-            snapshot.Exchange(ref _quietSteps);
-            snapshot.Exchange(ref _strainPutIn);
-            snapshot.Exchange(ref _largestSquareSum);
-            snapshot.Exchange(ref _drivenTo);
-            _shortWatch.Exchange(snapshot);
-            _longWatch.Exchange(snapshot);
+            Reason = reason;
+            return outcome;
         }
 
-        private bool IsSteady(int step, double predictionError, double strain)
+        private static string? FindNotFinite(RodState state, int step)
         {
-            if (_threshold <= 0.0)
+            for (int i = 0; i < state.SphereCount; i++)
             {
-                return false;
-            }
-            // A wire that hardly moves because its gains are tiny is not at rest while its elements are wrong in
-            // length.
-            if (!(predictionError < _threshold) || strain > LostStrain)
-            {
-                _disturbed |= predictionError >= _threshold;
-                _quietSteps = 0;
-                return false;
-            }
-            if (!_disturbed || ++_quietSteps < _hold)
-            {
-                return false;
-            }
-            SteadyStateStep = step - _hold + 1;
-            Reason = Text("the prediction error has stayed below {0} units since step {1}", _threshold,
-                SteadyStateStep);
-            return true;
-        }
-
-        private bool IsLost(RodState state, int step, out double worst)
-        {
-            double l = state.ElementLength;
-            double limit = LostDistance * l * state.ElementCount;
-            worst = 0.0;
-            double squareSum = 0.0;
-            Vector3d[] x = state.Positions;
-            for (int i = 0; i < x.Length; i++)
-            {
-                // A NaN fails every comparison, so the question is asked for the good case.
-                if (!((x[i] - _origin).LengthSquared <= limit * limit))
+                if (!state.Positions[i].IsFinite)
                 {
-                    Reason = x[i].IsFinite
-                        ? Text("sphere {0} is farther than {1} wire lengths from the start at step {2}", i,
-                            LostDistance, step)
-                        : Text("sphere {0} has no finite position at step {1}", i, step);
-                    return true;
+                    return Text("sphere {0} has no finite position at step {1}", i, step);
                 }
                 if (!state.Velocities[i].IsFinite)
                 {
-                    Reason = Text("sphere {0} has no finite velocity at step {1}", i, step);
-                    return true;
-                }
-                if (i > 0)
-                {
-                    double strain = Math.Abs(Vector3d.Distance(x[i], x[i - 1]) / l - 1.0);
-                    worst = Math.Max(worst, strain);
-                    squareSum += strain * strain;
+                    return Text("sphere {0} has no finite velocity at step {1}", i, step);
                 }
             }
-            if (state.InverseMasses[0] == 0.0)
-            {
-                _strainPutIn += Vector3d.Distance(x[0], _drivenTo) / l;
-                _drivenTo = x[0];
-            }
-            return StaysWrongInLength(worst, squareSum, step);
-        }
-
-        private bool StaysWrongInLength(double worst, double squareSum, int step)
-        {
-            _largestSquareSum = Math.Max(_largestSquareSum, squareSum);
-            bool shortLost = _shortWatch.HasNotFallen(worst, LostStrain);
-            bool longLost = _longWatch.HasNotFallen(worst, LostStrain);
-            if (shortLost && _largestSquareSum <= _strainPutIn * _strainPutIn)
-            {
-                shortLost = false;
-            }
-            if (shortLost || longLost)
-            {
-                Reason = Text("elements are up to {0:0.#} % wrong in length and do not recover (step {1}): a gain"
-                    + " beyond its limit, or a load that so few iterations do not carry",
-                    100.0 * (shortLost ? _shortWatch : _longWatch).Largest, step);
-                return true;
-            }
-            return false;
+            return null;
         }
 
         private static string Text(string format, params object[] values)

@@ -12,47 +12,57 @@ namespace Guidewire.Core
     /// explicit steps h near their limit, where T of a mode is too high by 1/(1 - (omega h/2)^2).</remarks>
     internal sealed class EnergyWatch
     {
-        /// <summary>What T may be over the energy put in.</summary>
-        public const double Allowance = 4.0;
+        /// <summary>The least that T may be over the energy put in.</summary>
+        public const double LeastAllowance = 4.0;
 
         private const double Rounding = 1e-9;   // of EI/L
-        private readonly MaterialScene _scene;
+        private readonly RodShape _shape;
+        private readonly Vector3d[] _velocities;
+        private readonly Vector3d[] _spins;
         private readonly RodTerms _terms;
-        private readonly NodalInertia _inertia;
+        private readonly IKineticEnergy _inertia;
         private readonly HeldEnds _ends;
         private readonly RodShape _before;
-        private readonly double _allowance;
         private double _start;                  // J, with what changes of the material have put in
         private double _loadWork;               // J
         private double _mostPutIn;              // J
         private int _step;
 
-        /// <summary>A watch on this scene, at its start.</summary>
-        /// <param name="allowance">What T may be over the energy put in, at least <see cref="Allowance"/>.</param>
-        public EnergyWatch(MaterialScene scene, RodTerms terms, NodalInertia inertia, HeldEnds ends,
-            double allowance)
+        /// <summary>A watch on a wire at its start.</summary>
+        /// <param name="terms">Its energies and loads.</param>
+        /// <param name="inertia">How its motion counts.</param>
+        /// <param name="shape">Where it is, now and after each step.</param>
+        /// <param name="velocities">Of its nodes, m/s, now and after each step.</param>
+        /// <param name="spins">Of its elements, rad/s.</param>
+        /// <param name="ends">The work of its supports.</param>
+        public EnergyWatch(RodTerms terms, IKineticEnergy inertia, RodShape shape, Vector3d[] velocities,
+            Vector3d[] spins, HeldEnds ends)
         {
-            _allowance = allowance;
-            _scene = scene;
+            _shape = shape;
+            _velocities = velocities;
+            _spins = spins;
             _terms = terms;
             _inertia = inertia;
             _ends = ends;
-            _before = new RodShape(scene.Shape.ElementCount);
+            _before = new RodShape(shape.ElementCount);
             Start();
-            _mostPutIn = Rounding * scene.Rod.BendStiffness[0] / scene.Rod.TotalLength;
+            _mostPutIn = Rounding * terms.Rod.BendStiffness[0] / terms.Rod.TotalLength;
         }
+
+        /// <summary>What T may be over the energy put in.</summary>
+        public double Allowance { get; set; } = LeastAllowance;
 
         /// <summary>Takes the wire after a step that the loads acted in as they are now; one line where it has blown
         /// up, else null.</summary>
         public string? Blowup()
         {
             _step++;
-            _loadWork += _terms.LoadWork(_before, _scene.Shape);
-            _before.CopyFrom(_scene.Shape);
+            _loadWork += _terms.LoadWork(_before, _shape);
+            _before.CopyFrom(_shape);
             double motion = Motion();
             double putIn = _start + _loadWork + _ends.MostWork;
             // A NaN fails every comparison, so the question is asked for the good case.
-            if (motion <= _allowance * Math.Max(_mostPutIn, putIn))
+            if (motion <= Allowance * Math.Max(_mostPutIn, putIn))
             {
                 _mostPutIn = Math.Max(_mostPutIn, putIn);
                 return null;
@@ -70,8 +80,8 @@ namespace Guidewire.Core
         /// <summary>The wire as it is now is the start.</summary>
         public void Start()
         {
-            _before.CopyFrom(_scene.Shape);
-            _start = Motion() + _terms.ElasticEnergy(_scene.Shape);
+            _before.CopyFrom(_shape);
+            _start = Motion() + _terms.ElasticEnergy(_shape);
         }
 
         /// <summary>Writes or takes over the energies so far. A reader's wire is in place; where it is heavier or
@@ -79,7 +89,7 @@ namespace Guidewire.Core
         public void Exchange(Snapshot snapshot)
         {
             double ownMotion = Motion();
-            double ownElastic = _terms.ElasticEnergy(_scene.Shape);
+            double ownElastic = _terms.ElasticEnergy(_shape);
             double motion = ownMotion;
             double elastic = ownElastic;
             snapshot.Exchange(ref motion);
@@ -91,14 +101,14 @@ namespace Guidewire.Core
             if (!snapshot.IsWritten)
             {
                 _start += Math.Max(0.0, ownMotion - motion) + Math.Max(0.0, ownElastic - elastic);
-                _before.CopyFrom(_scene.Shape);
+                _before.CopyFrom(_shape);
             }
         }
 
         // T, J.
         private double Motion()
         {
-            return _inertia.KineticEnergy(_scene.Velocities, _scene.Spins);
+            return _inertia.KineticEnergy(_velocities, _spins);
         }
     }
 }

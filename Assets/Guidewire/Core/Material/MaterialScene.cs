@@ -22,6 +22,9 @@ namespace Guidewire.Core
             };
             scene.Schedule.ProximalPosition += scene.Displacement;
             Drive = new MaterialDrive(parameters, scene);
+            StartsStraight = parameters.Scene.Start == null && parameters.Scene.StartShape == StartShape.Straight;
+            Joints = new JointWatch(this, parameters.Method.MaxSimulationSteps * parameters.Method.TimeStep);
+            AlignTurns();
         }
 
         /// <summary>Metres per unit.</summary>
@@ -35,6 +38,12 @@ namespace Guidewire.Core
 
         /// <summary>What moves node 0 in every step.</summary>
         public MaterialDrive Drive { get; }
+
+        /// <summary>Looks for joints that are turned too far.</summary>
+        public JointWatch Joints { get; }
+
+        /// <summary>Whether the rod sets out straight, from no shape of its own.</summary>
+        public bool StartsStraight { get; }
 
         /// <summary>Where the rod is at the start, before the displacement of sphere 0, m.</summary>
         public RodShape Shape => _scene.Shape;
@@ -61,6 +70,26 @@ namespace Guidewire.Core
             System.Array.Copy(shape.Q, state.PredictedOrientations, shape.Q.Length);
             System.Array.Copy(spins, state.AngularVelocities, spins.Length);
             state.Advance();
+        }
+
+        // q and -q are the same orientation. A start counts each joint's turn as the shorter one, with Re(q_a* q_b) of
+        // 0 or more; from then on the signs keep what joints have turned (JointWatch).
+        private void AlignTurns()
+        {
+            Quaterniond before = Shape.ProximalFrame;
+            for (int j = 0; j < Shape.Q.Length; j++)
+            {
+                before = Aligned(before, Shape.Q[j]);
+                Shape.Q[j] = before;
+            }
+            Schedule.DistalFrame = Aligned(before, Shape.DistalFrame);
+            Shape.DistalFrame = Schedule.DistalFrame;
+        }
+
+        private static Quaterniond Aligned(in Quaterniond before, in Quaterniond q)
+        {
+            double real = before.X * q.X + before.Y * q.Y + before.Z * q.Z + before.W * q.W;
+            return real < 0.0 ? -1.0 * q : q;
         }
 
         private static MaterialRod CreateRod(SimulationParameters parameters, double[] lengths)

@@ -2,7 +2,7 @@ namespace Guidewire.Core
 {
     /// <summary>Inverse masses of nodes and inverse inertias of elements, for the methods that need them one by
     /// one.</summary>
-    internal sealed class NodalInertia
+    internal sealed class NodalInertia : IKineticEnergy
     {
         /// <summary>Those of a rod; 0 for a held node.</summary>
         public NodalInertia(RodMass mass, RodSupports supports)

@@ -25,11 +25,11 @@ namespace Guidewire.Core
             var terms = new RodTerms(scene.Rod, scene.Supports, parameters.Scene);
             var report = new SolverReport();
             bool isAtRest = parameters.Scene.InitialState == InitialState.Equilibrium;
-            string? failure = null;
-            if (isAtRest)
+            string? failure = scene.Joints.FindTurnedAtRest();
+            if (isAtRest && failure == null)
             {
-                failure = RestShape.Find(scene, terms, scene.Shape, Math.Min(parameters.Method.SolverTolerance, 1e-9),
-                    EquilibriumFactor * parameters.Method.MaxNewtonIterations, report);
+                failure = new RestShape(scene, terms, Math.Min(parameters.Method.SolverTolerance, 1e-9),
+                    EquilibriumFactor * parameters.Method.MaxNewtonIterations, report).Find(scene.Shape);
             }
             else if (scene.Supports.Proximal != ProximalEnd.Free)
             {

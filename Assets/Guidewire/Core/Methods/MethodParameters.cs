@@ -32,11 +32,12 @@ namespace Guidewire.Core
         /// many. </summary>
         public int MaxNewtonIterations { get; set; } = 50;
 
-        /// <summary>epsilon, in units: a steady state's prediction errors lie below it; 0 switches the test
-        /// off.</summary>
+        /// <summary>epsilon, in units: with gains, a steady state's prediction errors lie below it (<see
+        /// cref="GainWatch"/>); a wire with a material is no farther from rest (<see cref="RestWatch"/>). 0 switches
+        /// the test off.</summary>
         public double DeltaThreshold { get; set; } = 0.001;
 
-        /// <summary>Steps in a row that a steady state must last.</summary>
+        /// <summary>Steps in a row that a steady state must last, with gains.</summary>
         public int SteadyStateHold { get; set; } = 100;
 
         /// <summary>Steps after which a run is finished.</summary>

@@ -11,9 +11,15 @@ namespace Guidewire.Core
         /// <summary>Why the method gave up in the last step, in one line, or null.</summary>
         public string? Failure { get; protected set; }
 
-        /// <summary>How the last step lost the wire, in one line, or null. The state is that of the step
-        /// before.</summary>
+        /// <summary>How the last step lost the wire, in one line, or null. With a material the state is that of the
+        /// step before.</summary>
         public string? Divergence { get; protected set; }
+
+        /// <summary>Why the wire is in a steady state after the last step, in one line, or null.</summary>
+        public string? SteadyState { get; protected set; }
+
+        /// <summary>How many steps, up to the last, make that state.</summary>
+        public int SteadySteps { get; protected set; } = 1;
 
         /// <summary>What is not accurate in the steps so far, and what helps, in one line, or null: small steps or few
         /// sweeps may leave a wire wrong without losing it.</summary>

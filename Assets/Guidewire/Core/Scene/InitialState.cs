@@ -6,7 +6,8 @@ namespace Guidewire.Core
         /// <summary>In its start shape, at rest.</summary>
         Straight,
 
-        /// <summary>In the rest shape under gravity, tip loads and supports, reached from the start shape.</summary>
+        /// <summary>In the rest shape under gravity, tip loads and supports, reached from the start shape; where that
+        /// is straight and one end is free, from the shape that the rest curvature alone gives.</summary>
         Equilibrium,
     }
 }

@@ -93,6 +93,36 @@ namespace Guidewire.Core
             return Ramp(time) * DistalRotation;
         }
 
+        /// <summary>Whether all that is prescribed stays as it is from this time to an end, s.</summary>
+        public bool IsOver(double time, double end)
+        {
+            bool ramps = time < DistalRampTime && (DistalDisplacement != 0.0 || DistalRotation != 0.0);
+            bool isReleased = time <= TipForceReleaseTime && TipForceReleaseTime < end && TipForce != Vector3d.Zero;
+            return !ramps && !isReleased && ProximalVelocity == Vector3d.Zero && ProximalTwistRate == 0.0;
+        }
+
+        /// <summary>How fast prescribed motions of the ends may carry along a wire of this length (m), m/s; jumps not
+        /// counted.</summary>
+        public double LargestSpeed(double length)
+        {
+            double ramp = DistalRampTime > 0.0
+                ? (Math.Abs(DistalDisplacement) + length * Math.Abs(DistalRotation)) / DistalRampTime : 0.0;
+            return ramp + ProximalVelocity.Length + length * Math.Abs(ProximalTwistRate);
+        }
+
+        /// <summary>The largest turn between the two frames from a time to an end, s, over that at the time; 1 where
+        /// there is none yet.</summary>
+        public double TurnAhead(double time, double end)
+        {
+            double now = Math.Abs(DistalTurnAt(time) - ProximalTurnAt(time));
+            double largest = Math.Max(now, Math.Abs(DistalTurnAt(end) - ProximalTurnAt(end)));
+            if (time < DistalRampTime && DistalRampTime < end)
+            {
+                largest = Math.Max(largest, Math.Abs(DistalRotation - ProximalTurnAt(DistalRampTime)));
+            }
+            return now > 0.0 ? largest / now : 1.0;
+        }
+
         /// <summary>Sets both frames of a shape, turned by these angles.</summary>
         public void TurnFrames(RodShape shape, double proximal, double distal)
         {

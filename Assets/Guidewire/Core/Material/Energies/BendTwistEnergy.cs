@@ -92,6 +92,24 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
+        public override bool RelaxTurns(RodShape shape)
+        {
+            bool isTurned = false;
+            Quaterniond frame = _hasProximal ? shape.ProximalFrame * _law.AtRest(_joint[0]) : shape.Q[0];
+            shape.Q[0] = frame;
+            for (int k = 0; k < shape.ElementCount; k++)
+            {
+                isTurned |= _joint[k].Rest != Vector3d.Zero;
+                if (k > 0)
+                {
+                    frame = Quaterniond.Normalize(frame * _law.AtRest(_joint[k]));
+                    shape.Q[k] = frame;
+                }
+            }
+            return isTurned;
+        }
+
+        /// <inheritdoc/>
         public override Vector3d ProximalCouple(RodShape shape)
         {
             RodVector onFrame = default;

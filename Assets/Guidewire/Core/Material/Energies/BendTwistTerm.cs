@@ -3,6 +3,11 @@ namespace Guidewire.Core
     /// <summary>Bending and twist, whatever the joints' law, with the couples that its clamps exert.</summary>
     internal abstract class BendTwistTerm : EnergyTerm
     {
+        /// <summary>Turns the elements, from the proximal clamp on (without one from the first element), so that no
+        /// joint but that of a distal clamp exerts a couple.</summary>
+        /// <returns>False where they are so already because no joint is turned at rest.</returns>
+        public abstract bool RelaxTurns(RodShape shape);
+
         /// <summary>Couple of the proximal clamp on the rod, N m, along the world's axes; 0 without a clamp.</summary>
         public abstract Vector3d ProximalCouple(RodShape shape);
 

@@ -9,6 +9,14 @@ namespace Guidewire.Core
     internal readonly struct DarbouxLaw : IJointLaw
     {
         /// <inheritdoc/>
+        /// <remarks>theta0 = 2 v is at most 2.</remarks>
+        public Quaterniond AtRest(in Joint joint)
+        {
+            Vector3d v = 0.5 * joint.Rest;
+            return new Quaterniond(v.X, v.Y, v.Z, System.Math.Sqrt(System.Math.Max(0.0, 1.0 - v.LengthSquared)));
+        }
+
+        /// <inheritdoc/>
         public double Value(in Joint joint, in Quaterniond relative)
         {
             Vector3d strain = Strain(joint, relative, out _, out _);

@@ -4,6 +4,9 @@ namespace Guidewire.Core
     /// Implemented by structs and used as a type argument, so that the loops over joints pay for no call.</summary>
     internal interface IJointLaw
     {
+        /// <summary>The turn from a to b at which the joint is free of couples.</summary>
+        Quaterniond AtRest(in Joint joint);
+
         /// <summary>The energy, J.</summary>
         double Value(in Joint joint, in Quaterniond relative);
 

@@ -14,6 +14,12 @@ namespace Guidewire.Core
     internal readonly struct RotationVectorLaw : IJointLaw
     {
         /// <inheritdoc/>
+        public Quaterniond AtRest(in Joint joint)
+        {
+            return RotationVector.Exp(joint.Rest);
+        }
+
+        /// <inheritdoc/>
         public double Value(in Joint joint, in Quaterniond relative)
         {
             Vector3d strain = RotationVector.Log(relative) - joint.Rest;

@@ -51,6 +51,7 @@ namespace Guidewire.Core
         private readonly ConvergenceRecord _convergence;
         private readonly HeldEnds _ends;
         private readonly EnergyWatch _energy;
+        private readonly RestWatch _rest;
         private readonly SolverReport _report;
         private Vector3d _predictedTip;
         private double _time;
@@ -79,7 +80,8 @@ namespace Guidewire.Core
             _directions = new DirectionError(scene, _inertia, _stretch, _bendTwist);
             _convergence = new ConvergenceRecord(scene.Rod.TotalLength);
             _ends = new HeldEnds(terms, scene.Schedule);
-            _energy = new EnergyWatch(scene, terms, _inertia, _ends, EnergyWatch.Allowance);
+            _energy = new EnergyWatch(terms, _inertia, _shape, _velocities, _spins, _ends);
+            _rest = new RestWatch(scene, terms, _velocities, _spins, method);
             _report = report;
         }
 
@@ -111,6 +113,8 @@ namespace Guidewire.Core
                 Divergence += "; raise substeps or constraintSolverSteps";
                 return;
             }
+            Failure = _scene.Joints.FindTurned(_shape, _time);
+            SteadyState = _rest.FindRest(_time);
             PredictionError = Vector3d.Distance(_predictedTip, _shape.X[_shape.ElementCount]) / _scene.Metres;
             _scene.Write(state, _shape, _velocities, _spins);
         }
@@ -142,6 +146,7 @@ namespace Guidewire.Core
             _energy.Exchange(snapshot);
             _ends.ExchangeWork(snapshot);
             _convergence.Exchange(snapshot);
+            _rest.Exchange(snapshot);
             _report.Exchange(snapshot);
             // A multiplier is a force times h^2.
             snapshot.Section((_timeStep / _substeps).ToString("R", CultureInfo.InvariantCulture), ExchangeMultipliers);

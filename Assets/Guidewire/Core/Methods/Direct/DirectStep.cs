@@ -13,6 +13,9 @@ namespace Guidewire.Core
         private readonly SolverReport _report;
         private long _startFactorisations;  // of the rest shape
         private readonly double _remainingVelocity;  // share that the wire keeps a step
+        private readonly HeldEnds _ends;
+        private readonly EnergyWatch _energy;
+        private readonly RestWatch _rest;
 
         /// <summary>A step for this scene.</summary>
         /// <param name="dynamics">The motion, at its start.</param>
@@ -29,6 +32,11 @@ namespace Guidewire.Core
             _startFactorisations = report.Factorisations;
             Contacts = record;
             dynamics.TracksReactions = record != null;
+            _ends = new HeldEnds(dynamics.Terms, scene.Schedule);
+            FollowEnds();
+            _energy = new EnergyWatch(dynamics.Terms, dynamics.Terms.Mass, dynamics.Shape, dynamics.Velocities,
+                dynamics.Spins, _ends);
+            _rest = new RestWatch(scene, dynamics.Terms, dynamics.Velocities, dynamics.Spins, method);
         }
 
         /// <inheritdoc/>
@@ -49,9 +57,19 @@ namespace Guidewire.Core
             if (failure != null)
             {
                 Failure = "the step to t = " + _dynamics.Time.ToString("G6",
-                    System.Globalization.CultureInfo.InvariantCulture) + " s has no solution: " + failure;
+                    System.Globalization.CultureInfo.InvariantCulture) + " s has no solution: "
+                    + (_scene.Joints.FindTurned(_dynamics.Shape, _dynamics.Time) ?? failure);
                 return;
             }
+            _ends.Count(_dynamics.Shape, _dynamics.ProximalTurn, _dynamics.DistalTurn);
+            Divergence = _energy.Blowup();
+            if (Divergence != null)
+            {
+                Divergence += "; lower timeStep, or take another integrator";
+                return;
+            }
+            Failure = _scene.Joints.FindTurned(_dynamics.Shape, _dynamics.Time);
+            SteadyState = _rest.FindRest(_dynamics.Time);
             PredictionError = Vector3d.Distance(free, _dynamics.Shape.X[last]) / _scene.Metres;
             if (Contacts != null)
             {
@@ -80,14 +98,29 @@ namespace Guidewire.Core
         public override void Exchange(Snapshot snapshot)
         {
             _dynamics.Exchange(snapshot);
-            snapshot.Section("direct", ExchangeOwn);
+            if (!snapshot.IsWritten)
+            {
+                FollowEnds();
+            }
+            if (!snapshot.Section("direct", ExchangeOwn))
+            {
+                _energy.Start();
+            }
         }
 
         private void ExchangeOwn(Snapshot snapshot)
         {
             snapshot.Exchange(ref _startFactorisations);
             _report.Exchange(snapshot);
+            _energy.Exchange(snapshot);
+            _ends.ExchangeWork(snapshot);
+            _rest.Exchange(snapshot);
             _dynamics.ExchangeHistory(snapshot, _timeStep);
+        }
+
+        private void FollowEnds()
+        {
+            _ends.Follow(_dynamics.Shape, _dynamics.ProximalTurn, _dynamics.DistalTurn);
         }
 
         private void Damp()

@@ -22,6 +22,7 @@ namespace Guidewire.Core
         private readonly double _remainingVelocity;
         private readonly HeldEnds _ends;
         private readonly EnergyWatch _energy;
+        private readonly RestWatch _rest;
         private readonly double _stable;    // s
         private readonly SolverReport _report;
         private double _time;
@@ -45,9 +46,12 @@ namespace Guidewire.Core
             _ends = new HeldEnds(terms, scene.Schedule);
             _stable = StableTimeStep(scene.Rod, scene.Supports);
             double part = _timeStep / _substeps / _stable;
-            double allowance = part < 1.0
-                ? Math.Max(EnergyWatch.Allowance, 2.0 / (1.0 - part * part)) : EnergyWatch.Allowance;
-            _energy = new EnergyWatch(scene, terms, _inertia, _ends, allowance);
+            _energy = new EnergyWatch(terms, _inertia, _shape, _velocities, _spins, _ends)
+            {
+                Allowance = part < 1.0
+                    ? Math.Max(EnergyWatch.LeastAllowance, 2.0 / (1.0 - part * part)) : EnergyWatch.LeastAllowance,
+            };
+            _rest = new RestWatch(scene, terms, _velocities, _spins, method);
             _report = report;
             Contacts = record;
         }
@@ -82,6 +86,8 @@ namespace Guidewire.Core
                 Divergence += Text(": a substep of {0:G4} s, in its rest shape stable below {1:G4} s; raise substeps");
                 return;
             }
+            Failure = _scene.Joints.FindTurned(_shape, _time);
+            SteadyState = _rest.FindRest(_time);
             PredictionError = Vector3d.Distance(free, _shape.X[last]) / _scene.Metres;
             if (Contacts != null)
             {
@@ -115,6 +121,7 @@ namespace Guidewire.Core
             _energy.Exchange(snapshot);
             _ends.ExchangeWork(snapshot);
             _report.Exchange(snapshot);
+            _rest.Exchange(snapshot);
         }
 
         /// <summary>2/omega_max of the wire in its rest shape, s; the true limit of an even wire is no

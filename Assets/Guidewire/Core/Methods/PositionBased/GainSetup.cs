@@ -27,8 +27,11 @@ namespace Guidewire.Core
                 contacts.DriveAsked = Math.Abs(parameters.Drive.Displacement);
                 contacts.DriveShortfall = Vector3d.Distance(state.Positions[0], asked);
             }
-            return new MethodStart(state, new PositionBasedStep(parameters.Method.TimeStep, prediction,
-                orientationPrediction, drive, solver, contacts));
+            MethodParameters method = parameters.Method;
+            var step = new PositionBasedStep(method.TimeStep, prediction, orientationPrediction, drive, solver,
+                contacts);
+            step.EndBy(new GainWatch(method.DeltaThreshold, method.SteadyStateHold, state));
+            return new MethodStart(state, step);
         }
 
         private static IConstraintSolver CreateSolver(SimulationParameters parameters, Scene scene, RodState state,

@@ -9,6 +9,7 @@ namespace Guidewire.Core
         private readonly IOrientationPrediction _orientationPrediction;
         private readonly IDriveMotion? _drive;
         private readonly IConstraintSolver _solver;
+        private GainWatch? _watch;
 
         /// <param name="timeStep">dt in s.</param>
         /// <param name="prediction">How positions are predicted.</param>
@@ -31,6 +32,13 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override ContactRecord? Contacts { get; }
 
+        /// <summary>Sets what ends the run before its last step; without it nothing does.</summary>
+        public void EndBy(GainWatch watch)
+        {
+            _watch = watch;
+            SteadySteps = watch.Hold;
+        }
+
         /// <inheritdoc/>
         public override void Advance(RodState state)
         {
@@ -41,12 +49,19 @@ namespace Guidewire.Core
             _solver.Solve(state);
             PredictionError = Vector3d.Distance(predictedTip, state.PredictedPositions[state.ElementCount]);
             VelocityUpdate.Apply(state, _timeStep);
+            if (_watch != null)
+            {
+                _watch.Look(state, PredictionError);
+                Divergence = _watch.Loss;
+                SteadyState = _watch.SteadyState;
+            }
         }
 
         /// <inheritdoc/>
         public override void Exchange(Snapshot snapshot)
         {
             ExchangePredictionError(snapshot);
+            _watch?.Exchange(snapshot);
             _drive?.Exchange(snapshot);
             _solver.Exchange(snapshot);
             _prediction.Exchange(snapshot, _timeStep);

@@ -41,7 +41,9 @@ namespace Guidewire.Io
                 Methods = Takers.Material,
             },
             new ChoiceEntry<ClampRule>("clampRule",
-                "weights of the joints at a clamp: order 4, order 2 (exact for an arc), order 1",
+                "weights of the joints at a clamp: order 4 under loads across the wire, order 2 (exact for an arc),"
+                + " order 1; a thrust comes out low by (k l)^2/12 with any, k the wave number of the buckled shape"
+                + " (clamped at both ends: 0.8 % at 20 elements)",
                 p => p.Simulation.Material.ClampRule, (p, v) => p.Simulation.Material.ClampRule = v)
             {
                 Methods = Takers.Material,

@@ -61,10 +61,15 @@ namespace Guidewire.Io
                 "share of its velocity that a sphere loses a step",
                 p => p.Simulation.Method.Damping, (p, v) => p.Simulation.Method.Damping = v),
             new NumberEntry("deltaThreshold", "units", NumberRange.NotNegative,
-                "prediction errors below it make a steady state, which ends the run; 0 never does",
+                "ends the run in a steady state: with gains, prediction errors below it; with a material, a wire that"
+                + " is no farther from its rest shape and swings no farther, whatever timeStep is; 0: never",
                 p => p.Simulation.Method.DeltaThreshold, (p, v) => p.Simulation.Method.DeltaThreshold = v),
-            new IntegerEntry("steadyStateHold", "steps", 1, 1_000_000_000, "how long a steady state must last",
-                p => p.Simulation.Method.SteadyStateHold, (p, v) => p.Simulation.Method.SteadyStateHold = v),
+            new IntegerEntry("steadyStateHold", "steps", 1, 1_000_000_000,
+                "how long the prediction errors must stay below deltaThreshold",
+                p => p.Simulation.Method.SteadyStateHold, (p, v) => p.Simulation.Method.SteadyStateHold = v)
+            {
+                Methods = Takers.Gains,
+            },
         });
     }
 }

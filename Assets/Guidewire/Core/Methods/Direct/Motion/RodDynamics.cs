@@ -98,6 +98,12 @@ namespace Guidewire.Core
         /// <summary>s.</summary>
         public double Time { get; private set; }
 
+        /// <summary>Turn that the proximal frame has made, radians.</summary>
+        public double ProximalTurn => _proximalTurn;
+
+        /// <summary>Turn that the distal frame has made, radians.</summary>
+        public double DistalTurn => _distalTurn;
+
         /// <summary>Counts of what was solved.</summary>
         public StageSolver Solver => _solver;
 

@@ -4,29 +4,76 @@ namespace Guidewire.Core
 {
     /// <summary>Brings a scene's rod to its rest shape at time 0. Displacements and turns of the ends are taken in
     /// parts, each solved before the next, so that a rod turned by many turns is wound up and not turned the shorter
-    /// way.</summary>
-    internal static class RestShape
+    /// way. A rod with rest curvature and one free end sets out from where it is free of stress: a coil of many turns
+    /// does not find its way there from the straight.</summary>
+    internal sealed class RestShape
     {
         private const double LargestTurn = 0.5;    // radians a part
         private const double LargestShift = 0.01;  // of L a part
 
-        /// <summary>Moves the shape to rest.</summary>
+        private readonly MaterialScene _scene;
+        private readonly RodTerms _terms;
+        private readonly double _tolerance;
+        private readonly int _mostIterations;
+        private readonly SolverReport _report;
+
+        /// <summary>A search in this scene.</summary>
+        /// <param name="tolerance">On the last Newton step, radians or displacement over L.</param>
+        /// <param name="mostIterations">Newton iterations of a part.</param>
         /// <param name="report">Told how the rest shape was found and how good it is.</param>
-        /// <returns>Null, or why there is no rest shape.</returns>
-        public static string? Find(MaterialScene scene, RodTerms terms, RodShape shape, double tolerance,
-            int mostIterations, SolverReport report)
+        public RestShape(MaterialScene scene, RodTerms terms, double tolerance, int mostIterations,
+            SolverReport report)
         {
-            RodSchedule schedule = scene.Schedule;
-            var statics = new RodStatics(terms);
-            terms.SetTime(schedule, 0.0);
-            bool clamped = scene.Supports.HasDistalJoint;
+            _scene = scene;
+            _terms = terms;
+            _tolerance = tolerance;
+            _mostIterations = mostIterations;
+            _report = report;
+        }
+
+        /// <summary>Moves the shape to rest.</summary>
+        /// <returns>Null, or why there is no rest shape.</returns>
+        public string? Find(RodShape shape)
+        {
+            _terms.SetTime(_scene.Schedule, 0.0);
+            if (_scene.StartsStraight && !_scene.Supports.HasDistalJoint)
+            {
+                var straight = new RodShape(shape.ElementCount);
+                straight.CopyFrom(shape);
+                if (_terms.Bending.RelaxTurns(shape))
+                {
+                    PlaceNodes(shape);
+                    if (Move(shape) == null)
+                    {
+                        return null;
+                    }
+                }
+                shape.CopyFrom(straight);
+            }
+            return Move(shape);
+        }
+
+        // Lays the elements end to end.
+        private void PlaceNodes(RodShape shape)
+        {
+            for (int j = 0; j < shape.ElementCount; j++)
+            {
+                shape.X[j + 1] = shape.X[j] + _scene.Rod.Length[j] * shape.Q[j].Director3;
+            }
+        }
+
+        private string? Move(RodShape shape)
+        {
+            RodSchedule schedule = _scene.Schedule;
+            var statics = new RodStatics(_terms);
+            bool clamped = _scene.Supports.HasDistalJoint;
             int last = shape.ElementCount;
             double turn = clamped ? schedule.DistalTurnAt(0.0) : 0.0;
             Vector3d from = shape.X[0];
             Vector3d startShift = schedule.ProximalPositionAt(0.0) - from;
             Vector3d end = shape.X[last];
             Vector3d endShift = clamped ? schedule.DistalPositionAt(0.0) - end : Vector3d.Zero;
-            double shift = Math.Max(endShift.Length, clamped ? startShift.Length : 0.0) / scene.Rod.TotalLength;
+            double shift = Math.Max(endShift.Length, clamped ? startShift.Length : 0.0) / _scene.Rod.TotalLength;
             int parts = 1 + (int)Math.Max(Math.Abs(turn) / LargestTurn, shift / LargestShift);
             for (int k = 1; k <= parts; k++)
             {
@@ -42,15 +89,16 @@ namespace Guidewire.Core
                     shape.Q[j] = shape.Q[j] * Quaterniond.FromAxisAngle(Vector3d.UnitZ, share);
                 }
                 schedule.TurnFrames(shape, 0.0, turn * k / parts);
-                EquilibriumResult result = statics.Solve(shape, tolerance, mostIterations);
-                report.EquilibriumIterations += result.Iterations;
-                report.Factorisations += result.Factorisations;
-                report.EquilibriumResidual = result.Residual;
-                report.SmallestEigenvalue = result.SmallestEigenvalue;
-                report.Method = result.Method ?? string.Empty;
-                if (!result.Converged)
+                EquilibriumResult result = statics.Solve(shape, _tolerance, _mostIterations);
+                _report.EquilibriumIterations += result.Iterations;
+                _report.Factorisations += result.Factorisations;
+                _report.EquilibriumResidual = result.Residual;
+                _report.SmallestEigenvalue = result.SmallestEigenvalue;
+                _report.Method = result.Method ?? string.Empty;
+                string? turned = _scene.Joints.FindTurned(shape, 0.0, (double)k / parts);
+                if (turned != null || !result.Converged)
                 {
-                    return "no rest shape: " + result.Reason;
+                    return "no rest shape: " + (turned ?? result.Reason);
                 }
             }
             return null;

@@ -134,7 +134,13 @@ namespace Guidewire.Core.Tests
             SimulationParameters parameters = Cantilever(20, Solver.Direct, scheme, 0.05, 60);
             parameters.Scene.Gravity = new Vector3d(300.0, -700.0, 400.0);
             Simulation run = Wires.Run(parameters);
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished).Or.EqualTo(Outcome.Failed));
+            // A scheme that is not stable for large turns may gain energy from such steps; the run then says so.
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished).Or.EqualTo(Outcome.Failed)
+                .Or.EqualTo(Outcome.Diverged));
+            if (run.Outcome == Outcome.Diverged)
+            {
+                Assert.That(run.Reason, Does.Contain("the energy that was put into it"));
+            }
             Assert.That(run.Reason, Is.Not.Empty);
             for (int i = 0; i <= 20; i++)
             {

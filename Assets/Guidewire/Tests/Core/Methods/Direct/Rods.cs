@@ -28,8 +28,8 @@ namespace Guidewire.Core.Tests
             return MaterialRod.Round(n, Length, Radius, Young, Shear, Density);
         }
 
-        /// <summary>A run of the wire in millimetres, straight along z from the origin and clamped there; xpbd with one
-        /// sweep a substep.</summary>
+        /// <summary>A run of the wire in millimetres, straight along z from the origin and clamped there, with the
+        /// method's default integrator; xpbd with one sweep a substep.</summary>
         public static SimulationParameters Clamped(int n, Solver solver, double step, int steps)
         {
             var parameters = new SimulationParameters
@@ -46,6 +46,10 @@ namespace Guidewire.Core.Tests
                 Drive = { Displacement = 0.0 },
             };
             parameters.Scene.ProximalEnd = ProximalEnd.Clamped;
+            if (MethodTable.Of(solver).Integrators.Count > 0)
+            {
+                parameters.Method.Integrator = MethodTable.Of(solver).Integrators[0];
+            }
             return parameters;
         }
 

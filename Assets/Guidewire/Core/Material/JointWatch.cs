@@ -1,0 +1,126 @@
+using System;
+using System.Globalization;
+
+namespace Guidewire.Core
+{
+    /// <summary>Finds a joint that is turned so far that the wire is about to lose a turn, or has lost it.</summary>
+    /// <remarks>A joint's couple follows from its orientation alone, which is the same after a turn by a as after one
+    /// by a - 2 pi: beyond half a turn it pulls the shorter way round, and 2 pi of twist are gone. Already before, at
+    /// an angle a, a joint has (a/2) cot(a/2) of its stiffness left against turns about its other axes; at 0.98 pi,
+    /// the limit here, that is 5 %.
+    ///
+    /// No turn is missed, however far a step goes: elements turn by q := q exp(turn), which follows the double cover of
+    /// the rotations, so that Re(q_a* q_b) = cos(a/2) is below 0 beyond half a turn and stays so when the joint has
+    /// unwound itself the other way. It is enough to look once a step.</remarks>
+    internal sealed class JointWatch
+    {
+        private const double Limit = 0.98 * Math.PI;
+        private const double Share = 0.9;   // of the limit, for the number of elements that is proposed
+
+        private readonly Joint[] _joints;
+        private readonly RodSupports _supports;
+        private readonly RodSchedule _schedule;
+        private readonly MaterialRod _rod;
+        private readonly double _end;       // of the run, s
+        private readonly double _least = Math.Cos(0.5 * Limit);
+
+        /// <summary>A watch on the joints of this scene's rod.</summary>
+        /// <param name="end">When the run ends at the latest, s: up to then turns go on that are prescribed.</param>
+        public JointWatch(MaterialScene scene, double end)
+        {
+            _joints = scene.Rod.Joints(scene.Supports);
+            _rod = scene.Rod;
+            _supports = scene.Supports;
+            _schedule = scene.Schedule;
+            _end = end;
+        }
+
+        /// <summary>The joint that is turned too far in this shape, its angle and what would help, in one line; or
+        /// null.</summary>
+        /// <param name="time">s.</param>
+        /// <param name="done">How much of what the ends are asked to do at this time they have done, above 0 to
+        /// 1.</param>
+        public string? FindTurned(RodShape shape, double time, double done = 1.0)
+        {
+            int n = shape.ElementCount;
+            double least = 1.0;
+            int worst = 0;
+            for (int k = 1; k < n; k++)
+            {
+                double cosine = Cosine(shape.Q[k - 1], shape.Q[k]);
+                if (cosine < least)
+                {
+                    least = cosine;
+                    worst = k;
+                }
+            }
+            if (_supports.HasProximalJoint && Cosine(shape.ProximalFrame, shape.Q[0]) < least)
+            {
+                least = Cosine(shape.ProximalFrame, shape.Q[0]);
+                worst = 0;
+            }
+            if (_supports.HasDistalJoint && Cosine(shape.Q[n - 1], shape.DistalFrame) < least)
+            {
+                least = Cosine(shape.Q[n - 1], shape.DistalFrame);
+                worst = n;
+            }
+            if (!(least < _least))
+            {
+                return null;
+            }
+            double angle = 2.0 * Math.Acos(Math.Max(-1.0, least));
+            double ahead = _supports.HasProximalJoint && _supports.HasDistalJoint
+                ? _schedule.TurnAhead(time, _end) / done : 1.0;
+            return string.Format(CultureInfo.InvariantCulture,
+                "joint {0} is turned by {1:G4} rad{2}; from {3:G3} rad on a joint does not tell the way round, and the"
+                + " wire would lose the turn; numberRodElements = {4} would do", worst, angle, Place(worst), Limit,
+                Needed(Math.Max(1.0, ahead) * angle));
+        }
+
+        /// <summary>The joint whose rest curvature turns it too far, and what would help, in one line; or
+        /// null.</summary>
+        public string? FindTurnedAtRest()
+        {
+            double most = 0.0;
+            int worst = 0;
+            for (int k = 0; k < _joints.Length; k++)
+            {
+                bool counts = k == 0 ? _supports.HasProximalJoint
+                    : k < _joints.Length - 1 || _supports.HasDistalJoint;
+                if (counts && _joints[k].Rest.Length > most)
+                {
+                    most = _joints[k].Rest.Length;
+                    worst = k;
+                }
+            }
+            // K sin(angle) measures a turn by 2 sin(angle/2).
+            double limit = _supports.Bend == BendLaw.Darboux ? 2.0 * Math.Sin(0.5 * Limit) : Limit;
+            if (most <= limit)
+            {
+                return null;
+            }
+            return string.Format(CultureInfo.InvariantCulture,
+                "restCurvature turns joint {0} by {1:G4} rad at rest, with elements of l = {2:G4} m; from {3:G3} rad on"
+                + " a joint does not tell the way round; numberRodElements = {4} would do", worst, most,
+                _rod.Length[Math.Min(worst, _rod.ElementCount - 1)], limit, Needed(most));
+        }
+
+        // A joint's turn goes with the length of its elements.
+        private double Needed(double angle)
+        {
+            return Math.Ceiling(_rod.ElementCount * angle / (Share * Limit));
+        }
+
+        private string Place(int joint)
+        {
+            return joint == 0 ? " against the proximal clamp"
+                : joint == _rod.ElementCount ? " against the distal clamp" : "";
+        }
+
+        // cos(a/2) of the turn from a to b.
+        private static double Cosine(in Quaterniond a, in Quaterniond b)
+        {
+            return a.X * b.X + a.Y * b.Y + a.Z * b.Z + a.W * b.W;
+        }
+    }
+}
