@@ -12,7 +12,7 @@ namespace Guidewire.Core.Tests
         public void MaterialRun_ChoosesItsOwnDefaults()
         {
             RunParameters values = Load(("solver", "direct"));
-            Assert.That(values.Simulation.Method.Integrator, Is.EqualTo(Integrator.Sdirk3));
+            Assert.That(values.Simulation.Method.Integrator, Is.EqualTo(Integrator.Esdirk3));
             Assert.That(values.Simulation.Drive.Displacement, Is.Zero);
         }
 
@@ -63,8 +63,8 @@ namespace Guidewire.Core.Tests
         public void IntegratorOfTheOtherKind_IsRefused()
         {
             Assert.That(() => Load(("solver", "direct"), ("integrator", "verlet")),
-                Throws.TypeOf<ParameterException>().With.Message.Contains("sdirk3"));
-            Assert.That(() => Load(("integrator", "sdirk3")),
+                Throws.TypeOf<ParameterException>().With.Message.Contains("esdirk3"));
+            Assert.That(() => Load(("integrator", "esdirk3")),
                 Throws.TypeOf<ParameterException>().With.Message.Contains("verlet"));
         }
 

@@ -18,8 +18,8 @@ namespace Guidewire.Core.Tests
         {
             foreach (string scene in new[] { "ramp", "twist and push", "release", "free", "sliding", "couple" })
             {
-                foreach (Integrator scheme in new[] { Integrator.ImplicitEuler, Integrator.Bdf2, Integrator.Sdirk2,
-                    Integrator.Sdirk3, Integrator.Sdirk4 })
+                foreach (Integrator scheme in new[] { Integrator.ImplicitEuler, Integrator.Bdf2, Integrator.Trbdf2,
+                    Integrator.Esdirk3, Integrator.Esdirk4 })
                 {
                     yield return new TestCaseData(Solver.Direct, scheme, scene);
                 }
@@ -49,7 +49,7 @@ namespace Guidewire.Core.Tests
             }
         }
 
-        [TestCase(Solver.Direct, Integrator.Sdirk3)]
+        [TestCase(Solver.Direct, Integrator.Esdirk3)]
         [TestCase(Solver.Direct, Integrator.Bdf2)]
         [TestCase(Solver.Xpbd, Integrator.Verlet)]
         [TestCase(Solver.Explicit, Integrator.Verlet)]
@@ -96,12 +96,12 @@ namespace Guidewire.Core.Tests
             Assert.That(second.Stepper.Divergence, Is.Null);
         }
 
-        [TestCase(Solver.Direct, Integrator.Sdirk3, Solver.Direct, Integrator.Bdf2)]
+        [TestCase(Solver.Direct, Integrator.Esdirk3, Solver.Direct, Integrator.Bdf2)]
         [TestCase(Solver.Direct, Integrator.Bdf2, Solver.Direct, Integrator.ImplicitEuler)]
-        [TestCase(Solver.Direct, Integrator.Sdirk4, Solver.Explicit, Integrator.Verlet)]
-        [TestCase(Solver.Explicit, Integrator.Verlet, Solver.Direct, Integrator.Sdirk4)]
+        [TestCase(Solver.Direct, Integrator.Esdirk4, Solver.Explicit, Integrator.Verlet)]
+        [TestCase(Solver.Explicit, Integrator.Verlet, Solver.Direct, Integrator.Esdirk4)]
         [TestCase(Solver.Explicit, Integrator.Verlet, Solver.Xpbd, Integrator.Verlet)]
-        [TestCase(Solver.Xpbd, Integrator.Verlet, Solver.Direct, Integrator.Sdirk2)]
+        [TestCase(Solver.Xpbd, Integrator.Verlet, Solver.Direct, Integrator.Trbdf2)]
         public void AnotherMethod_GoesOnFromWhereTheWireIs(Solver before, Integrator schemeBefore, Solver after,
             Integrator schemeAfter)
         {
