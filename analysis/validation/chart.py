@@ -137,8 +137,8 @@ def _release_points(gain: float, stable: Mapping[str, float]) -> list[_Point]:
         ("direct", f"{scheme}, n = {n}, {1e3 * dt:g} ms", release(n, dt, {"integrator": scheme}), None)
         for scheme, n, dt in (
             ("implicitEuler", 12, 1e-3), ("implicitEuler", 12, 1e-4), ("bdf2", 12, 5e-4), ("bdf2", 12, 2.5e-4),
-            ("sdirk3", 10, 4e-3), ("sdirk3", 12, 2e-3), ("sdirk3", 12, 1e-3), ("sdirk4", 10, 4e-3),
-            ("sdirk4", 12, 2e-3), ("sdirk4", 16, 1e-3), ("sdirk4", 30, 5e-4),
+            ("esdirk3", 10, 4e-3), ("esdirk3", 12, 2e-3), ("esdirk3", 12, 1e-3), ("esdirk4", 10, 4e-3),
+            ("esdirk4", 12, 2e-3), ("esdirk4", 16, 1e-3), ("esdirk4", 30, 5e-4),
         )
     ]
     points += [

@@ -47,7 +47,7 @@ def _order() -> Plan:
         """The motion in the first mode."""
         return np.array([state.positions[:, 1] @ shape for state in read_states(run)])
 
-    finest = case("finest", _FINEST, {"integrator": "sdirk4"})
+    finest = case("finest", _FINEST, {"integrator": "esdirk4"})
     cases = {(s, k): case(s, k, {"integrator": s}) for s in SCHEMES for k in _ORDER_STEPS}
     runs = yield [finest, *cases.values()]
     exact = swing(runs[finest.key])
@@ -65,7 +65,7 @@ def _order() -> Plan:
         series[scheme] = (_ORDER_STEPS, errors)
     caption = (
         f"Half a period in the first mode, amplitude near 1e-4 L, n = {n}: RMS error of the mode against {_FINEST} "
-        "steps of sdirk4 a period. Orders from 80 to 160 steps: "
+        "steps of esdirk4 a period. Orders from 80 to 160 steps: "
         + ", ".join(f"{r.solver[8:]} {number(r.value)}" for r in results) + "."
     )
     draw = pictures.orders("steps a period", "relative error of the mode's motion", series,

@@ -16,18 +16,20 @@ from analysis.figures.wording import number
 from analysis.logs import LogError
 from analysis.validation import (
     balance, clamp, couples, dynamics, helix, independence, joint, order, ring, stability, statics,
+    turning,
 )
 from analysis.validation.check import Check, Finding, Result, replay
 from analysis.validation.pictures import SOLVER_MARKERS
 
 ROWS: tuple[Check, ...] = (
     *clamp.CHECKS, *joint.CHECKS, *statics.CHECKS, *couples.CHECKS, *stability.CHECKS, *ring.CHECKS, *helix.CHECKS,
-    *dynamics.CHECKS, *balance.CHECKS, *order.CHECKS, *independence.CHECKS,
+    *dynamics.CHECKS, *balance.CHECKS, *order.CHECKS, *turning.CHECKS,
+    *independence.CHECKS,
 )
 _QUICK = (
     "clamp-compliance", "clamp-frequencies", "plane", "end-moment", "end-moment-darboux", "localised-helix", "bar",
-    "force-balance", "force-balance-default", "order-in-time", "order-in-time-axial", "elements", "tolerance",
-    "time-step",
+    "force-balance", "force-balance-default", "order-in-time", "order-in-time-axial", "large-turns", "elements",
+    "tolerance", "time-step",
     *(check.name for check in joint.CHECKS),
 )
 FAST = (  # what tests run

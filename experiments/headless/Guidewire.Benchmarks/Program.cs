@@ -79,8 +79,8 @@ namespace Guidewire.Benchmarks
             const int Motions = 5;
             double[] timed = FreeCantilever.Tip(FreeCantilever.Elements, FreeCantilever.Scheme,
                 FreeCantilever.TimeStep);
-            double[] fine = FreeCantilever.Tip(40, Integrator.Sdirk4, 1e-4);
-            double[] half = FreeCantilever.Tip(28, Integrator.Sdirk4, 2e-4);
+            double[] fine = FreeCantilever.Tip(40, Integrator.Esdirk4, 1e-4);
+            double[] half = FreeCantilever.Tip(28, Integrator.Esdirk4, 2e-4);
             Console.WriteLine(string.Format(CultureInfo.InvariantCulture,
                 "free cantilever (n = {0}, {1}, {2:0.###} ms): {3:0.00} % error (reference good to {4:0.000} %)",
                 FreeCantilever.Elements, FreeCantilever.Scheme.ToString().ToLowerInvariant(),

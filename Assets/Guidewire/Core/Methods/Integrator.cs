@@ -21,13 +21,14 @@ namespace Guidewire.Core
         /// <summary>Direct solver, two-step, order 2.</summary>
         Bdf2,
 
-        /// <summary>Direct solver, L-stable Runge-Kutta with 2 stages, order 2.</summary>
-        Sdirk2,
+        /// <summary>Direct solver, TR-BDF2: L-stable Runge-Kutta with an explicit first stage and 2 implicit ones,
+        /// order 2.</summary>
+        Trbdf2,
 
-        /// <summary>Direct solver, L-stable Runge-Kutta with 3 stages, order 3.</summary>
-        Sdirk3,
+        /// <summary>Direct solver, ESDIRK3(2)4L[2]SA: explicit first stage and 3 implicit ones, order 3.</summary>
+        Esdirk3,
 
-        /// <summary>Direct solver, L-stable Runge-Kutta with 5 stages, order 4.</summary>
-        Sdirk4,
+        /// <summary>Direct solver, ESDIRK4(3)6L[2]SA: explicit first stage and 5 implicit ones, order 4.</summary>
+        Esdirk4,
     }
 }

@@ -55,6 +55,7 @@ namespace Guidewire.Core
         {
             var dynamics = new RodDynamics(terms, scene.Schedule, scene.Shape, Scheme(parameters.Method.Integrator),
                 parameters.Method.SolverTolerance, parameters.Method.MaxNewtonIterations);
+            dynamics.Control.Tolerance = parameters.Method.TimeStepError;
             dynamics.Begin(scene.Velocities, scene.Spins,
                 parameters.Scene.InitialState == InitialState.Equilibrium);
             return new DirectStep(scene, dynamics, scene.Drive, parameters.Method, report,
@@ -90,12 +91,12 @@ namespace Guidewire.Core
                     return RungeKuttaScheme.ImplicitEuler();
                 case Integrator.Bdf2:
                     return null;
-                case Integrator.Sdirk2:
-                    return RungeKuttaScheme.Sdirk2();
-                case Integrator.Sdirk3:
-                    return RungeKuttaScheme.Sdirk3();
-                case Integrator.Sdirk4:
-                    return RungeKuttaScheme.Sdirk4();
+                case Integrator.Trbdf2:
+                    return RungeKuttaScheme.TrBdf2();
+                case Integrator.Esdirk3:
+                    return RungeKuttaScheme.Esdirk3();
+                case Integrator.Esdirk4:
+                    return RungeKuttaScheme.Esdirk4();
                 default:
                     throw new ArgumentException("the direct solver has no integrator " + integrator);
             }

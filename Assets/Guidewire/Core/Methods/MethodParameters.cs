@@ -28,6 +28,11 @@ namespace Guidewire.Core
         /// what it may leave of the balance of forces, over the largest force in the wire.</summary>
         public double SolverTolerance { get; set; } = 1e-6;
 
+        /// <summary>Error that a step of the direct solver may make, as its embedded solution has it: radians, or
+        /// displacement over L. Steps are then cut and grown within <see cref="TimeStep"/>; 0 leaves them as they
+        /// are.</summary>
+        public double TimeStepError { get; set; }
+
         /// <summary>Newton iterations after which the direct solver gives up a stage; a rest shape gets ten times as
         /// many. </summary>
         public int MaxNewtonIterations { get; set; } = 50;

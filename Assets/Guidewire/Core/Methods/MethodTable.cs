@@ -38,7 +38,8 @@ namespace Guidewire.Core
                 WindsUpAtOnce = true,
                 Integrators = new[]
                 {
-                    Integrator.Sdirk3, Integrator.ImplicitEuler, Integrator.Bdf2, Integrator.Sdirk2, Integrator.Sdirk4,
+                    Integrator.Esdirk3, Integrator.ImplicitEuler, Integrator.Bdf2, Integrator.Trbdf2,
+                    Integrator.Esdirk4,
                 },
                 SetDefaults = SetDirectDefaults,
                 Build = (p, scene) => MaterialSetup.Build(p, scene, MaterialSetup.Direct),
@@ -78,7 +79,7 @@ namespace Guidewire.Core
         private static void SetDirectDefaults(SimulationParameters parameters)
         {
             SetMaterialDefaults(parameters);
-            parameters.Method.Integrator = Integrator.Sdirk3;
+            parameters.Method.Integrator = Integrator.Esdirk3;
         }
     }
 }

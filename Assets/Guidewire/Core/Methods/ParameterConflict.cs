@@ -48,6 +48,13 @@ namespace Guidewire.Core
                 return new ParameterConflict("bendLaw",
                     "solver direct or explicit: xpbd has the rotation vector only");
             }
+            Integrator integrator = parameters.Method.Integrator;
+            if (parameters.Method.TimeStepError > 0.0
+                && (integrator == Integrator.ImplicitEuler || integrator == Integrator.Bdf2))
+            {
+                return new ParameterConflict("timeStepError",
+                    "integrator trbdf2, esdirk3 or esdirk4: the others do not tell their error");
+            }
             return null;
         }
 

@@ -32,6 +32,14 @@ namespace Guidewire.Core
         /// <summary>Steps whose error was above the tolerance.</summary>
         public long StepsNotConverged { get; internal set; }
 
+        /// <summary>Largest error of a time step, as the scheme's embedded solution has it: radians, or displacement
+        /// over L.</summary>
+        public double TimeStepError { get; internal set; } = double.NaN;
+
+        /// <summary>Steps that were taken within the logged ones, which end at jumps of loads and are cut where an
+        /// error is asked for.</summary>
+        public long InnerSteps { get; internal set; }
+
         /// <summary>Longest substep, s, with which explicit steps are stable about the wire's rest shape.</summary>
         public double StableSubstep { get; internal set; } = double.NaN;
 

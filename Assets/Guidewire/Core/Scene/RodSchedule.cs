@@ -87,6 +87,26 @@ namespace Guidewire.Core
             return DistalPosition + (Ramp(time) * DistalDisplacement) * DistalFrame.Director3;
         }
 
+        /// <summary>Velocity of the last node's support at this time, m/s.</summary>
+        public Vector3d DistalVelocityAt(double time)
+        {
+            return time < DistalRampTime ? (DistalDisplacement / DistalRampTime) * DistalFrame.Director3
+                : Vector3d.Zero;
+        }
+
+        /// <summary>The first time after this one, s, at which a load or the velocity of a support jumps: the tip force
+        /// is let go, the distal end comes to rest. Infinite where none does.</summary>
+        public double NextJump(double time)
+        {
+            double next = double.PositiveInfinity;
+            if (TipForceReleaseTime > time && TipForce != Vector3d.Zero)
+            {
+                next = TipForceReleaseTime;
+            }
+            bool ramps = DistalDisplacement != 0.0 || DistalRotation != 0.0;
+            return ramps && DistalRampTime > time ? Math.Min(next, DistalRampTime) : next;
+        }
+
         /// <summary>Turn of the distal frame at this time, radians.</summary>
         public double DistalTurnAt(double time)
         {

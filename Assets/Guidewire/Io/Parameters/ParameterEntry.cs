@@ -121,6 +121,12 @@ namespace Guidewire.Io
         /// <summary>Takes over a value; false where the value is not allowed.</summary>
         internal abstract bool TryRead(RunParameters target, JToken value);
 
+        /// <summary>The word that stands today for a word of older files; null where the value is none.</summary>
+        internal virtual string? NewerWord(JToken value)
+        {
+            return null;
+        }
+
         /// <summary>The JSON value that a text on the command line stands for, or null where it stands for
         /// none.</summary>
         internal virtual JToken? FromText(string text)

@@ -246,6 +246,14 @@ namespace Guidewire.Io
 
         private void Warn()
         {
+            foreach (ParameterEntry entry in ParameterTable.Entries)
+            {
+                if (_given.TryGetValue(entry.Key, out var given) && entry.NewerWord(given.Value) is string newer)
+                {
+                    AddWarning("{0}: {1} = {2} is an older word and means \"{3}\"", given.Source, entry.Key,
+                        given.Value.ToString(Formatting.None), newer);
+                }
+            }
             SimulationParameters simulation = Values.Simulation;
             double l = simulation.Scene.GuidewireLength / simulation.Scene.NumberRodElements;
             if (_given.TryGetValue("rodElementLength", out var length) && Math.Abs((double)length.Value - l) > 1e-9 * l)

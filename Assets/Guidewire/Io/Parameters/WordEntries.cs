@@ -42,6 +42,9 @@ namespace Guidewire.Io
         private readonly Func<RunParameters, T> _get;
         private readonly Action<RunParameters, T> _set;
 
+        /// <summary>Words of older files and what they mean now.</summary>
+        public IReadOnlyDictionary<string, T> OlderWords { get; internal set; } = new Dictionary<string, T>();
+
         public ChoiceEntry(string key, string help, Func<RunParameters, T> get, Action<RunParameters, T> set)
             : base(key, "", help)
         {
@@ -64,6 +67,11 @@ namespace Guidewire.Io
             {
                 return false;
             }
+            if (OlderWords.TryGetValue((string)value!, out T meant))
+            {
+                _set(target, meant);
+                return true;
+            }
             foreach (string name in Enum.GetNames(typeof(T)))
             {
                 if (Word(name) == (string?)value)
@@ -78,6 +86,12 @@ namespace Guidewire.Io
         internal override JToken FromText(string text)
         {
             return new JValue(text);
+        }
+
+        internal override string? NewerWord(JToken value)
+        {
+            return value.Type == JTokenType.String && OlderWords.TryGetValue((string)value!, out T meant)
+                ? Word(meant.ToString()) : null;
         }
 
         /// <summary>An enumeration's name as a word in files: in camelCase.</summary>

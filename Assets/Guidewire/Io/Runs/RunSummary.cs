@@ -87,6 +87,8 @@ namespace Guidewire.Io
                 ["equilibriumResidual"] = Finite(report.EquilibriumResidual),
                 ["smallestEigenvalue"] = Finite(report.SmallestEigenvalue),
                 ["largestError"] = Finite(report.LargestError),
+                ["timeStepError"] = Finite(report.TimeStepError),
+                ["innerSteps"] = report.InnerSteps,
                 ["stepsNotConverged"] = report.StepsNotConverged,
                 ["stableSubstep"] = Finite(report.StableSubstep),
                 ["proximalForce"] = Vector(report.ProximalForce),

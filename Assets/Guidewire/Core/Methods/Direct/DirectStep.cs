@@ -84,6 +84,12 @@ namespace Guidewire.Core
             _report.Factorisations = _startFactorisations + _dynamics.Solver.Factorisations;
             _report.KeptSolutions = _dynamics.Solver.KeptSolutions;
             _report.Searches = _dynamics.Solver.Searches;
+            if (_dynamics.HasErrorEstimate)
+            {
+                _report.TimeStepError = _dynamics.Control.LargestError;
+                _report.StepsNotConverged = _dynamics.Control.StepsAbove;
+            }
+            _report.InnerSteps = _dynamics.Control.Steps;
             _report.Energy = _dynamics.Energy;
             RodShape shape = _dynamics.Shape;
             _report.ProximalForce = _dynamics.ReactionAt(0);
@@ -133,6 +139,7 @@ namespace Guidewire.Core
             {
                 _dynamics.Spins[j] = _remainingVelocity * _dynamics.Spins[j];
             }
+            _dynamics.Restart();
         }
     }
 }

@@ -1,3 +1,4 @@
+using System.Collections.Generic;
 using Guidewire.Core;
 
 namespace Guidewire.Io
@@ -26,6 +27,12 @@ namespace Guidewire.Io
             new ChoiceEntry<Integrator>("integrator", "how positions are predicted",
                 p => p.Simulation.Method.Integrator, (p, v) => p.Simulation.Method.Integrator = v)
             {
+                OlderWords = new Dictionary<string, Integrator>
+                {
+                    ["sdirk2"] = Integrator.Trbdf2,
+                    ["sdirk3"] = Integrator.Esdirk3,
+                    ["sdirk4"] = Integrator.Esdirk4,
+                },
                 Methods = Takers.Only(Solver.Pbd, Solver.Direct),
             },
             new SwitchEntry("VerletIntegration", "older word for integrator: true is \"verlet\", false \"euler\"",
@@ -50,6 +57,13 @@ namespace Guidewire.Io
                 p => p.Simulation.Method.SolverTolerance, (p, v) => p.Simulation.Method.SolverTolerance = v)
             {
                 Methods = Takers.Material,
+            },
+            new NumberEntry("timeStepError", "rad, or displacement over L", NumberRange.NotNegative,
+                "error that a step may make, by the estimate of trbdf2, esdirk3 and esdirk4: steps are cut and grown "
+                + "within timeStep, to 1/4096 of it at the least; 0: steps stay whole",
+                p => p.Simulation.Method.TimeStepError, (p, v) => p.Simulation.Method.TimeStepError = v)
+            {
+                Methods = Takers.Only(Solver.Direct),
             },
             new IntegerEntry("maxNewtonIterations", "", 1, 1_000_000,
                 "after which the direct solver gives up a stage; ten times as many for a rest shape",

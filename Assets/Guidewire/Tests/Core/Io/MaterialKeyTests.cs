@@ -12,7 +12,7 @@ namespace Guidewire.Core.Tests
         public void MaterialRun_ChoosesItsOwnDefaults()
         {
             RunParameters values = Load(("solver", "direct"));
-            Assert.That(values.Simulation.Method.Integrator, Is.EqualTo(Integrator.Sdirk3));
+            Assert.That(values.Simulation.Method.Integrator, Is.EqualTo(Integrator.Esdirk3));
             Assert.That(values.Simulation.Drive.Displacement, Is.Zero);
         }
 
@@ -63,7 +63,29 @@ namespace Guidewire.Core.Tests
         public void IntegratorOfTheOtherKind_IsRefused()
         {
             Assert.That(() => Load(("solver", "direct"), ("integrator", "verlet")),
-                Throws.TypeOf<ParameterException>().With.Message.Contains("sdirk3"));
+                Throws.TypeOf<ParameterException>().With.Message.Contains("esdirk3"));
+            Assert.That(() => Load(("integrator", "esdirk3")),
+                Throws.TypeOf<ParameterException>().With.Message.Contains("verlet"));
+        }
+
+        [TestCase("sdirk2", "trbdf2")]
+        [TestCase("sdirk3", "esdirk3")]
+        [TestCase("sdirk4", "esdirk4")]
+        public void OlderWordOfAnIntegrator_IsReadWithAWarning_AndWrittenAsTheNewOne(string older, string newer)
+        {
+            ParameterHandler old = ParameterHandler.Load(null, Pairs(("solver", "direct"), ("integrator", older)));
+            ParameterHandler today = ParameterHandler.Load(null, Pairs(("solver", "direct"), ("integrator", newer)));
+            Assert.That(old.Warnings, Has.Count.EqualTo(1));
+            Assert.That(old.Warnings[0], Does.Contain(older).And.Contain(newer));
+            Assert.That((string?)old.ToJson()["integrator"], Is.EqualTo(newer));
+            Assert.That(old.Hash, Is.EqualTo(today.Hash));
+            Assert.That(today.Warnings, Is.Empty);
+        }
+
+        [Test]
+        public void OlderWord_IsNoChoiceOfToday()
+        {
+            Assert.That(ParameterTable.Find("integrator")!.Choices, Does.Not.Contain("sdirk3"));
             Assert.That(() => Load(("integrator", "sdirk3")),
                 Throws.TypeOf<ParameterException>().With.Message.Contains("verlet"));
         }
@@ -101,12 +123,17 @@ namespace Guidewire.Core.Tests
 
         private static RunParameters Load(params (string Key, JToken Value)[] given)
         {
+            return ParameterHandler.Load(null, Pairs(given)).Values;
+        }
+
+        private static List<KeyValuePair<string, JToken>> Pairs(params (string Key, JToken Value)[] given)
+        {
             var overrides = new List<KeyValuePair<string, JToken>>();
             foreach ((string key, JToken value) in given)
             {
                 overrides.Add(new KeyValuePair<string, JToken>(key, value));
             }
-            return ParameterHandler.Load(null, overrides).Values;
+            return overrides;
         }
     }
 }

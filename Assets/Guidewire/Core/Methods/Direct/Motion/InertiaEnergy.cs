@@ -74,6 +74,27 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>Shifts a rod that nothing holds, as a whole, until its inertia balances the sum of the loads (N).
+        /// The shift costs no elastic energy; what Newton's last step leaves of the sum would change the
+        /// momentum.</summary>
+        public void Balance(RodShape shape, in Vector3d loads)
+        {
+            Vector3d sum = Vector3d.Zero;
+            double mass = 0.0;
+            for (int i = 0; i < _diagonal.Length; i++)
+            {
+                double share = _diagonal[i] + (i > 0 ? _coupling[i - 1] : 0.0)
+                    + (i < _coupling.Length ? _coupling[i] : 0.0);
+                sum += share * (shape.X[i] - FreePositions[i]);
+                mass += share;
+            }
+            Vector3d shift = (1.0 / mass) * (StageLength * StageLength * loads - sum);
+            for (int i = 0; i < _diagonal.Length; i++)
+            {
+                shape.X[i] += shift;
+            }
+        }
+
         /// <summary>How far a turn phi of element j is from that of the shape last looked at, square radians.</summary>
         public double SquaredChange(in Vector3d turn, int j)
         {

@@ -7,33 +7,49 @@ namespace Guidewire.Core
     /// inertia plus energies, by Newton's method in O(n).</summary>
     /// <remarks>Positions and velocities obey x' = v, M v' = f; orientations are q = q_start exp(phi) within a step,
     /// with phi' = J(phi)^-1 w and I w' = couple - w x I w along the element's axes. A Runge-Kutta scheme acts on x,
-    /// v, phi and w alike, so its order holds for large turns too. BDF2 begins with a step of implicit Euler.</remarks>
+    /// v, phi and w alike, so its order holds for large turns too. BDF2 begins with a step of implicit Euler.
+    ///
+    /// An explicit first stage has the rates of the last one before; at the start and after a jump of a load or of a
+    /// support those of <see cref="ConsistentStart"/>. Where these are more than a step can resolve (a support that was
+    /// displaced at once, a wire far from its rest shape) the motion begins with a step of
+    /// <see cref="RungeKuttaScheme.Start"/>, which brings what is stiff to rest. Steps of Runge-Kutta schemes end at
+    /// jumps that are known in time.</remarks>
     internal sealed class RodDynamics
     {
-        private const double LargestFrameTurn = 0.5;  // radians a stage; more is taken in parts
-        private const double LargestPredictedTurn = 1.0;
+        private const double LargestPredictedTurn = 1.0;  // radians
+        private const double LargestStart = 0.5;  // radians, or L, by which rates at the start may move the rod
+        private const double SameTime = 1e-9;     // of a step
+        private const double SamePlace = 1e-9;    // radians, or of L
 
         private readonly RodSupports _supports;
         private readonly RodTerms _terms;
         private readonly RodSchedule _schedule;
         private readonly InertiaEnergy _inertia;
         private readonly StageSolver _solver;
+        private readonly ClampFrames _frames;
         private readonly RungeKuttaScheme? _scheme;  // null: BDF2
+        private readonly RungeKuttaScheme _starter = RungeKuttaScheme.Start();
+        private readonly bool _startsExplicitly;
+        private readonly ConsistentStart _start;
+        private readonly StageRates _rates;
+        private readonly Bdf2History _history;
+        private readonly StepStart _saved;        // where a step began that may have to be taken again
         private readonly Vector3d[] _startPositions;
         private readonly Vector3d[] _velocityHistory;
-        private readonly Vector3d[][] _velocity;      // by stage: x'
-        private readonly Vector3d[][] _acceleration;  // v'
-        private readonly Vector3d[][] _turnRate;      // phi'
-        private readonly Vector3d[][] _spinRate;      // w', two or more
-        private readonly Bdf2History _history;
         private readonly RodShape _before;            // the last stage's
         private readonly Quaterniond[] _predicted;
         private readonly int _last;                   // index of the stage that ends a step
         private readonly double _mass;
+        private readonly double _length;
+        private readonly bool _isLoose;               // held nowhere
         private Vector3d _oldMomentum;
         private bool _hasStepped;
-        private double _proximalTurn;
-        private double _distalTurn;
+        private bool _hasRates;               // the last stage has the rates of the next step's start
+        private bool _hasPast;                // stages of the step before are at hand, to predict from
+        private Vector3d _proximalVelocity;   // of the supports in the last step, m/s
+        private Vector3d _distalVelocity;
+        private StageForces _endForces;       // in the last stage
+        private StageForces _meanForces;
 
         /// <summary>A rod at rest in this shape.</summary>
         /// <param name="terms">The rod's energies and loads.</param>
@@ -50,6 +66,7 @@ namespace Guidewire.Core
             _terms = terms;
             _schedule = schedule;
             _scheme = scheme;
+            _startsExplicitly = scheme != null && scheme.IsFirstExplicit;
             Shape = shape;
             Velocities = new Vector3d[n + 1];
             Spins = new Vector3d[n];
@@ -60,18 +77,22 @@ namespace Guidewire.Core
                 Balance = tolerance / (2.0 * (scheme == null ? 1.0 : scheme.WeightSum)),
                 MostIterations = mostIterations,
             };
+            _frames = new ClampFrames(schedule, _solver);
             _before = new RodShape(n);
             _predicted = new Quaterniond[n];
             _mass = terms.Mass.Total;
+            _length = terms.Rod.TotalLength;
+            _isLoose = _startsExplicitly && _supports.Proximal == ProximalEnd.Free
+                && _supports.Distal == DistalEnd.Free;
             _startPositions = new Vector3d[n + 1];
             _velocityHistory = new Vector3d[n + 1];
             int stages = scheme == null ? 1 : scheme.StageCount;
             _last = stages - 1;
-            _velocity = Arrays(stages, n + 1);
-            _acceleration = Arrays(stages, n + 1);
-            _turnRate = Arrays(stages, n);
-            _spinRate = Arrays(Math.Max(stages, 2), n);
+            _rates = new StageRates(stages, n);
+            _start = new ConsistentStart(terms);
+            _saved = new StepStart(n);
             _history = new Bdf2History(scheme == null ? n : 0);
+            Control = new StepControl(scheme == null ? 1 : scheme.EmbeddedOrder);
         }
 
         /// <summary>Takes over the velocities of the start.</summary>
@@ -80,7 +101,11 @@ namespace Guidewire.Core
         {
             Array.Copy(velocities, Velocities, Velocities.Length);
             Array.Copy(spins, Spins, Spins.Length);
-            _distalTurn = isTurned ? _schedule.DistalTurnAt(0.0) : 0.0;
+            TakeSupportVelocities();
+            if (isTurned)
+            {
+                _frames.Begin();
+            }
         }
 
         /// <summary>The rod's energies and loads.</summary>
@@ -99,13 +124,19 @@ namespace Guidewire.Core
         public double Time { get; private set; }
 
         /// <summary>Turn that the proximal frame has made, radians.</summary>
-        public double ProximalTurn => _proximalTurn;
+        public double ProximalTurn => _frames.Made.Proximal;
 
         /// <summary>Turn that the distal frame has made, radians.</summary>
-        public double DistalTurn => _distalTurn;
+        public double DistalTurn => _frames.Made.Distal;
 
         /// <summary>Counts of what was solved.</summary>
         public StageSolver Solver => _solver;
+
+        /// <summary>How steps are cut, and what their errors were.</summary>
+        public StepControl Control { get; }
+
+        /// <summary>Whether the scheme tells its steps' errors.</summary>
+        public bool HasErrorEstimate => _scheme?.ErrorWeights != null;
 
         /// <summary>Whether <see cref="MomentumRate"/> and the forces beside it are kept; they cost a gradient a
         /// stage.</summary>
@@ -119,13 +150,13 @@ namespace Guidewire.Core
         /// <summary>Force that the supports exert on node 0, N, the mean over the last step by the scheme's weights
         /// (BDF2: at the step's end): the first element's stress, less the node's own share of weight and
         /// inertia.</summary>
-        public Vector3d MeanReaction { get; private set; }
+        public Vector3d MeanReaction => _meanForces.Proximal;
 
         /// <summary>Force that the supports exert on the last node, N, the mean over the last step.</summary>
-        public Vector3d MeanDistalReaction { get; private set; }
+        public Vector3d MeanDistalReaction => _meanForces.Distal;
 
         /// <summary>Sum of the dead loads, N, the mean over the last step.</summary>
-        public Vector3d MeanLoad { get; private set; }
+        public Vector3d MeanLoad => _meanForces.Load;
 
         /// <summary>Linear momentum, kg m/s.</summary>
         public Vector3d Momentum => _terms.Mass.Momentum(Velocities);
@@ -141,23 +172,26 @@ namespace Guidewire.Core
             return new Vector3d(g.X1, g.X2, g.X3);
         }
 
+        /// <summary>Velocities have been changed from outside: the next step begins anew. Held nodes keep the
+        /// velocities of their supports.</summary>
+        public void Restart()
+        {
+            _hasRates = false;
+            if (_startsExplicitly)
+            {
+                _start.Hold(Velocities, _proximalVelocity, _distalVelocity);
+            }
+        }
+
         /// <summary>One step.</summary>
         /// <param name="dt">s.</param>
         /// <returns>Null, or why a stage has no solution; the shape is then not to be used.</returns>
         public string? Step(double dt)
         {
-            Array.Copy(Shape.X, _startPositions, _startPositions.Length);
-            _inertia.BeginStep(Shape, dt);
-            foreach (EnergyTerm term in _terms.All)
-            {
-                term.BeginStep(Shape, dt);
-            }
-            MeanReaction = Vector3d.Zero;
-            MeanDistalReaction = Vector3d.Zero;
-            MeanLoad = Vector3d.Zero;
+            _meanForces = default;
             Vector3d momentum = TracksReactions ? Momentum : Vector3d.Zero;
             bool isTwoStep = _scheme == null && _history.IsComplete;
-            string? failure = _scheme == null ? StepByBdf2(dt) : StepByRungeKutta(_scheme, dt);
+            string? failure = _scheme == null ? StepByBdf2(dt) : StepBetweenJumps(_scheme, dt);
             Time += dt;
             _hasStepped = true;
             if (TracksReactions)
@@ -176,8 +210,11 @@ namespace Guidewire.Core
             double time = Time;
             MaterialSnapshot.Exchange(snapshot, _schedule, Shape, Velocities, Spins, ref time);
             Time = time;
-            snapshot.Exchange(ref _proximalTurn);
-            snapshot.Exchange(ref _distalTurn);
+            _frames.Exchange(snapshot);
+            if (!snapshot.IsWritten)
+            {
+                TakeSupportVelocities();
+            }
         }
 
         /// <summary>Writes or takes over what went before, as far as it means something to a motion by this scheme
@@ -186,6 +223,7 @@ namespace Guidewire.Core
         {
             _terms.Exchange(snapshot);
             _solver.ExchangeCounts(snapshot);
+            Control.ExchangeCounts(snapshot);
             string scheme = _scheme == null ? "BDF2" : _scheme.StageCount + " stages " + Text(_scheme.Diagonal);
             snapshot.Section(scheme + " " + Text(dt), ExchangeStages);
         }
@@ -194,11 +232,22 @@ namespace Guidewire.Core
         {
             snapshot.Exchange(ref _hasStepped);
             snapshot.Exchange(ref _oldMomentum);
-            snapshot.Exchange(_acceleration);
-            snapshot.Exchange(_spinRate);
+            _rates.Exchange(snapshot);
             _history.Exchange(snapshot);
             _inertia.Exchange(snapshot);
             _solver.ExchangeTrust(snapshot);
+            Control.ExchangeLength(snapshot);
+            snapshot.Exchange(ref _hasPast);
+            snapshot.Exchange(ref _proximalVelocity);
+            snapshot.Exchange(ref _distalVelocity);
+            _endForces.Exchange(snapshot);
+            // Rates are those of this rod under these loads; a reader on which other forces act begins anew.
+            _terms.SetTime(_schedule, Time);
+            double own = _start.CheckSum(Shape);
+            double sum = own;
+            snapshot.Exchange(ref sum);
+            snapshot.Exchange(ref _hasRates);
+            _hasRates &= sum == own;
         }
 
         private static string Text(double value)
@@ -206,68 +255,157 @@ namespace Guidewire.Core
             return value.ToString("R", CultureInfo.InvariantCulture);
         }
 
-        private string? StepByRungeKutta(RungeKuttaScheme scheme, double dt)
+        private string? StepBetweenJumps(RungeKuttaScheme scheme, double dt)
         {
-            double h = scheme.Diagonal * dt;
-            _inertia.StageLength = h;
-            double[] final = scheme.Rows[_last];
-            for (int s = 0; s <= _last; s++)
+            double nearly = SameTime * dt;
+            double done = 0.0;
+            while (done < dt)
             {
-                double[] row = scheme.Rows[s];
-                for (int i = 0; i < _startPositions.Length; i++)
+                double jump = _schedule.NextJump(Time + done + nearly);
+                double until = jump - Time < dt - nearly ? jump - Time : dt;
+                while (done < until)
                 {
-                    Vector3d x = _startPositions[i];
-                    Vector3d v = Velocities[i];
-                    for (int k = 0; k < s; k++)
+                    string? failure = StepTowards(scheme, until, jump, dt, ref done);
+                    if (failure != null)
                     {
-                        double weight = dt * row[k];
-                        x += weight * _velocity[k][i];
-                        v += weight * _acceleration[k][i];
+                        return failure;
                     }
-                    _velocityHistory[i] = v;
-                    _inertia.FreePositions[i] = x + h * v;
                 }
-                for (int j = 0; j < Spins.Length; j++)
+            }
+            return null;
+        }
+
+        /// <summary>One step of the scheme within a logged one.</summary>
+        /// <param name="until">Where it may end at the latest, s after the logged step's start.</param>
+        /// <param name="jump">The next jump of a load, s.</param>
+        /// <param name="dt">The logged step, s.</param>
+        /// <param name="done">Where it begins, and then where it ended.</param>
+        private string? StepTowards(RungeKuttaScheme scheme, double until, double jump, double dt, ref double done)
+        {
+            double time = Time + done;
+            double left = until - done;
+            double h = Control.Propose(left);
+            bool isStart = _startsExplicitly && !TakeFirstRates(time, h, dt);
+            RungeKuttaScheme used = isStart ? _starter : scheme;
+            if (Control.IsOn)
+            {
+                _saved.Save(Shape, Velocities, Spins, _frames);
+            }
+            StageForces forces = _meanForces;
+            while (true)
+            {
+                string? failure = StepByRungeKutta(used, time, h, jump, h / dt);
+                double error = failure != null || used.ErrorWeights == null ? 0.0
+                    : _rates.Error(used.ErrorWeights, h, _length);
+                if (Control.Accepts(error, h, dt, failure == null))
                 {
-                    Vector3d turn = Vector3d.Zero;
-                    Vector3d spin = Spins[j];
-                    for (int k = 0; k < s; k++)
-                    {
-                        double weight = dt * row[k];
-                        turn += weight * _turnRate[k][j];
-                        spin += weight * _spinRate[k][j];
-                    }
-                    _inertia.TurnHistory[j] = turn;
-                    _inertia.SpinHistory[j] = spin;
+                    done = h == left ? until : done + h;
+                    _hasRates = true;
+                    _hasPast = !isStart;
+                    return failure;
                 }
-                string? failure = SolveStage(Time + scheme.Times[s] * dt, h, s, scheme.Predictors[s], final[s]);
+                _saved.Restore(Shape, Velocities, Spins, _frames);
+                _meanForces = forces;
+                h = Control.Propose(left);
+            }
+        }
+
+        /// <summary>Sets the rates of an explicit first stage.</summary>
+        /// <returns>False where they are more than a step of length h can resolve.</returns>
+        private bool TakeFirstRates(double time, double h, double dt)
+        {
+            double after = time + SameTime * dt;
+            Vector3d proximal = _schedule.ProximalVelocity;
+            Vector3d distal = _schedule.DistalVelocityAt(after);
+            bool isInPlace = _start.IsHeldAt(Shape, _schedule, time, SamePlace * _length)
+                && _frames.AreInPlace(time, SamePlace);
+            bool jumps = proximal != _proximalVelocity || distal != _distalVelocity;
+            if (_hasRates && isInPlace && !jumps && _schedule.NextJump(time - SameTime * dt) > after)
+            {
+                _rates.SetFirst(Velocities, Spins, true);
+                return true;
+            }
+            if (jumps || !_hasRates)
+            {
+                _start.Jump(Velocities, proximal, distal);
+                _meanForces.Add(1.0 / dt, _start.Forces);
+            }
+            _proximalVelocity = proximal;
+            _distalVelocity = distal;
+            _hasPast = false;
+            _terms.SetTime(_schedule, after);
+            double move = _start.SetRates(Shape, Spins, _rates.Acceleration[0], _rates.SpinRate[0]);
+            if (!isInPlace || !(h * h * move <= LargestStart))
+            {
+                _rates.Clear();
+                return false;
+            }
+            _rates.SetFirst(Velocities, Spins, false);
+            _endForces = _start.Forces;
+            _endForces.Load = LoadSum();
+            return true;
+        }
+
+        private string? StepByRungeKutta(RungeKuttaScheme scheme, double time, double dt, double jump, double share)
+        {
+            BeginStep(dt);
+            _inertia.StageLength = scheme.Diagonal * dt;
+            double[] final = scheme.Rows[scheme.StageCount - 1];
+            int first = scheme.IsFirstExplicit ? 1 : 0;
+            if (first > 0 && TracksReactions)
+            {
+                _meanForces.Add(share * final[0], _endForces);
+            }
+            for (int s = first; s < scheme.StageCount; s++)
+            {
+                _rates.Prepare(_inertia, scheme.Rows[s], dt, _startPositions, Velocities, Spins, _velocityHistory);
+                StagePredictor predictor = _hasPast ? scheme.Predictors[s] : StagePredictor.Of(Math.Max(s - 1, 0));
+                int stage = s == scheme.StageCount - 1 ? _last : s;
+                string? failure = SolveStage(time + scheme.Times[s] * dt, jump, stage, predictor, share * final[s]);
                 if (failure != null)
                 {
                     return failure;
                 }
             }
-            Accept(h);
+            _rates.Accept(_inertia, Velocities, Spins);
             return null;
         }
 
         private string? StepByBdf2(double dt)
         {
-            double h = _history.Prepare(_inertia, _startPositions, Velocities, Spins, _velocityHistory, dt);
-            string? failure = SolveStage(Time + dt, h, 0, StagePredictor.OneStage, 1.0);
+            BeginStep(dt);
+            _history.Prepare(_inertia, _startPositions, Velocities, Spins, _velocityHistory, dt);
+            string? failure = SolveStage(Time + dt, double.PositiveInfinity, 0,
+                _hasPast ? StagePredictor.OneStage : StagePredictor.Of(0), 1.0);
             if (failure == null)
             {
-                Accept(h);
+                _rates.Accept(_inertia, Velocities, Spins);
                 _history.Complete();
+                _hasPast = true;
+                Control.Accepts(0.0, dt, dt, true);
             }
             return failure;
         }
 
-        /// <summary>Places the supports, predicts from stages before, solves, and takes the stage's
-        /// derivatives.</summary>
-        private string? SolveStage(double time, double h, int stage, in StagePredictor predictor, double weight)
+        private void BeginStep(double dt)
         {
-            _terms.SetTime(_schedule, time);
-            string? failure = TurnFrames(time, out bool inParts);
+            Array.Copy(Shape.X, _startPositions, _startPositions.Length);
+            _inertia.BeginStep(Shape, dt);
+            foreach (EnergyTerm term in _terms.All)
+            {
+                term.BeginStep(Shape, dt);
+            }
+        }
+
+        /// <summary>Places the supports, predicts from stages before, solves, and takes the stage's
+        /// rates.</summary>
+        /// <param name="jump">When a load jumps next: a stage at that time is before the jump.</param>
+        private string? SolveStage(double time, double jump, int stage, in StagePredictor predictor, double weight)
+        {
+            double h = _inertia.StageLength;
+            double before = Math.Min(time, jump);
+            _terms.SetTime(_schedule, before);
+            string? failure = _frames.Turn(Shape, time, out bool inParts);
             if (failure != null)
             {
                 return failure;
@@ -282,7 +420,7 @@ namespace Guidewire.Core
             Vector3d end = _schedule.DistalPositionAt(time);
             _before.CopyFrom(Shape);
             RodStep.PlaceElements(_supports, Shape, _predicted, start, end);
-            double loads = _schedule.LoadAt(time, _mass);
+            double loads = _schedule.LoadAt(before, _mass);
             if (!_solver.Iterate(Shape, h, loads))
             {
                 failure = Search(h, loads, start, end);
@@ -291,26 +429,20 @@ namespace Guidewire.Core
                     return failure;
                 }
             }
-            if (_last == 0)
+            if (_isLoose)
             {
-                Array.Copy(_spinRate[0], _spinRate[1], Spins.Length);
+                _inertia.Balance(Shape, _start.LoadSum(Shape));
             }
-            double perStage = 1.0 / h;
-            for (int i = 0; i < _startPositions.Length; i++)
-            {
-                Vector3d a = (perStage * perStage) * (Shape.X[i] - _inertia.FreePositions[i]);
-                _acceleration[stage][i] = a;
-                _velocity[stage][i] = _velocityHistory[i] + h * a;
-            }
-            _inertia.SetRates(Shape, _turnRate[stage], _spinRate[stage]);
-            if (_last == 0 && !_hasStepped)
-            {
-                // The first step stands for the one before it too.
-                Array.Copy(_spinRate[0], _spinRate[1], Spins.Length);
-            }
+            _rates.Take(stage, Shape, _inertia, _velocityHistory, _hasPast);
             if (TracksReactions)
             {
-                Track(weight);
+                RodVector[] gradient = _solver.Reactions(Shape);
+                RodVector first = gradient[0];
+                RodVector last = gradient[_startPositions.Length - 1];
+                _endForces.Proximal = new Vector3d(first.X1, first.X2, first.X3);
+                _endForces.Distal = new Vector3d(last.X1, last.X2, last.X3);
+                _endForces.Load = LoadSum();
+                _meanForces.Add(weight, _endForces);
             }
             return null;
         }
@@ -337,9 +469,9 @@ namespace Guidewire.Core
         private double Predict(double h, in StagePredictor predictor)
         {
             double largest = 0.0;
-            Vector3d[] first = _spinRate[predictor.First];
-            Vector3d[] second = _spinRate[predictor.Second];
-            double share = _hasStepped ? predictor.Share : 0.0;
+            Vector3d[] first = _rates.SpinRate[predictor.First];
+            Vector3d[] second = _rates.SpinRate[predictor.Second];
+            double share = predictor.Share;
             for (int j = 0; j < _predicted.Length; j++)
             {
                 Vector3d rate = first[j] + share * (second[j] - first[j]);
@@ -353,70 +485,24 @@ namespace Guidewire.Core
         private Vector3d PredictStart(double time, double h, in StagePredictor predictor)
         {
             return _supports.Proximal == ProximalEnd.Free
-                ? _inertia.FreePositions[0] + (h * h) * _acceleration[predictor.First][0]
+                ? _inertia.FreePositions[0] + (h * h) * _rates.Acceleration[predictor.First][0]
                 : _schedule.ProximalPositionAt(time);
         }
 
-        /// <summary>Turns the clamps' frames; a large turn in parts, each solved on its own, so that the rod winds up
-        /// as it would under a fast turn and not by the shorter way.</summary>
-        private string? TurnFrames(double time, out bool inParts)
+        private Vector3d LoadSum()
         {
-            inParts = false;
-            double proximal = _schedule.ProximalTurnAt(time) - _proximalTurn;
-            double distal = _schedule.DistalTurnAt(time) - _distalTurn;
-            if (proximal == 0.0 && distal == 0.0)
-            {
-                return null;
-            }
-            int parts = 1 + (int)(Math.Max(Math.Abs(proximal), Math.Abs(distal)) / LargestFrameTurn);
-            inParts = parts > 1;
-            for (int k = 1; k <= parts; k++)
-            {
-                double share = (double)k / parts;
-                _schedule.TurnFrames(Shape, _proximalTurn + share * proximal, _distalTurn + share * distal);
-                if (k < parts)
-                {
-                    string? failure = _solver.Search(Shape);
-                    if (failure != null)
-                    {
-                        return failure;
-                    }
-                }
-            }
-            _proximalTurn += proximal;
-            _distalTurn += distal;
-            return null;
-        }
-
-        private void Accept(double h)
-        {
-            Array.Copy(_velocity[_last], Velocities, Velocities.Length);
-            for (int j = 0; j < Spins.Length; j++)
-            {
-                Spins[j] = _inertia.SpinHistory[j] + h * _spinRate[_last][j];
-            }
-        }
-
-        private void Track(double weight)
-        {
-            RodVector[] gradient = _solver.Reactions(Shape);
-            int last = _startPositions.Length - 1;
-            MeanReaction += weight * new Vector3d(gradient[0].X1, gradient[0].X2, gradient[0].X3);
-            MeanDistalReaction += weight * new Vector3d(gradient[last].X1, gradient[last].X2, gradient[last].X3);
+            Vector3d sum = Vector3d.Zero;
             foreach (Vector3d force in _terms.Loads.Force)
             {
-                MeanLoad += weight * force;
+                sum += force;
             }
+            return sum;
         }
 
-        private static Vector3d[][] Arrays(int count, int length)
+        private void TakeSupportVelocities()
         {
-            var arrays = new Vector3d[count][];
-            for (int s = 0; s < count; s++)
-            {
-                arrays[s] = new Vector3d[length];
-            }
-            return arrays;
+            _proximalVelocity = Velocities[0];
+            _distalVelocity = Velocities[Velocities.Length - 1];
         }
     }
 }

@@ -4,12 +4,16 @@ namespace Guidewire.Core
 {
     /// <summary>The coefficients of a diagonally implicit Runge-Kutta scheme, all L-stable and stiffly accurate: the
     /// last stage is the end of the step, so what is stiff (stretch, shear) is at rest there.</summary>
+    /// <remarks>All but the simplest have an explicit first stage, whose rates are those at the step's start: their
+    /// other stages are of order 2, and where a turning wire drives its stiff stretch all the time the step keeps at
+    /// least that order. With implicit stages alone, which are of order 1, it does not.</remarks>
     internal sealed class RungeKuttaScheme
     {
-        private RungeKuttaScheme(double[][] rows)
+        private RungeKuttaScheme(double[][] rows, double[]? embedded)
         {
             Rows = rows;
-            Diagonal = rows[rows.Length - 1][rows.Length - 1];
+            double[] weights = rows[rows.Length - 1];
+            Diagonal = weights[weights.Length - 1];
             Times = new double[rows.Length];
             for (int i = 0; i < rows.Length; i++)
             {
@@ -18,9 +22,18 @@ namespace Guidewire.Core
                     Times[i] += a;
                 }
             }
-            foreach (double b in rows[rows.Length - 1])
+            Times[rows.Length - 1] = 1.0;  // without the rounding of the sum
+            foreach (double b in weights)
             {
                 WeightSum += Math.Abs(b);
+            }
+            if (embedded != null)
+            {
+                ErrorWeights = new double[embedded.Length];
+                for (int i = 0; i < embedded.Length; i++)
+                {
+                    ErrorWeights[i] = weights[i] - embedded[i];
+                }
             }
             Predictors = new StagePredictor[rows.Length];
             for (int i = 0; i < rows.Length; i++)
@@ -44,46 +57,96 @@ namespace Guidewire.Core
         /// <summary>gamma, the same on the whole diagonal.</summary>
         public double Diagonal { get; }
 
-        /// <summary>Number of stages.</summary>
+        /// <summary>Number of stages, an explicit one counted.</summary>
         public int StageCount => Rows.Length;
+
+        /// <summary>Whether the first stage is the step's start.</summary>
+        public bool IsFirstExplicit => Rows[0][0] == 0.0;
+
+        /// <summary>b_i - b^_i, by which the stages' rates give the difference to the embedded solution; null where
+        /// there is none.</summary>
+        public double[]? ErrorWeights { get; }
+
+        /// <summary>Order of the embedded solution.</summary>
+        public int EmbeddedOrder { get; private set; }
 
         /// <summary>Backward Euler, order 1.</summary>
         public static RungeKuttaScheme ImplicitEuler()
         {
-            return new RungeKuttaScheme(new[] { new[] { 1.0 } });
+            return new RungeKuttaScheme(new[] { new[] { 1.0 } }, null);
         }
 
-        /// <summary>Two stages, order 2, gamma = 1 - 1/sqrt(2) (Alexander 1977).</summary>
-        public static RungeKuttaScheme Sdirk2()
+        /// <summary>Two implicit stages, order 2, gamma = 1 - 1/sqrt(2) (Alexander 1977): takes nothing from the rates
+        /// at the step's start, so a motion may begin with it far from balance.</summary>
+        public static RungeKuttaScheme Start()
         {
             double g = 1.0 - Math.Sqrt(0.5);
-            return new RungeKuttaScheme(new[] { new[] { g }, new[] { 1.0 - g, g } });
+            return new RungeKuttaScheme(new[] { new[] { g }, new[] { 1.0 - g, g } }, null);
         }
 
-        /// <summary>Three stages, order 3 (Alexander 1977); gamma is the root of g^3 - 3 g^2 + 3 g/2 - 1/6 near 0.436.
-        /// </summary>
-        public static RungeKuttaScheme Sdirk3()
+        /// <summary>TR-BDF2 (Bank et al. 1985; as a Runge-Kutta scheme Hosea and Shampine 1996): order 2, embedded 3;
+        /// d = 1 - 1/sqrt(2), w = sqrt(2)/4.</summary>
+        public static RungeKuttaScheme TrBdf2()
         {
-            const double g = 0.43586652150845899942;
-            return new RungeKuttaScheme(new[]
+            double d = 1.0 - Math.Sqrt(0.5);
+            double w = 0.25 * Math.Sqrt(2.0);
+            return new RungeKuttaScheme(new[] { new[] { 0.0 }, new[] { d, d }, new[] { w, w, d } },
+                new[] { (1.0 - w) / 3.0, (3.0 * w + 1.0) / 3.0, d / 3.0 })
             {
-                new[] { g },
-                new[] { 0.5 * (1.0 - g), g },
-                new[] { -0.25 * (6.0 * g * g - 16.0 * g + 1.0), 0.25 * (6.0 * g * g - 20.0 * g + 5.0), g },
-            });
+                EmbeddedOrder = 3,
+            };
         }
 
-        /// <summary>Five stages, order 4, gamma = 1/4 (Hairer and Wanner, Solving ODEs II, table IV.6.5).</summary>
-        public static RungeKuttaScheme Sdirk4()
+        /// <summary>ESDIRK3(2)4L[2]SA, the implicit part of ARK3(2)4L[2]SA (Kennedy and Carpenter 2003): order 3,
+        /// embedded 2.</summary>
+        public static RungeKuttaScheme Esdirk3()
         {
+            const double g = 1767732205903.0 / 4055673282236.0;
             return new RungeKuttaScheme(new[]
             {
-                new[] { 0.25 },
-                new[] { 0.5, 0.25 },
-                new[] { 17.0 / 50.0, -1.0 / 25.0, 0.25 },
-                new[] { 371.0 / 1360.0, -137.0 / 2720.0, 15.0 / 544.0, 0.25 },
-                new[] { 25.0 / 24.0, -49.0 / 48.0, 125.0 / 16.0, -85.0 / 12.0, 0.25 },
-            });
+                new[] { 0.0 },
+                new[] { g, g },
+                new[] { 2746238789719.0 / 10658868560708.0, -640167445237.0 / 6845629431997.0, g },
+                new[]
+                {
+                    1471266399579.0 / 7840856788654.0, -4482444167858.0 / 7529755066697.0,
+                    11266239266428.0 / 11593286722821.0, g,
+                },
+            }, new[]
+            {
+                2756255671327.0 / 12835298489170.0, -10771552573575.0 / 22201958757719.0,
+                9247589265047.0 / 10645013368117.0, 2193209047091.0 / 5459859503100.0,
+            })
+            {
+                EmbeddedOrder = 2,
+            };
+        }
+
+        /// <summary>ESDIRK4(3)6L[2]SA, the implicit part of ARK4(3)6L[2]SA (Kennedy and Carpenter 2003): order 4,
+        /// embedded 3, gamma = 1/4.</summary>
+        public static RungeKuttaScheme Esdirk4()
+        {
+            const double g = 0.25;
+            return new RungeKuttaScheme(new[]
+            {
+                new[] { 0.0 },
+                new[] { g, g },
+                new[] { 8611.0 / 62500.0, -1743.0 / 31250.0, g },
+                new[] { 5012029.0 / 34652500.0, -654441.0 / 2922500.0, 174375.0 / 388108.0, g },
+                new[]
+                {
+                    15267082809.0 / 155376265600.0, -71443401.0 / 120774400.0, 730878875.0 / 902184768.0,
+                    2285395.0 / 8070912.0, g,
+                },
+                new[] { 82889.0 / 524892.0, 0.0, 15625.0 / 83664.0, 69875.0 / 102672.0, -2260.0 / 8211.0, g },
+            }, new[]
+            {
+                4586570599.0 / 29645900160.0, 0.0, 178811875.0 / 945068544.0, 814220225.0 / 1159782912.0,
+                -3700637.0 / 11593932.0, 61727.0 / 225920.0,
+            })
+            {
+                EmbeddedOrder = 3,
+            };
         }
 
         /// <summary>The line through two of the stages at hand, those before this one and, one step earlier, the

@@ -7,6 +7,12 @@ namespace Guidewire.Core
         public int Second;
         public double Share;
 
+        /// <summary>That of one stage alone.</summary>
+        public static StagePredictor Of(int stage)
+        {
+            return new StagePredictor { First = stage, Second = stage };
+        }
+
         /// <summary>2 a - a_old, for a scheme of one stage that keeps the step before in a second place.</summary>
         public static StagePredictor OneStage => new StagePredictor { First = 0, Second = 1, Share = -1.0 };
     }

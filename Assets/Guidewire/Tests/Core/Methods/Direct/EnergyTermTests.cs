@@ -50,7 +50,7 @@ namespace Guidewire.Core.Tests
             {
                 EnergyTerm[] others = k == 0 ? Array.Empty<EnergyTerm>() : new EnergyTerm[] { new StepCutter(N) };
                 motions[k] = new RodDynamics(new RodTerms(rod, supports, new SceneParameters(), others), schedule,
-                    Rods.Straight(rod), RungeKuttaScheme.Sdirk3(), 1e-8, 100);
+                    Rods.Straight(rod), RungeKuttaScheme.Esdirk3(), 1e-8, 100);
                 for (int step = 0; step < 10; step++)
                 {
                     Assert.That(motions[k].Step(1e-3), Is.Null);
@@ -101,7 +101,7 @@ namespace Guidewire.Core.Tests
             const double Speed = 0.1;
             const int Steps = 120;
             SimulationParameters parameters = Rods.Clamped(Elements, solver, dt, Steps);
-            parameters.Method.Integrator = Integrator.Sdirk3;
+            parameters.Method.Integrator = Integrator.Esdirk3;
             parameters.Method.Substeps = substeps;
             parameters.Method.ConstraintSolverSteps = 10;
             parameters.Drive.Kind = Drive.Force;

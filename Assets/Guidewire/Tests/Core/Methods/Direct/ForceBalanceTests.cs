@@ -13,7 +13,7 @@ namespace Guidewire.Core.Tests
 
         private static readonly Integrator[] Schemes =
         {
-            Integrator.ImplicitEuler, Integrator.Bdf2, Integrator.Sdirk2, Integrator.Sdirk3, Integrator.Sdirk4,
+            Integrator.ImplicitEuler, Integrator.Bdf2, Integrator.Trbdf2, Integrator.Esdirk3, Integrator.Esdirk4,
         };
 
         [Test]

@@ -11,8 +11,8 @@ namespace Guidewire.Core.Tests
         public void Units_AreThoseOfTheScene()
         {
             // The same wire told in millimetres and in metres.
-            SimulationParameters millimetres = Cantilever(12, Solver.Direct, Integrator.Sdirk3, 1e-3, 40);
-            SimulationParameters metres = Cantilever(12, Solver.Direct, Integrator.Sdirk3, 1e-3, 40);
+            SimulationParameters millimetres = Cantilever(12, Solver.Direct, Integrator.Esdirk3, 1e-3, 40);
+            SimulationParameters metres = Cantilever(12, Solver.Direct, Integrator.Esdirk3, 1e-3, 40);
             metres.Scene.GuidewireLength = Rods.Length;
             metres.Scene.MetresPerUnit = 1.0;
             RodState a = Wires.Run(millimetres).State;
@@ -27,7 +27,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void RestShapeWithoutTime_IsAllThatIsComputed()
         {
-            SimulationParameters parameters = Cantilever(30, Solver.Direct, Integrator.Sdirk3, 1e-3, 0);
+            SimulationParameters parameters = Cantilever(30, Solver.Direct, Integrator.Esdirk3, 1e-3, 0);
             parameters.Scene.Gravity = Vector3d.Zero;
             parameters.Scene.TipForce = new Vector3d(0.0, Rods.BendForce, 0.0);
             parameters.Scene.InitialState = InitialState.Equilibrium;
@@ -46,10 +46,10 @@ namespace Guidewire.Core.Tests
         public void ExplicitAndDirect_MoveTheSame()
         {
             // Both on lumped masses, so both discretise the same chain; 2 ms from the straight start under gravity.
-            SimulationParameters direct = Cantilever(8, Solver.Direct, Integrator.Sdirk4, 5e-5, 40);
+            SimulationParameters direct = Cantilever(8, Solver.Direct, Integrator.Esdirk4, 5e-5, 40);
             direct.Material.MassRule = MassRule.Lumped;
             direct.Method.SolverTolerance = 1e-12;
-            SimulationParameters other = Cantilever(8, Solver.Explicit, Integrator.Sdirk4, 5e-5, 40);
+            SimulationParameters other = Cantilever(8, Solver.Explicit, Integrator.Esdirk4, 5e-5, 40);
             other.Material.MassRule = MassRule.Lumped;
             other.Method.Substeps = 400;
             double fall = 0.5 * 9810.0 * 0.002 * 0.002;
@@ -57,8 +57,8 @@ namespace Guidewire.Core.Tests
         }
 
         [TestCase(Solver.Direct, Integrator.ImplicitEuler)]
-        [TestCase(Solver.Direct, Integrator.Sdirk3)]
-        [TestCase(Solver.Explicit, Integrator.Sdirk3)]
+        [TestCase(Solver.Direct, Integrator.Esdirk3)]
+        [TestCase(Solver.Explicit, Integrator.Esdirk3)]
         public void StatedReaction_AndWeight_ChangeTheMomentum(Solver solver, Integrator integrator)
         {
             // Momentum from the nodes' velocities alone: an element's is that of its middle.
@@ -125,9 +125,9 @@ namespace Guidewire.Core.Tests
         }
 
         [TestCase(Integrator.Bdf2)]
-        [TestCase(Integrator.Sdirk2)]
-        [TestCase(Integrator.Sdirk3)]
-        [TestCase(Integrator.Sdirk4)]
+        [TestCase(Integrator.Trbdf2)]
+        [TestCase(Integrator.Esdirk3)]
+        [TestCase(Integrator.Esdirk4)]
         public void LongSteps_EndOrSayWhy(Integrator scheme)
         {
             // 50 ms is five periods of the third mode a step, and the load 100 times the wire's weight.
@@ -152,7 +152,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void TooFewIterations_FailTheRun()
         {
-            SimulationParameters parameters = Cantilever(30, Solver.Direct, Integrator.Sdirk3, 1e-3, 10);
+            SimulationParameters parameters = Cantilever(30, Solver.Direct, Integrator.Esdirk3, 1e-3, 10);
             parameters.Scene.InitialState = InitialState.Equilibrium;
             parameters.Scene.TipForce = new Vector3d(0.0, 100.0 * Rods.BendForce, 0.0);
             parameters.Method.MaxNewtonIterations = 1;
@@ -198,7 +198,7 @@ namespace Guidewire.Core.Tests
             const double C = 0.789;
             const double Radius = 0.1;
             const int N = 200;
-            SimulationParameters parameters = Cantilever(N, Solver.Direct, Integrator.Sdirk3, 1e-3, 0);
+            SimulationParameters parameters = Cantilever(N, Solver.Direct, Integrator.Esdirk3, 1e-3, 0);
             parameters.Scene.Gravity = Vector3d.Zero;
             parameters.Scene.GuidewireLength = 100.0;
             parameters.Scene.MetresPerUnit = 1.0;
@@ -223,10 +223,10 @@ namespace Guidewire.Core.Tests
             Assert.That(ratio, Is.EqualTo(0.914778).Within(0.05 * 0.914778));
         }
 
-        [TestCase(Solver.Direct, Integrator.Sdirk3)]
+        [TestCase(Solver.Direct, Integrator.Esdirk3)]
         [TestCase(Solver.Direct, Integrator.Bdf2)]
-        [TestCase(Solver.Xpbd, Integrator.Sdirk3)]
-        [TestCase(Solver.Explicit, Integrator.Sdirk3)]
+        [TestCase(Solver.Xpbd, Integrator.Esdirk3)]
+        [TestCase(Solver.Explicit, Integrator.Esdirk3)]
         public void Step_AllocatesNothing(Solver solver, Integrator scheme)
         {
             SimulationParameters parameters = Cantilever(20, solver, scheme, 1e-5, 1000);

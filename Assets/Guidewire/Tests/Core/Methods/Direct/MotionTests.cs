@@ -8,9 +8,9 @@ namespace Guidewire.Core.Tests
     {
         [TestCase(Integrator.ImplicitEuler, 1.0)]
         [TestCase(Integrator.Bdf2, 2.0)]
-        [TestCase(Integrator.Sdirk2, 2.0)]
-        [TestCase(Integrator.Sdirk3, 3.0)]
-        [TestCase(Integrator.Sdirk4, 4.0)]
+        [TestCase(Integrator.Trbdf2, 2.0)]
+        [TestCase(Integrator.Esdirk3, 3.0)]
+        [TestCase(Integrator.Esdirk4, 4.0)]
         public void OneMode_MovesWithTheSchemesOrder(Integrator scheme, double order)
         {
             // First mode of the chain as start, amplitude 1e-4 L. After one period the tip's y - i v/omega is that of
@@ -47,7 +47,7 @@ namespace Guidewire.Core.Tests
             MaterialRod rod = Rods.Wire(N);
             RodShape shape = Rods.AtRest(rod, new RodSupports(), Vector3d.Zero,
                 new Vector3d(0.0, K * Rods.BendForce, 0.0), Vector3d.Zero);
-            RodDynamics motion = Start(rod, new RodSupports(), new RodSchedule(), shape, Integrator.Sdirk4, 1e-10);
+            RodDynamics motion = Start(rod, new RodSupports(), new RodSchedule(), shape, Integrator.Esdirk4, 1e-10);
             double square = 0.0;
             double reference = 0.0;
             for (int i = 1; i <= Steps; i++)
@@ -63,7 +63,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void FreeRod_FliesOnItsParabola()
         {
-            // Bent, spinning, free at both ends: the centre of mass falls as a point does. SDIRK3 is exact for a
+            // Bent, spinning, free at both ends: the centre of mass falls as a point does. ESDIRK3 is exact for a
             // parabola.
             const int N = 8;
             const double Step = 2e-3;
@@ -71,7 +71,7 @@ namespace Guidewire.Core.Tests
             RodShape shape = Rods.Random(rod, 0.05, 0.0, 3);
             var schedule = new RodSchedule { Gravity = new Vector3d(0.0, -9.81, 0.0) };
             var supports = new RodSupports { Proximal = ProximalEnd.Free };
-            RodDynamics motion = Start(rod, supports, schedule, shape, Integrator.Sdirk3, 1e-10);
+            RodDynamics motion = Start(rod, supports, schedule, shape, Integrator.Esdirk3, 1e-10);
             double mass = Rods.Density * Rods.Area * Rods.Length;
             Vector3d start = Centre(shape);
             for (int i = 0; i < 50; i++)
@@ -99,7 +99,7 @@ namespace Guidewire.Core.Tests
             shape.X[0] = new Vector3d(0.0, 0.0, Shift);
             var schedule = new RodSchedule { ProximalPosition = shape.X[0] };
             RodDynamics motion = Start(rod, new RodSupports { Mass = MassRule.Uniform }, schedule, shape,
-                Integrator.Sdirk4, 1e-12);
+                Integrator.Esdirk4, 1e-12);
             double worst = 0.0;
             for (int i = 0; i < Steps; i++)
             {
@@ -111,10 +111,10 @@ namespace Guidewire.Core.Tests
 
         [TestCase(Integrator.ImplicitEuler, DistalEnd.Free)]
         [TestCase(Integrator.Bdf2, DistalEnd.Free)]
-        [TestCase(Integrator.Sdirk2, DistalEnd.Free)]
-        [TestCase(Integrator.Sdirk3, DistalEnd.Free)]
-        [TestCase(Integrator.Sdirk4, DistalEnd.Free)]
-        [TestCase(Integrator.Sdirk3, DistalEnd.Clamped)]
+        [TestCase(Integrator.Trbdf2, DistalEnd.Free)]
+        [TestCase(Integrator.Esdirk3, DistalEnd.Free)]
+        [TestCase(Integrator.Esdirk4, DistalEnd.Free)]
+        [TestCase(Integrator.Esdirk3, DistalEnd.Clamped)]
         public void TurnedAndMovedScene_MovesTheSame(Integrator scheme, DistalEnd distal)
         {
             // Weight, a tip force that is let go half-way and turning clamps, at the default tolerance. Rounding of the
@@ -193,7 +193,7 @@ namespace Guidewire.Core.Tests
             rod.RotaryInertia[0] = 1.0;
             RodShape shape = Rods.Straight(rod);
             var supports = new RodSupports { Proximal = ProximalEnd.Free };
-            RodDynamics motion = Start(rod, supports, new RodSchedule(), shape, Integrator.Sdirk3, 1e-13);
+            RodDynamics motion = Start(rod, supports, new RodSchedule(), shape, Integrator.Esdirk3, 1e-13);
             motion.Begin(new Vector3d[2], new[] { new Vector3d(Tilt, 0.0, Spin) }, false);
             for (int i = 0; i < steps; i++)
             {

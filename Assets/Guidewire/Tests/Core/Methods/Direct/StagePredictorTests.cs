@@ -6,9 +6,9 @@ namespace Guidewire.Core.Tests
     public sealed class StagePredictorTests
     {
         [TestCase(Integrator.ImplicitEuler)]
-        [TestCase(Integrator.Sdirk2)]
-        [TestCase(Integrator.Sdirk3)]
-        [TestCase(Integrator.Sdirk4)]
+        [TestCase(Integrator.Trbdf2)]
+        [TestCase(Integrator.Esdirk3)]
+        [TestCase(Integrator.Esdirk4)]
         public void AnAccelerationThatGrowsEvenly_IsPredictedExactly(Integrator integrator)
         {
             RungeKuttaScheme scheme = MaterialSetup.Scheme(integrator)!;

@@ -1,0 +1,82 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>Turns the frames of the clamps as the schedule has it; a large turn in parts, each solved on its own,
+    /// so that the rod winds up as it would under a fast turn and not by the shorter way.</summary>
+    internal sealed class ClampFrames
+    {
+        private const double LargestTurn = 0.5;  // radians at once
+
+        private readonly RodSchedule _schedule;
+        private readonly StageSolver _solver;
+        private double _proximal;  // turn that has been made, radians
+        private double _distal;
+
+        /// <summary>Frames that have made no turn yet.</summary>
+        public ClampFrames(RodSchedule schedule, StageSolver solver)
+        {
+            _schedule = schedule;
+            _solver = solver;
+        }
+
+        /// <summary>The turns that the frames have made, radians.</summary>
+        public (double Proximal, double Distal) Made
+        {
+            get => (_proximal, _distal);
+            set => (_proximal, _distal) = value;
+        }
+
+        /// <summary>The distal frame has already made its turn of time 0.</summary>
+        public void Begin()
+        {
+            _distal = _schedule.DistalTurnAt(0.0);
+        }
+
+        /// <summary>Whether the frames are where they should be at this time, to within an angle.</summary>
+        public bool AreInPlace(double time, double angle)
+        {
+            return Math.Abs(_schedule.ProximalTurnAt(time) - _proximal) <= angle
+                && Math.Abs(_schedule.DistalTurnAt(time) - _distal) <= angle;
+        }
+
+        /// <summary>Turns the frames of a shape.</summary>
+        /// <param name="inParts">Whether it took parts: all but the last are then solved.</param>
+        /// <returns>Null, or why a part has no solution.</returns>
+        public string? Turn(RodShape shape, double time, out bool inParts)
+        {
+            inParts = false;
+            double proximal = _schedule.ProximalTurnAt(time) - _proximal;
+            double distal = _schedule.DistalTurnAt(time) - _distal;
+            if (proximal == 0.0 && distal == 0.0)
+            {
+                return null;
+            }
+            int parts = 1 + (int)(Math.Max(Math.Abs(proximal), Math.Abs(distal)) / LargestTurn);
+            inParts = parts > 1;
+            for (int k = 1; k <= parts; k++)
+            {
+                double share = (double)k / parts;
+                _schedule.TurnFrames(shape, _proximal + share * proximal, _distal + share * distal);
+                if (k < parts)
+                {
+                    string? failure = _solver.Search(shape);
+                    if (failure != null)
+                    {
+                        return failure;
+                    }
+                }
+            }
+            _proximal += proximal;
+            _distal += distal;
+            return null;
+        }
+
+        /// <summary>Writes or takes over the turns.</summary>
+        public void Exchange(Snapshot snapshot)
+        {
+            snapshot.Exchange(ref _proximal);
+            snapshot.Exchange(ref _distal);
+        }
+    }
+}

@@ -1,0 +1,26 @@
+namespace Guidewire.Core
+{
+    /// <summary>The forces from outside on a rod in one stage, or their weighted sum, N.</summary>
+    internal struct StageForces
+    {
+        public Vector3d Proximal;
+        public Vector3d Distal;
+        public Vector3d Load;
+
+        /// <summary>Adds others with a weight.</summary>
+        public void Add(double weight, in StageForces other)
+        {
+            Proximal += weight * other.Proximal;
+            Distal += weight * other.Distal;
+            Load += weight * other.Load;
+        }
+
+        /// <summary>Writes or takes over.</summary>
+        public void Exchange(Snapshot snapshot)
+        {
+            snapshot.Exchange(ref Proximal);
+            snapshot.Exchange(ref Distal);
+            snapshot.Exchange(ref Load);
+        }
+    }
+}

@@ -1,0 +1,176 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>The rates of a rod in the stages of a step, and what a Runge-Kutta scheme makes of them: y_i = y_0 +
+    /// dt sum a_ik y'_k for y = x, v, phi and w.</summary>
+    /// <remarks>Where a scheme's first stage is explicit, its rates are those at the step's start: x' = v, phi' = w
+    /// (phi = 0 there), v' and w' of the last stage before.</remarks>
+    internal sealed class StageRates
+    {
+        private readonly Vector3d[][] _velocity;      // by stage: x'
+        private readonly Vector3d[][] _acceleration;  // v'
+        private readonly Vector3d[][] _turnRate;      // phi'
+        private readonly Vector3d[][] _spinRate;      // w'; two or more, the second the step before of one stage
+        private readonly int _last;
+
+        /// <summary>Rates of a rod of n elements in these stages, all 0.</summary>
+        public StageRates(int stageCount, int elementCount)
+        {
+            _last = stageCount - 1;
+            _velocity = Arrays(stageCount, elementCount + 1);
+            _acceleration = Arrays(stageCount, elementCount + 1);
+            _turnRate = Arrays(stageCount, elementCount);
+            _spinRate = Arrays(Math.Max(stageCount, 2), elementCount);
+        }
+
+        /// <summary>v' by stage, m/s^2.</summary>
+        public Vector3d[][] Acceleration => _acceleration;
+
+        /// <summary>w' by stage, rad/s^2.</summary>
+        public Vector3d[][] SpinRate => _spinRate;
+
+        /// <summary>Forgets all stages.</summary>
+        public void Clear()
+        {
+            foreach (Vector3d[][] rates in new[] { _acceleration, _spinRate })
+            {
+                foreach (Vector3d[] list in rates)
+                {
+                    Array.Clear(list, 0, list.Length);
+                }
+            }
+        }
+
+        /// <summary>Takes the rates at a step's start as those of the first stage.</summary>
+        /// <param name="fromLast">Whether v' and w' are those of the last stage; else they are in their place.</param>
+        public void SetFirst(Vector3d[] velocities, Vector3d[] spins, bool fromLast)
+        {
+            Array.Copy(velocities, _velocity[0], velocities.Length);
+            Array.Copy(spins, _turnRate[0], spins.Length);
+            if (fromLast)
+            {
+                Array.Copy(_acceleration[_last], _acceleration[0], velocities.Length);
+                Array.Copy(_spinRate[_last], _spinRate[0], spins.Length);
+            }
+        }
+
+        /// <summary>Sets what a stage has from those before it.</summary>
+        /// <param name="inertia">Its step has begun and its stage length is set; receives the stage.</param>
+        /// <param name="row">a_ik; its length is the stage's index plus 1.</param>
+        /// <param name="velocityHistory">Receives v^, m/s.</param>
+        public void Prepare(InertiaEnergy inertia, double[] row, double dt, Vector3d[] positions,
+            Vector3d[] velocities, Vector3d[] spins, Vector3d[] velocityHistory)
+        {
+            int before = row.Length - 1;
+            double h = inertia.StageLength;
+            for (int i = 0; i < positions.Length; i++)
+            {
+                Vector3d x = positions[i];
+                Vector3d v = velocities[i];
+                for (int k = 0; k < before; k++)
+                {
+                    double weight = dt * row[k];
+                    x += weight * _velocity[k][i];
+                    v += weight * _acceleration[k][i];
+                }
+                velocityHistory[i] = v;
+                inertia.FreePositions[i] = x + h * v;
+            }
+            for (int j = 0; j < spins.Length; j++)
+            {
+                Vector3d turn = Vector3d.Zero;
+                Vector3d spin = spins[j];
+                for (int k = 0; k < before; k++)
+                {
+                    double weight = dt * row[k];
+                    turn += weight * _turnRate[k][j];
+                    spin += weight * _spinRate[k][j];
+                }
+                inertia.TurnHistory[j] = turn;
+                inertia.SpinHistory[j] = spin;
+            }
+        }
+
+        /// <summary>Takes the rates of a stage that is solved.</summary>
+        /// <param name="isSecondStep">For a scheme of one stage: whether there is a step before.</param>
+        public void Take(int stage, RodShape shape, InertiaEnergy inertia, Vector3d[] velocityHistory,
+            bool isSecondStep)
+        {
+            if (_last == 0)
+            {
+                Array.Copy(_spinRate[0], _spinRate[1], shape.ElementCount);
+            }
+            double h = inertia.StageLength;
+            double perStage = 1.0 / h;
+            for (int i = 0; i < velocityHistory.Length; i++)
+            {
+                Vector3d a = (perStage * perStage) * (shape.X[i] - inertia.FreePositions[i]);
+                _acceleration[stage][i] = a;
+                _velocity[stage][i] = velocityHistory[i] + h * a;
+            }
+            inertia.SetRates(shape, _turnRate[stage], _spinRate[stage]);
+            if (_last == 0 && !isSecondStep)
+            {
+                // The first step stands for the one before it too.
+                Array.Copy(_spinRate[0], _spinRate[1], shape.ElementCount);
+            }
+        }
+
+        /// <summary>The velocities in the last stage, which ends the step.</summary>
+        public void Accept(InertiaEnergy inertia, Vector3d[] velocities, Vector3d[] spins)
+        {
+            double h = inertia.StageLength;
+            Array.Copy(_velocity[_last], velocities, velocities.Length);
+            for (int j = 0; j < spins.Length; j++)
+            {
+                spins[j] = inertia.SpinHistory[j] + h * _spinRate[_last][j];
+            }
+        }
+
+        /// <summary>How far the embedded solution is from the step's: the largest turn in radians or displacement over
+        /// L.</summary>
+        /// <param name="weights">b_i - b^_i.</param>
+        public double Error(double[] weights, double dt, double length)
+        {
+            double shift = 0.0;
+            double turn = 0.0;
+            for (int i = 0; i < _velocity[0].Length; i++)
+            {
+                Vector3d x = Vector3d.Zero;
+                for (int k = 0; k < weights.Length; k++)
+                {
+                    x += weights[k] * _velocity[k][i];
+                }
+                shift = Math.Max(shift, x.LengthSquared);
+            }
+            for (int j = 0; j < _turnRate[0].Length; j++)
+            {
+                Vector3d phi = Vector3d.Zero;
+                for (int k = 0; k < weights.Length; k++)
+                {
+                    phi += weights[k] * _turnRate[k][j];
+                }
+                turn = Math.Max(turn, phi.LengthSquared);
+            }
+            return dt * Math.Max(Math.Sqrt(shift) / length, Math.Sqrt(turn));
+        }
+
+        /// <summary>Writes or takes over what the next step needs.</summary>
+        public void Exchange(Snapshot snapshot)
+        {
+            snapshot.Exchange(_acceleration);
+            snapshot.Exchange(_spinRate);
+        }
+
+        private static Vector3d[][] Arrays(int count, int length)
+        {
+            var arrays = new Vector3d[count][];
+            for (int s = 0; s < count; s++)
+            {
+                arrays[s] = new Vector3d[length];
+            }
+            return arrays;
+        }
+    }
+}

@@ -1,0 +1,93 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>Cuts and grows the steps within a logged one by the estimate of their error: a step of length h whose
+    /// error E is above the tolerance T is taken again, and the next one has h (0.9^(p+1) T/E)^(1/(p+1)), p the order
+    /// of the less accurate of the two solutions.</summary>
+    /// <remarks>Bounded: no step is shorter than 1/4096 of the logged one, what is left of it is divided evenly, and
+    /// what is still above the tolerance then is counted and kept.</remarks>
+    internal sealed class StepControl
+    {
+        private const double Shortest = 1.0 / 4096.0;  // of the logged step
+        private const double Safety = 0.9;
+        private const double Failing = 0.25;  // where a stage has no solution
+        private const double LeastChange = 0.2;
+        private const double MostChange = 2.0;
+
+        private readonly double _power;
+        private double _length;  // of the next step, s; 0: not yet known
+
+        /// <summary>Steps that are taken as they come.</summary>
+        /// <param name="order">p.</param>
+        public StepControl(int order)
+        {
+            _power = 1.0 / (order + 1);
+        }
+
+        /// <summary>T, radians, or displacement over L; 0: steps are taken as they come.</summary>
+        public double Tolerance { get; set; }
+
+        /// <summary>Whether steps are cut and grown.</summary>
+        public bool IsOn => Tolerance > 0.0;
+
+        /// <summary>Largest error of a step that was kept.</summary>
+        public double LargestError { get; private set; }
+
+        /// <summary>Steps that were kept.</summary>
+        public long Steps { get; private set; }
+
+        /// <summary>Steps that were kept although their error was above the tolerance.</summary>
+        public long StepsAbove { get; private set; }
+
+        /// <summary>Length of the next step, s.</summary>
+        /// <param name="left">What is left until a jump or the end of the logged step, s.</param>
+        public double Propose(double left)
+        {
+            double parts = IsOn && _length > 0.0 ? Math.Ceiling(left / _length * (1.0 - 1e-12)) : 1.0;
+            return left / Math.Max(parts, 1.0);
+        }
+
+        /// <summary>Whether a step is kept, and how long the next one is to be.</summary>
+        /// <param name="isSolved">Whether its stages have solutions.</param>
+        public bool Accepts(double error, double length, double logged, bool isSolved)
+        {
+            bool isGood = isSolved && error <= Tolerance;
+            double least = Shortest * logged;
+            if (IsOn)
+            {
+                double change = isSolved ? Safety * Math.Pow(Tolerance / Math.Max(error, 1e-300), _power) : Failing;
+                change = Math.Min(Math.Max(change, LeastChange), MostChange);
+                _length = Math.Min(Math.Max(length * change, least), logged);
+                if (!isGood && length > least * (1.0 + 1e-9))
+                {
+                    return false;
+                }
+            }
+            Steps++;
+            StepsAbove += IsOn && !isGood ? 1 : 0;
+            LargestError = Math.Max(LargestError, error);
+            return true;
+        }
+
+        /// <summary>Writes or takes over the counts.</summary>
+        public void ExchangeCounts(Snapshot snapshot)
+        {
+            double error = LargestError;
+            long steps = Steps;
+            long above = StepsAbove;
+            snapshot.Exchange(ref error);
+            snapshot.Exchange(ref steps);
+            snapshot.Exchange(ref above);
+            LargestError = error;
+            Steps = steps;
+            StepsAbove = above;
+        }
+
+        /// <summary>Writes or takes over the length of the next step.</summary>
+        public void ExchangeLength(Snapshot snapshot)
+        {
+            snapshot.Exchange(ref _length);
+        }
+    }
+}
