@@ -146,6 +146,7 @@ namespace Guidewire.Io
             }
             if (Values.StartFile.Length > 0)
             {
+                Values.StartFile = NamedFile.Find(Values.StartFile, _given["startFile"].Source);
                 simulation.Scene.Start = ReadStart(simulation.Scene.NumberRodElements);
             }
             ReadWalls(simulation);

@@ -26,7 +26,8 @@ namespace Guidewire.Io
                 Methods = Takers.Material,
             },
             new TextEntry("startFile",
-                "JSON file with positions, orientations, velocities and angularVelocities to start from",
+                "JSON file with positions, orientations, velocities and angularVelocities to start from; its name"
+                + " counts from the parameter file's folder",
                 p => p.StartFile, (p, v) => p.StartFile = v),
             new ChoiceEntry<StartShape>("startShape", "the shape to set out from; a ring has both ends in one place",
                 p => p.Simulation.Scene.StartShape, (p, v) => p.Simulation.Scene.StartShape = v)
