@@ -136,14 +136,14 @@ namespace Guidewire.Core
                 }
                 if (i > 0)
                 {
-                    double strain = Math.Abs(Vector3d.Distance(x[i], x[i - 1]) / l - 1.0);
+                    double strain = Math.Abs(Vector3d.Distance(x[i], x[i - 1]) / state.ElementLengths[i - 1] - 1.0);
                     worst = Math.Max(worst, strain);
                     squareSum += strain * strain;
                 }
             }
             if (state.InverseMasses[0] == 0.0)
             {
-                _strainPutIn += Vector3d.Distance(x[0], _drivenTo) / l;
+                _strainPutIn += Vector3d.Distance(x[0], _drivenTo) / state.ElementLengths[0];
                 _drivenTo = x[0];
             }
             return StaysWrongInLength(worst, squareSum, step);

@@ -88,6 +88,11 @@ namespace Guidewire.Core
         private static ParameterConflict? OfStart(SimulationParameters parameters, MethodTraits method)
         {
             SceneParameters scene = parameters.Scene;
+            string? layout = ElementLayout.FindProblem(parameters);
+            if (layout != null)
+            {
+                return new ParameterConflict("wireSections", layout);
+            }
             if (parameters.Drive.DisplacementDirection.Length == 0.0)
             {
                 return new ParameterConflict("displacementDirection", "a length other than 0");

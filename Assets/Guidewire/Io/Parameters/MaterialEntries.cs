@@ -35,7 +35,8 @@ namespace Guidewire.Io
                 Methods = Takers.Material,
             },
             new SectionsEntry("wireSections",
-                "pieces of the wire with a material or rest curvature of their own, such as a soft, bent tip",
+                "pieces of the wire with a material, a rest curvature or elements of their own, such as a soft, bent"
+                + " tip; an element across a border has the mean compliance, mass and rest curvature by length",
                 p => p.Simulation.Material.Sections, (p, v) => p.Simulation.Material.Sections = v)
             {
                 Methods = Takers.Material,

@@ -21,7 +21,8 @@ namespace Guidewire.Io
         }
 
         public override string Allowed =>
-            "a list of {\"from\", \"to\" (units, from < to), and any of \"youngsModulus\","
+            "a list of {\"from\", \"to\" (units, from < to), and any of \"numberRodElements\" (a whole number from 1 to"
+            + " 1000000), \"youngsModulus\","
             + " \"shearModulus\" (Pa), \"density\" (kg/m^3), \"wireRadius\" (m), all > 0, \"restCurvature\" (rad/m)}";
 
         public override JToken Write(RunParameters source)
@@ -30,6 +31,10 @@ namespace Guidewire.Io
             foreach (WireSection section in _get(source))
             {
                 var item = new JObject { ["from"] = section.From, ["to"] = section.To };
+                if (section.NumberRodElements.HasValue)
+                {
+                    item["numberRodElements"] = section.NumberRodElements.Value;
+                }
                 Put(item, "youngsModulus", section.YoungsModulus);
                 Put(item, "shearModulus", section.ShearModulus);
                 Put(item, "density", section.Density);
@@ -96,6 +101,9 @@ namespace Guidewire.Io
                 case "to":
                     section.To = number;
                     return true;
+                case "numberRodElements":
+                    section.NumberRodElements = (int)Math.Max(0.0, Math.Min(number, 1e6));
+                    return number >= 1.0 && section.NumberRodElements == number;
                 case "youngsModulus":
                     section.YoungsModulus = number;
                     return number > 0.0;

@@ -146,9 +146,11 @@ namespace Guidewire.Core
         // Line density behind the lighter node of element j: a node has half of each element beside it.
         private static double LeastDensity(MaterialRod rod, int j)
         {
-            double before = rod.LineDensity[Math.Max(j - 1, 0)];
-            double after = rod.LineDensity[Math.Min(j + 1, rod.ElementCount - 1)];
-            return 0.5 * (rod.LineDensity[j] + Math.Min(before, after));
+            int before = Math.Max(j - 1, 0);
+            int after = Math.Min(j + 1, rod.ElementCount - 1);
+            double lighter = Math.Min(rod.LineDensity[before] * rod.Length[before],
+                rod.LineDensity[after] * rod.Length[after]);
+            return 0.5 * (rod.LineDensity[j] + lighter / rod.Length[j]);
         }
 
         private string Text(string format)

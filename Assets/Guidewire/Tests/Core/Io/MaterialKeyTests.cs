@@ -78,8 +78,8 @@ namespace Guidewire.Core.Tests
         [Test]
         public void Sections_AreReadAndWrittenBack()
         {
-            JToken sections = JToken.Parse("[{\"from\": 250.0, \"to\": 300.0, \"wireRadius\": 0.0002,"
-                + " \"restCurvature\": [10.0, 0.0, 0.0]}]");
+            JToken sections = JToken.Parse("[{\"from\": 250.0, \"to\": 300.0, \"numberRodElements\": 5,"
+                + " \"wireRadius\": 0.0002, \"restCurvature\": [10.0, 0.0, 0.0]}]");
             RunParameters values = Load(("solver", "direct"), ("wireSections", sections));
             WireSection section = values.Simulation.Material.Sections[0];
             Assert.That(section.WireRadius, Is.EqualTo(2e-4));
@@ -92,6 +92,11 @@ namespace Guidewire.Core.Tests
         [TestCase("[{\"to\": 5.0}]")]
         [TestCase("[{\"from\": 0.0, \"to\": 5.0, \"wireRadius\": -1.0}]")]
         [TestCase("[{\"from\": 0.0, \"to\": 5.0, \"colour\": 1.0}]")]
+        [TestCase("[{\"from\": 0.0, \"to\": 5.0, \"numberRodElements\": 1.5}]")]
+        [TestCase("[{\"from\": 0.0, \"to\": 5.0, \"numberRodElements\": 0}]")]
+        [TestCase("[{\"from\": 290.0, \"to\": 310.0, \"numberRodElements\": 3}]")]
+        [TestCase("[{\"from\": 0.0, \"to\": 5.0, \"numberRodElements\": 3},"
+            + " {\"from\": 4.0, \"to\": 9.0, \"numberRodElements\": 3}]")]
         [TestCase("{}")]
         public void SectionsThatMakeNoSense_AreRefused(string text)
         {

@@ -159,6 +159,16 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void SectionShorterThanHalfAnElement_IsWarnedOf()
+        {
+            const string Wire =
+                "{\"solver\": \"direct\", \"wireSections\": [{\"from\": 296.0, \"to\": 300.0%}]}";
+            Assert.That(Load(Wire.Replace("%", "")).Warnings, Has.Count.EqualTo(1).And.Some.Contains("wireSections[0]"));
+            Assert.That(Load(Wire.Replace("%", ", \"numberRodElements\": 1")).Warnings, Is.Empty);
+            Assert.That(Load(Wire.Replace("296", "294").Replace("%", "")).Warnings, Is.Empty);
+        }
+
+        [Test]
         public void Table_NamesEachKeyOnce_WithHelpAndADefaultThatIsAllowed()
         {
             foreach (ParameterEntry entry in ParameterTable.Entries)
