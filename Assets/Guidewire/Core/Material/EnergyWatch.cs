@@ -39,7 +39,7 @@ namespace Guidewire.Core
             _ends = ends;
             _before = new RodShape(scene.Shape.ElementCount);
             Start();
-            _mostPutIn = Rounding * scene.Rod.BendStiffness[0] / scene.Rod.TotalLength;
+            _mostPutIn = Rounding * scene.Rod.BendStiffness1[0] / scene.Rod.TotalLength;
         }
 
         /// <summary>Takes the wire after a step that the loads acted in as they are now; one line where it has blown

@@ -4,8 +4,11 @@ namespace Guidewire.Core
     /// there.</summary>
     internal struct JointSide
     {
-        /// <summary>EI about d1 and d2, N m^2.</summary>
-        public double Bend;
+        /// <summary>EI about d1, N m^2.</summary>
+        public double Bend1;
+
+        /// <summary>EI about d2, N m^2.</summary>
+        public double Bend2;
 
         /// <summary>GJ about d3, N m^2.</summary>
         public double Twist;
@@ -16,7 +19,8 @@ namespace Guidewire.Core
         /// <summary>Whether another is the same.</summary>
         public bool IsLike(in JointSide other)
         {
-            return Bend == other.Bend && Twist == other.Twist && RestCurvature == other.RestCurvature;
+            return Bend1 == other.Bend1 && Bend2 == other.Bend2 && Twist == other.Twist
+                && RestCurvature == other.RestCurvature;
         }
     }
 }

@@ -17,7 +17,8 @@ namespace Guidewire.Core
             Length = new double[elementCount];
             StretchStiffness = new double[elementCount];
             ShearStiffness = new double[elementCount];
-            BendStiffness = new double[elementCount];
+            BendStiffness1 = new double[elementCount];
+            BendStiffness2 = new double[elementCount];
             TwistStiffness = new double[elementCount];
             LineDensity = new double[elementCount];
             RotaryInertia = new double[elementCount];
@@ -37,8 +38,11 @@ namespace Guidewire.Core
         /// <summary>GA, N.</summary>
         public double[] ShearStiffness { get; }
 
-        /// <summary>EI about d1 and d2, N m^2.</summary>
-        public double[] BendStiffness { get; }
+        /// <summary>EI about d1, N m^2.</summary>
+        public double[] BendStiffness1 { get; }
+
+        /// <summary>EI about d2, N m^2; the same for a round wire.</summary>
+        public double[] BendStiffness2 { get; }
 
         /// <summary>GJ about d3, N m^2.</summary>
         public double[] TwistStiffness { get; }
@@ -46,7 +50,7 @@ namespace Guidewire.Core
         /// <summary>rho A, kg/m.</summary>
         public double[] LineDensity { get; }
 
-        /// <summary>rho I about d1 and d2, kg m; about d3 it is twice that.</summary>
+        /// <summary>rho I about d1 and d2, the mean of both, kg m; about d3 it is twice that.</summary>
         public double[] RotaryInertia { get; }
 
         /// <summary>Curvature and twist at rest along the element's axes, rad/m.</summary>
@@ -72,9 +76,9 @@ namespace Guidewire.Core
             get
             {
                 double largest = 0.0;
-                foreach (double stiffness in BendStiffness)
+                for (int j = 0; j < ElementCount; j++)
                 {
-                    largest = Math.Max(largest, stiffness);
+                    largest = Math.Max(largest, Math.Max(BendStiffness1[j], BendStiffness2[j]));
                 }
                 double length = TotalLength;
                 return largest / (length * length);
@@ -155,7 +159,8 @@ namespace Guidewire.Core
                     weight *= Weight(distal, n - k);
                 }
                 double half = 0.5 * weight;
-                joints[k].Bend = 1.0 / (half * (Length[before] / left.Bend + Length[after] / right.Bend));
+                joints[k].Bend1 = 1.0 / (half * (Length[before] / left.Bend1 + Length[after] / right.Bend1));
+                joints[k].Bend2 = 1.0 / (half * (Length[before] / left.Bend2 + Length[after] / right.Bend2));
                 joints[k].Twist = 1.0 / (half * (Length[before] / left.Twist + Length[after] / right.Twist));
                 joints[k].Rest = half * (Length[before] * left.RestCurvature + Length[after] * right.RestCurvature);
             }
@@ -166,7 +171,8 @@ namespace Guidewire.Core
         {
             return new JointSide
             {
-                Bend = BendStiffness[j],
+                Bend1 = BendStiffness1[j],
+                Bend2 = BendStiffness2[j],
                 Twist = TwistStiffness[j],
                 RestCurvature = RestCurvature[j],
             };

@@ -85,7 +85,8 @@ namespace Guidewire.Core
         {
             private double _stretch;
             private double _shear;
-            private double _bend;
+            private double _bend1;
+            private double _bend2;
             private double _twist;
             private double _density;
             private double _rotary;
@@ -95,7 +96,8 @@ namespace Guidewire.Core
             {
                 _stretch += weight / piece.StretchStiffness;
                 _shear += weight / piece.ShearStiffness;
-                _bend += weight / piece.BendStiffness;
+                _bend1 += weight / piece.BendStiffness1;
+                _bend2 += weight / piece.BendStiffness2;
                 _twist += weight / piece.TwistStiffness;
                 _density += weight * piece.LineDensity;
                 _rotary += weight * piece.RotaryInertia;
@@ -108,7 +110,8 @@ namespace Guidewire.Core
                 {
                     StretchStiffness = 1.0 / _stretch,
                     ShearStiffness = 1.0 / _shear,
-                    BendStiffness = 1.0 / _bend,
+                    BendStiffness1 = 1.0 / _bend1,
+                    BendStiffness2 = 1.0 / _bend2,
                     TwistStiffness = 1.0 / _twist,
                     LineDensity = _density,
                     RotaryInertia = _rotary,

@@ -26,7 +26,7 @@ namespace Guidewire.Core
             int last = rod.ElementCount - 1;
             JointSide end = rod.EndOf(last);
             Vector3d curvature = end.RestCurvature
-                + new Vector3d(moment.X / end.Bend, moment.Y / end.Bend, moment.Z / end.Twist);
+                + new Vector3d(moment.X / end.Bend1, moment.Y / end.Bend2, moment.Z / end.Twist);
             Moment = Quaterniond.Rotate(RotationVector.Exp(0.5 * rod.Length[last] * curvature), moment);
         }
 

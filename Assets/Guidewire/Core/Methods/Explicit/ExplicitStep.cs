@@ -134,13 +134,18 @@ namespace Guidewire.Core
                 double rotary = rod.RotaryInertia[j];
                 double before = j > 0 ? 2.0 : supports.HasProximalJoint ? 1.0 : 0.0;
                 double after = j < n - 1 ? 2.0 : supports.HasDistalJoint ? 1.0 : 0.0;
-                double bend = (before * joints[j].Bend + after * joints[j + 1].Bend) / (rotary * l);
+                double bend = (before * Stiffer(joints[j]) + after * Stiffer(joints[j + 1])) / (rotary * l);
                 double twist = (before * joints[j].Twist + after * joints[j + 1].Twist) / (2.0 * rotary * l);
                 double chain = 4.0 / (l * l * LeastDensity(rod, j));
                 double shear = rod.ShearStiffness[j] * (1.0 / rotary + chain);
                 largest = Math.Max(largest, Math.Max(shear + bend, Math.Max(chain * rod.StretchStiffness[j], twist)));
             }
             return 2.0 / Math.Sqrt(largest);
+        }
+
+        private static double Stiffer(in Joint joint)
+        {
+            return Math.Max(joint.Bend1, joint.Bend2);
         }
 
         // Line density behind the lighter node of element j: a node has half of each element beside it.

@@ -163,7 +163,8 @@ namespace Guidewire.Core.Tests
         {
             const string Wire =
                 "{\"solver\": \"direct\", \"wireSections\": [{\"from\": 296.0, \"to\": 300.0%}]}";
-            Assert.That(Load(Wire.Replace("%", "")).Warnings, Has.Count.EqualTo(1).And.Some.Contains("wireSections[0]"));
+            Assert.That(Load(Wire.Replace("%", "")).Warnings, 
+                Has.Count.EqualTo(1).And.Some.Contains("wireSections[0]"));
             Assert.That(Load(Wire.Replace("%", ", \"numberRodElements\": 1")).Warnings, Is.Empty);
             Assert.That(Load(Wire.Replace("296", "294").Replace("%", "")).Warnings, Is.Empty);
         }

@@ -125,6 +125,56 @@ namespace Guidewire.Core.Tests
             Assert.That(tip.Z, Is.EqualTo(L - arc).Within(within));
         }
 
+        /// <summary>A tube with stiffness and mass of its closed form, and the same numbers given directly.</summary>
+        [Test]
+        public void WireByStiffness_IsTheWireOfThatMaterialAndRadius()
+        {
+            const double Inner = 0.3e-3;
+            double area = Math.PI * (Rods.Radius * Rods.Radius - Inner * Inner);
+            double second = 0.25 * Math.PI * (Math.Pow(Rods.Radius, 4) - Math.Pow(Inner, 4));
+            SimulationParameters tube = Clamped(10);
+            tube.Material.InnerRadius = Inner;
+            var given = new WireSection
+            {
+                From = 0.0,
+                To = L,
+                AxialStiffness = Rods.Young * area,
+                ShearStiffness = tube.Material.ShearFactor * Rods.Shear * area,
+                BendingStiffness1 = Rods.Young * second,
+                BendingStiffness2 = Rods.Young * second,
+                TorsionalStiffness = 2.0 * Rods.Shear * second,
+                MassPerLength = Rods.Density * area,
+            };
+            SimulationParameters direct = Clamped(10);
+            direct.Material.Sections = new[] { given };
+            MaterialRod made = new MaterialScene(tube, new Scene(tube)).Rod;
+            MaterialRod rod = new MaterialScene(direct, new Scene(direct)).Rod;
+            Assert.That(rod.StretchStiffness[5], Is.EqualTo(made.StretchStiffness[5]).Within(1e-12).Percent);
+            Assert.That(rod.ShearStiffness[5], Is.EqualTo(made.ShearStiffness[5]).Within(1e-12).Percent);
+            Assert.That(rod.BendStiffness1[5], Is.EqualTo(made.BendStiffness1[5]).Within(1e-12).Percent);
+            Assert.That(rod.BendStiffness2[5], Is.EqualTo(made.BendStiffness2[5]).Within(1e-12).Percent);
+            Assert.That(rod.TwistStiffness[5], Is.EqualTo(made.TwistStiffness[5]).Within(1e-12).Percent);
+            Assert.That(rod.LineDensity[5], Is.EqualTo(made.LineDensity[5]).Within(1e-12).Percent);
+            Assert.That(rod.RotaryInertia[5], Is.EqualTo(made.RotaryInertia[5]).Within(1e-12).Percent);
+            Assert.That(made.RotaryInertia[5], Is.EqualTo(Rods.Density * second).Within(1e-12).Percent);
+        }
+
+        /// <summary>A section over the end of a wire whose stiffness is given: a material of its own puts the given
+        /// numbers out of force there.</summary>
+        [Test]
+        public void MaterialOverGivenStiffness_CountsAgain()
+        {
+            SimulationParameters parameters = Clamped(10);
+            parameters.Material.Sections = new[]
+            {
+                new WireSection { From = 0.0, To = L, BendingStiffness1 = 1.0, BendingStiffness2 = 2.0 },
+                new WireSection { From = 0.5 * L, To = L, WireRadius = Rods.Radius },
+            };
+            MaterialRod rod = new MaterialScene(parameters, new Scene(parameters)).Rod;
+            Assert.That(rod.BendStiffness2[4], Is.EqualTo(2.0));
+            Assert.That(rod.BendStiffness2[5], Is.EqualTo(Rods.BendStiffness).Within(1e-12).Percent);
+        }
+
         private static WireSection Soft()
         {
             return new WireSection
