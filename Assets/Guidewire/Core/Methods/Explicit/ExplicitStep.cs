@@ -6,7 +6,7 @@ namespace Guidewire.Core
     /// <summary>The material's forces with explicit steps: half a step of motion, velocities from the forces there, the
     /// other half (position Verlet, order 2), on lumped masses and the wire's own rotary inertia.</summary>
     /// <remarks>Stable below 2/omega_max. The largest frequency is that of elements turning against their shear,
-    /// sqrt(GA/(rho I)) = 2 sqrt(G/rho)/r, however coarse the wire is.</remarks>
+    /// sqrt(GA/(rho I)) = 2 sqrt(k G/rho)/r with the shear factor k, however coarse the wire is.</remarks>
     internal sealed class ExplicitStep : TimeStepper
     {
         private readonly MaterialScene _scene;

@@ -191,7 +191,8 @@ namespace Guidewire.Core.Tests
             parameters.Scene.TipForce = new Vector3d(0.0, force, 0.0);
             double b = 0.4 * Rods.Length;
             double bent = (Math.Pow(Rods.Length, 3) - b * b * b + Softer * b * b * b) / (3.0 * Rods.BendStiffness);
-            double sheared = (Rods.Length - b + Softer * b) / (Rods.Shear * Rods.Area);
+            double sheared = (Rods.Length - b + Softer * b)
+                / (parameters.Material.ShearFactor * Rods.Shear * Rods.Area);
             return 1e-3 * Tip(parameters).Y / (force * (bent + sheared)) - 1.0;
         }
 
