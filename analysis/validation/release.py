@@ -7,10 +7,10 @@ y' = sin t and J the integral from 0 to s:
     M a.. + K a = X^T W J(cos t t.^2) + Y^T W J(sin t t.^2),
     X = -J sin t P, Y = J cos t P, M = X^T W X + Y^T W Y + e P^T W P, K = P'^T W P',
 
-with the quadrature's weights W and e = I/(A L^2) (1 + E/G): the rotary inertia and, as its second part, the shear. To
-first order in I/(A L^2) shear lowers a cantilever's frequencies as E/G more rotary inertia does, because the mode's
-third derivative is the slope of the mode turned end for end, so that the integrals of (w''')^2 and beta^4 (w')^2 are
-equal.
+with the quadrature's weights W and e = I/(A L^2) (1 + E/kG): the rotary inertia and, as its second part, the shear, k
+its factor. To first order in I/(A L^2) shear lowers a cantilever's frequencies as E/kG more rotary inertia does,
+because the mode's third derivative is the slope of the mode turned end for end, so that the integrals of (w''')^2 and
+beta^4 (w')^2 are equal.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ def tip_motion(wire: Wire, load: float, duration: float, samples: int, modes: in
     modes : of the series in space; more of them show how far it has converged.
     """
     slender = wire.second_moment / (wire.area * wire.length**2)
-    system = _Cantilever(modes, slender * (1.0 + wire.youngs_modulus / wire.shear_modulus))
+    system = _Cantilever(modes, slender * (1.0 + wire.youngs_modulus / (wire.shear_factor * wire.shear_modulus)))
     start = system.rest(load)
     times = np.linspace(0.0, duration / wire.time_unit, samples)
     solution = solve_ivp(

@@ -37,6 +37,7 @@ def wire_parameters(wire: Wire) -> dict[str, Any]:
         "wireRadius": wire.radius,
         "youngsModulus": wire.youngs_modulus,
         "shearModulus": wire.shear_modulus,
+        "shearFactor": wire.shear_factor,
         "density": wire.density,
     }
 
@@ -118,7 +119,7 @@ def stable_substeps(wires: Mapping[str, Mapping[str, Any]]) -> Asking[dict[str, 
 
 def shear_substep(wire: Wire) -> float:
     """2/omega of an element turning against its shear, omega = sqrt(GA/(rho I)), s."""
-    return wire.radius / math.sqrt(wire.shear_modulus / wire.density)
+    return wire.radius / math.sqrt(wire.shear_factor * wire.shear_modulus / wire.density)
 
 
 def axial_substep(wire: Wire, elements: int) -> float:

@@ -18,6 +18,8 @@ class Wire:
         E and G, Pa.
     density : float
         rho, kg/m^3.
+    shear_factor : float
+        What of GA resists shear.
     """
 
     length: float = 0.3
@@ -25,6 +27,7 @@ class Wire:
     youngs_modulus: float = 60e9
     shear_modulus: float = 23e9
     density: float = 6450.0
+    shear_factor: float = 0.9
 
     @classmethod
     def of_stiffness(cls, length: float, radius: float, bending: float, torsion: float, density: float) -> Wire:
@@ -59,8 +62,8 @@ class Wire:
 
     @property
     def shearing(self) -> float:
-        """GA, N."""
-        return self.shear_modulus * self.area
+        """GA times the shear factor, N."""
+        return self.shear_factor * self.shear_modulus * self.area
 
     @property
     def line_density(self) -> float:

@@ -95,8 +95,8 @@ def _slack(wire: Wire, n: int) -> float:
     """By how much a bound of omega^2 that adds shear against turning, shear against shifting and bending may be too
     high: the truth is at least what shear does on its own, and what turning elements with resting nodes do."""
     length = wire.length / n
-    turning = wire.shear_modulus * wire.area / (wire.density * wire.second_moment)
-    shifting = 4.0 * wire.shear_modulus / (wire.density * length**2)
+    turning = wire.shearing / (wire.density * wire.second_moment)
+    shifting = 4.0 * wire.shear_factor * wire.shear_modulus / (wire.density * length**2)
     bending = 4.0 * wire.youngs_modulus / (wire.density * length**2)
     return (turning + shifting + bending) / max(turning + shifting, turning + (1.0 - 1.0 / n) * bending)
 

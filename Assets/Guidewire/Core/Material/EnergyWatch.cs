@@ -46,7 +46,7 @@ namespace Guidewire.Core
             _ends = ends;
             _before = new RodShape(shape.ElementCount);
             Start();
-            _mostPutIn = Rounding * terms.Rod.BendStiffness[0] / terms.Rod.TotalLength;
+            _mostPutIn = Rounding * terms.Rod.BendStiffness1[0] / terms.Rod.TotalLength;
         }
 
         /// <summary>What T may be over the energy put in.</summary>
@@ -57,6 +57,10 @@ namespace Guidewire.Core
         public string? Blowup()
         {
             _step++;
+            // What acts on a held node acts on its support.
+            _before.X[0] = _ends.HoldsFirst ? _shape.X[0] : _before.X[0];
+            int last = _shape.ElementCount;
+            _before.X[last] = _ends.HoldsLast ? _shape.X[last] : _before.X[last];
             _loadWork += _terms.LoadWork(_before, _shape);
             _before.CopyFrom(_shape);
             double motion = Motion();

@@ -9,17 +9,21 @@ namespace Guidewire.Core
         // Gregory's end weights for the trapezoidal rule, fourth order.
         private static readonly double[] GregoryWeights = { 3.0 / 8.0, 7.0 / 6.0, 23.0 / 24.0 };
 
+        private readonly JointSide[]?[] _sides;  // of an element that is not the same all along: start and end
+
         /// <summary>A rod of n elements, all of whose numbers are still 0.</summary>
         public MaterialRod(int elementCount)
         {
             Length = new double[elementCount];
             StretchStiffness = new double[elementCount];
             ShearStiffness = new double[elementCount];
-            BendStiffness = new double[elementCount];
+            BendStiffness1 = new double[elementCount];
+            BendStiffness2 = new double[elementCount];
             TwistStiffness = new double[elementCount];
             LineDensity = new double[elementCount];
             RotaryInertia = new double[elementCount];
             RestCurvature = new Vector3d[elementCount];
+            _sides = new JointSide[]?[elementCount];
         }
 
         /// <summary>n.</summary>
@@ -34,8 +38,11 @@ namespace Guidewire.Core
         /// <summary>GA, N.</summary>
         public double[] ShearStiffness { get; }
 
-        /// <summary>EI about d1 and d2, N m^2.</summary>
-        public double[] BendStiffness { get; }
+        /// <summary>EI about d1, N m^2.</summary>
+        public double[] BendStiffness1 { get; }
+
+        /// <summary>EI about d2, N m^2; the same for a round wire.</summary>
+        public double[] BendStiffness2 { get; }
 
         /// <summary>GJ about d3, N m^2.</summary>
         public double[] TwistStiffness { get; }
@@ -43,7 +50,7 @@ namespace Guidewire.Core
         /// <summary>rho A, kg/m.</summary>
         public double[] LineDensity { get; }
 
-        /// <summary>rho I about d1 and d2, kg m; about d3 it is twice that.</summary>
+        /// <summary>rho I about d1 and d2, the mean of both, kg m; about d3 it is twice that.</summary>
         public double[] RotaryInertia { get; }
 
         /// <summary>Curvature and twist at rest along the element's axes, rad/m.</summary>
@@ -69,9 +76,9 @@ namespace Guidewire.Core
             get
             {
                 double largest = 0.0;
-                foreach (double stiffness in BendStiffness)
+                for (int j = 0; j < ElementCount; j++)
                 {
-                    largest = Math.Max(largest, stiffness);
+                    largest = Math.Max(largest, Math.Max(BendStiffness1[j], BendStiffness2[j]));
                 }
                 double length = TotalLength;
                 return largest / (length * length);
@@ -101,48 +108,93 @@ namespace Guidewire.Core
         /// stay.</summary>
         public void SetRound(int j, double radius, double youngsModulus, double shearModulus, double density)
         {
-            double area = Math.PI * radius * radius;
-            double second = 0.25 * area * radius * radius;
-            StretchStiffness[j] = youngsModulus * area;
-            ShearStiffness[j] = shearModulus * area;
-            BendStiffness[j] = youngsModulus * second;
-            TwistStiffness[j] = 2.0 * shearModulus * second;
-            LineDensity[j] = density * area;
-            RotaryInertia[j] = density * second;
+            CrossSection round = CrossSection.Round(radius, youngsModulus, shearModulus, density);
+            round.RestCurvature = RestCurvature[j];
+            round.CopyTo(this, j);
+        }
+
+        /// <summary>Says what the joints at the two ends of element j see of it, where it is not the same all
+        /// along.</summary>
+        public void SetSides(int j, in JointSide start, in JointSide end)
+        {
+            _sides[j] = new[] { start, end };
+        }
+
+        /// <summary>What the joint before element j sees of it.</summary>
+        public JointSide StartOf(int j)
+        {
+            return _sides[j] == null ? Even(j) : _sides[j]![0];
+        }
+
+        /// <summary>What the joint after element j sees of it.</summary>
+        public JointSide EndOf(int j)
+        {
+            return _sides[j] == null ? Even(j) : _sides[j]![1];
         }
 
         /// <summary>The n+1 joints: 0 and n at the ends, k between elements k-1 and k. A joint stands for half of the
         /// element on either side, times its weight; its compliance is the sum of theirs.</summary>
-        /// <remarks>Gregory's weights need three joints from each clamp of their own; a shorter rod takes the half
-        /// element. </remarks>
+        /// <remarks>Gregory's weights need three joints from each clamp of their own, on elements that are all alike;
+        /// elsewhere the half element takes their place.</remarks>
         public Joint[] Joints(RodSupports supports)
         {
             int n = ElementCount;
-            int needed = supports.HasProximalJoint && supports.HasDistalJoint ? 6 : 3;
-            ClampRule rule = supports.Clamp == ClampRule.FourthOrder && n < needed
-                ? ClampRule.HalfElement : supports.Clamp;
+            bool isLong = n >= (supports.HasProximalJoint && supports.HasDistalJoint ? 6 : 3);
+            ClampRule proximal = isLong ? Rule(supports, 0) : ShortRule(supports);
+            ClampRule distal = isLong ? Rule(supports, n - GregoryWeights.Length) : ShortRule(supports);
             Joint[] joints = new Joint[n + 1];
             for (int k = 0; k <= n; k++)
             {
                 int before = Math.Max(k - 1, 0);
                 int after = Math.Min(k, n - 1);
+                JointSide left = k == 0 ? StartOf(0) : EndOf(before);
+                JointSide right = k == n ? EndOf(n - 1) : StartOf(after);
                 double weight = 1.0;
                 if (supports.HasProximalJoint)
                 {
-                    weight *= Weight(rule, k);
+                    weight *= Weight(proximal, k);
                 }
                 if (supports.HasDistalJoint)
                 {
-                    weight *= Weight(rule, n - k);
+                    weight *= Weight(distal, n - k);
                 }
                 double half = 0.5 * weight;
-                joints[k].Bend = 1.0 / (half * (Length[before] / BendStiffness[before]
-                    + Length[after] / BendStiffness[after]));
-                joints[k].Twist = 1.0 / (half * (Length[before] / TwistStiffness[before]
-                    + Length[after] / TwistStiffness[after]));
-                joints[k].Rest = half * (Length[before] * RestCurvature[before] + Length[after] * RestCurvature[after]);
+                joints[k].Bend1 = 1.0 / (half * (Length[before] / left.Bend1 + Length[after] / right.Bend1));
+                joints[k].Bend2 = 1.0 / (half * (Length[before] / left.Bend2 + Length[after] / right.Bend2));
+                joints[k].Twist = 1.0 / (half * (Length[before] / left.Twist + Length[after] / right.Twist));
+                joints[k].Rest = half * (Length[before] * left.RestCurvature + Length[after] * right.RestCurvature);
             }
             return joints;
+        }
+
+        private JointSide Even(int j)
+        {
+            return new JointSide
+            {
+                Bend1 = BendStiffness1[j],
+                Bend2 = BendStiffness2[j],
+                Twist = TwistStiffness[j],
+                RestCurvature = RestCurvature[j],
+            };
+        }
+
+        /// <summary>The rule at a clamp whose three elements begin with this one.</summary>
+        private ClampRule Rule(RodSupports supports, int first)
+        {
+            for (int j = first; j < first + GregoryWeights.Length; j++)
+            {
+                if (_sides[j] != null || Math.Abs(Length[j] - Length[first]) > 1e-9 * Length[first]
+                    || !Even(j).IsLike(Even(first)))
+                {
+                    return ShortRule(supports);
+                }
+            }
+            return supports.Clamp;
+        }
+
+        private static ClampRule ShortRule(RodSupports supports)
+        {
+            return supports.Clamp == ClampRule.FourthOrder ? ClampRule.HalfElement : supports.Clamp;
         }
 
         /// <summary>Weight of the joint that stands <paramref name="place"/> places from a clamp (0: the clamp's

@@ -94,31 +94,13 @@ namespace Guidewire.Core
 
         private static MaterialRod CreateRod(SimulationParameters parameters, double[] lengths)
         {
-            MaterialParameters material = parameters.Material;
-            int n = parameters.Scene.NumberRodElements;
-            var rod = new MaterialRod(n);
-            for (int j = 0; j < n; j++)
+            var profile = new WireProfile(parameters.Material, parameters.Scene.GuidewireLength);
+            ElementLayout.Lengths(parameters, 1.0, out double[] places);
+            var rod = new MaterialRod(lengths.Length);
+            for (int j = 0; j < lengths.Length; j++)
             {
-                double radius = material.WireRadius;
-                double young = material.YoungsModulus;
-                double shear = material.ShearModulus;
-                double density = material.Density;
-                Vector3d curvature = material.RestCurvature;
-                double middle = (j + 0.5) / n * parameters.Scene.GuidewireLength;
-                foreach (WireSection section in material.Sections)
-                {
-                    if (middle >= section.From && middle < section.To)
-                    {
-                        radius = section.WireRadius ?? radius;
-                        young = section.YoungsModulus ?? young;
-                        shear = section.ShearModulus ?? shear;
-                        density = section.Density ?? density;
-                        curvature = section.RestCurvature ?? curvature;
-                    }
-                }
                 rod.Length[j] = lengths[j];
-                rod.SetRound(j, radius, young, shear, density);
-                rod.RestCurvature[j] = curvature;
+                profile.SetElement(rod, j, places[j], places[j + 1]);
             }
             return rod;
         }

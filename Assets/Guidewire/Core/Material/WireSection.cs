@@ -1,7 +1,7 @@
 namespace Guidewire.Core
 {
     /// <summary>A piece of the wire whose material or rest shape differs: a soft, pre-bent tip. What is null is as in
-    /// the rest of the wire. An element belongs to it where its middle does.</summary>
+    /// the rest of the wire.</summary>
     public sealed class WireSection
     {
         /// <summary>Where it begins, units from the proximal end.</summary>
@@ -9,6 +9,10 @@ namespace Guidewire.Core
 
         /// <summary>Where it ends, units from the proximal end.</summary>
         public double To { get; set; }
+
+        /// <summary>Equal elements that it is cut into, at least 1; null where its borders do not matter to the
+        /// elements (see <see cref="ElementLayout"/>).</summary>
+        public int? NumberRodElements { get; set; }
 
         /// <summary>E, Pa.</summary>
         public double? YoungsModulus { get; set; }
@@ -22,7 +26,57 @@ namespace Guidewire.Core
         /// <summary>Radius, m.</summary>
         public double? WireRadius { get; set; }
 
+        /// <summary>Radius of a tube's hollow, m.</summary>
+        public double? InnerRadius { get; set; }
+
+        /// <summary>What of GA resists shear.</summary>
+        public double? ShearFactor { get; set; }
+
         /// <summary>Curvature and twist at rest, rad/m.</summary>
         public Vector3d? RestCurvature { get; set; }
+
+        /// <summary>EA, N, as all that follow in place of what material and radius make: of coiled or flat
+        /// wires.</summary>
+        public double? AxialStiffness { get; set; }
+
+        /// <summary>GA with its shear factor, N.</summary>
+        public double? ShearStiffness { get; set; }
+
+        /// <summary>EI about d1, N m^2.</summary>
+        public double? BendingStiffness1 { get; set; }
+
+        /// <summary>EI about d2, N m^2.</summary>
+        public double? BendingStiffness2 { get; set; }
+
+        /// <summary>GJ, N m^2.</summary>
+        public double? TorsionalStiffness { get; set; }
+
+        /// <summary>rho A, kg/m.</summary>
+        public double? MassPerLength { get; set; }
+
+        /// <summary>rho I about d1 and d2, the mean of both, kg m.</summary>
+        public double? RotaryInertia { get; set; }
+
+        /// <summary>Adds what another section that lies over this one says. A new material or radius puts stiffness and
+        /// mass that were given directly out of force.</summary>
+        internal void TakeOver(WireSection over)
+        {
+            bool isNew = over.YoungsModulus.HasValue || over.ShearModulus.HasValue || over.Density.HasValue
+                || over.WireRadius.HasValue || over.InnerRadius.HasValue || over.ShearFactor.HasValue;
+            YoungsModulus = over.YoungsModulus ?? YoungsModulus;
+            ShearModulus = over.ShearModulus ?? ShearModulus;
+            Density = over.Density ?? Density;
+            WireRadius = over.WireRadius ?? WireRadius;
+            InnerRadius = over.InnerRadius ?? InnerRadius;
+            ShearFactor = over.ShearFactor ?? ShearFactor;
+            RestCurvature = over.RestCurvature ?? RestCurvature;
+            AxialStiffness = over.AxialStiffness ?? (isNew ? null : AxialStiffness);
+            ShearStiffness = over.ShearStiffness ?? (isNew ? null : ShearStiffness);
+            BendingStiffness1 = over.BendingStiffness1 ?? (isNew ? null : BendingStiffness1);
+            BendingStiffness2 = over.BendingStiffness2 ?? (isNew ? null : BendingStiffness2);
+            TorsionalStiffness = over.TorsionalStiffness ?? (isNew ? null : TorsionalStiffness);
+            MassPerLength = over.MassPerLength ?? (isNew ? null : MassPerLength);
+            RotaryInertia = over.RotaryInertia ?? (isNew ? null : RotaryInertia);
+        }
     }
 }

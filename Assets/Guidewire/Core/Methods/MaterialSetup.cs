@@ -20,8 +20,8 @@ namespace Guidewire.Core
         public static MethodStart Build(SimulationParameters parameters, Scene prescribed, CreateStepper create)
         {
             var scene = new MaterialScene(parameters, prescribed);
-            var state = new RodState(parameters.Scene.NumberRodElements, parameters.Scene.GuidewireLength,
-                parameters.Gains.TotalMass, parameters.Scene.GuidewireOffset);
+            var state = new RodState(ElementLayout.Lengths(parameters, 1.0, out _), parameters.Gains.TotalMass,
+                parameters.Scene.GuidewireOffset);
             var terms = new RodTerms(scene.Rod, scene.Supports, parameters.Scene);
             var report = new SolverReport();
             bool isAtRest = parameters.Scene.InitialState == InitialState.Equilibrium;

@@ -95,6 +95,19 @@ namespace Guidewire.Core
         private static ParameterConflict? OfStart(SimulationParameters parameters, MethodTraits method)
         {
             SceneParameters scene = parameters.Scene;
+            if (method.TakesMaterial && parameters.Material.InnerRadius >= parameters.Material.WireRadius)
+            {
+                return new ParameterConflict("innerRadius", "less than wireRadius");
+            }
+            if (method.TakesMaterial && HasHollowTooWide(parameters.Material))
+            {
+                return new ParameterConflict("wireSections", "an innerRadius less than the wireRadius everywhere");
+            }
+            string? layout = ElementLayout.FindProblem(parameters);
+            if (layout != null)
+            {
+                return new ParameterConflict("wireSections", layout);
+            }
             if (parameters.Drive.DisplacementDirection.Length == 0.0)
             {
                 return new ParameterConflict("displacementDirection", "a length other than 0");
@@ -112,6 +125,20 @@ namespace Guidewire.Core
                     "a clamped end: a wire that turns freely has no single rest shape");
             }
             return null;
+        }
+
+        private static bool HasHollowTooWide(MaterialParameters material)
+        {
+            foreach (WireSection section in material.Sections)
+            {
+                // Where a section begins or ends is where something changes.
+                if (!(CrossSection.At(material, section.From).StretchStiffness > 0.0)
+                    || !(CrossSection.At(material, section.To).StretchStiffness > 0.0))
+                {
+                    return true;
+                }
+            }
+            return false;
         }
 
         private static bool IsClamped(SimulationParameters parameters)

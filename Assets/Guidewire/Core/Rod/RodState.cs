@@ -32,6 +32,8 @@ namespace Guidewire.Core
             }
             ElementCount = elementCount;
             ElementLength = length / elementCount;
+            ElementLengths = new double[elementCount];
+            Array.Fill(ElementLengths, ElementLength);
             int spheres = elementCount + 1;
             Positions = new Vector3d[spheres];
             PreviousPositions = new Vector3d[spheres];
@@ -54,14 +56,33 @@ namespace Guidewire.Core
             Rest();
         }
 
+        /// <summary>A straight wire along z at rest whose elements may differ in length.</summary>
+        /// <param name="elementLengths">l of each element in units, positive.</param>
+        /// <param name="totalMass">M in mass units, positive.</param>
+        /// <param name="offset">z of sphere 0 in units.</param>
+        internal RodState(double[] elementLengths, double totalMass, double offset)
+            : this(elementLengths.Length, Sum(elementLengths), totalMass, offset)
+        {
+            Array.Copy(elementLengths, ElementLengths, ElementCount);
+            for (int j = 0; j < ElementCount; j++)
+            {
+                Positions[j + 1] = Positions[j] + new Vector3d(0.0, 0.0, ElementLengths[j]);
+            }
+            Rest();
+        }
+
         /// <summary>n.</summary>
         public int ElementCount { get; }
 
         /// <summary>n + 1.</summary>
         public int SphereCount => ElementCount + 1;
 
-        /// <summary>l = L/n in units, the length of every element at rest.</summary>
+        /// <summary>l = L/n in units: the length of every element at rest with gains, the mean of them with a
+        /// material.</summary>
         public double ElementLength { get; }
+
+        /// <summary>The length of each of the n elements at rest, in units.</summary>
+        public double[] ElementLengths { get; }
 
         /// <summary>x, n + 1 sphere positions in units.</summary>
         public Vector3d[] Positions { get; private set; }
@@ -137,6 +158,16 @@ namespace Guidewire.Core
             Quaterniond[] old = Orientations;
             Orientations = PredictedOrientations;
             PredictedOrientations = old;
+        }
+
+        private static double Sum(double[] values)
+        {
+            double sum = 0.0;
+            foreach (double value in values)
+            {
+                sum += value;
+            }
+            return sum;
         }
 
         private void Rest()

@@ -28,7 +28,7 @@ namespace Guidewire.Core
 
         private static double ElementStretch(RodState state, int j)
         {
-            return Vector3d.Distance(state.Positions[j], state.Positions[j + 1]) / state.ElementLength - 1.0;
+            return Vector3d.Distance(state.Positions[j], state.Positions[j + 1]) / state.ElementLengths[j] - 1.0;
         }
 
         private static Vector3d Darboux(RodState state, int i)
@@ -39,8 +39,8 @@ namespace Guidewire.Core
             }
             // q and -q are one orientation: the turn meant is the shorter one.
             Quaterniond turn = state.Orientations[i - 1].Conjugate * state.Orientations[i];
-            Vector3d omega = BendTwistConstraint.DarbouxVector(state, i - 1);
-            return turn.W < 0.0 ? -omega : omega;
+            double between = 0.5 * (state.ElementLengths[i - 1] + state.ElementLengths[i]);
+            return ((turn.W < 0.0 ? -2.0 : 2.0) / between) * turn.Imaginary;
         }
     }
 }

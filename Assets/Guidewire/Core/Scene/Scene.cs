@@ -14,15 +14,9 @@ namespace Guidewire.Core
             SceneParameters scene = parameters.Scene;
             DriveParameters drive = parameters.Drive;
             UnitLength = MethodTable.Of(parameters.Method.Solver).TakesMaterial ? scene.MetresPerUnit : 1.0;
-            int n = scene.NumberRodElements;
-            double l = UnitLength * scene.GuidewireLength / n;
-            ElementLengths = new double[n];
-            Stations = new double[n + 1];
-            for (int j = 0; j < n; j++)
-            {
-                ElementLengths[j] = l;
-                Stations[j + 1] = (j + 1) * l;
-            }
+            ElementLengths = ElementLayout.Lengths(parameters, UnitLength, out double[] stations);
+            Stations = stations;
+            int n = ElementLengths.Length;
             Shape = new RodShape(n);
             Velocities = new Vector3d[n + 1];
             Spins = new Vector3d[n];
@@ -55,7 +49,8 @@ namespace Guidewire.Core
         /// <summary>Length of one unit in the method's lengths: 1 with gains, metresPerUnit with a material.</summary>
         public double UnitLength { get; }
 
-        /// <summary>l = L/n, the length of each of the n elements at rest (thesis eq. 3.1).</summary>
+        /// <summary>The length of each of the n elements at rest; L/n (thesis eq. 3.1) but where sections have a
+        /// number of elements of their own.</summary>
         public double[] ElementLengths { get; }
 
         /// <summary>Where each of the n + 1 spheres stands along the wire at rest, from sphere 0 on.</summary>

@@ -10,7 +10,8 @@ namespace Guidewire.Core
         /// <summary>L in units.</summary>
         public double GuidewireLength { get; set; } = 300.0;
 
-        /// <summary>n; the wire has n + 1 spheres.</summary>
+        /// <summary>n; the wire has n + 1 spheres. Where sections of a material have a number of elements of their
+        /// own, that of the rest of the wire (see <see cref="ElementLayout"/>).</summary>
         public int NumberRodElements { get; set; } = 30;
 
         /// <summary>z of sphere 0 before its displacement, in units.</summary>

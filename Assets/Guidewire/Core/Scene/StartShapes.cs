@@ -5,16 +5,20 @@ namespace Guidewire.Core
     /// <summary>Start shapes other than the straight wire.</summary>
     internal static class StartShapes
     {
-        /// <summary>A regular polygon through the start, closed, in the y-z plane, tangent to z at the start. Both
+        /// <summary>A polygon on a circle through the start, closed, in the y-z plane, tangent to z at the start. Both
         /// clamps have the frame of the start.</summary>
         public static void Ring(RodShape shape, in Vector3d start, double[] lengths)
         {
             int n = shape.ElementCount;
+            double total = Sum(lengths);
+            double s = 0.0;
             shape.X[0] = start;
             for (int j = 0; j < n; j++)
             {
                 // Turned about -x, so that the ring rises into +y.
-                Quaterniond frame = Quaterniond.FromAxisAngle(-Vector3d.UnitX, 2.0 * Math.PI * (j + 0.5) / n);
+                double angle = 2.0 * Math.PI * (s + 0.5 * lengths[j]) / total;
+                Quaterniond frame = Quaterniond.FromAxisAngle(-Vector3d.UnitX, angle);
+                s += lengths[j];
                 shape.Q[j] = frame;
                 shape.X[j + 1] = shape.X[j] + lengths[j] * frame.Director3;
             }
@@ -29,11 +33,7 @@ namespace Guidewire.Core
         public static void Helix(RodShape shape, in Vector3d start, double[] lengths, double radius, double turns)
         {
             int n = shape.ElementCount;
-            double total = 0.0;
-            foreach (double l in lengths)
-            {
-                total += l;
-            }
+            double total = Sum(lengths);
             double around = 2.0 * Math.PI * turns * radius / total;
             if (!(Math.Abs(around) < 1.0))
             {
@@ -59,6 +59,16 @@ namespace Guidewire.Core
             }
             shape.ProximalFrame = Quaterniond.Identity;
             shape.DistalFrame = Quaterniond.Identity;
+        }
+
+        private static double Sum(double[] lengths)
+        {
+            double total = 0.0;
+            foreach (double l in lengths)
+            {
+                total += l;
+            }
+            return total;
         }
     }
 }

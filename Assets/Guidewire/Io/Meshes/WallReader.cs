@@ -1,6 +1,5 @@
 using System;
 using System.Collections.Generic;
-using System.IO;
 using Guidewire.Core;
 using Newtonsoft.Json.Linq;
 
@@ -99,7 +98,7 @@ namespace Guidewire.Io
             {
                 throw fields.Wrong("metresPerUnit", "a number > 0 (m)");
             }
-            string file = Find(fields.Text("file"), source);
+            string file = NamedFile.Find(fields.Text("file"), source);
             if (file.Length == 0)
             {
                 throw fields.Wrong("file", "the name of an .obj or .stl file");
@@ -107,14 +106,6 @@ namespace Guidewire.Io
             fields.Replace("file", file);
             TriangleMesh mesh = MeshFile.Read(file, metresPerUnit / SceneMetresPerUnit, fields.NamedPoints("openRims"));
             return new MeshShape(mesh, placement);
-        }
-
-        // Beside the parameter file that names it, or from the current folder.
-        private static string Find(string file, string source)
-        {
-            string beside = Path.Combine(Path.GetDirectoryName(source) ?? "", file);
-            return file.Length == 0 ? file
-                : Path.GetFullPath(source != CommandLineHandler.Source && File.Exists(beside) ? beside : file);
         }
 
         private static ConvexObstacle Obstacle(JsonFields fields)

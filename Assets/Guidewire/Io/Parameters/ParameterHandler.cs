@@ -146,7 +146,8 @@ namespace Guidewire.Io
             }
             if (Values.StartFile.Length > 0)
             {
-                simulation.Scene.Start = ReadStart(simulation.Scene.NumberRodElements);
+                Values.StartFile = NamedFile.Find(Values.StartFile, _given["startFile"].Source);
+                simulation.Scene.Start = ReadStart(ElementLayout.Count(simulation));
             }
             ReadWalls(simulation);
             Warn();
@@ -256,6 +257,7 @@ namespace Guidewire.Io
             }
             SimulationParameters simulation = Values.Simulation;
             double l = simulation.Scene.GuidewireLength / simulation.Scene.NumberRodElements;
+            WarnOfSections(simulation);
             if (_given.TryGetValue("rodElementLength", out var length) && Math.Abs((double)length.Value - l) > 1e-9 * l)
             {
                 AddWarning("{0}: rodElementLength = {1} is not guidewireLength / numberRodElements = {2}, which counts",
@@ -274,6 +276,26 @@ namespace Guidewire.Io
             {
                 AddWarning("bendStiffness = {0} is beyond the element length {1}, where bending breaks down",
                     simulation.Gains.BendStiffness, l);
+            }
+        }
+
+        private void WarnOfSections(SimulationParameters simulation)
+        {
+            IReadOnlyList<WireSection> sections = simulation.Material.Sections;
+            for (int k = 0; k < sections.Count; k++)
+            {
+                double share = ElementLayout.ShareOfAnElement(simulation, sections[k]);
+                if (share == 0.0)
+                {
+                    AddWarning("wireSections[{0}] from {1} to {2} lies beyond the wire's end: it has no effect", k,
+                        sections[k].From, sections[k].To);
+                }
+                else if (share < 0.5)
+                {
+                    AddWarning("wireSections[{0}] from {1} to {2} is {3:G3} of an element long: it acts as a part of"
+                        + " that element; give it a numberRodElements of its own", k, sections[k].From,
+                        sections[k].To, share);
+                }
             }
         }
 

@@ -9,6 +9,27 @@ namespace Guidewire.Io
     /// ...]. </summary>
     internal sealed class SectionsEntry : ParameterEntry
     {
+        // The keys of a section that are positive numbers.
+        private static readonly Number[] Numbers =
+        {
+            new Number("youngsModulus", "Pa", s => s.YoungsModulus, (s, v) => s.YoungsModulus = v),
+            new Number("shearModulus", "Pa", s => s.ShearModulus, (s, v) => s.ShearModulus = v),
+            new Number("density", "kg/m^3", s => s.Density, (s, v) => s.Density = v),
+            new Number("wireRadius", "m", s => s.WireRadius, (s, v) => s.WireRadius = v),
+            new Number("innerRadius", "m", s => s.InnerRadius, (s, v) => s.InnerRadius = v) { MayBeZero = true },
+            new Number("shearFactor", "", s => s.ShearFactor, (s, v) => s.ShearFactor = v),
+            new Number("axialStiffness", "EA, N", s => s.AxialStiffness, (s, v) => s.AxialStiffness = v),
+            new Number("shearStiffness", "GA, N", s => s.ShearStiffness, (s, v) => s.ShearStiffness = v),
+            new Number("bendingStiffness1", "EI about d1, N m^2", s => s.BendingStiffness1,
+                (s, v) => s.BendingStiffness1 = v),
+            new Number("bendingStiffness2", "EI about d2, N m^2", s => s.BendingStiffness2,
+                (s, v) => s.BendingStiffness2 = v),
+            new Number("torsionalStiffness", "GJ, N m^2", s => s.TorsionalStiffness,
+                (s, v) => s.TorsionalStiffness = v),
+            new Number("massPerLength", "kg/m", s => s.MassPerLength, (s, v) => s.MassPerLength = v),
+            new Number("rotaryInertia", "kg m", s => s.RotaryInertia, (s, v) => s.RotaryInertia = v),
+        };
+
         private readonly Func<RunParameters, IReadOnlyList<WireSection>> _get;
         private readonly Action<RunParameters, IReadOnlyList<WireSection>> _set;
 
@@ -20,9 +41,21 @@ namespace Guidewire.Io
             _set = set;
         }
 
-        public override string Allowed =>
-            "a list of {\"from\", \"to\" (units, from < to), and any of \"youngsModulus\","
-            + " \"shearModulus\" (Pa), \"density\" (kg/m^3), \"wireRadius\" (m), all > 0, \"restCurvature\" (rad/m)}";
+        public override string Allowed
+        {
+            get
+            {
+                var words = new List<string>();
+                foreach (Number number in Numbers)
+                {
+                    words.Add("\"" + number.Key + "\"" + (number.Unit.Length > 0 ? " (" + number.Unit + ")" : "")
+                        + (number.MayBeZero ? " >= 0" : ""));
+                }
+                return "a list of {\"from\", \"to\" (units, from < to), and any of \"numberRodElements\" (a whole"
+                    + " number from 1 to 1000000), \"restCurvature\" (rad/m), and, > 0, "
+                    + string.Join(", ", words) + "}";
+            }
+        }
 
         public override JToken Write(RunParameters source)
         {
@@ -30,10 +63,14 @@ namespace Guidewire.Io
             foreach (WireSection section in _get(source))
             {
                 var item = new JObject { ["from"] = section.From, ["to"] = section.To };
-                Put(item, "youngsModulus", section.YoungsModulus);
-                Put(item, "shearModulus", section.ShearModulus);
-                Put(item, "density", section.Density);
-                Put(item, "wireRadius", section.WireRadius);
+                if (section.NumberRodElements.HasValue)
+                {
+                    item["numberRodElements"] = section.NumberRodElements.Value;
+                }
+                foreach (Number number in Numbers)
+                {
+                    Put(item, number.Key, number.Get(section));
+                }
                 if (section.RestCurvature.HasValue)
                 {
                     Vector3d curvature = section.RestCurvature.Value;
@@ -96,20 +133,13 @@ namespace Guidewire.Io
                 case "to":
                     section.To = number;
                     return true;
-                case "youngsModulus":
-                    section.YoungsModulus = number;
-                    return number > 0.0;
-                case "shearModulus":
-                    section.ShearModulus = number;
-                    return number > 0.0;
-                case "density":
-                    section.Density = number;
-                    return number > 0.0;
-                case "wireRadius":
-                    section.WireRadius = number;
-                    return number > 0.0;
+                case "numberRodElements":
+                    section.NumberRodElements = (int)Math.Max(0.0, Math.Min(number, 1e6));
+                    return number >= 1.0 && section.NumberRodElements == number;
                 default:
-                    return false;
+                    Number? known = Array.Find(Numbers, entry => entry.Key == name);
+                    known?.Set(section, number);
+                    return known != null && (number > 0.0 || (number == 0.0 && known.MayBeZero));
             }
         }
 
@@ -119,6 +149,27 @@ namespace Guidewire.Io
             {
                 item[name] = value.Value;
             }
+        }
+
+        private sealed class Number
+        {
+            public Number(string key, string unit, Func<WireSection, double?> get, Action<WireSection, double> set)
+            {
+                Key = key;
+                Unit = unit;
+                Get = get;
+                Set = set;
+            }
+
+            public string Key { get; }
+
+            public string Unit { get; }
+
+            public Func<WireSection, double?> Get { get; }
+
+            public Action<WireSection, double> Set { get; }
+
+            public bool MayBeZero { get; set; }
         }
     }
 }

@@ -78,7 +78,7 @@ namespace Guidewire.Core
 
         private static Vector3d Scale(in Joint joint, in Vector3d v)
         {
-            return new Vector3d(joint.Bend * v.X, joint.Bend * v.Y, joint.Twist * v.Z);
+            return new Vector3d(joint.Bend1 * v.X, joint.Bend2 * v.Y, joint.Twist * v.Z);
         }
 
         private static void AddCouple(in Vector3d m, in Vector3d v, double w, ref RodVector a, ref RodVector b)

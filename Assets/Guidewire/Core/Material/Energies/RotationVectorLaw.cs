@@ -10,7 +10,8 @@ namespace Guidewire.Core
     ///   C_b = sigma 1 + sym(theta (zeta theta + alpha m + c w)^T) + k p p^T,      p = T^T e3, r = T e3,
     ///   C_a = sigma 1 + sym(theta (zeta theta + alpha m - c w)^T) + k r r^T,      k = twist - bend stiffness,
     ///   F  = -(sigma' 1 + theta y^T + z theta^T + [v] + k p r^T),
-    /// with the coefficients named below; the tests take them from differences of the energy.</remarks>
+    /// with the coefficients named below;
+    /// another stiffness about d2 adds its own p p^T. The tests take them from differences of the energy.</remarks>
     internal readonly struct RotationVectorLaw : IJointLaw
     {
         /// <inheritdoc/>
@@ -23,7 +24,8 @@ namespace Guidewire.Core
         public double Value(in Joint joint, in Quaterniond relative)
         {
             Vector3d strain = RotationVector.Log(relative) - joint.Rest;
-            return 0.5 * (joint.Bend * (strain.X * strain.X + strain.Y * strain.Y) + joint.Twist * strain.Z * strain.Z);
+            return 0.5 * (joint.Bend1 * (strain.X * strain.X + strain.Y * strain.Y) + joint.Twist * strain.Z * strain.Z
+                + (joint.Bend2 - joint.Bend1) * strain.Y * strain.Y);
         }
 
         /// <inheritdoc/>
@@ -32,7 +34,7 @@ namespace Guidewire.Core
         {
             Vector3d theta = RotationVector.Log(relative);
             Vector3d strain = theta - joint.Rest;
-            Vector3d m = new Vector3d(joint.Bend * strain.X, joint.Bend * strain.Y, joint.Twist * strain.Z);
+            Vector3d m = new Vector3d(joint.Bend1 * strain.X, joint.Bend2 * strain.Y, joint.Twist * strain.Z);
             double square = theta.LengthSquared;
             double c = RotationVector.CotangentFactor(square);
             AddCouple(1.0 - c * square, c * Vector3d.Dot(theta, m), theta, m, Vector3d.Cross(m, theta), ref a, ref b);
@@ -45,9 +47,9 @@ namespace Guidewire.Core
         {
             Vector3d theta = RotationVector.Log(relative);
             Vector3d strain = theta - joint.Rest;
-            double bend = joint.Bend;
+            double bend = joint.Bend1;
             double k = joint.Twist - bend;
-            Vector3d m = new Vector3d(bend * strain.X, bend * strain.Y, joint.Twist * strain.Z);
+            Vector3d m = new Vector3d(bend * strain.X, joint.Bend2 * strain.Y, joint.Twist * strain.Z);
             double square = theta.LengthSquared;
             double c = RotationVector.CotangentFactor(square);
             double slope = RotationVector.CotangentSlope(square, c);
@@ -88,6 +90,32 @@ namespace Guidewire.Core
             blockA.F31 -= tv * y.X + z.Z * tt - v.Y + k3 * r.X;
             blockA.F32 -= tv * y.Y + z.Z * tu + v.X + k3 * r.Y;
             blockA.F33 -= sigmaMixed + tv * y.Z + z.Z * tv + k3 * r.Z;
+            if (joint.Bend2 != bend)
+            {
+                AddUneven(joint.Bend2 - bend, theta, tb, c, ref blockA, ref blockB);
+            }
+        }
+
+        /// <summary>What a stiffness about d2 other than that about d1 adds: d p p^T to C_b, d r r^T to C_a and
+        /// -d p r^T to F with p = T^T e2, r = T e2 and d the difference.</summary>
+        private static void AddUneven(double difference, in Vector3d theta, double tb, double c, ref RodBlock blockA,
+            ref RodBlock blockB)
+        {
+            double cu = c * theta.Y;
+            Vector3d p = new Vector3d(cu * theta.X + 0.5 * theta.Z, tb + cu * theta.Y, cu * theta.Z - 0.5 * theta.X);
+            Vector3d r = new Vector3d(cu * theta.X - 0.5 * theta.Z, tb + cu * theta.Y, cu * theta.Z + 0.5 * theta.X);
+            AddSymmetric(ref blockB, 0.0, theta, Vector3d.Zero, difference, p);
+            AddSymmetric(ref blockA, 0.0, theta, Vector3d.Zero, difference, r);
+            Vector3d d = difference * p;
+            blockA.F11 -= d.X * r.X;
+            blockA.F12 -= d.X * r.Y;
+            blockA.F13 -= d.X * r.Z;
+            blockA.F21 -= d.Y * r.X;
+            blockA.F22 -= d.Y * r.Y;
+            blockA.F23 -= d.Y * r.Z;
+            blockA.F31 -= d.Z * r.X;
+            blockA.F32 -= d.Z * r.Y;
+            blockA.F33 -= d.Z * r.Z;
         }
 
         /// <summary>T^T m on b and -T m on a.</summary>

@@ -24,9 +24,9 @@ namespace Guidewire.Core
         public void ActAtEnd(MaterialRod rod, in Vector3d moment)
         {
             int last = rod.ElementCount - 1;
-            double bend = rod.BendStiffness[last];
-            Vector3d curvature = rod.RestCurvature[last]
-                + new Vector3d(moment.X / bend, moment.Y / bend, moment.Z / rod.TwistStiffness[last]);
+            JointSide end = rod.EndOf(last);
+            Vector3d curvature = end.RestCurvature
+                + new Vector3d(moment.X / end.Bend1, moment.Y / end.Bend2, moment.Z / end.Twist);
             Moment = Quaterniond.Rotate(RotationVector.Exp(0.5 * rod.Length[last] * curvature), moment);
         }
 

@@ -99,8 +99,8 @@ namespace Guidewire.Core
                 Quaterniond a = k == 0 ? shape.ProximalFrame : shape.Q[k - 1];
                 Quaterniond b = k == n ? shape.DistalFrame : shape.Q[k];
                 Vector3d strain = RotationVector.Log(a.Conjugate * b) - joint.Rest;
-                double x = strain.X + perSquare / joint.Bend * _multiplier[k].X;
-                double y = strain.Y + perSquare / joint.Bend * _multiplier[k].Y;
+                double x = strain.X + perSquare / joint.Bend1 * _multiplier[k].X;
+                double y = strain.Y + perSquare / joint.Bend2 * _multiplier[k].Y;
                 sum.Bend += Math.Sqrt(x * x + y * y);
                 sum.Twist += Math.Abs(strain.Z + perSquare / joint.Twist * _multiplier[k].Z);
                 sum.BendStrain += Math.Sqrt(strain.X * strain.X + strain.Y * strain.Y);
@@ -124,7 +124,7 @@ namespace Guidewire.Core
             var odd1 = new Vector3d(0.0, h.Z, -h.Y);
             var odd2 = new Vector3d(-h.Z, 0.0, h.X);
             var odd3 = new Vector3d(h.Y, -h.X, 0.0);
-            var alpha = new Vector3d(perSquare / joint.Bend, perSquare / joint.Bend, perSquare / joint.Twist);
+            var alpha = new Vector3d(perSquare / joint.Bend1, perSquare / joint.Bend2, perSquare / joint.Twist);
             Symmetric3 matrix = Symmetric3.FromColumns(even1 + odd1, inertiaB.X, even2 + odd2, inertiaB.Y,
                     even3 + odd3, inertiaB.Z, alpha)
                 + Symmetric3.FromColumns(even1 - odd1, inertiaA.X, even2 - odd2, inertiaA.Y,

@@ -61,7 +61,8 @@ namespace Guidewire.Core
                 moment += Vector3d.Cross(shape.X[j + 1] - shape.X[j], force)
                     + perSquare * Quaterniond.Rotate(q, couple);
                 Vector3d own = Quaterniond.Rotate(q.Conjugate, moment);
-                sum.Bend += Math.Sqrt(own.X * own.X + own.Y * own.Y) / _joint[j].Bend;
+                sum.Bend += Math.Sqrt(own.X * own.X + own.Y * own.Y)
+                    / Math.Min(_joint[j].Bend1, _joint[j].Bend2);
                 sum.Twist += Math.Abs(own.Z) / _joint[j].Twist;
             }
         }

@@ -6,7 +6,7 @@ namespace Guidewire.Core
     /// <summary>The material's forces with explicit steps: half a step of motion, velocities from the forces there, the
     /// other half (position Verlet, order 2), on lumped masses and the wire's own rotary inertia.</summary>
     /// <remarks>Stable below 2/omega_max. The largest frequency is that of elements turning against their shear,
-    /// sqrt(GA/(rho I)) = 2 sqrt(G/rho)/r, however coarse the wire is.</remarks>
+    /// sqrt(GA/(rho I)) = 2 sqrt(k G/rho)/r with the shear factor k, however coarse the wire is.</remarks>
     internal sealed class ExplicitStep : TimeStepper
     {
         private readonly MaterialScene _scene;
@@ -141,7 +141,7 @@ namespace Guidewire.Core
                 double rotary = rod.RotaryInertia[j];
                 double before = j > 0 ? 2.0 : supports.HasProximalJoint ? 1.0 : 0.0;
                 double after = j < n - 1 ? 2.0 : supports.HasDistalJoint ? 1.0 : 0.0;
-                double bend = (before * joints[j].Bend + after * joints[j + 1].Bend) / (rotary * l);
+                double bend = (before * Stiffer(joints[j]) + after * Stiffer(joints[j + 1])) / (rotary * l);
                 double twist = (before * joints[j].Twist + after * joints[j + 1].Twist) / (2.0 * rotary * l);
                 double chain = 4.0 / (l * l * LeastDensity(rod, j));
                 double shear = rod.ShearStiffness[j] * (1.0 / rotary + chain);
@@ -150,12 +150,19 @@ namespace Guidewire.Core
             return 2.0 / Math.Sqrt(largest);
         }
 
+        private static double Stiffer(in Joint joint)
+        {
+            return Math.Max(joint.Bend1, joint.Bend2);
+        }
+
         // Line density behind the lighter node of element j: a node has half of each element beside it.
         private static double LeastDensity(MaterialRod rod, int j)
         {
-            double before = rod.LineDensity[Math.Max(j - 1, 0)];
-            double after = rod.LineDensity[Math.Min(j + 1, rod.ElementCount - 1)];
-            return 0.5 * (rod.LineDensity[j] + Math.Min(before, after));
+            int before = Math.Max(j - 1, 0);
+            int after = Math.Min(j + 1, rod.ElementCount - 1);
+            double lighter = Math.Min(rod.LineDensity[before] * rod.Length[before],
+                rod.LineDensity[after] * rod.Length[after]);
+            return 0.5 * (rod.LineDensity[j] + lighter / rod.Length[j]);
         }
 
         private string Text(string format)

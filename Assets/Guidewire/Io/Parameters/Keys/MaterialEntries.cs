@@ -29,13 +29,28 @@ namespace Guidewire.Io
             {
                 Methods = Takers.Material,
             },
+            new NumberEntry("innerRadius", "m", NumberRange.NotNegative,
+                "radius of a tube's hollow, less than wireRadius; 0 for a wire that is not hollow",
+                p => p.Simulation.Material.InnerRadius, (p, v) => p.Simulation.Material.InnerRadius = v)
+            {
+                Methods = Takers.Material,
+            },
+            new NumberEntry("shearFactor", "", NumberRange.Positive,
+                "what of GA resists shear: 0.9 for a round wire, about 0.5 for a thin tube",
+                p => p.Simulation.Material.ShearFactor, (p, v) => p.Simulation.Material.ShearFactor = v)
+            {
+                Methods = Takers.Material,
+            },
             new VectorEntry("restCurvature", "rad/m", true, "curvature about d1 and d2 and twist about d3 at rest",
                 p => p.Simulation.Material.RestCurvature, (p, v) => p.Simulation.Material.RestCurvature = v)
             {
                 Methods = Takers.Material,
             },
             new SectionsEntry("wireSections",
-                "pieces of the wire with a material or rest curvature of their own, such as a soft, bent tip",
+                "pieces of the wire with a material, a rest curvature or elements of their own, such as a soft, bent"
+                + " tip; an element across a border has the mean compliance, mass and rest curvature by length;"
+                + " stiffness and mass given directly count in place of those of material and radius, and rotary"
+                + " inertia is then massPerLength EI/EA with the mean of both EI",
                 p => p.Simulation.Material.Sections, (p, v) => p.Simulation.Material.Sections = v)
             {
                 Methods = Takers.Material,

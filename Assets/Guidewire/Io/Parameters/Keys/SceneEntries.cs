@@ -13,7 +13,8 @@ namespace Guidewire.Io
             new NumberEntry("guidewireLength", "units", NumberRange.Positive, "L",
                 p => p.Simulation.Scene.GuidewireLength, (p, v) => p.Simulation.Scene.GuidewireLength = v),
             new IntegerEntry("numberRodElements", "", 1, 1_000_000,
-                "n; the wire has n + 1 spheres and elements of L/n",
+                "n; the wire has n + 1 spheres and elements of L/n; where wireSections have a number of their own, that"
+                + " of the rest of the wire, shared out by length",
                 p => p.Simulation.Scene.NumberRodElements, (p, v) => p.Simulation.Scene.NumberRodElements = v),
             new NumberEntry("guidewireOffset", "units", NumberRange.Any, "z of sphere 0 before its displacement",
                 p => p.Simulation.Scene.GuidewireOffset, (p, v) => p.Simulation.Scene.GuidewireOffset = v),
@@ -26,7 +27,8 @@ namespace Guidewire.Io
                 Methods = Takers.Material,
             },
             new TextEntry("startFile",
-                "JSON file with positions, orientations, velocities and angularVelocities to start from",
+                "JSON file with positions, orientations, velocities and angularVelocities to start from; its name"
+                + " counts from the parameter file's folder",
                 p => p.StartFile, (p, v) => p.StartFile = v),
             new ChoiceEntry<StartShape>("startShape", "the shape to set out from; a ring has both ends in one place",
                 p => p.Simulation.Scene.StartShape, (p, v) => p.Simulation.Scene.StartShape = v)

@@ -100,8 +100,8 @@ namespace Guidewire.Core.Tests
         [Test]
         public void Sections_AreReadAndWrittenBack()
         {
-            JToken sections = JToken.Parse("[{\"from\": 250.0, \"to\": 300.0, \"wireRadius\": 0.0002,"
-                + " \"restCurvature\": [10.0, 0.0, 0.0]}]");
+            JToken sections = JToken.Parse("[{\"from\": 250.0, \"to\": 300.0, \"numberRodElements\": 5,"
+                + " \"wireRadius\": 0.0002, \"restCurvature\": [10.0, 0.0, 0.0]}]");
             RunParameters values = Load(("solver", "direct"), ("wireSections", sections));
             WireSection section = values.Simulation.Material.Sections[0];
             Assert.That(section.WireRadius, Is.EqualTo(2e-4));
@@ -110,10 +110,37 @@ namespace Guidewire.Core.Tests
             Assert.That(JToken.DeepEquals(ParameterTable.Find("wireSections")!.Write(values), sections), Is.True);
         }
 
+        [Test]
+        public void SectionByStiffness_IsReadAndWrittenBack()
+        {
+            JToken sections = JToken.Parse("[{\"from\": 250.0, \"to\": 300.0, \"innerRadius\": 0.0,"
+                + " \"axialStiffness\": 1000.0, \"shearStiffness\": 400.0, \"bendingStiffness1\": 0.001,"
+                + " \"bendingStiffness2\": 0.002, \"torsionalStiffness\": 0.0015, \"massPerLength\": 0.01,"
+                + " \"rotaryInertia\": 1E-09}]");
+            RunParameters values = Load(("solver", "direct"), ("wireSections", sections));
+            Assert.That(values.Simulation.Material.Sections[0].BendingStiffness2, Is.EqualTo(0.002));
+            Assert.That(JToken.DeepEquals(ParameterTable.Find("wireSections")!.Write(values), sections), Is.True);
+        }
+
+        [Test]
+        public void HollowAsWideAsTheWire_IsRefused()
+        {
+            Assert.That(() => Load(("solver", "direct"), ("innerRadius", 0.0005)),
+                Throws.TypeOf<ParameterException>().With.Message.Contains("innerRadius"));
+            Assert.That(() => Load(("solver", "direct"), ("wireSections",
+                    JToken.Parse("[{\"from\": 0.0, \"to\": 9.0, \"innerRadius\": 0.0006}]"))),
+                Throws.TypeOf<ParameterException>().With.Message.Contains("wireRadius"));
+        }
+
         [TestCase("[{\"from\": 10.0, \"to\": 5.0}]")]
         [TestCase("[{\"to\": 5.0}]")]
         [TestCase("[{\"from\": 0.0, \"to\": 5.0, \"wireRadius\": -1.0}]")]
         [TestCase("[{\"from\": 0.0, \"to\": 5.0, \"colour\": 1.0}]")]
+        [TestCase("[{\"from\": 0.0, \"to\": 5.0, \"numberRodElements\": 1.5}]")]
+        [TestCase("[{\"from\": 0.0, \"to\": 5.0, \"numberRodElements\": 0}]")]
+        [TestCase("[{\"from\": 290.0, \"to\": 310.0, \"numberRodElements\": 3}]")]
+        [TestCase("[{\"from\": 0.0, \"to\": 5.0, \"numberRodElements\": 3},"
+            + " {\"from\": 4.0, \"to\": 9.0, \"numberRodElements\": 3}]")]
         [TestCase("{}")]
         public void SectionsThatMakeNoSense_AreRefused(string text)
         {

@@ -146,6 +146,30 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void StartFile_CountsFromTheFolderOfItsParameterFile()
+        {
+            File.WriteAllText(Path.Combine(_folder, "beside.json"),
+                "{\"positions\": [[0,0,0],[0,0,7]], \"orientations\": [[0,0,0,1]]}");
+            ParameterHandler handler = Load("{\"numberRodElements\": 1, \"startFile\": \"beside.json\"}");
+            Assert.That(handler.Values.Simulation.Scene.Start!.Positions[1].Z, Is.EqualTo(7.0));
+            Assert.That((string?)handler.ToJson()["startFile"],
+                Is.EqualTo(Path.GetFullPath(Path.Combine(_folder, "beside.json"))), "repeats the run from any folder");
+            Assert.That(() => Load("{\"numberRodElements\": 1}", ("startFile", "beside.json")),
+                Throws.TypeOf<ParameterException>(), "the command line's names count from the current folder");
+        }
+
+        [Test]
+        public void SectionShorterThanHalfAnElement_IsWarnedOf()
+        {
+            const string Wire =
+                "{\"solver\": \"direct\", \"wireSections\": [{\"from\": 296.0, \"to\": 300.0%}]}";
+            Assert.That(Load(Wire.Replace("%", "")).Warnings, 
+                Has.Count.EqualTo(1).And.Some.Contains("wireSections[0]"));
+            Assert.That(Load(Wire.Replace("%", ", \"numberRodElements\": 1")).Warnings, Is.Empty);
+            Assert.That(Load(Wire.Replace("296", "294").Replace("%", "")).Warnings, Is.Empty);
+        }
+
+        [Test]
         public void Table_NamesEachKeyOnce_WithHelpAndADefaultThatIsAllowed()
         {
             foreach (ParameterEntry entry in ParameterTable.Entries)

@@ -65,7 +65,8 @@ namespace Guidewire.Core
             _softestBendForce = double.PositiveInfinity;
             for (int j = 0; j < rod.ElementCount; j++)
             {
-                _softestBendForce = Math.Min(_softestBendForce, rod.BendStiffness[j] / (_totalLength * _totalLength));
+                double bend = Math.Min(rod.BendStiffness1[j], rod.BendStiffness2[j]);
+                _softestBendForce = Math.Min(_softestBendForce, bend / (_totalLength * _totalLength));
                 _stiffest = Math.Max(_stiffest, rod.StretchStiffness[j]);
                 _axialSpring = Math.Max(_axialSpring, rod.StretchStiffness[j] / rod.Length[j]);
             }

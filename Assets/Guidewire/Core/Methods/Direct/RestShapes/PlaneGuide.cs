@@ -1,3 +1,5 @@
+using System;
+
 namespace Guidewire.Core
 {
     /// <summary>Holds a rod whose shape and loads lie in a plane to that plane, by springs against motion out of it
@@ -26,7 +28,7 @@ namespace Guidewire.Core
             {
                 _alongX[j] = rod.ShearStiffness[j] / rod.Length[j];
                 _alongX[j + 1] = _alongX[j];
-                _alongT[j] = 2.0 * rod.BendStiffness[j] / rod.Length[j];
+                _alongT[j] = 2.0 * Math.Max(rod.BendStiffness1[j], rod.BendStiffness2[j]) / rod.Length[j];
             }
         }
 

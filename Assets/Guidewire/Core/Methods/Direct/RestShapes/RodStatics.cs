@@ -127,6 +127,8 @@ namespace Guidewire.Core
                 Vector3d curvature = _rod.RestCurvature[j];
                 flat &= Vector3d.Cross(axis, across).LengthSquared < PlaneTolerance;
                 flat &= Vector3d.Cross(curvature, axis).Length <= PlaneTolerance * curvature.Length;
+                // An uneven cross-section stays in the plane where it bends about one of its own axes.
+                flat &= _rod.BendStiffness1[j] == _rod.BendStiffness2[j] || Math.Abs(axis.X * axis.Y) < PlaneTolerance;
             }
             return flat;
         }

@@ -13,7 +13,7 @@ namespace Guidewire.Core.Tests
         private static double Limit(int n, double radius)
         {
             double l = Rods.Length / n;
-            double shear = 4.0 * Rods.Shear / (Rods.Density * radius * radius);
+            double shear = 4.0 * new MaterialParameters().ShearFactor * Rods.Shear / (Rods.Density * radius * radius);
             return 2.0 / Math.Sqrt(shear * (1.0 + radius * radius / (l * l))
                 + 4.0 * Rods.Young / (Rods.Density * l * l));
         }

@@ -100,11 +100,11 @@ namespace Guidewire.Core.Tests
         public void Joint_AnswersWithItsLaw(double angle)
         {
             // Closed forms: K angle for the rotation vector, K sin(angle) for the Darboux vector (2/l) Im(conj(q) q').
-            var joint = new Joint { Bend = 0.7, Twist = 0.4 };
+            var joint = new Joint { Bend1 = 0.7, Bend2 = 1.1, Twist = 0.4 };
             for (int axis = 0; axis < 3; axis++)
             {
                 Vector3d e = axis == 0 ? Vector3d.UnitX : axis == 1 ? Vector3d.UnitY : Vector3d.UnitZ;
-                double stiffness = axis == 2 ? joint.Twist : joint.Bend;
+                double stiffness = axis == 2 ? joint.Twist : axis == 1 ? joint.Bend2 : joint.Bend1;
                 Quaterniond relative = Quaterniond.FromAxisAngle(e, angle);
                 RodVector a = default;
                 RodVector b = default;
@@ -133,7 +133,8 @@ namespace Guidewire.Core.Tests
                 rod.Length[j] = 0.5 + 0.1 * j;
                 rod.StretchStiffness[j] = 3.0 + j;
                 rod.ShearStiffness[j] = 1.3;
-                rod.BendStiffness[j] = 0.5;
+                rod.BendStiffness1[j] = 0.5;
+                rod.BendStiffness2[j] = j % 2 == 0 ? 0.5 : 0.9;
                 rod.TwistStiffness[j] = 0.3;
                 rod.LineDensity[j] = 1.1;
                 rod.RotaryInertia[j] = 0.4;

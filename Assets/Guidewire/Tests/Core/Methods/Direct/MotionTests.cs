@@ -187,7 +187,8 @@ namespace Guidewire.Core.Tests
             rod.Length[0] = 1.0;
             rod.StretchStiffness[0] = 1e-9;
             rod.ShearStiffness[0] = 1e-9;
-            rod.BendStiffness[0] = 1.0;
+            rod.BendStiffness1[0] = 1.0;
+            rod.BendStiffness2[0] = 1.0;
             rod.TwistStiffness[0] = 1.0;
             rod.LineDensity[0] = 1.0;
             rod.RotaryInertia[0] = 1.0;

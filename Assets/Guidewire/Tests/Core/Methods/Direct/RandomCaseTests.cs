@@ -52,7 +52,7 @@ namespace Guidewire.Core.Tests
                 int n = random.Next(15, 121);
                 Vector3d moment = 3.5 * random.NextDouble() * Rods.BendStiffness / Rods.Length * Direction(random);
                 MaterialRod rod = Rods.Wire(n);
-                Array.Copy(rod.BendStiffness, rod.TwistStiffness, n);
+                Array.Copy(rod.BendStiffness1, rod.TwistStiffness, n);
                 RodShape shape = Rods.AtRest(rod, new RodSupports { Clamp = ClampRule.HalfElement }, Vector3d.Zero,
                     Vector3d.Zero, moment);
                 Vector3d strain = moment / Rods.BendStiffness;

@@ -157,7 +157,8 @@ namespace Guidewire.Core.Tests
                 rod.Length[j] = length / N;
                 rod.StretchStiffness[j] = 1e7;
                 rod.ShearStiffness[j] = 0.5e7;
-                rod.BendStiffness[j] = 1e7 / 12.0;
+                rod.BendStiffness1[j] = 1e7 / 12.0;
+                rod.BendStiffness2[j] = 1e7 / 12.0;
                 rod.TwistStiffness[j] = 0.5e7 / 6.0;
                 rod.LineDensity[j] = 1.0;
                 rod.RotaryInertia[j] = 1.0;

@@ -75,12 +75,43 @@ namespace Guidewire.Core.Tests
             MaterialRod rod = Rods.Wire(N);
             for (int j = 0; j < N; j++)
             {
-                rod.TwistStiffness[j] = rod.BendStiffness[j] / ratio;
+                rod.TwistStiffness[j] = rod.BendStiffness1[j] / ratio;
             }
             var supports = new RodSupports { Distal = DistalEnd.Clamped, Clamp = ClampRule.HalfElement };
             double expected = 2.0 * Math.PI * Math.Sqrt(3.0) * ratio;
             Assert.That(RingNegative(rod, supports, 0.97 * expected), Is.Zero, "3 % below");
             Assert.That(RingNegative(rod, supports, 1.03 * expected), Is.GreaterThan(0), "3 % above");
+        }
+
+        /// <summary>A strip, clamped, with a force across its narrow side's axis at the tip: Prandtl's 4.0126
+        /// sqrt(EI GJ)/L^2 with EI of the soft axis, for a stiff axis that is much stiffer.</summary>
+        [TestCase(true)]
+        [TestCase(false)]
+        public void Strip_BucklesSidewaysAtPrandtlsForce(bool softAboutD2)
+        {
+            const int N = 60;
+            const double Ratio = 1e4;
+            MaterialRod rod = Rods.Wire(N);
+            double[] stiff = softAboutD2 ? rod.BendStiffness1 : rod.BendStiffness2;
+            for (int j = 0; j < N; j++)
+            {
+                stiff[j] *= Ratio;
+                rod.ShearStiffness[j] *= Ratio;
+                rod.StretchStiffness[j] *= Ratio;
+            }
+            var supports = new RodSupports();
+            Vector3d across = softAboutD2 ? Vector3d.UnitY : Vector3d.UnitX;
+            double unit = Math.Sqrt(Rods.BendStiffness * Rods.TwistStiffness) / (Rods.Length * Rods.Length);
+            double critical = Bisect(3.0, 5.0, load =>
+            {
+                RodShape shape = Rods.Straight(rod);
+                var terms = new RodTerms(rod, supports);
+                terms.Loads.Set(Vector3d.Zero, (load * unit) * across);
+                Balance(terms, shape);
+                return Negative(terms, shape);
+            });
+            TestContext.WriteLine("P L^2/sqrt(EI GJ) = {0:F4}", critical);
+            Assert.That(critical, Is.EqualTo(4.0126).Within(0.01 * 4.0126));
         }
 
         private static int RingNegative(MaterialRod rod, RodSupports supports, double twist)
@@ -93,8 +124,9 @@ namespace Guidewire.Core.Tests
                 shape.Q[j] = shape.Q[j] * Quaterniond.FromAxisAngle(Vector3d.UnitZ, twist * (j + 0.5) / n);
             }
             shape.DistalFrame = Quaterniond.FromAxisAngle(Vector3d.UnitZ, twist);
-            Balance(rod, supports, shape);
-            return Negative(rod, supports, shape);
+            var terms = new RodTerms(rod, supports);
+            Balance(terms, shape);
+            return Negative(terms, shape);
         }
 
         /// <summary>The smallest value at which the second derivative is not positive definite.</summary>
@@ -119,31 +151,35 @@ namespace Guidewire.Core.Tests
 
         private static int Negative(MaterialRod rod, RodSupports supports, RodShape shape)
         {
-            var system = new BlockTridiagonal(rod, supports);
-            EnergyTerm[] terms = new RodTerms(rod, supports).All;
+            return Negative(new RodTerms(rod, supports), shape);
+        }
+
+        private static int Negative(RodTerms terms, RodShape shape)
+        {
+            var system = new BlockTridiagonal(terms.Rod, terms.Supports);
             // A shift of 1e-4 EI/L^2: the ring may turn about the clamp's tangent without energy, an eigenvalue 0.
-            return system.Factorise(terms, shape, new RodVector[system.VectorCount], new RodVector[system.VectorCount],
-                1e-4 * Rods.BendForce);
+            return system.Factorise(terms.All, shape, new RodVector[system.VectorCount],
+                new RodVector[system.VectorCount], 1e-4 * Rods.BendForce);
         }
 
         /// <summary>Bare Newton steps to the equilibrium nearby, stable or not: twist and bend together need a shear
         /// force across the ring's plane, GJ tau kappa, which the even polygon has not yet.</summary>
-        private static void Balance(MaterialRod rod, RodSupports supports, RodShape shape)
+        private static void Balance(RodTerms terms, RodShape shape)
         {
-            var system = new BlockTridiagonal(rod, supports);
-            EnergyTerm[] terms = new RodTerms(rod, supports).All;
+            MaterialRod rod = terms.Rod;
+            var system = new BlockTridiagonal(rod, terms.Supports);
             var direction = new RodVector[system.VectorCount];
             RodShape moved = Rods.Copy(shape);
             double size = 1.0;
             for (int i = 0; i < 15; i++)
             {
-                system.Factorise(terms, shape, new RodVector[system.VectorCount], direction, 1e-4 * Rods.BendForce);
+                system.Factorise(terms.All, shape, new RodVector[system.VectorCount], direction, 1e-4 * Rods.BendForce);
                 system.Back(direction);
                 size = RodStep.Size(direction, rod.ElementCount, Rods.Length, out _);
-                RodStep.Apply(rod, supports, shape, direction, 1.0, moved);
+                RodStep.Apply(rod, terms.Supports, shape, direction, 1.0, moved);
                 shape.CopyFrom(moved);
             }
-            Assert.That(size, Is.LessThan(1e-6), "the twisted ring is in equilibrium");
+            Assert.That(size, Is.LessThan(1e-6), "an equilibrium, stable or not");
         }
 
         /// <summary>Twists a straight rod so that every joint carries the couple.</summary>

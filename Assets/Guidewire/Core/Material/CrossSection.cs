@@ -1,0 +1,141 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>The wire at one place: how stiff and heavy its cross-section is, and how it is bent at rest.</summary>
+    internal struct CrossSection
+    {
+        /// <summary>EA, N.</summary>
+        public double StretchStiffness;
+
+        /// <summary>GA times the shear factor, N.</summary>
+        public double ShearStiffness;
+
+        /// <summary>EI about d1, N m^2.</summary>
+        public double BendStiffness1;
+
+        /// <summary>EI about d2, N m^2.</summary>
+        public double BendStiffness2;
+
+        /// <summary>GJ about d3, N m^2.</summary>
+        public double TwistStiffness;
+
+        /// <summary>rho A, kg/m.</summary>
+        public double LineDensity;
+
+        /// <summary>rho I about d1 and d2, the mean of both, kg m; about d3 it is twice that.</summary>
+        public double RotaryInertia;
+
+        /// <summary>Curvature and twist at rest, rad/m.</summary>
+        public Vector3d RestCurvature;
+
+        /// <summary>What a joint sees of it.</summary>
+        public JointSide Side => new JointSide
+        {
+            Bend1 = BendStiffness1,
+            Bend2 = BendStiffness2,
+            Twist = TwistStiffness,
+            RestCurvature = RestCurvature,
+        };
+
+        /// <summary>A round wire: A = pi r^2, I = pi r^4/4, J = 2 I.</summary>
+        /// <param name="radius">r, m.</param>
+        /// <param name="youngsModulus">E, Pa.</param>
+        /// <param name="shearModulus">G, Pa.</param>
+        /// <param name="density">rho, kg/m^3.</param>
+        public static CrossSection Round(double radius, double youngsModulus, double shearModulus, double density)
+        {
+            double area = Math.PI * radius * radius;
+            return Of(area, 0.25 * area * radius * radius, youngsModulus, shearModulus, density);
+        }
+
+        /// <summary>A round tube: A = pi (r^2 - a^2), I = pi (r^4 - a^4)/4, J = 2 I.</summary>
+        /// <param name="radius">r, m.</param>
+        /// <param name="innerRadius">a, m, less than r.</param>
+        /// <param name="youngsModulus">E, Pa.</param>
+        /// <param name="shearModulus">G, Pa.</param>
+        /// <param name="density">rho, kg/m^3.</param>
+        public static CrossSection Tube(double radius, double innerRadius, double youngsModulus, double shearModulus,
+            double density)
+        {
+            double hollow = innerRadius * innerRadius;
+            double square = radius * radius;
+            double area = Math.PI * (square - hollow);
+            return Of(area, 0.25 * area * (square + hollow), youngsModulus, shearModulus, density);
+        }
+
+        /// <summary>The wire of these parameters at a place, units from the proximal end: of the sections there the
+        /// last one that says something counts.</summary>
+        public static CrossSection At(MaterialParameters material, double place)
+        {
+            var wire = new WireSection();
+            foreach (WireSection section in material.Sections)
+            {
+                if (place >= section.From && place < section.To)
+                {
+                    wire.TakeOver(section);
+                }
+            }
+            double young = wire.YoungsModulus ?? material.YoungsModulus;
+            double shear = wire.ShearModulus ?? material.ShearModulus;
+            double density = wire.Density ?? material.Density;
+            double radius = wire.WireRadius ?? material.WireRadius;
+            double inner = wire.InnerRadius ?? material.InnerRadius;
+            CrossSection here = inner == 0.0 ? Round(radius, young, shear, density)
+                : Tube(radius, inner, young, shear, density);
+            here.ShearStiffness *= wire.ShearFactor ?? material.ShearFactor;
+            here.RestCurvature = wire.RestCurvature ?? material.RestCurvature;
+            here.TakeDirect(wire);
+            return here;
+        }
+
+        private static CrossSection Of(double area, double second, double youngsModulus, double shearModulus,
+            double density)
+        {
+            return new CrossSection
+            {
+                StretchStiffness = youngsModulus * area,
+                ShearStiffness = shearModulus * area,
+                BendStiffness1 = youngsModulus * second,
+                BendStiffness2 = youngsModulus * second,
+                TwistStiffness = 2.0 * shearModulus * second,
+                LineDensity = density * area,
+                RotaryInertia = density * second,
+            };
+        }
+
+        /// <summary>Takes over what is given as stiffness and mass. Rotary inertia follows from them, rho A EI/EA about
+        /// either axis, where it is not given.</summary>
+        private void TakeDirect(WireSection given)
+        {
+            StretchStiffness = given.AxialStiffness ?? StretchStiffness;
+            ShearStiffness = given.ShearStiffness ?? ShearStiffness;
+            BendStiffness1 = given.BendingStiffness1 ?? BendStiffness1;
+            BendStiffness2 = given.BendingStiffness2 ?? BendStiffness2;
+            TwistStiffness = given.TorsionalStiffness ?? TwistStiffness;
+            LineDensity = given.MassPerLength ?? LineDensity;
+            if (given.RotaryInertia.HasValue)
+            {
+                RotaryInertia = given.RotaryInertia.Value;
+            }
+            else if (given.AxialStiffness.HasValue || given.BendingStiffness1.HasValue
+                || given.BendingStiffness2.HasValue || given.MassPerLength.HasValue)
+            {
+                RotaryInertia = LineDensity * 0.5 * (BendStiffness1 + BendStiffness2) / StretchStiffness;
+            }
+        }
+
+        /// <summary>Makes element j of a rod of it.</summary>
+        public void CopyTo(MaterialRod rod, int j)
+        {
+            rod.StretchStiffness[j] = StretchStiffness;
+            rod.ShearStiffness[j] = ShearStiffness;
+            rod.BendStiffness1[j] = BendStiffness1;
+            rod.BendStiffness2[j] = BendStiffness2;
+            rod.TwistStiffness[j] = TwistStiffness;
+            rod.LineDensity[j] = LineDensity;
+            rod.RotaryInertia[j] = RotaryInertia;
+            rod.RestCurvature[j] = RestCurvature;
+        }
+    }
+}

@@ -1,0 +1,123 @@
+using System;
+using System.Collections.Generic;
+
+namespace Guidewire.Core
+{
+    /// <summary>What the wire is made of from place to place: even pieces between the borders of its sections, and
+    /// their mean over an element.</summary>
+    /// <remarks>Over an element that holds a border, compliances (1/EA, 1/GA), masses and rotary inertia are averaged
+    /// by length. A joint turns the element after it against the one before it, each a straight line that stands for
+    /// the mean direction of its piece of wire: the difference of two means is the integral of the curvature times the
+    /// hat function that is 1 at the joint and falls to 0 at its neighbours. Compliances in bending and twist and the
+    /// rest curvature are averaged with it; for an even element it counts half of it. A bent tip shorter than the last
+    /// half element therefore turns that element by what it moves the tip. With the moment taken at the joint the
+    /// error at a border is of second order in the element's length.</remarks>
+    internal sealed class WireProfile
+    {
+        private const double Rounding = 1e-9;  // of an element: less than this of another piece is none of it
+
+        private readonly double[] _border;     // units; of the pieces, first 0, last L
+        private readonly CrossSection[] _piece;
+
+        /// <summary>The wire of these parameters.</summary>
+        public WireProfile(MaterialParameters material, double length)
+        {
+            var borders = new List<double> { 0.0, length };
+            foreach (WireSection section in material.Sections)
+            {
+                AddBorder(borders, section.From, length);
+                AddBorder(borders, section.To, length);
+            }
+            borders.Sort();
+            _border = borders.ToArray();
+            _piece = new CrossSection[_border.Length - 1];
+            for (int k = 0; k < _piece.Length; k++)
+            {
+                _piece[k] = CrossSection.At(material, 0.5 * (_border[k] + _border[k + 1]));
+            }
+        }
+
+        /// <summary>Sets all but the length of element j, which lies between these places (units).</summary>
+        public void SetElement(MaterialRod rod, int j, double from, double to)
+        {
+            double slack = Rounding * (to - from);
+            int first = 0;
+            while (first < _piece.Length - 1 && _border[first + 1] <= from + slack)
+            {
+                first++;
+            }
+            int last = first;
+            while (last < _piece.Length - 1 && _border[last + 1] < to - slack)
+            {
+                last++;
+            }
+            if (first == last)
+            {
+                _piece[first].CopyTo(rod, j);
+                return;
+            }
+            var mean = new Mean();
+            var start = new Mean();
+            var end = new Mean();
+            for (int k = first; k <= last; k++)
+            {
+                // Shares of the element, from 0 at its start to 1 at its end.
+                double a = k == first ? 0.0 : (_border[k] - from) / (to - from);
+                double b = k == last ? 1.0 : (_border[k + 1] - from) / (to - from);
+                mean.Add(_piece[k], b - a);
+                end.Add(_piece[k], b * b - a * a);
+                start.Add(_piece[k], (b - a) * (2.0 - a - b));
+            }
+            mean.Result().CopyTo(rod, j);
+            rod.SetSides(j, start.Result().Side, end.Result().Side);
+        }
+
+        private static void AddBorder(List<double> borders, double place, double length)
+        {
+            if (place > 0.0 && place < length && !borders.Contains(place))
+            {
+                borders.Add(place);
+            }
+        }
+
+        /// <summary>A weighted mean: of compliances, densities and curvatures.</summary>
+        private struct Mean
+        {
+            private double _stretch;
+            private double _shear;
+            private double _bend1;
+            private double _bend2;
+            private double _twist;
+            private double _density;
+            private double _rotary;
+            private Vector3d _curvature;
+
+            public void Add(in CrossSection piece, double weight)
+            {
+                _stretch += weight / piece.StretchStiffness;
+                _shear += weight / piece.ShearStiffness;
+                _bend1 += weight / piece.BendStiffness1;
+                _bend2 += weight / piece.BendStiffness2;
+                _twist += weight / piece.TwistStiffness;
+                _density += weight * piece.LineDensity;
+                _rotary += weight * piece.RotaryInertia;
+                _curvature += weight * piece.RestCurvature;
+            }
+
+            public CrossSection Result()
+            {
+                return new CrossSection
+                {
+                    StretchStiffness = 1.0 / _stretch,
+                    ShearStiffness = 1.0 / _shear,
+                    BendStiffness1 = 1.0 / _bend1,
+                    BendStiffness2 = 1.0 / _bend2,
+                    TwistStiffness = 1.0 / _twist,
+                    LineDensity = _density,
+                    RotaryInertia = _rotary,
+                    RestCurvature = _curvature,
+                };
+            }
+        }
+    }
+}
