@@ -57,6 +57,10 @@ namespace Guidewire.Core
         public string? Blowup()
         {
             _step++;
+            // What acts on a held node acts on its support.
+            _before.X[0] = _ends.HoldsFirst ? _shape.X[0] : _before.X[0];
+            int last = _shape.ElementCount;
+            _before.X[last] = _ends.HoldsLast ? _shape.X[last] : _before.X[last];
             _loadWork += _terms.LoadWork(_before, _shape);
             _before.CopyFrom(_shape);
             double motion = Motion();

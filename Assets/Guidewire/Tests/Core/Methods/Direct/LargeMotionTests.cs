@@ -63,7 +63,7 @@ namespace Guidewire.Core.Tests
             var velocities = new Vector3d[11];
             var spins = new Vector3d[10];
             velocities[10] = new Vector3d(0.0, 1.0, 0.0);
-            var watch = new EnergyWatch(terms, terms.Mass, shape, velocities, spins,
+            var watch = new EnergyWatch(terms, new FreeInertia(terms.Mass, terms.Supports), shape, velocities, spins,
                 new HeldEnds(terms, new RodSchedule()));
             velocities[10] = new Vector3d(0.0, 0.99 * Math.Sqrt(EnergyWatch.LeastAllowance), 0.0);
             Assert.That(watch.Blowup(), Is.Null);
