@@ -127,7 +127,7 @@ def _force_balance(tight: bool) -> Plan:
         run = runs[case.key]
         mass = BASE.line_density * BASE.length / n
         momentum = np.array([mass * state.momentum_per_mass for state in read_states(run)])
-        rates = _rates(momentum, step, two_steps="bdf2" in name)
+        rates = _rates(momentum, step, two_steps=name == "direct, bdf2")
         force = reactions(run)
         left = np.linalg.norm(force + weight - rates, axis=1)
         peak = float(np.max(np.linalg.norm(force, axis=1)))

@@ -15,6 +15,8 @@ namespace Guidewire.Core
         private EndState _first;       // when last followed
         private EndState _last;
         private double _carried;       // J
+        private readonly double _stretch;  // the largest EA, N
+        private readonly double _twist;    // the largest GJ, N m^2
 
         /// <summary>The ends of this rod, held by this schedule.</summary>
         public HeldEnds(RodTerms terms, RodSchedule schedule)
@@ -23,14 +25,25 @@ namespace Guidewire.Core
             _schedule = schedule;
             _holdsFirst = terms.Supports.Proximal != ProximalEnd.Free;
             _holdsLast = terms.Supports.Distal != DistalEnd.Free;
+            for (int j = 0; j < terms.Rod.ElementCount; j++)
+            {
+                _stretch = Math.Max(_stretch, terms.Rod.StretchStiffness[j]);
+                _twist = Math.Max(_twist, terms.Rod.TwistStiffness[j]);
+            }
         }
+
+        /// <summary>Whether the first node is where its support is.</summary>
+        public bool HoldsFirst => _holdsFirst;
+
+        /// <summary>Whether the last node is where its support is; not so where it slides.</summary>
+        public bool HoldsLast => _terms.Supports.Distal == DistalEnd.Clamped;
 
         /// <summary>Work done on the wire since the start, J: the mean of force and couple before and after a move,
         /// times the move, which is exact while the stress is proportional to it.</summary>
         public double Work { get; private set; }
 
-        /// <summary>The most that <see cref="Work"/> has been, J, with what it takes to bring the whole wire to the
-        /// speed of the ends that are followed.</summary>
+        /// <summary>The most that <see cref="Work"/> has been, J; where steps are counted, with what there is room for
+        /// within one.</summary>
         public double MostWork { get; private set; }
 
         /// <summary>Places and frames of this time.</summary>
@@ -61,21 +74,37 @@ namespace Guidewire.Core
             _last = Look(shape, shape.ElementCount, shape.DistalFrame, _terms.Bending.DistalCouple(shape), distalTurn);
         }
 
-        /// <summary>Counts what the ends may have put in at most in a step in which a solver has placed them itself, by
-        /// forces and couples at its start and its end.</summary>
+        /// <summary>Counts what the ends may have put in at most in a step of dt in which a solver has placed them
+        /// itself, by forces and couples at its start and its end.</summary>
         /// <remarks>In a step longer than sound needs along the wire, a support that starts or stops leaves forces of
         /// either sign in it, up to EA times the move over L: so no step takes energy out again. What brings a wire at
         /// rest to the speed of its support may be over within a step and leave no force at all: so there is always
-        /// room for the energy of the whole wire at that speed.</remarks>
-        public void Count(RodShape shape, double proximalTurn, double distalTurn)
+        /// room for the energy of the whole wire at the largest speed that the ends have had. And one that shortens a
+        /// straight wire may have met all of its axial stiffness before it buckled, or all of its torsion: there is
+        /// room for EA/(2 L) times the largest move squared, and GJ/(2 L) times the turn squared.</remarks>
+        public void Count(RodShape shape, double proximalTurn, double distalTurn, double dt)
         {
             EndState first = _first;
             EndState last = _last;
             Follow(shape, proximalTurn, distalTurn);
-            Work += (_holdsFirst ? EndState.MostWork(first, _first) : 0.0)
-                + (_holdsLast ? EndState.MostWork(last, _last) : 0.0);
-            double speed = _schedule.LargestSpeed(_terms.Rod.TotalLength);
-            _carried = Math.Max(_carried, 0.5 * _terms.Mass.Total * speed * speed);
+            double move = 0.0;
+            double turn = 0.0;
+            if (_holdsFirst)
+            {
+                Work += EndState.MostWork(first, _first);
+                move += (_first.Place - first.Place).Length;
+                turn += Math.Abs(_first.Turn - first.Turn);
+            }
+            if (_holdsLast)
+            {
+                Work += EndState.MostWork(last, _last);
+                move += (_last.Place - last.Place).Length;
+                turn += Math.Abs(_last.Turn - last.Turn);
+            }
+            double length = _terms.Rod.TotalLength;
+            double speed = (move + length * turn) / dt;
+            _carried = Math.Max(_carried, 0.5 * (_terms.Mass.Total * speed * speed
+                + (_stretch * move * move + _twist * turn * turn) / length));
             MostWork = Math.Max(MostWork, Work + _carried);
         }
 
@@ -146,8 +175,10 @@ namespace Guidewire.Core
 
             public static double MostWork(in EndState from, in EndState to)
             {
-                return 0.5 * (Math.Abs(Vector3d.Dot(from.Force + to.Force, to.Place - from.Place))
-                    + Math.Abs((from.Couple + to.Couple) * (to.Turn - from.Turn)));
+                Vector3d move = to.Place - from.Place;
+                double turn = to.Turn - from.Turn;
+                return Math.Max(Math.Abs(Vector3d.Dot(from.Force, move)), Math.Abs(Vector3d.Dot(to.Force, move)))
+                    + Math.Max(Math.Abs(from.Couple * turn), Math.Abs(to.Couple * turn));
             }
         }
 

@@ -3,7 +3,7 @@ using System;
 namespace Guidewire.Core
 {
     /// <summary>How the mass of a rod acts on its nodes and elements: the one place where it is shared out.</summary>
-    internal sealed class RodMass : IKineticEnergy
+    internal sealed class RodMass
     {
         /// <summary>The mass of a rod under one rule.</summary>
         public RodMass(MaterialRod rod, MassRule rule)

@@ -121,15 +121,6 @@ namespace Guidewire.Core
             return !ramps && !isReleased && ProximalVelocity == Vector3d.Zero && ProximalTwistRate == 0.0;
         }
 
-        /// <summary>How fast prescribed motions of the ends may carry along a wire of this length (m), m/s; jumps not
-        /// counted.</summary>
-        public double LargestSpeed(double length)
-        {
-            double ramp = DistalRampTime > 0.0
-                ? (Math.Abs(DistalDisplacement) + length * Math.Abs(DistalRotation)) / DistalRampTime : 0.0;
-            return ramp + ProximalVelocity.Length + length * Math.Abs(ProximalTwistRate);
-        }
-
         /// <summary>The largest turn between the two frames from a time to an end, s, over that at the time; 1 where
         /// there is none yet.</summary>
         public double TurnAhead(double time, double end)

@@ -34,8 +34,8 @@ namespace Guidewire.Core
             dynamics.TracksReactions = record != null;
             _ends = new HeldEnds(dynamics.Terms, scene.Schedule);
             FollowEnds();
-            _energy = new EnergyWatch(dynamics.Terms, dynamics.Terms.Mass, dynamics.Shape, dynamics.Velocities,
-                dynamics.Spins, _ends);
+            _energy = new EnergyWatch(dynamics.Terms, new FreeInertia(dynamics.Terms.Mass, scene.Supports),
+                dynamics.Shape, dynamics.Velocities, dynamics.Spins, _ends);
             _rest = new RestWatch(scene, dynamics.Terms, dynamics.Velocities, dynamics.Spins, method);
         }
 
@@ -61,7 +61,7 @@ namespace Guidewire.Core
                     + (_scene.Joints.FindTurned(_dynamics.Shape, _dynamics.Time) ?? failure);
                 return;
             }
-            _ends.Count(_dynamics.Shape, _dynamics.ProximalTurn, _dynamics.DistalTurn);
+            _ends.Count(_dynamics.Shape, _dynamics.ProximalTurn, _dynamics.DistalTurn, _timeStep);
             Divergence = _energy.Blowup();
             if (Divergence != null)
             {

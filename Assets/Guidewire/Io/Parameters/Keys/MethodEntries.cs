@@ -24,7 +24,10 @@ namespace Guidewire.Io
             {
                 Methods = Takers.Only(Solver.Pbd, Solver.Xpbd),
             },
-            new ChoiceEntry<Integrator>("integrator", "how positions are predicted",
+            new ChoiceEntry<Integrator>("integrator",
+                "how positions are predicted; direct: esdirk3 for most motions, esdirk4 for smooth ones, trbdf2 where "
+                + "steps are short anyway; bdf2 loses 0.2 % of a release and 0.1 % of a spin, implicitEuler damps all "
+                + "that is not slow; at a stiff EA all turn with order 2 to 2.5",
                 p => p.Simulation.Method.Integrator, (p, v) => p.Simulation.Method.Integrator = v)
             {
                 OlderWords = new Dictionary<string, Integrator>

@@ -148,7 +148,8 @@ namespace Guidewire.Core
                     {
                         return true;
                     }
-                    if (!(next < size))
+                    // Below the tolerance a factorisation that no longer contracts is only too old.
+                    if (!(next < size) && !(next <= Tolerance))
                     {
                         return false;
                     }

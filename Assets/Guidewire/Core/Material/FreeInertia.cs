@@ -1,0 +1,39 @@
+namespace Guidewire.Core
+{
+    /// <summary>Kinetic energy by the mass matrix, of the nodes that are not held: how fast a support moves says
+    /// nothing of the wire.</summary>
+    internal sealed class FreeInertia : IKineticEnergy
+    {
+        private readonly RodMass _mass;
+        private readonly int _first;
+        private readonly int _last;
+
+        /// <summary>That of a wire between these supports.</summary>
+        public FreeInertia(RodMass mass, RodSupports supports)
+        {
+            _mass = mass;
+            _first = supports.Proximal == ProximalEnd.Free ? 0 : 1;
+            _last = supports.Distal == DistalEnd.Clamped ? mass.Rotary.Length - 1 : mass.Rotary.Length;
+        }
+
+        /// <inheritdoc/>
+        public double KineticEnergy(Vector3d[] velocities, Vector3d[] spins)
+        {
+            double twice = 0.0;
+            for (int i = _first; i <= _last; i++)
+            {
+                twice += _mass.Diagonal[i] * velocities[i].LengthSquared;
+                if (i < _last)
+                {
+                    twice += 2.0 * _mass.Coupling[i] * Vector3d.Dot(velocities[i], velocities[i + 1]);
+                }
+            }
+            for (int j = 0; j < spins.Length; j++)
+            {
+                Vector3d w = spins[j];
+                twice += _mass.Rotary[j] * (w.LengthSquared + w.Z * w.Z);
+            }
+            return 0.5 * twice;
+        }
+    }
+}
