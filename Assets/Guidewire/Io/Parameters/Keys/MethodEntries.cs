@@ -63,7 +63,7 @@ namespace Guidewire.Io
             },
             new NumberEntry("timeStepError", "rad, or displacement over L", NumberRange.NotNegative,
                 "error that a step may make, by the estimate of trbdf2, esdirk3 and esdirk4: steps are cut and grown "
-                + "within timeStep, to 1/4096 of it at the least; 0: steps stay whole",
+                + "within timeStep, to 1/1024 of it at the least; 0: steps stay whole",
                 p => p.Simulation.Method.TimeStepError, (p, v) => p.Simulation.Method.TimeStepError = v)
             {
                 Methods = Takers.Only(Solver.Direct),

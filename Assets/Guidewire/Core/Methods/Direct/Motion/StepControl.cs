@@ -5,11 +5,11 @@ namespace Guidewire.Core
     /// <summary>Cuts and grows the steps within a logged one by the estimate of their error: a step of length h whose
     /// error E is above the tolerance T is taken again, and the next one has h (0.9^(p+1) T/E)^(1/(p+1)), p the order
     /// of the less accurate of the two solutions.</summary>
-    /// <remarks>Bounded: no step is shorter than 1/4096 of the logged one, what is left of it is divided evenly, and
+    /// <remarks>Bounded: no step is shorter than 1/1024 of the logged one, what is left of it is divided evenly, and
     /// what is still above the tolerance then is counted and kept.</remarks>
     internal sealed class StepControl
     {
-        private const double Shortest = 1.0 / 4096.0;  // of the logged step
+        private const double Shortest = 1.0 / 1024.0;  // of the logged step
         private const double Safety = 0.9;
         private const double Failing = 0.25;  // where a stage has no solution
         private const double LeastChange = 0.2;

@@ -53,9 +53,9 @@ namespace Guidewire.Core
             _length = scene.Rod.TotalLength;
             _bendForce = scene.Rod.BendForce;
             double softest = double.PositiveInfinity;
-            foreach (double stiffness in scene.Rod.BendStiffness)
+            for (int j = 0; j < scene.Rod.ElementCount; j++)
             {
-                softest = Math.Min(softest, stiffness);
+                softest = Math.Min(softest, Math.Min(scene.Rod.BendStiffness1[j], scene.Rod.BendStiffness2[j]));
             }
             _time = Math.Sqrt(terms.Mass.Total * _length * _length * _length / softest);
             _tangent = terms.HavePotential ? null

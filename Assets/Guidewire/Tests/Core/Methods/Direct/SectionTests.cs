@@ -206,7 +206,7 @@ namespace Guidewire.Core.Tests
         private static SimulationParameters Clamped(int n)
         {
             SimulationParameters parameters = Rods.Clamped(n, Solver.Direct, 1e-3, 0);
-            parameters.Method.Integrator = Integrator.Sdirk3;
+            parameters.Method.Integrator = Integrator.Esdirk3;
             parameters.Scene.InitialState = InitialState.Equilibrium;
             return parameters;
         }

@@ -67,8 +67,8 @@ namespace Guidewire.Core.Tests
             parameters.Method.MaxSimulationSteps = 1;
             Simulation run = Wires.Run(parameters);
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished));
-            Assert.That(run.Report()!.InnerSteps, Is.InRange(4000, 4200));
-            Assert.That(run.Report()!.StepsNotConverged, Is.InRange(4000, 4200));
+            Assert.That(run.Report()!.InnerSteps, Is.InRange(1024, 1040));
+            Assert.That(run.Report()!.StepsNotConverged, Is.InRange(1024, 1040));
         }
 
         [Test]
