@@ -157,7 +157,8 @@ def steady_state_step(run: Run, log: PositionLog) -> int | None:
     if run.summary is not None:
         step = int(run.measured("steadyStateStep"))
         return None if step == NO_STEADY_STATE else step
-    if log.steps.size != log.final_step + 1:
+    # Only with gains do prediction errors make a steady state.
+    if log.steps.size != log.final_step + 1 or run.parameters.get("solver", "pbd") != "pbd":
         return None
     return steady_state_entry(log.prediction_error, run.number("deltaThreshold"), int(run.number("steadyStateHold")))
 

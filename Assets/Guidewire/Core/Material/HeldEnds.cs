@@ -12,8 +12,8 @@ namespace Guidewire.Core
         private readonly bool _holdsLast;
         private double _proximalTurn;  // that the frames have made, radians
         private double _distalTurn;
-        private EndState _first;       // when last followed
-        private EndState _last;
+        private Vector3d _firstPlace;  // of ends that are followed, m
+        private Vector3d _lastPlace;
         private double _carried;       // J
         private readonly double _stretch;  // the largest EA, N
         private readonly double _twist;    // the largest GJ, N m^2
@@ -70,12 +70,14 @@ namespace Guidewire.Core
         /// radians.</summary>
         public void Follow(RodShape shape, double proximalTurn, double distalTurn)
         {
-            _first = Look(shape, 0, shape.ProximalFrame, _terms.Bending.ProximalCouple(shape), proximalTurn);
-            _last = Look(shape, shape.ElementCount, shape.DistalFrame, _terms.Bending.DistalCouple(shape), distalTurn);
+            _firstPlace = shape.X[0];
+            _lastPlace = shape.X[shape.ElementCount];
+            _proximalTurn = proximalTurn;
+            _distalTurn = distalTurn;
         }
 
         /// <summary>Counts what the ends may have put in at most in a step of dt in which a solver has placed them
-        /// itself, by forces and couples at its start and its end.</summary>
+        /// itself, by forces and couples at its end.</summary>
         /// <remarks>In a step longer than sound needs along the wire, a support that starts or stops leaves forces of
         /// either sign in it, up to EA times the move over L: so no step takes energy out again. What brings a wire at
         /// rest to the speed of its support may be over within a step and leave no force at all: so there is always
@@ -84,23 +86,23 @@ namespace Guidewire.Core
         /// room for EA/(2 L) times the largest move squared, and GJ/(2 L) times the turn squared.</remarks>
         public void Count(RodShape shape, double proximalTurn, double distalTurn, double dt)
         {
-            EndState first = _first;
-            EndState last = _last;
+            int last = shape.ElementCount;
+            Vector3d firstMove = _holdsFirst ? shape.X[0] - _firstPlace : Vector3d.Zero;
+            Vector3d lastMove = _holdsLast ? shape.X[last] - _lastPlace : Vector3d.Zero;
+            double firstTurn = proximalTurn - _proximalTurn;
+            double lastTurn = distalTurn - _distalTurn;
             Follow(shape, proximalTurn, distalTurn);
-            double move = 0.0;
-            double turn = 0.0;
-            if (_holdsFirst)
+            double move = firstMove.Length + lastMove.Length;
+            double turn = Math.Abs(firstTurn) + Math.Abs(lastTurn);
+            if (move == 0.0 && turn == 0.0)
             {
-                Work += EndState.MostWork(first, _first);
-                move += (_first.Place - first.Place).Length;
-                turn += Math.Abs(_first.Turn - first.Turn);
+                return;
             }
-            if (_holdsLast)
-            {
-                Work += EndState.MostWork(last, _last);
-                move += (_last.Place - last.Place).Length;
-                turn += Math.Abs(_last.Turn - last.Turn);
-            }
+            BendTwistTerm bending = _terms.Bending;
+            Work += Math.Abs(Vector3d.Dot(_terms.EndGradient(shape, 0), firstMove))
+                + Math.Abs(Vector3d.Dot(_terms.EndGradient(shape, last), lastMove))
+                + Math.Abs(Vector3d.Dot(bending.ProximalCouple(shape), shape.ProximalFrame.Director3) * firstTurn)
+                + Math.Abs(Vector3d.Dot(bending.DistalCouple(shape), shape.DistalFrame.Director3) * lastTurn);
             double length = _terms.Rod.TotalLength;
             double speed = (move + length * turn) / dt;
             _carried = Math.Max(_carried, 0.5 * (_terms.Mass.Total * speed * speed
@@ -125,17 +127,6 @@ namespace Guidewire.Core
             Work = work;
             MostWork = most;
             snapshot.Exchange(ref _carried);
-        }
-
-        private EndState Look(RodShape shape, int node, in Quaterniond frame, in Vector3d couple, double turn)
-        {
-            return new EndState
-            {
-                Force = _terms.EndGradient(shape, node),
-                Place = shape.X[node],
-                Couple = Vector3d.Dot(couple, frame.Director3),
-                Turn = turn,
-            };
         }
 
         private void Shift(RodShape shape, int node, in Vector3d to)
@@ -163,23 +154,6 @@ namespace Guidewire.Core
             endCouple += _terms.Bending.DistalCouple(shape);
             Work += 0.5 * (Vector3d.Dot(couple, Between(proximal, shape.ProximalFrame))
                 + Vector3d.Dot(endCouple, Between(distal, shape.DistalFrame)));
-        }
-
-        // Force on an end, N; its place, m; couple about its own d3, N m; turn about it, radians.
-        private struct EndState
-        {
-            public Vector3d Force;
-            public Vector3d Place;
-            public double Couple;
-            public double Turn;
-
-            public static double MostWork(in EndState from, in EndState to)
-            {
-                Vector3d move = to.Place - from.Place;
-                double turn = to.Turn - from.Turn;
-                return Math.Max(Math.Abs(Vector3d.Dot(from.Force, move)), Math.Abs(Vector3d.Dot(to.Force, move)))
-                    + Math.Max(Math.Abs(from.Couple * turn), Math.Abs(to.Couple * turn));
-            }
         }
 
         private static Vector3d Between(in Quaterniond before, in Quaterniond after)

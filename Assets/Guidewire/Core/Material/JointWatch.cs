@@ -1,5 +1,6 @@
 using System;
 using System.Globalization;
+using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
@@ -42,26 +43,29 @@ namespace Guidewire.Core
         /// 1.</param>
         public string? FindTurned(RodShape shape, double time, double done = 1.0)
         {
-            int n = shape.ElementCount;
+            Quaterniond[] q = shape.Q;
+            int n = q.Length;
             double least = 1.0;
             int worst = 0;
             for (int k = 1; k < n; k++)
             {
-                double cosine = Cosine(shape.Q[k - 1], shape.Q[k]);
+                double cosine = Cosine(q[k - 1], q[k]);
                 if (cosine < least)
                 {
                     least = cosine;
                     worst = k;
                 }
             }
-            if (_supports.HasProximalJoint && Cosine(shape.ProximalFrame, shape.Q[0]) < least)
+            double clamp = _supports.HasProximalJoint ? Cosine(shape.ProximalFrame, q[0]) : 1.0;
+            if (clamp < least)
             {
-                least = Cosine(shape.ProximalFrame, shape.Q[0]);
+                least = clamp;
                 worst = 0;
             }
-            if (_supports.HasDistalJoint && Cosine(shape.Q[n - 1], shape.DistalFrame) < least)
+            clamp = _supports.HasDistalJoint ? Cosine(q[n - 1], shape.DistalFrame) : 1.0;
+            if (clamp < least)
             {
-                least = Cosine(shape.Q[n - 1], shape.DistalFrame);
+                least = clamp;
                 worst = n;
             }
             if (!(least < _least))
@@ -118,6 +122,7 @@ namespace Guidewire.Core
         }
 
         // cos(a/2) of the turn from a to b.
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         private static double Cosine(in Quaterniond a, in Quaterniond b)
         {
             return a.X * b.X + a.Y * b.Y + a.Z * b.Z + a.W * b.W;

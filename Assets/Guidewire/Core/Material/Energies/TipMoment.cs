@@ -42,6 +42,10 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override double Value(RodShape shape)
         {
+            if (HasPotential)
+            {
+                return 0.0;
+            }
             Quaterniond turned = _anchor.Conjugate * shape.Q[shape.ElementCount - 1];
             return -Vector3d.Dot(Moment, RotationVector.Log(turned));
         }
