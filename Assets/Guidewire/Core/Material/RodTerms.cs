@@ -29,7 +29,7 @@ namespace Guidewire.Core
             Mass = new RodMass(rod, supports.Mass);
             Stretch = new StretchEnergy(rod);
             Bending = CreateBending(rod, supports);
-            Loads = new DeadLoads(Mass);
+            Loads = new DeadLoads(Mass, rod.Length);
             Moment = new TipMoment();
             Moment.ActAtEnd(rod, scene.TipMoment);
             _elastic = new EnergyTerm[]

@@ -14,6 +14,24 @@ namespace Guidewire.Core
         /// <summary>Force on the last node, N, until <see cref="TipForceReleaseTime"/>.</summary>
         public Vector3d TipForce { get; set; }
 
+        /// <summary>Force per length at rest, N/m.</summary>
+        public Vector3d DistributedForce { get; set; }
+
+        /// <summary>The wire's length at rest, m.</summary>
+        public double WireLength { get; set; }
+
+        /// <summary>Factor on gravity over time, or null.</summary>
+        public LoadTable? GravityTable { get; set; }
+
+        /// <summary>Factor on the tip force over time, or null.</summary>
+        public LoadTable? TipForceTable { get; set; }
+
+        /// <summary>Factor on the force per length over time, or null.</summary>
+        public LoadTable? DistributedForceTable { get; set; }
+
+        /// <summary>Factor on the axial force over time, or null.</summary>
+        public LoadTable? AxialForceTable { get; set; }
+
         /// <summary>s; the force acts at times up to and including this one.</summary>
         public double TipForceReleaseTime { get; set; } = double.PositiveInfinity;
 
@@ -57,16 +75,23 @@ namespace Guidewire.Core
         /// <summary>Sets the forces of this time.</summary>
         public void SetLoads(DeadLoads loads, double time)
         {
-            Vector3d axial = AxialForce * DistalFrame.Director3;
-            loads.Set(Gravity, time <= TipForceReleaseTime ? TipForce + axial : axial);
+            Vector3d axial = (Factor(AxialForceTable, time) * AxialForce) * DistalFrame.Director3;
+            Vector3d tip = Factor(TipForceTable, time) * TipForce;
+            loads.Set(Factor(GravityTable, time) * Gravity, time <= TipForceReleaseTime ? tip + axial : axial);
+            if (DistributedForce != Vector3d.Zero)
+            {
+                loads.AddPerLength(Factor(DistributedForceTable, time) * DistributedForce);
+            }
             loads.Force[0] += ProximalForce;
         }
 
         /// <summary>Sum of the loads' magnitudes at this time, N, on a rod of this mass, kg.</summary>
         public double LoadAt(double time, double mass)
         {
-            return mass * Gravity.Length + ProximalForce.Length + Math.Abs(AxialForce)
-                + (time <= TipForceReleaseTime ? TipForce.Length : 0.0);
+            double tip = time <= TipForceReleaseTime ? TipForce.Length : 0.0;
+            return Math.Abs(Factor(GravityTable, time)) * mass * Gravity.Length + ProximalForce.Length
+                + Math.Abs(Factor(AxialForceTable, time) * AxialForce) + Math.Abs(Factor(TipForceTable, time)) * tip
+                + Math.Abs(Factor(DistributedForceTable, time)) * WireLength * DistributedForce.Length;
         }
 
         /// <summary>Node 0 at this time, m.</summary>
@@ -184,6 +209,11 @@ namespace Guidewire.Core
                 _twistOrigin += rate * (time - _twistOriginTime);
                 _twistOriginTime = time;
             }
+        }
+
+        private static double Factor(LoadTable? table, double time)
+        {
+            return table == null ? 1.0 : table.At(time);
         }
 
         private double Ramp(double time)

@@ -56,6 +56,21 @@ namespace Guidewire.Core
         /// <summary>Force on the last sphere, N.</summary>
         public Vector3d TipForce { get; set; }
 
+        /// <summary>Force per length of the wire at rest, N/m.</summary>
+        public Vector3d DistributedForce { get; set; }
+
+        /// <summary>Factor on <see cref="Gravity"/> over time, or null.</summary>
+        public LoadTable? GravityTable { get; set; }
+
+        /// <summary>Factor on <see cref="TipForce"/> over time, or null.</summary>
+        public LoadTable? TipForceTable { get; set; }
+
+        /// <summary>Factor on <see cref="DistributedForce"/> over time, or null.</summary>
+        public LoadTable? DistributedForceTable { get; set; }
+
+        /// <summary>Factor on <see cref="AxialForce"/> over time, or null.</summary>
+        public LoadTable? AxialForceTable { get; set; }
+
         /// <summary>When the tip force ends, s; it acts up to and including this time.</summary>
         public double TipForceReleaseTime { get; set; } = 1e9;
 

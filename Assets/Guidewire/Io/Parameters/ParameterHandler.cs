@@ -149,6 +149,7 @@ namespace Guidewire.Io
                 Values.StartFile = NamedFile.Find(Values.StartFile, _given["startFile"].Source);
                 simulation.Scene.Start = ReadStart(ElementLayout.Count(simulation));
             }
+            LoadTableReader.Read(Values, _given.TryGetValue("loadTables", out var tables) ? tables.Source : "");
             ReadWalls(simulation);
             Warn();
             Hash = ComputeHash();
@@ -309,7 +310,8 @@ namespace Guidewire.Io
             var text = new StringBuilder();
             foreach (ParameterEntry entry in Taken())
             {
-                if (!entry.IsOutputPath && entry.Key != "startFile" && entry.Key != "vessel")
+                if (!entry.IsOutputPath && entry.Key != "startFile" && entry.Key != "vessel"
+                    && entry.Key != "loadTables")
                 {
                     text.Append(entry.Key).Append('=').Append(NumberText.Write(entry.Write(Values))).Append('\n');
                 }
@@ -319,6 +321,7 @@ namespace Guidewire.Io
                 // What the file holds counts, not what it is called.
                 text.Append("start=").Append(File.ReadAllText(Values.StartFile)).Append('\n');
             }
+            text.Append(LoadTableReader.Content(Values.LoadTables));
             using SHA256 sha = SHA256.Create();
             if (Values.Vessel?.DeepClone() is JObject vessel)
             {

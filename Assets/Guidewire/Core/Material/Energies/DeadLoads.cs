@@ -1,15 +1,17 @@
 namespace Guidewire.Core
 {
-    /// <summary>Forces on the nodes that keep their direction in the world: weight, tip force, axial force. Energy
-    /// -sum f_i . x_i.</summary>
+    /// <summary>Forces on the nodes that keep their direction in the world: weight, force per length, tip force, axial
+    /// force. Energy -sum f_i . x_i.</summary>
     internal sealed class DeadLoads : EnergyTerm
     {
         private readonly RodMass _mass;
+        private readonly double[] _length;  // of the elements, m
 
         /// <summary>No load on any of the n+1 nodes.</summary>
-        public DeadLoads(RodMass mass)
+        public DeadLoads(RodMass mass, double[] length)
         {
             _mass = mass;
+            _length = length;
             Force = new Vector3d[mass.Nodal.Length];
         }
 
@@ -25,6 +27,17 @@ namespace Guidewire.Core
                 Force[i] = _mass.Nodal[i] * gravity;
             }
             Force[Force.Length - 1] += tipForce;
+        }
+
+        /// <summary>Adds a force per length of the wire at rest, N/m: half of each element's on either node.</summary>
+        public void AddPerLength(in Vector3d force)
+        {
+            for (int j = 0; j < _length.Length; j++)
+            {
+                Vector3d half = (0.5 * _length[j]) * force;
+                Force[j] += half;
+                Force[j + 1] += half;
+            }
         }
 
         /// <inheritdoc/>

@@ -83,6 +83,20 @@ namespace Guidewire.Io
             {
                 Methods = Takers.Material,
             },
+            new VectorEntry("distributedForce", "N/m", true, "force per length of the wire at rest",
+                p => p.Simulation.Scene.DistributedForce, (p, v) => p.Simulation.Scene.DistributedForce = v)
+            {
+                Methods = Takers.Material,
+            },
+            new JsonEntry("loadTables", JTokenType.Object,
+                "null or {\"tipForce\": FILE, ..}, with any of gravity, tipForce, distributedForce, axialForce",
+                "CSV files of time (s) and a factor on that load, linear between the rows, the first and last value"
+                + " before and after them; a name counts from the parameter file's folder",
+                p => p.LoadTables, (p, v) => p.LoadTables = v)
+            {
+                Methods = Takers.Material,
+                IsRefusedElsewhere = true,
+            },
             new NumberEntry("tipForceReleaseTime", "s", NumberRange.NotNegative, "when the tip force ends",
                 p => p.Simulation.Scene.TipForceReleaseTime, (p, v) => p.Simulation.Scene.TipForceReleaseTime = v)
             {

@@ -159,6 +159,28 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void LoadTables_AreReadBesideTheParameterFile_AndRefusedWhereTheyMakeNoSense()
+        {
+            const string Scene = "{\"solver\": \"direct\", \"loadTables\": {\"tipForce\": \"pull.csv\"}}";
+            string file = Path.Combine(_folder, "pull.csv");
+            File.WriteAllText(file, "time,value\n# a ramp\n0,0\n0.5,2\n");
+            ParameterHandler handler = Load(Scene);
+            Assert.That(handler.Values.Simulation.Scene.TipForceTable!.At(0.25), Is.EqualTo(1.0));
+            File.WriteAllText(file, "0,0\n0.5,3\n");
+            Assert.That(Load(Scene).Hash, Is.Not.EqualTo(handler.Hash), "what the file holds counts");
+            foreach (string wrong in new[] { "0,0\n0,1\n", "time,value\n", "0,0\n1;2\n", "0,0\n1,NaN\n" })
+            {
+                File.WriteAllText(file, wrong);
+                Assert.That(() => Load(Scene), Throws.TypeOf<ParameterException>().With.Message.Contains("loadTables")
+                    .And.Message.Contains("pull.csv"));
+            }
+            File.Delete(file);
+            Assert.That(() => Load(Scene), Throws.TypeOf<ParameterException>().With.Message.Contains("pull.csv"));
+            Assert.That(() => Load(Scene.Replace("tipForce", "tipMoment")),
+                Throws.TypeOf<ParameterException>().With.Message.Contains("tipMoment"));
+        }
+
+        [Test]
         public void SectionShorterThanHalfAnElement_IsWarnedOf()
         {
             const string Wire =

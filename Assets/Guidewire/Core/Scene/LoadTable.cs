@@ -1,0 +1,50 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>A factor on a load over time: linear between the rows, the first and the last value before and after
+    /// them.</summary>
+    public sealed class LoadTable
+    {
+        private readonly double[] _times;
+        private readonly double[] _values;
+
+        /// <summary>A table of k rows.</summary>
+        /// <param name="times">s, strictly increasing, at least one.</param>
+        /// <param name="values">The factor at each time, dimensionless.</param>
+        /// <exception cref="ArgumentException">No rows, not as many of both, or times that do not increase.</exception>
+        public LoadTable(double[] times, double[] values)
+        {
+            if (times.Length == 0 || values.Length != times.Length)
+            {
+                throw new ArgumentException("a table needs at least one row, each with a time and a value");
+            }
+            for (int i = 1; i < times.Length; i++)
+            {
+                if (!(times[i] > times[i - 1]))
+                {
+                    throw new ArgumentException("a table needs times that increase from row to row");
+                }
+            }
+            _times = (double[])times.Clone();
+            _values = (double[])values.Clone();
+        }
+
+        /// <summary>The factor at this time, s.</summary>
+        public double At(double time)
+        {
+            int next = Array.BinarySearch(_times, time);
+            if (next >= 0)
+            {
+                return _values[next];
+            }
+            next = ~next;
+            if (next == 0 || next == _times.Length)
+            {
+                return _values[Math.Max(next - 1, 0)];
+            }
+            double share = (time - _times[next - 1]) / (_times[next] - _times[next - 1]);
+            return _values[next - 1] + share * (_values[next] - _values[next - 1]);
+        }
+    }
+}

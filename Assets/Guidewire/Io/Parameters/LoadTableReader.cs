@@ -1,0 +1,108 @@
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+using System.IO;
+using Guidewire.Core;
+using Newtonsoft.Json.Linq;
+
+namespace Guidewire.Io
+{
+    /// <summary>Reads the tables of key loadTables: CSV files of two columns, time in s and a factor on the load that
+    /// names the file. A first line of words and lines that begin with # are passed over.</summary>
+    internal static class LoadTableReader
+    {
+        private static readonly Dictionary<string, Action<SceneParameters, LoadTable>> Loads =
+            new Dictionary<string, Action<SceneParameters, LoadTable>>
+            {
+                ["gravity"] = (scene, table) => scene.GravityTable = table,
+                ["tipForce"] = (scene, table) => scene.TipForceTable = table,
+                ["distributedForce"] = (scene, table) => scene.DistributedForceTable = table,
+                ["axialForce"] = (scene, table) => scene.AxialForceTable = table,
+            };
+
+        /// <summary>Sets the tables of a scene; the files' names are replaced by those that were found.</summary>
+        /// <param name="values">Its parameters.</param>
+        /// <param name="source">The parameter file that names the tables, or "command line".</param>
+        /// <exception cref="ParameterException">A load that has no table, or a file that holds none.</exception>
+        public static void Read(RunParameters values, string source)
+        {
+            if (!(values.LoadTables is JObject tables))
+            {
+                return;
+            }
+            tables = (JObject)tables.DeepClone();
+            foreach (JProperty property in tables.Properties())
+            {
+                if (!Loads.TryGetValue(property.Name, out Action<SceneParameters, LoadTable>? set)
+                    || property.Value.Type != JTokenType.String)
+                {
+                    throw new ParameterException(source, "loadTables", property.ToString(),
+                        "names of CSV files for any of " + string.Join(", ", Loads.Keys));
+                }
+                string file = NamedFile.Find((string)property.Value!, source);
+                set(values.Simulation.Scene, Table(file, source + ": loadTables: " + property.Name + ": "));
+                property.Value = file;
+            }
+            values.LoadTables = tables;
+        }
+
+        /// <summary>What the files hold, for the parameter hash.</summary>
+        public static string Content(JToken? tables)
+        {
+            string text = "";
+            foreach (JProperty property in (tables as JObject)?.Properties() ?? new JObject().Properties())
+            {
+                text += property.Name + "=" + File.ReadAllText((string)property.Value!) + "\n";
+            }
+            return text;
+        }
+
+        private static LoadTable Table(string file, string where)
+        {
+            var times = new List<double>();
+            var factors = new List<double>();
+            string[] lines;
+            try
+            {
+                lines = File.ReadAllLines(file);
+            }
+            catch (Exception error) when (error is IOException || error is UnauthorizedAccessException
+                || error is ArgumentException || error is NotSupportedException)
+            {
+                throw new ParameterException(where + file + " cannot be read: " + error.Message);
+            }
+            for (int i = 0; i < lines.Length; i++)
+            {
+                string[] cells = lines[i].Split(',');
+                if (lines[i].Trim().Length == 0 || lines[i].StartsWith("#", StringComparison.Ordinal))
+                {
+                    continue;
+                }
+                if (cells.Length == 2 && TryNumber(cells[0], out double time) && TryNumber(cells[1], out double factor))
+                {
+                    times.Add(time);
+                    factors.Add(factor);
+                }
+                else if (i > 0)
+                {
+                    throw new ParameterException(where + file + ": line " + (i + 1) + " needs a time (s) and a factor,"
+                        + " with a comma between");
+                }
+            }
+            try
+            {
+                return new LoadTable(times.ToArray(), factors.ToArray());
+            }
+            catch (ArgumentException error)
+            {
+                throw new ParameterException(where + file + ": " + error.Message);
+            }
+        }
+
+        private static bool TryNumber(string text, out double number)
+        {
+            return double.TryParse(text, NumberStyles.Float, CultureInfo.InvariantCulture, out number)
+                && !double.IsNaN(number) && !double.IsInfinity(number);
+        }
+    }
+}

@@ -1,0 +1,98 @@
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>Loads along the wire and over time.</summary>
+    public sealed class LoadTests
+    {
+        /// <summary>Under a small force q per length the tip goes q L^4/(8 EI) + q L^2/(2 k GA).</summary>
+        [Test]
+        public void DistributedForce_BendsTheCantileverAsTheBeam()
+        {
+            const double Force = 1e-4;
+            SimulationParameters parameters = AtRest(30);
+            parameters.Scene.DistributedForce = new Vector3d(0.0, Force * Rods.BendForce / Rods.Length, 0.0);
+            double shear = parameters.Material.ShearFactor * Rods.Shear * Rods.Area;
+            double tip = Force * (Rods.Length / 8.0 + Rods.BendForce * Rods.Length / (2.0 * shear));
+            // The clamp's rule is of fourth order; the force itself is taken by halves of elements.
+            Assert.That(1e-3 * Tip(parameters).Y, Is.EqualTo(tip).Within(0.01).Percent);
+        }
+
+        [TestCase(Solver.Direct)]
+        [TestCase(Solver.Xpbd)]
+        [TestCase(Solver.Explicit)]
+        public void DistributedForceOfTheWiresWeight_MovesItAsGravityDoes(Solver solver)
+        {
+            SimulationParameters heavy = Moving(solver);
+            heavy.Scene.Gravity = new Vector3d(0.0, -9.81, 1.0);
+            SimulationParameters pushed = Moving(solver);
+            pushed.Scene.DistributedForce = (Rods.Density * Rods.Area) * heavy.Scene.Gravity;
+            Assert.That(Vector3d.Distance(Tip(heavy), Tip(pushed)), Is.LessThan(1e-6 * Tip(heavy).Length));
+        }
+
+        [Test]
+        public void TableOfOneRow_IsAFactorOnTheLoad(
+            [Values(Solver.Direct, Solver.Xpbd, Solver.Explicit)] Solver solver)
+        {
+            SimulationParameters half = Moving(solver);
+            half.Scene.TipForce = new Vector3d(0.0, Rods.BendForce, 0.0);
+            half.Scene.DistributedForce = new Vector3d(0.0, 0.0, 0.1);
+            half.Scene.Gravity = new Vector3d(1.0, 0.0, 0.0);
+            SimulationParameters plain = Moving(solver);
+            plain.Scene.TipForce = 0.5 * half.Scene.TipForce;
+            plain.Scene.DistributedForce = 0.25 * half.Scene.DistributedForce;
+            plain.Scene.Gravity = -2.0 * half.Scene.Gravity;
+            half.Scene.TipForceTable = new LoadTable(new[] { 0.0 }, new[] { 0.5 });
+            half.Scene.DistributedForceTable = new LoadTable(new[] { 0.0 }, new[] { 0.25 });
+            half.Scene.GravityTable = new LoadTable(new[] { 0.0 }, new[] { -2.0 });
+            Assert.That(Tip(half), Is.EqualTo(Tip(plain)));
+        }
+
+        [Test]
+        public void Table_IsLinearBetweenItsRows_AndEvenBeyondThem()
+        {
+            var table = new LoadTable(new[] { 1.0, 2.0, 4.0 }, new[] { 3.0, 5.0, -1.0 });
+            Assert.That(table.At(0.0), Is.EqualTo(3.0));
+            Assert.That(table.At(1.5), Is.EqualTo(4.0));
+            Assert.That(table.At(2.0), Is.EqualTo(5.0));
+            Assert.That(table.At(3.0), Is.EqualTo(2.0));
+            Assert.That(table.At(9.0), Is.EqualTo(-1.0));
+        }
+
+        /// <summary>A free wire under gravity times t/T: its velocity is g T/2 after T. Implicit midpoint stages of a
+        /// linear ramp are exact under schemes of order 2 and more.</summary>
+        [Test]
+        public void RampOfGravity_GivesItsIntegral()
+        {
+            SimulationParameters parameters = Moving(Solver.Direct);
+            parameters.Scene.ProximalEnd = ProximalEnd.Free;
+            parameters.Scene.Gravity = new Vector3d(0.0, -10.0, 0.0);
+            parameters.Scene.GravityTable = new LoadTable(new[] { 0.0, 0.02 }, new[] { 0.0, 1.0 });
+            Assert.That(Wires.Run(parameters).State.Velocities[3].Y, Is.EqualTo(-100.0).Within(1e-6));
+        }
+
+        private static SimulationParameters AtRest(int n)
+        {
+            SimulationParameters parameters = Rods.Clamped(n, Solver.Direct, 1e-3, 0);
+            parameters.Method.Integrator = Integrator.Sdirk3;
+            parameters.Scene.InitialState = InitialState.Equilibrium;
+            return parameters;
+        }
+
+        private static SimulationParameters Moving(Solver solver)
+        {
+            SimulationParameters parameters = Rods.Clamped(8, solver, 1e-3, 20);
+            parameters.Method.Integrator = solver == Solver.Direct ? Integrator.Sdirk3 : Integrator.Verlet;
+            parameters.Method.SolverTolerance = 1e-10;
+            parameters.Method.Substeps = solver == Solver.Direct ? 1 : 200;
+            return parameters;
+        }
+
+        private static Vector3d Tip(SimulationParameters parameters)
+        {
+            RodState state = parameters.Method.MaxSimulationSteps == 0 ? Simulation.Create(parameters).State
+                : Wires.Run(parameters).State;
+            return state.Positions[state.ElementCount];
+        }
+    }
+}
