@@ -78,6 +78,13 @@ namespace Guidewire.Core
             return _stepper.Report();
         }
 
+        /// <summary>What the material feels along the wire as it is now; null with gains. Each call writes the record
+        /// anew.</summary>
+        public StressRecord? Stress()
+        {
+            return _stepper.Stress();
+        }
+
         /// <summary>One step. Does nothing once the run has ended.</summary>
         public void Step()
         {

@@ -139,9 +139,7 @@ namespace Guidewire.Core
         public Joint[] Joints(RodSupports supports)
         {
             int n = ElementCount;
-            bool isLong = n >= (supports.HasProximalJoint && supports.HasDistalJoint ? 6 : 3);
-            ClampRule proximal = isLong ? Rule(supports, 0) : ShortRule(supports);
-            ClampRule distal = isLong ? Rule(supports, n - GregoryWeights.Length) : ShortRule(supports);
+            double[] weights = JointWeights(supports);
             Joint[] joints = new Joint[n + 1];
             for (int k = 0; k <= n; k++)
             {
@@ -149,22 +147,39 @@ namespace Guidewire.Core
                 int after = Math.Min(k, n - 1);
                 JointSide left = k == 0 ? StartOf(0) : EndOf(before);
                 JointSide right = k == n ? EndOf(n - 1) : StartOf(after);
-                double weight = 1.0;
-                if (supports.HasProximalJoint)
-                {
-                    weight *= Weight(proximal, k);
-                }
-                if (supports.HasDistalJoint)
-                {
-                    weight *= Weight(distal, n - k);
-                }
-                double half = 0.5 * weight;
+                double half = 0.5 * weights[k];
                 joints[k].Bend1 = 1.0 / (half * (Length[before] / left.Bend1 + Length[after] / right.Bend1));
                 joints[k].Bend2 = 1.0 / (half * (Length[before] / left.Bend2 + Length[after] / right.Bend2));
                 joints[k].Twist = 1.0 / (half * (Length[before] / left.Twist + Length[after] / right.Twist));
                 joints[k].Rest = half * (Length[before] * left.RestCurvature + Length[after] * right.RestCurvature);
             }
             return joints;
+        }
+
+        /// <summary>The length of wire that each of the n+1 joints stands for, m.</summary>
+        public double[] JointLengths(RodSupports supports)
+        {
+            double[] lengths = JointWeights(supports);
+            for (int k = 0; k < lengths.Length; k++)
+            {
+                lengths[k] *= 0.5 * (Length[Math.Max(k - 1, 0)] + Length[Math.Min(k, ElementCount - 1)]);
+            }
+            return lengths;
+        }
+
+        private double[] JointWeights(RodSupports supports)
+        {
+            int n = ElementCount;
+            bool isLong = n >= (supports.HasProximalJoint && supports.HasDistalJoint ? 6 : 3);
+            ClampRule proximal = isLong ? Rule(supports, 0) : ShortRule(supports);
+            ClampRule distal = isLong ? Rule(supports, n - GregoryWeights.Length) : ShortRule(supports);
+            var weights = new double[n + 1];
+            for (int k = 0; k <= n; k++)
+            {
+                weights[k] = supports.HasProximalJoint ? Weight(proximal, k) : 1.0;
+                weights[k] *= supports.HasDistalJoint ? Weight(distal, n - k) : 1.0;
+            }
+            return weights;
         }
 
         private JointSide Even(int j)

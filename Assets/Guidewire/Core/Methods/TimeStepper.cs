@@ -29,6 +29,12 @@ namespace Guidewire.Core
         /// them.</summary>
         public virtual ContactRecord? Contacts => null;
 
+        /// <summary>Strains, forces, couples and energies of the wire as it is; null with gains.</summary>
+        public virtual StressRecord? Stress()
+        {
+            return null;
+        }
+
         /// <summary>Advances the state by one step.</summary>
         public abstract void Advance(RodState state);
 

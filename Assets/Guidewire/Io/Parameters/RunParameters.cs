@@ -58,6 +58,9 @@ namespace Guidewire.Io
         /// <summary>Whether orientations are logged too.</summary>
         public bool LogOrientations { get; set; }
 
+        /// <summary>Whether strains, forces, couples, angular velocities and energies are logged too.</summary>
+        public bool LogStrains { get; set; }
+
         /// <summary>Whether contact forces are logged too.</summary>
         public bool LogContacts { get; set; }
     }

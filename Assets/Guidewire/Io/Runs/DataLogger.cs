@@ -8,7 +8,8 @@ namespace Guidewire.Io
     /// {"totalTime": s, "elapsedMilliseconds": ms, "delta": units, "sphere": {"0": {"x","y","z","vx","vy","vz"}, ...}},
     /// "1": ...}</c>, and where asked for <c>"orientation": {"0": {"x","y","z","w"}, ...}</c> and <c>"contact":
     /// {"total": {"x","y","z"}, "reaction": ..., "sphere": {"i": ..., spheres that no wall pushes left
-    /// out}}</c>.</summary>
+    /// out}}</c> and <c>"stress": {"kineticEnergy": J, .., "curvature": [[x, y, z], ...], ..}</c> as key logStrains
+    /// says.</summary>
     /// <remarks>Entry "k" is the state after k steps. Until <see cref="Close"/> the file is not whole JSON, but every
     /// line that ends is a whole entry. Numbers are round-trip exact; one that is not finite is null.</remarks>
     internal sealed class DataLogger : IDisposable
@@ -77,6 +78,10 @@ namespace Guidewire.Io
             {
                 AppendOrientations(state);
             }
+            if (_parameters.LogStrains)
+            {
+                AppendStress(simulation);
+            }
             if (_parameters.LogContacts && simulation.Contacts != null)
             {
                 AppendContacts(simulation.Contacts);
@@ -123,6 +128,37 @@ namespace Guidewire.Io
                 Append("}");
             }
             Append("}");
+        }
+
+        private void AppendStress(Simulation simulation)
+        {
+            StressRecord? stress = simulation.Stress();
+            if (stress == null)
+            {
+                return;
+            }
+            Append(", \"stress\": {\"kineticEnergy\": ", stress.KineticEnergy);
+            Append(", \"elasticEnergy\": ", stress.ElasticEnergy);
+            Append(", \"potentialEnergy\": ", stress.PotentialEnergy);
+            Append(", \"curvature\": ", stress.Curvature);
+            Append(", \"couple\": ", stress.Couple);
+            Append(", \"strain\": ", stress.Strain);
+            Append(", \"force\": ", stress.Force);
+            Append(", \"angularVelocity\": ", simulation.State.AngularVelocities);
+            Append("}");
+        }
+
+        private void Append(string name, Vector3d[] values)
+        {
+            Append(name);
+            for (int i = 0; i < values.Length; i++)
+            {
+                Append(i == 0 ? "[[" : ", [", values[i].X);
+                Append(", ", values[i].Y);
+                Append(", ", values[i].Z);
+                Append("]");
+            }
+            Append("]");
         }
 
         private void AppendContacts(ContactRecord contacts)

@@ -110,6 +110,22 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
+        public override Vector3d Couple(RodShape shape, int k)
+        {
+            int n = shape.ElementCount;
+            if ((k == 0 && !_hasProximal) || (k == n && !_hasDistal))
+            {
+                return Vector3d.Zero;
+            }
+            RodVector before = default;
+            RodVector after = default;
+            Quaterniond a = k == 0 ? shape.ProximalFrame : shape.Q[k - 1];
+            Quaterniond b = k == n ? shape.DistalFrame : shape.Q[k];
+            _law.AddGradient(_joint[k], a.Conjugate * b, ref before, ref after);
+            return Quaterniond.Rotate(b, new Vector3d(after.T1, after.T2, after.T3));
+        }
+
+        /// <inheritdoc/>
         public override Vector3d ProximalCouple(RodShape shape)
         {
             RodVector onFrame = default;

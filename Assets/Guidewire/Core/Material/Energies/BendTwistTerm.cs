@@ -8,6 +8,10 @@ namespace Guidewire.Core
         /// <returns>False where they are so already because no joint is turned at rest.</returns>
         public abstract bool RelaxTurns(RodShape shape);
 
+        /// <summary>Couple that the piece after joint k exerts on the piece before it, N m, along the world's axes; 0
+        /// where an end has no joint.</summary>
+        public abstract Vector3d Couple(RodShape shape, int k);
+
         /// <summary>Couple of the proximal clamp on the rod, N m, along the world's axes; 0 without a clamp.</summary>
         public abstract Vector3d ProximalCouple(RodShape shape);
 

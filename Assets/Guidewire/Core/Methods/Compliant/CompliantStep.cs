@@ -53,6 +53,7 @@ namespace Guidewire.Core
         private readonly EnergyWatch _energy;
         private readonly RestWatch _rest;
         private readonly SolverReport _report;
+        private StressRecord? _stress;
         private Vector3d _predictedTip;
         private double _time;
 
@@ -117,6 +118,14 @@ namespace Guidewire.Core
             SteadyState = _rest.FindRest(_time);
             PredictionError = Vector3d.Distance(_predictedTip, _shape.X[_shape.ElementCount]) / _scene.Metres;
             _scene.Write(state, _shape, _velocities, _spins);
+        }
+
+        /// <inheritdoc/>
+        public override StressRecord? Stress()
+        {
+            _stress ??= new StressRecord(_scene.Rod, _scene.Supports);
+            _stress.Take(_terms, _shape, _inertia.KineticEnergy(_velocities, _spins));
+            return _stress;
         }
 
         /// <inheritdoc/>

@@ -11,6 +11,7 @@ namespace Guidewire.Core
         private readonly MaterialDrive _drive;
         private readonly double _timeStep;
         private readonly SolverReport _report;
+        private StressRecord? _stress;
         private long _startFactorisations;  // of the rest shape
         private readonly double _remainingVelocity;  // share that the wire keeps a step
         private readonly HeldEnds _ends;
@@ -76,6 +77,15 @@ namespace Guidewire.Core
                 Contacts.Reaction = _dynamics.MeanReaction;
             }
             _scene.Write(state, _dynamics.Shape, _dynamics.Velocities, _dynamics.Spins);
+        }
+
+        /// <inheritdoc/>
+        public override StressRecord? Stress()
+        {
+            _stress ??= new StressRecord(_scene.Rod, _scene.Supports);
+            RodTerms terms = _dynamics.Terms;
+            _stress.Take(terms, _dynamics.Shape, terms.Mass.KineticEnergy(_dynamics.Velocities, _dynamics.Spins));
+            return _stress;
         }
 
         /// <inheritdoc/>

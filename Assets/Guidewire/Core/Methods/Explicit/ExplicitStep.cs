@@ -25,6 +25,7 @@ namespace Guidewire.Core
         private readonly RestWatch _rest;
         private readonly double _stable;    // s
         private readonly SolverReport _report;
+        private StressRecord? _stress;
         private double _time;
 
         /// <summary>A step for this scene.</summary>
@@ -94,6 +95,14 @@ namespace Guidewire.Core
                 Contacts.Reaction = reaction / _substeps;
             }
             _scene.Write(state, _shape, _velocities, _spins);
+        }
+
+        /// <inheritdoc/>
+        public override StressRecord? Stress()
+        {
+            _stress ??= new StressRecord(_scene.Rod, _scene.Supports);
+            _stress.Take(_terms, _shape, _inertia.KineticEnergy(_velocities, _spins));
+            return _stress;
         }
 
         /// <inheritdoc/>

@@ -15,6 +15,15 @@ namespace Guidewire.Io
                 p => p.LogSpheres, (p, v) => p.LogSpheres = v),
             new SwitchEntry("logOrientations", "whether orientations are logged too",
                 p => p.LogOrientations, (p, v) => p.LogOrientations = v),
+            new SwitchEntry("logStrains",
+                "whether each entry of the log also has \"stress\": curvature and twist (rad/m) and couple (N m) at the"
+                + " n + 1 joints, strain (shear, shear, stretch) and force (N) of the n elements, their angular"
+                + " velocities (rad/s, own axes), and kinetic, elastic and potential energy (J); forces and couples of"
+                + " the piece towards the tip on the other, along the world's axes",
+                p => p.LogStrains, (p, v) => p.LogStrains = v)
+            {
+                Methods = Takers.Material,
+            },
             new SwitchEntry("logContacts",
                 "whether each entry of the log also has \"contact\": the walls' force on each sphere"
                 + " they touch, their total, and the first sphere's reaction (mass unit * unit/s^2; with a material N,"

@@ -1,3 +1,4 @@
+using System;
 using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
@@ -71,6 +72,60 @@ namespace Guidewire.Core.Tests
             Assert.That(Wires.Run(parameters).State.Velocities[3].Y, Is.EqualTo(-100.0).Within(1e-6));
         }
 
+        /// <summary>Statics from the tip on: the force in every element is what acts beyond it, the couple at every
+        /// joint the force's moment about it, and curvature is couple over EI.</summary>
+        [Test]
+        public void StressOfARestShape_BalancesTheTipForce()
+        {
+            var force = new Vector3d(0.4 * Rods.BendForce, Rods.BendForce, -0.3 * Rods.BendForce);
+            SimulationParameters parameters = AtRest(12);
+            parameters.Scene.TipForce = force;
+            Simulation simulation = Simulation.Create(parameters);
+            StressRecord stress = simulation.Stress()!;
+            Vector3d[] x = simulation.State.Positions;
+            double elastic = 0.0;
+            for (int j = 0; j < 12; j++)
+            {
+                Vector3d moment = Vector3d.Cross(1e-3 * (x[12] - x[j]), force);
+                Assert.That(Vector3d.Distance(stress.Force[j], force), Is.LessThan(1e-6 * force.Length), "force " + j);
+                Assert.That(Vector3d.Distance(stress.Couple[j], moment),
+                    Is.LessThan(1e-6 * force.Length * Rods.Length), "couple " + j);
+                Vector3d bent = stress.Curvature[j];
+                double curvature = Math.Sqrt(bent.X * bent.X + bent.Y * bent.Y);
+                // Bending couple and its part along the element: EI^2 k^2 + GJ^2 t^2 = m^2, the frames of one joint.
+                double twist = Rods.TwistStiffness * bent.Z;
+                Assert.That(Math.Sqrt(Math.Pow(Rods.BendStiffness * curvature, 2) + twist * twist),
+                    Is.EqualTo(moment.Length).Within(2).Percent, "curvature " + j);
+                double weight = new[] { 3.0 / 8.0, 7.0 / 6.0, 23.0 / 24.0 }[Math.Min(j, 2)];
+                weight = j > 2 ? 1.0 : weight;
+                elastic += 0.5 * Rods.Length / 12.0 * weight
+                    * (Rods.BendStiffness * curvature * curvature + Rods.TwistStiffness * bent.Z * bent.Z);
+            }
+            Assert.That(stress.Couple[12], Is.EqualTo(Vector3d.Zero));
+            Assert.That(stress.ElasticEnergy, Is.EqualTo(elastic).Within(0.1).Percent, 
+                "stretch and shear are the rest");
+            Assert.That(stress.PotentialEnergy, Is.EqualTo(-Vector3d.Dot(force, 1e-3 * x[12])).Within(1e-9));
+            Assert.That(stress.KineticEnergy, Is.Zero);
+        }
+
+        [Test]
+        public void EnergiesOfAFreeMotion_StayTheirSum([Values(Solver.Direct, Solver.Explicit)] Solver solver)
+        {
+            SimulationParameters parameters = Moving(solver);
+            parameters.Scene.Gravity = new Vector3d(0.0, -9.81, 0.0);
+            Simulation simulation = Simulation.Create(parameters);
+            StressRecord stress = simulation.Stress()!;
+            double start = stress.ElasticEnergy + stress.KineticEnergy + stress.PotentialEnergy;
+            while (simulation.Outcome == Outcome.Running)
+            {
+                simulation.Step();
+            }
+            stress = simulation.Stress()!;
+            double end = stress.ElasticEnergy + stress.KineticEnergy + stress.PotentialEnergy;
+            Assert.That(stress.KineticEnergy, Is.GreaterThan(0.0));
+            Assert.That(end - start, Is.EqualTo(0.0).Within(0.01 * stress.KineticEnergy));
+        }
+
         private static SimulationParameters AtRest(int n)
         {
             SimulationParameters parameters = Rods.Clamped(n, Solver.Direct, 1e-3, 0);
@@ -84,14 +139,15 @@ namespace Guidewire.Core.Tests
             SimulationParameters parameters = Rods.Clamped(8, solver, 1e-3, 20);
             parameters.Method.Integrator = solver == Solver.Direct ? Integrator.Sdirk3 : Integrator.Verlet;
             parameters.Method.SolverTolerance = 1e-10;
-            parameters.Method.Substeps = solver == Solver.Direct ? 1 : 200;
+            parameters.Method.Substeps = solver == Solver.Direct ? 1 : solver == Solver.Xpbd ? 200 : 5000;
             return parameters;
         }
 
         private static Vector3d Tip(SimulationParameters parameters)
         {
-            RodState state = parameters.Method.MaxSimulationSteps == 0 ? Simulation.Create(parameters).State
-                : Wires.Run(parameters).State;
+            Simulation run = Wires.Run(parameters);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished).Or.EqualTo(Outcome.Converged), run.Reason);
+            RodState state = run.State;
             return state.Positions[state.ElementCount];
         }
     }

@@ -1,0 +1,63 @@
+namespace Guidewire.Core
+{
+    /// <summary>What a wire's material feels along the wire and what energy it has at one moment, in SI units: for logs
+    /// and pictures, never for a step.</summary>
+    /// <remarks>Forces and couples are those that the piece towards the tip exerts on the piece towards the proximal
+    /// end, along the world's axes, by the law of the material in this shape.</remarks>
+    public sealed class StressRecord
+    {
+        internal StressRecord(MaterialRod rod, RodSupports supports)
+        {
+            int n = rod.ElementCount;
+            Strain = new Vector3d[n];
+            Force = new Vector3d[n];
+            Curvature = new Vector3d[n + 1];
+            Couple = new Vector3d[n + 1];
+            JointLength = rod.JointLengths(supports);
+        }
+
+        /// <summary>Shear along d1 and d2 and stretch along d3 of each of the n elements, dimensionless.</summary>
+        public Vector3d[] Strain { get; }
+
+        /// <summary>Force in each of the n elements, N.</summary>
+        public Vector3d[] Force { get; }
+
+        /// <summary>Curvature about d1 and d2 and twist about d3 at each of the n+1 joints, rad/m: 0 at an end without
+        /// a clamp.</summary>
+        public Vector3d[] Curvature { get; }
+
+        /// <summary>Couple at each of the n+1 joints, N m: 0 at an end without a clamp.</summary>
+        public Vector3d[] Couple { get; }
+
+        /// <summary>Energy of motion, J.</summary>
+        public double KineticEnergy { get; private set; }
+
+        /// <summary>Energy stored in the wire, J.</summary>
+        public double ElasticEnergy { get; private set; }
+
+        /// <summary>Minus the work of the loads that have a potential, J.</summary>
+        public double PotentialEnergy { get; private set; }
+
+        private double[] JointLength { get; }  // of wire that each joint stands for, m
+
+        /// <summary>Takes the wire as it is.</summary>
+        internal void Take(RodTerms terms, RodShape shape, double kineticEnergy)
+        {
+            int n = shape.ElementCount;
+            terms.Bending.Measure(shape, Curvature);
+            for (int k = 0; k <= n; k++)
+            {
+                Curvature[k] = (1.0 / JointLength[k]) * Curvature[k];
+                Couple[k] = terms.Bending.Couple(shape, k);
+            }
+            for (int j = 0; j < n; j++)
+            {
+                Force[j] = Quaterniond.Rotate(shape.Q[j], terms.Stretch.Stress(shape, j, out Vector3d p));
+                Strain[j] = p - Vector3d.UnitZ;
+            }
+            KineticEnergy = kineticEnergy;
+            ElasticEnergy = terms.ElasticEnergy(shape);
+            PotentialEnergy = terms.Potential(shape) - ElasticEnergy;
+        }
+    }
+}
