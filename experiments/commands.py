@@ -67,6 +67,10 @@ def parse(argv: list[str]) -> argparse.Namespace:
                          help="folder above the studies' (results); the pictures stand in its 'figures'")
     figures.set_defaults(action=_figures, packages=DRAWING)
 
+    stress = commands.add_parser("stress", help="draw what a run's material feels along the wire (logStrains)")
+    stress.add_argument("folder", type=Path, metavar="DIR", help="folder of a run with logStrains; takes stress.png")
+    stress.set_defaults(action=_stress, packages=DRAWING)
+
     bench = commands.add_parser("bench", help="what a step costs, part by part")
     bench.set_defaults(action=_bench, packages=())
 
@@ -181,6 +185,21 @@ def _tell(drawn: Gallery) -> int:
         print(f"guidewire: {problem}", file=sys.stderr)
     print(f"pictures and captions: {os.path.relpath(drawn.index)}")
     return FAILED if drawn.problems else 0
+
+
+def _stress(arguments: argparse.Namespace) -> int:
+    from analysis.figures.stress import draw_stress
+    from analysis.logs import LogError
+    from analysis.stress import read_stress
+
+    try:
+        figure = draw_stress(read_stress(arguments.folder))
+    except LogError as error:
+        raise PreparationError(str(error)) from error
+    picture = arguments.folder / "stress.png"
+    figure.savefig(picture)
+    print(f"picture: {os.path.relpath(picture)}")
+    return 0
 
 
 def _bench(_: argparse.Namespace) -> int:
