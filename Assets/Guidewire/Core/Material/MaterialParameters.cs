@@ -22,8 +22,9 @@ namespace Guidewire.Core
         /// <summary>Radius of the hollow of a tube, m, less than that of the wire; 0: none.</summary>
         public double InnerRadius { get; set; }
 
-        /// <summary>What of GA resists shear, because the shear is not even over the cross-section: 0.9 for a round one,
-        /// between Cowper's 6 (1 + nu)/(7 + 6 nu), 0.886 at nu = 0.3 (1966), and Hutchinson's 0.925 (2001).</summary>
+        /// <summary>What of GA resists shear, because the shear is not even over the cross-section: 0.9 for a round
+        /// one, between Cowper's 6 (1 + nu)/(7 + 6 nu), 0.886 at nu = 0.3 (1966), and Hutchinson's 0.925
+        /// (2001).</summary>
         public double ShearFactor { get; set; } = 0.9;
 
         /// <summary>Curvature about d1 and d2 and twist about d3 at rest, rad/m.</summary>

@@ -30,6 +30,9 @@ namespace Guidewire.Core
             _values = (double[])values.Clone();
         }
 
+        /// <summary>From when on the factor no longer changes, s.</summary>
+        public double End => _times[_times.Length - 1];
+
         /// <summary>The factor at this time, s.</summary>
         public double At(double time)
         {

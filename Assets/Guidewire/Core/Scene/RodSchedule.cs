@@ -143,7 +143,9 @@ namespace Guidewire.Core
         {
             bool ramps = time < DistalRampTime && (DistalDisplacement != 0.0 || DistalRotation != 0.0);
             bool isReleased = time <= TipForceReleaseTime && TipForceReleaseTime < end && TipForce != Vector3d.Zero;
-            return !ramps && !isReleased && ProximalVelocity == Vector3d.Zero && ProximalTwistRate == 0.0;
+            bool changes = Changes(GravityTable, time) || Changes(TipForceTable, time)
+                || Changes(DistributedForceTable, time) || Changes(AxialForceTable, time);
+            return !ramps && !isReleased && !changes && ProximalVelocity == Vector3d.Zero && ProximalTwistRate == 0.0;
         }
 
         /// <summary>The largest turn between the two frames from a time to an end, s, over that at the time; 1 where
@@ -214,6 +216,11 @@ namespace Guidewire.Core
         private static double Factor(LoadTable? table, double time)
         {
             return table == null ? 1.0 : table.At(time);
+        }
+
+        private static bool Changes(LoadTable? table, double time)
+        {
+            return table != null && time < table.End;
         }
 
         private double Ramp(double time)

@@ -92,6 +92,18 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
+        public override void Measure(RodShape shape, Vector3d[] turns)
+        {
+            int n = shape.ElementCount;
+            turns[0] = _hasProximal ? _law.Measure(shape.ProximalFrame.Conjugate * shape.Q[0]) : Vector3d.Zero;
+            for (int k = 1; k < n; k++)
+            {
+                turns[k] = _law.Measure(Relative(shape, k - 1));
+            }
+            turns[n] = _hasDistal ? _law.Measure(shape.Q[n - 1].Conjugate * shape.DistalFrame) : Vector3d.Zero;
+        }
+
+        /// <inheritdoc/>
         public override bool RelaxTurns(RodShape shape)
         {
             bool isTurned = false;

@@ -8,6 +8,10 @@ namespace Guidewire.Core
         /// <returns>False where they are so already because no joint is turned at rest.</returns>
         public abstract bool RelaxTurns(RodShape shape);
 
+        /// <summary>Turn of each of the n+1 joints as their law measures it, to which the couple is proportional; 0
+        /// where an end has no joint.</summary>
+        public abstract void Measure(RodShape shape, Vector3d[] turns);
+
         /// <summary>Couple that the piece after joint k exerts on the piece before it, N m, along the world's axes; 0
         /// where an end has no joint.</summary>
         public abstract Vector3d Couple(RodShape shape, int k);

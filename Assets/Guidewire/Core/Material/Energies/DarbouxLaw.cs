@@ -9,6 +9,12 @@ namespace Guidewire.Core
     internal readonly struct DarbouxLaw : IJointLaw
     {
         /// <inheritdoc/>
+        public Vector3d Measure(in Quaterniond relative)
+        {
+            return Strain(default, relative, out _, out _);
+        }
+
+        /// <inheritdoc/>
         /// <remarks>theta0 = 2 v is at most 2.</remarks>
         public Quaterniond AtRest(in Joint joint)
         {

@@ -7,6 +7,9 @@ namespace Guidewire.Core
         /// <summary>The turn from a to b at which the joint is free of couples.</summary>
         Quaterniond AtRest(in Joint joint);
 
+        /// <summary>The turn to which the couple is proportional.</summary>
+        Vector3d Measure(in Quaterniond relative);
+
         /// <summary>The energy, J.</summary>
         double Value(in Joint joint, in Quaterniond relative);
 

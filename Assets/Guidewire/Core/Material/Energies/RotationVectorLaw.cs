@@ -15,6 +15,12 @@ namespace Guidewire.Core
     internal readonly struct RotationVectorLaw : IJointLaw
     {
         /// <inheritdoc/>
+        public Vector3d Measure(in Quaterniond relative)
+        {
+            return RotationVector.Log(relative);
+        }
+
+        /// <inheritdoc/>
         public Quaterniond AtRest(in Joint joint)
         {
             return RotationVector.Exp(joint.Rest);

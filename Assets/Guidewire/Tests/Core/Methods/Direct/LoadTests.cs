@@ -129,7 +129,7 @@ namespace Guidewire.Core.Tests
         private static SimulationParameters AtRest(int n)
         {
             SimulationParameters parameters = Rods.Clamped(n, Solver.Direct, 1e-3, 0);
-            parameters.Method.Integrator = Integrator.Sdirk3;
+            parameters.Method.Integrator = Integrator.Esdirk3;
             parameters.Scene.InitialState = InitialState.Equilibrium;
             return parameters;
         }
@@ -137,7 +137,7 @@ namespace Guidewire.Core.Tests
         private static SimulationParameters Moving(Solver solver)
         {
             SimulationParameters parameters = Rods.Clamped(8, solver, 1e-3, 20);
-            parameters.Method.Integrator = solver == Solver.Direct ? Integrator.Sdirk3 : Integrator.Verlet;
+            parameters.Method.Integrator = solver == Solver.Direct ? Integrator.Esdirk3 : Integrator.Verlet;
             parameters.Method.SolverTolerance = 1e-10;
             parameters.Method.Substeps = solver == Solver.Direct ? 1 : solver == Solver.Xpbd ? 200 : 5000;
             return parameters;
