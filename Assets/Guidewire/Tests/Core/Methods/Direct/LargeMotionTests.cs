@@ -12,8 +12,8 @@ namespace Guidewire.Core.Tests
         [TestCase(Solver.Explicit, 1000, 1e-6)]
         public void SoftWire_HoldsItsStrain(Solver solver, int substeps, double tolerance)
         {
-            // E = 1 MPa under 0.3 N: F/EA = 38.2 %. One sweep a substep lets the end swing by 2e-5. A rod that shears is
-            // turned over by a pull where F/kGA > 1 + F/EA; here F/kGA = 1.21.
+            // E = 1 MPa under 0.3 N: F/EA = 38.2 %. One sweep a substep lets the end swing by 2e-5. A pull turns the
+            // elements of a rod that shears over where F/kGA > 1 + F/EA; here F/kGA = 1.21.
             SimulationParameters parameters = Rods.Clamped(30, solver, 1e-3, solver == Solver.Direct ? 2000 : 300);
             parameters.Material.YoungsModulus = 1e6;
             parameters.Material.ShearModulus = 3.5e5;
