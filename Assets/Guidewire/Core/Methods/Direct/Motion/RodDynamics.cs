@@ -12,7 +12,8 @@ namespace Guidewire.Core
     /// An explicit first stage has the rates of the last one before; at the start and after a jump of a load or of a
     /// support those of <see cref="ConsistentStart"/>. Where these are more than a step can resolve (a support that was
     /// displaced at once, a wire far from its rest shape) the motion begins with a step of
-    /// <see cref="RungeKuttaScheme.Start"/>, which brings what is stiff to rest. Steps of Runge-Kutta schemes end at
+    /// <see cref="RungeKuttaScheme.Start"/>, which brings what is stiff to rest; so does a step of which a stage has no
+    /// solution. Steps of Runge-Kutta schemes end at
     /// jumps that are known in time.</remarks>
     internal sealed class RodDynamics
     {
@@ -287,7 +288,7 @@ namespace Guidewire.Core
             double h = Control.Propose(left);
             bool isStart = _startsExplicitly && !TakeFirstRates(time, h, dt);
             RungeKuttaScheme used = isStart ? _starter : scheme;
-            if (Control.IsOn)
+            if (_startsExplicitly)
             {
                 _saved.Save(Shape, Velocities, Spins, _frames);
             }
@@ -297,7 +298,9 @@ namespace Guidewire.Core
                 string? failure = StepByRungeKutta(used, time, h, jump, h / dt);
                 double error = failure != null || used.ErrorWeights == null ? 0.0
                     : _rates.Error(used.ErrorWeights, h, _length);
-                if (Control.Accepts(error, h, dt, failure == null))
+                bool isKept = Control.Accepts(error, h, dt, failure == null);
+                bool startsAnew = isKept && failure != null && _startsExplicitly && !isStart;
+                if (isKept && !startsAnew)
                 {
                     done = h == left ? until : done + h;
                     _hasRates = true;
@@ -306,7 +309,17 @@ namespace Guidewire.Core
                 }
                 _saved.Restore(Shape, Velocities, Spins, _frames);
                 _meanForces = forces;
-                h = Control.Propose(left);
+                if (startsAnew)
+                {
+                    isStart = true;
+                    used = _starter;
+                    _hasPast = false;
+                    _rates.Clear();
+                }
+                else
+                {
+                    h = Control.Propose(left);
+                }
             }
         }
 

@@ -64,7 +64,7 @@ namespace Guidewire.Core
                     return false;
                 }
             }
-            Steps++;
+            Steps += isSolved ? 1 : 0;
             StepsAbove += IsOn && !isGood ? 1 : 0;
             LargestError = Math.Max(LargestError, error);
             return true;

@@ -90,6 +90,25 @@ namespace Guidewire.Core.Tests
             Assert.That(error, Is.LessThan(2.0 * inStep));
         }
 
+        [Test]
+        public void WireDrivenTooFastForAStage_GoesOn([ValueSource(nameof(Schemes))] Integrator scheme)
+        {
+            // A wire of 0.1 m whose base is driven across by 0.8 mm in each step of 0.1 ms, at once: in the second step
+            // a stage of order 3 has no solution that begins with the rates of the first.
+            SimulationParameters parameters = Rods.Clamped(12, Solver.Direct, 1e-4, 60);
+            parameters.Method.Integrator = scheme;
+            parameters.Scene.GuidewireLength = 109.0;
+            parameters.Scene.Gravity = new Vector3d(0.0, -9.81, 0.6);
+            parameters.Material.WireRadius = 1.1157e-4;
+            parameters.Material.YoungsModulus = 4.594e8;
+            parameters.Material.ShearModulus = 1.767e8;
+            parameters.Material.Density = 641.7;
+            parameters.Drive.Kind = Drive.Displace;
+            parameters.Drive.DisplacementPerStep = -0.77;
+            parameters.Drive.DisplacementDirection = Vector3d.UnitZ;
+            Assert.That(Wires.Run(parameters).Outcome, Is.EqualTo(Outcome.Finished));
+        }
+
         [TestCase(Integrator.ImplicitEuler)]
         [TestCase(Integrator.Bdf2)]
         public void SchemeThatTellsNoError_TakesNoTolerance(Integrator scheme)
