@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import json
 import os
 import subprocess
 import sys
@@ -70,6 +71,14 @@ def parse(argv: list[str]) -> argparse.Namespace:
     stress = commands.add_parser("stress", help="draw what a run's material feels along the wire (logStrains)")
     stress.add_argument("folder", type=Path, metavar="DIR", help="folder of a run with logStrains; takes stress.png")
     stress.set_defaults(action=_stress, packages=DRAWING)
+
+    modes = commands.add_parser("modes", help="lowest frequencies and shapes of a wire with a material")
+    modes.add_argument("file", type=Path, metavar="FILE",
+                       help="parameter file; the modes are those about its rest shape")
+    modes.add_argument("--count", type=_positive, default=6, metavar="K", help="how many (6)")
+    modes.add_argument("--out", type=Path, default=Path("results"), metavar="DIR",
+                       help="takes NAME-modes.png (results)")
+    modes.set_defaults(action=_modes, packages=DRAWING)
 
     bench = commands.add_parser("bench", help="what a step costs, part by part")
     bench.set_defaults(action=_bench, packages=())
@@ -198,6 +207,25 @@ def _stress(arguments: argparse.Namespace) -> int:
         raise PreparationError(str(error)) from error
     picture = arguments.folder / "stress.png"
     figure.savefig(picture)
+    print(f"picture: {os.path.relpath(picture)}")
+    return 0
+
+
+def _modes(arguments: argparse.Namespace) -> int:
+    import numpy as np
+
+    from analysis.figures.modes import draw_modes
+
+    command = [*_build_runner(), "--modes", str(arguments.file), str(arguments.count)]
+    done = subprocess.run(command, stdout=subprocess.PIPE, text=True)
+    if done.returncode != 0:
+        return done.returncode
+    modes = json.loads(done.stdout)
+    for number, frequency in enumerate(modes["frequencies"], 1):
+        print(f"mode {number}: {frequency:.6g} Hz")
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    picture = arguments.out / f"{arguments.file.stem}-modes.png"
+    draw_modes(modes["frequencies"], np.asarray(modes["positions"]), np.asarray(modes["shapes"])).savefig(picture)
     print(f"picture: {os.path.relpath(picture)}")
     return 0
 

@@ -1,8 +1,13 @@
 using System;
+using System.Collections.Generic;
+using System.Globalization;
 using System.IO;
 using System.Runtime.InteropServices;
 using System.Threading;
+using Guidewire.Core;
 using Guidewire.Io;
+using Newtonsoft.Json;
+using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Cli
 {
@@ -16,6 +21,7 @@ namespace Guidewire.Cli
             + " standard output:\n"
             + "           {\"id\": TEXT, \"parameters\": FILE, \"set\": {KEY: VALUE}, \"out\": DIR, \"repeat\": K,"
             + " \"reuse\": true}\n"
+            + "       Guidewire.Cli --modes FILE K   the K lowest frequencies and shapes of a material, as JSON\n"
             + "       Guidewire.Cli --keys      the parameters as a Markdown table\n"
             + "       Guidewire.Cli --version\n"
             + "       Guidewire.Cli --help\n";
@@ -49,6 +55,8 @@ namespace Guidewire.Cli
                     case "-keys":
                         Console.Out.Write(ParameterTable.ToMarkdown());
                         return 0;
+                    case "--modes":
+                        return PrintModes(arguments);
                     case "--lines":
                     case "-lines":
                         return RequestLoop.Serve(Console.In, Console.Out, Simulate, () => StopRequested);
@@ -72,6 +80,52 @@ namespace Guidewire.Cli
         {
             var run = new SimulationRun(handler, request.Out, request.Repeat) { StopRequested = () => StopRequested };
             return run.Execute(request.Reuse);
+        }
+
+        private static int PrintModes(string[] arguments)
+        {
+            if (arguments.Length != 3 || !int.TryParse(arguments[2], NumberStyles.None, CultureInfo.InvariantCulture,
+                    out int count))
+            {
+                throw new ParameterException(CommandLineHandler.Source + ": --modes needs a parameter file and a number");
+            }
+            ParameterHandler handler = ParameterHandler.Load(arguments[1], Array.Empty<KeyValuePair<string, JToken>>());
+            ModalAnalysis modes;
+            try
+            {
+                modes = ModalAnalysis.Of(handler.Values.Simulation, count);
+            }
+            catch (ArgumentException error)
+            {
+                throw new ParameterException(arguments[1] + ": " + error.Message);
+            }
+            if (modes.Failure != null)
+            {
+                Console.Error.WriteLine("guidewire: " + modes.Failure);
+                return ExitCodes.Of(Outcome.Failed);
+            }
+            var shapes = new JArray();
+            foreach (Vector3d[] shape in modes.Shapes)
+            {
+                shapes.Add(Rows(shape));
+            }
+            Console.Out.WriteLine(new JObject
+            {
+                ["frequencies"] = new JArray(modes.Frequencies),
+                ["positions"] = Rows(modes.Positions),
+                ["shapes"] = shapes,
+            }.ToString(Formatting.None));
+            return 0;
+        }
+
+        private static JArray Rows(Vector3d[] vectors)
+        {
+            var rows = new JArray();
+            foreach (Vector3d v in vectors)
+            {
+                rows.Add(new JArray(v.X, v.Y, v.Z));
+            }
+            return rows;
         }
 
         private static int RunOnce(string[] arguments, RunCommand command)

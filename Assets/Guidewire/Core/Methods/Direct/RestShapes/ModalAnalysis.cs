@@ -1,0 +1,172 @@
+using System;
+using System.Collections.Generic;
+
+namespace Guidewire.Core
+{
+    /// <summary>The lowest frequencies and shapes in which a wire with a material swings about its rest shape: K v =
+    /// w^2 M v with K the second derivative of its energies and loads there and M its mass.</summary>
+    /// <remarks>Inverse iteration on K^-1 M, each solution in O(n) by the factorisation that rest shapes and motions
+    /// use; modes that are found are taken out, so that two of the same frequency are both found. The error of w^2 is
+    /// that of Rayleigh's quotient, of second order in the shape's.</remarks>
+    public sealed class ModalAnalysis
+    {
+        private const int MostIterations = 2000;
+        private const double Settled = 1e-13;  // relative change of w^2 in an iteration
+
+        private readonly BlockTridiagonal _system;
+        private readonly RodMass _mass;
+        private readonly List<RodVector[]> _found = new List<RodVector[]>();
+        private readonly List<RodVector[]> _foundTimesMass = new List<RodVector[]>();
+
+        private ModalAnalysis(MaterialScene scene, RodTerms terms, string? failure, int count)
+        {
+            _system = new BlockTridiagonal(scene.Rod, scene.Supports);
+            _mass = terms.Mass;
+            Positions = Array.ConvertAll(scene.Shape.X, x => x / scene.Metres);
+            Failure = failure;
+            if (failure != null)
+            {
+                return;
+            }
+            var gradient = new RodVector[_system.VectorCount];
+            int negative = _system.Factorise(terms.All, scene.Shape, gradient, new RodVector[_system.VectorCount], 0.0);
+            if (negative > 0)
+            {
+                Failure = "the rest shape is not stable";
+                return;
+            }
+            var frequencies = new double[count];
+            for (int m = 0; m < count; m++)
+            {
+                frequencies[m] = Math.Sqrt(Find(m)) / (2.0 * Math.PI);
+            }
+            Frequencies = frequencies;
+            Shapes = _found.ConvertAll(Shift).ToArray();
+        }
+
+        /// <summary>Why there are no modes, in one line, or null.</summary>
+        public string? Failure { get; }
+
+        /// <summary>Places of the n+1 nodes at rest, in units.</summary>
+        public Vector3d[] Positions { get; }
+
+        /// <summary>Hz, ascending.</summary>
+        public double[] Frequencies { get; } = Array.Empty<double>();
+
+        /// <summary>Of each mode the shift of the n+1 nodes, the largest of length 1.</summary>
+        public Vector3d[][] Shapes { get; } = Array.Empty<Vector3d[]>();
+
+        /// <summary>The lowest modes of the wire of these parameters about its rest shape.</summary>
+        /// <param name="parameters">Of a method for a material; at least one end is clamped.</param>
+        /// <param name="count">How many, from 1 to 3 n.</param>
+        /// <exception cref="ArgumentException">Parameters that do not go together, gains, too many modes.</exception>
+        public static ModalAnalysis Of(SimulationParameters parameters, int count)
+        {
+            SimulationParameters atRest = parameters.Copy();
+            atRest.Scene.InitialState = InitialState.Equilibrium;
+            ParameterConflict? conflict = ParameterConflict.Find(atRest);
+            if (conflict != null)
+            {
+                throw new ArgumentException(conflict.Key + " needs " + conflict.Needed);
+            }
+            if (!MethodTable.Of(parameters.Method.Solver).TakesMaterial)
+            {
+                throw new ArgumentException("solver needs to be one for a material: gains have no frequencies");
+            }
+            if (count < 1 || count > 3 * ElementLayout.Count(atRest))
+            {
+                throw new ArgumentException("the number of modes needs to be from 1 to three times that of elements");
+            }
+            var scene = new MaterialScene(atRest, new Scene(atRest));
+            var terms = new RodTerms(scene.Rod, scene.Supports, atRest.Scene);
+            if (!terms.HavePotential)
+            {
+                throw new ArgumentException("tipMoment needs to be 0: a couple that turns with the tip has no"
+                    + " potential");
+            }
+            string? failure = RestShape.Find(scene, terms, scene.Shape, 1e-10,
+                10 * atRest.Method.MaxNewtonIterations, new SolverReport());
+            return new ModalAnalysis(scene, terms, failure, count);
+        }
+
+        /// <summary>Finds one more mode; returns w^2.</summary>
+        private double Find(int number)
+        {
+            var v = new RodVector[_system.VectorCount];
+            var random = new Random(number);
+            for (int i = 0; i < _mass.Rotary.Length + 1; i++)
+            {
+                v[i].X1 = random.NextDouble();
+                v[i].X2 = random.NextDouble();
+                v[i].X3 = random.NextDouble();
+            }
+            double square = double.NaN;
+            for (int k = 0; k < MostIterations; k++)
+            {
+                RodVector[] next = TimesMass(v);
+                _system.Project(next);
+                RodVector[] load = (RodVector[])next.Clone();
+                _system.Solve(next);
+                // v^T M K^-1 M v over v^T M v is 1/w^2 from below; of K^-1 M v it is better by one order.
+                double stiffness = RodVectors.Dot(next, load);
+                for (int f = 0; f < _found.Count; f++)
+                {
+                    RodVectors.AddScaled(next, -RodVectors.Dot(next, _foundTimesMass[f]), _found[f]);
+                }
+                RodVector[] heavy = TimesMass(next);
+                double mass = RodVectors.Dot(next, heavy);
+                RodVectors.Scale(next, 1.0 / Math.Sqrt(mass));
+                double before = square;
+                square = stiffness / mass;
+                v = next;
+                if (Math.Abs(square - before) <= Settled * square)
+                {
+                    break;
+                }
+            }
+            RodVector[] timesMass = TimesMass(v);
+            _system.Project(timesMass);
+            _found.Add(v);
+            _foundTimesMass.Add(timesMass);
+            return square;
+        }
+
+        private RodVector[] TimesMass(RodVector[] v)
+        {
+            var result = new RodVector[v.Length];
+            for (int i = 0; i < _mass.Diagonal.Length; i++)
+            {
+                AddX(ref result[i], _mass.Diagonal[i], v[i]);
+                if (i < _mass.Coupling.Length)
+                {
+                    AddX(ref result[i], _mass.Coupling[i], v[i + 1]);
+                    AddX(ref result[i + 1], _mass.Coupling[i], v[i]);
+                    result[i].T1 = _mass.Rotary[i] * v[i].T1;
+                    result[i].T2 = _mass.Rotary[i] * v[i].T2;
+                    result[i].T3 = 2.0 * _mass.Rotary[i] * v[i].T3;
+                }
+            }
+            return result;
+        }
+
+        private static void AddX(ref RodVector to, double factor, in RodVector v)
+        {
+            to.X1 += factor * v.X1;
+            to.X2 += factor * v.X2;
+            to.X3 += factor * v.X3;
+        }
+
+        private Vector3d[] Shift(RodVector[] mode)
+        {
+            var shift = new Vector3d[Positions.Length];
+            double largest = 0.0;
+            for (int i = 0; i < shift.Length; i++)
+            {
+                shift[i] = new Vector3d(mode[i].X1, mode[i].X2, mode[i].X3);
+                largest = Math.Max(largest, shift[i].Length);
+            }
+            // A mode of twist alone shifts nothing: it keeps what it has.
+            return Array.ConvertAll(shift, s => largest > 0.0 ? s / largest : s);
+        }
+    }
+}

@@ -1,0 +1,57 @@
+using System;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>Frequencies of a wire about its rest shape against the beam's.</summary>
+    public sealed class ModalAnalysisTests
+    {
+        // Euler and Bernoulli: cos(b) cosh(b) = -1 clamped and free, +1 clamped at both ends.
+        [TestCase(DistalEnd.Free, 1.8751040687, 4.6940911330, 7.8547574382)]
+        [TestCase(DistalEnd.Clamped, 4.7300407449, 7.8532046241, 10.995607838)]
+        public void StraightWire_HasTheBeamsFrequencies_TwiceEach(DistalEnd distal, double first, double second,
+            double third)
+        {
+            SimulationParameters parameters = Clamped(60, distal);
+            ModalAnalysis modes = ModalAnalysis.Of(parameters, 6);
+            Assert.That(modes.Failure, Is.Null);
+            double unit = Math.Sqrt(Rods.BendStiffness / (Rods.Density * Rods.Area)) / (Rods.Length * Rods.Length);
+            for (int m = 0; m < 6; m++)
+            {
+                double root = new[] { first, second, third }[m / 2];
+                double expected = root * root * unit / (2.0 * Math.PI);
+                TestContext.WriteLine("{0:F4} Hz, the beam {1:F4}", modes.Frequencies[m], expected);
+                Assert.That(modes.Frequencies[m], Is.EqualTo(expected).Within(0.1).Percent);
+            }
+        }
+
+        [Test]
+        public void ShapesOfTheCantilever_AreTheBeams()
+        {
+            // The tip of the clamped-free mode moves most; a zero of the second mode lies at 0.7834 L.
+            ModalAnalysis modes = ModalAnalysis.Of(Clamped(60, DistalEnd.Free), 3);
+            Assert.That(modes.Shapes[0][60].Length, Is.EqualTo(1.0).Within(1e-9));
+            Vector3d[] shape = modes.Shapes[2];
+            int node = 30;
+            while (Vector3d.Dot(shape[node], shape[node + 1]) > 0.0)
+            {
+                node++;
+            }
+            Assert.That((node + 0.5) / 60.0, Is.EqualTo(0.7834).Within(0.5 / 60.0));
+        }
+
+        [Test]
+        public void Gains_HaveNoModes()
+        {
+            Assert.That(() => ModalAnalysis.Of(new SimulationParameters(), 3), Throws.ArgumentException);
+        }
+
+        private static SimulationParameters Clamped(int n, DistalEnd distal)
+        {
+            SimulationParameters parameters = Rods.Clamped(n, Solver.Direct, 1e-3, 0);
+            parameters.Method.Integrator = Integrator.Sdirk3;
+            parameters.Scene.DistalEnd = distal;
+            return parameters;
+        }
+    }
+}
