@@ -84,8 +84,8 @@ namespace Guidewire.Core
                 throw new ArgumentException("tipMoment needs to be 0: a couple that turns with the tip has no"
                     + " potential");
             }
-            string? failure = RestShape.Find(scene, terms, scene.Shape, 1e-10,
-                10 * atRest.Method.MaxNewtonIterations, new SolverReport());
+            string? failure = new RestShape(scene, terms, 1e-10, 10 * atRest.Method.MaxNewtonIterations,
+                new SolverReport()).Find(scene.Shape);
             return new ModalAnalysis(scene, terms, failure, count);
         }
 
