@@ -49,7 +49,7 @@ namespace Guidewire.Core.Tests
         private static SimulationParameters Clamped(int n, DistalEnd distal)
         {
             SimulationParameters parameters = Rods.Clamped(n, Solver.Direct, 1e-3, 0);
-            parameters.Method.Integrator = Integrator.Sdirk3;
+            parameters.Method.Integrator = Integrator.Esdirk3;
             parameters.Scene.DistalEnd = distal;
             return parameters;
         }
