@@ -11,7 +11,7 @@ from dataclasses import dataclass
 _ROW = re.compile(r"^\| `(?P<name>\w+)` \| (?P<allowed>.*) \| `.*` \| (?P<solvers>[^|]*) \| .* \|$")
 _KINDS = {
     "true or false": "switch", "one of": "word", "a number": "number", "a whole number": "whole",
-    "three numbers": "vector", "a text": "text", "a list": "list", "null, {": "object", "null or a list": "list",
+    "three numbers": "vector", "a text": "text", "a list": "list", "null, {": "object", "null or {": "object", "null or a list": "list",
 }
 _WHOLE = re.compile(r"from (\d+) to (\d+)")
 _LOW = re.compile(r"(>=?) (\S+)")

@@ -22,6 +22,7 @@ FULL = os.environ.get("GUIDEWIRE_ALL") == "1"
 SOLVERS = ("pbd", "xpbd", "direct", "explicit")
 # What a run without them would answer another question than the file asks.
 REFUSED_IN_FILES = ("tipMoment", "vessel", "obstacles")
+LOAD_TABLE = Path(__file__).with_name("load_table.csv")
 ARCH = Path(__file__).resolve().parents[2] / "params" / "meshes" / "arch.obj"
 LENGTH, OFFSET = 300.0, -120.0  # what the keys are where a scene does not name them
 whole = st.integers
@@ -59,7 +60,12 @@ angles = vectors(st.floats(-360.0, 360.0))
 def wire_sections(draw, scene: Mapping[str, Any]) -> list[dict]:
     length = scene.get("guidewireLength", LENGTH)
     own = {"youngsModulus": log_uniform(1e6, 1e12), "shearModulus": log_uniform(1e6, 1e12),
-           "density": log_uniform(100.0, 3e4), "wireRadius": log_uniform(1e-5, 2e-3), "restCurvature": around(100.0)}
+           "density": log_uniform(100.0, 3e4), "wireRadius": log_uniform(1e-5, 2e-3), "restCurvature": around(100.0),
+           "innerRadius": st.floats(0.0, 0.9e-5), "shearFactor": st.floats(0.3, 1.0),
+           "axialStiffness": log_uniform(1.0, 1e6), "shearStiffness": log_uniform(1.0, 1e6),
+           "bendingStiffness1": log_uniform(1e-7, 1e-2), "bendingStiffness2": log_uniform(1e-7, 1e-2),
+           "torsionalStiffness": log_uniform(1e-7, 1e-2), "massPerLength": log_uniform(1e-5, 0.1),
+           "rotaryInertia": log_uniform(1e-12, 1e-7)}
     sections = []
     for _ in range(draw(whole(0, 3))):
         start, part = draw(st.floats(0.0, 1.0)), draw(log_uniform(1e-3, 1.5))
@@ -67,6 +73,19 @@ def wire_sections(draw, scene: Mapping[str, Any]) -> list[dict]:
         sections.append({"from": start * length, "to": (start + part) * length,
                          **{key: draw(own[key]) for key in sorted(chosen)}})
     return sections
+
+
+@st.composite
+def inner_radii(draw, scene: Mapping[str, Any]) -> float:
+    """Less than the wire's radius and those of its sections."""
+    radii = [scene.get("wireRadius", 5e-4), *(s.get("wireRadius", 1.0) for s in scene.get("wireSections") or [])]
+    return draw(st.floats(0.0, 0.99)) * min(radii)
+
+
+@st.composite
+def load_tables(draw, scene: Mapping[str, Any]) -> dict | None:
+    loads = draw(st.sets(st.sampled_from(["gravity", "tipForce", "distributedForce", "axialForce"])))
+    return {load: str(LOAD_TABLE) for load in sorted(loads)} or None
 
 
 @st.composite
@@ -119,7 +138,8 @@ def obstacles(draw, scene: Mapping[str, Any]) -> list[dict] | None:
 # Values that a key allows. A wider campaign widens these, and nothing else.
 VALUES: dict[str, st.SearchStrategy] = {
     "timeStep": log_uniform(1e-5, 1.0), "maxSimulationSteps": whole(0, 60), "constraintSolverSteps": whole(0, 40),
-    "substeps": whole(1, 20), "solverTolerance": log_uniform(1e-12, 1e-2), "maxNewtonIterations": whole(1, 60),
+    "timeStepError": st.one_of(st.just(0), log_uniform(1e-4, 1e-1)), "substeps": whole(1, 20),
+    "solverTolerance": log_uniform(1e-12, 1e-2), "maxNewtonIterations": whole(1, 60),
     "damping": st.floats(0.0, 1.0), "deltaThreshold": st.one_of(st.just(0), log_uniform(1e-6, 1.0)),
     "steadyStateHold": whole(1, 80),
     "guidewireLength": log_uniform(1.0, 1e4), "numberRodElements": st.one_of(whole(1, 20), whole(1, 20).map(float)),
@@ -127,7 +147,8 @@ VALUES: dict[str, st.SearchStrategy] = {
     "metresPerUnit": log_uniform(1e-4, 1e-2), "startRadius": log_uniform(0.1, 100.0),
     "startTurns": st.floats(-5.0, 5.0), "distalRotation": st.floats(-30.0, 30.0),
     "distalDisplacement": st.floats(-20.0, 20.0), "distalRampTime": st.one_of(st.just(0), log_uniform(1e-6, 1.0)),
-    "axialForce": st.floats(-1.0, 1.0), "gravity": around(20.0), "tipForce": around(1.0),
+    "axialForce": st.floats(-1.0, 1.0), "distributedForce": around(1.0), "gravity": around(20.0),
+    "tipForce": around(1.0),
     "tipForceReleaseTime": st.one_of(st.just(0), log_uniform(1e-6, 1.0)), "tipMoment": around(1e-2),
     "position": vectors(st.floats(-20.0, 20.0)), "scale": vectors(st.sampled_from([0.5, 1.0, 2.0])),
     "rotation": angles,
@@ -137,13 +158,15 @@ VALUES: dict[str, st.SearchStrategy] = {
     "bendStiffness": log_uniform(1e-3, 100.0),
     "youngsModulus": log_uniform(1e6, 1e12), "shearModulus": log_uniform(1e6, 1e12),
     "density": log_uniform(100.0, 3e4), "wireRadius": log_uniform(1e-5, 2e-3), "restCurvature": around(100.0),
+    "shearFactor": st.floats(0.3, 1.0),
     "sphereRadius": log_uniform(0.01, 20.0), "collisionMargin": st.floats(0.0, 5.0),
     "collisionStiffness": st.floats(0.0, 1.0),
     "logEvery": whole(1, 20), "logFilePath": st.sampled_from(["", "elsewhere", "Gefäß 1"]),
 }
 # Those that have to fit the rest of the scene.
 FITTED: dict[str, Callable[[Mapping[str, Any]], st.SearchStrategy]] = {
-    "wireSections": wire_sections, "startFile": start_files, "vessel": vessels, "obstacles": obstacles,
+    "wireSections": wire_sections, "innerRadius": inner_radii, "loadTables": load_tables, "startFile": start_files,
+    "vessel": vessels, "obstacles": obstacles,
 }
 # An explicit step is stable below some 1e-7 s.
 SMALL_STEPS = {"timeStep": log_uniform(1e-9, 1e-6)}
@@ -185,15 +208,16 @@ def scenes(draw, table: Mapping[str, Key], solver: str, integrators: Sequence[st
     scene = {name: draw(small[name] if name in small else values(table[name])) for name in chosen if name not in FITTED}
     # Without these most runs would be long, or over before they can come to rest.
     scene.setdefault("maxSimulationSteps", 200 if solver == "pbd" else 60)
-    scene.setdefault("steadyStateHold", 10)
+    if "steadyStateHold" in own:
+        scene.setdefault("steadyStateHold", 10)
     scene.setdefault("deltaThreshold", draw(log_uniform(1e-4, 0.1)))
     if "constraintSolverSteps" in own:
         scene.setdefault("constraintSolverSteps", 20)
     scene.update({"solver": solver, **fixed})
     if "integrator" in scene:
         scene["integrator"] = draw(st.sampled_from(integrators))
-    for name in chosen:
-        if name in FITTED:
+    for name in FITTED:
+        if name in chosen:
             scene[name] = draw(FITTED[name](scene))
     if scene.get("vessel") and draw(st.booleans()):
         for name in ("position", "scale", "rotation"):  # so that the wire starts inside
@@ -216,6 +240,8 @@ def reconcile(scene: dict) -> dict:
         if scene.get("proximalEnd") == "free":
             scene["proximalEnd"] = "held"
         return scene
+    if scene.get("integrator") in ("bdf2", "implicitEuler"):
+        scene.pop("timeStepError", None)
     if solver == "xpbd" and scene.get("bendLaw") == "darboux":
         del scene["bendLaw"]
     if scene.get("twistPerStep"):

@@ -19,7 +19,7 @@ def test_the_figure_has_a_panel_a_mode():
     positions[:, 2] = np.arange(5)
     shapes = np.ones((4, 5, 3))
     figure = draw_modes([1.0, 2.0, 3.0, 4.5], positions, shapes)
-    assert [axes.get_title() for axes in figure.axes] == ["1: 1 Hz", "2: 2 Hz", "3: 3 Hz", "4: 4.5 Hz"]
+    assert [axes.get_title(loc="left") for axes in figure.axes] == ["1: 1 Hz", "2: 2 Hz", "3: 3 Hz", "4: 4.5 Hz"]
 
 
 def test_the_runner_prints_the_beams_frequencies(runner_command, tmp_path):

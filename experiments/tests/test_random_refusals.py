@@ -16,7 +16,8 @@ from run_claims import assert_refused, assert_true_outcome, read_strictly, refus
 from wrong_values import wrong
 
 EXAMPLE_OF_FITTED = {
-    "wireSections": [{"from": 0, "to": 10, "wireRadius": 1e-4}], "startFile": "",
+    "wireSections": [{"from": 0, "to": 10, "wireRadius": 1e-4}], "startFile": "", "innerRadius": 1e-4,
+    "loadTables": {"tipForce": "load_table.csv"},
     "vessel": {"shape": "plane", "point": [50, 0, 0], "normal": [-1, 0, 0]},
     "obstacles": [{"shape": "sphere", "centre": [50, 0, 0], "radius": 1}],
 }

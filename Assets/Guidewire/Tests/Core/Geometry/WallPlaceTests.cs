@@ -107,7 +107,7 @@ namespace Guidewire.Core.Tests
                 }
             }
             Assert.That(tested, Is.GreaterThan(0.99 * all));
-            Assert.That(tested, Is.GreaterThan(cases / 3));
+            Assert.That(tested, Is.GreaterThan(cases / 4));
         }
 
         [TestCaseSource(typeof(TestShapes), nameof(TestShapes.Names))]
