@@ -103,6 +103,11 @@ namespace Guidewire.Core
             {
                 return new ParameterConflict("wireSections", "an innerRadius less than the wireRadius everywhere");
             }
+            if (method.TakesMaterial && !HasStiffness(parameters))
+            {
+                return new ParameterConflict("wireRadius", "a bending stiffness over guidewireLength^2 that is a number"
+                    + " > 0, with youngsModulus and metresPerUnit");
+            }
             string? layout = ElementLayout.FindProblem(parameters);
             if (layout != null)
             {
@@ -139,6 +144,14 @@ namespace Guidewire.Core
                 }
             }
             return false;
+        }
+
+        // The scale of all bending forces; 0 or infinite as a double, it measures nothing.
+        private static bool HasStiffness(SimulationParameters parameters)
+        {
+            double length = parameters.Scene.MetresPerUnit * parameters.Scene.GuidewireLength;
+            double force = CrossSection.At(parameters.Material, 0.0).BendStiffness1 / (length * length);
+            return force > 0.0 && !double.IsInfinity(force);
         }
 
         private static bool IsClamped(SimulationParameters parameters)
