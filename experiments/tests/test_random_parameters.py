@@ -155,3 +155,14 @@ def test_a_rest_shape_of_any_turn_is_found_or_failed(campaign, table):
              "distalRotation": 1e10}
     answer, out = campaign.run(scene)
     assert_true_outcome(answer, out, own_keys(table, "direct"))
+
+
+@pytest.mark.parametrize("scene", [
+    {"distalEnd": "clamped", "distalRotation": 1e10}, {"twistPerStep": -1e10},
+    {"distalEnd": "clamped", "distalRotation": -1e10, "distalRampTime": 0.02},
+    {"distalEnd": "clamped", "distalRotation": 1e300, "initialState": "equilibrium", "maxSimulationSteps": 0},
+], ids=["at once", "a step", "in a ramp", "rest shape"])
+def test_a_turn_that_no_wire_can_be_wound_up_by_fails(campaign, table, scene):
+    answer, out = campaign.run({"solver": "direct", "proximalEnd": "clamped", "maxSimulationSteps": 3, **scene})
+    assert_true_outcome(answer, out, own_keys(table, "direct"))
+    assert answer.outcome == "failed" and "turns by more than 10000 rad at once" in answer.message

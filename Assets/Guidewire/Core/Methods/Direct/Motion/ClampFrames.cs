@@ -6,8 +6,6 @@ namespace Guidewire.Core
     /// so that the rod winds up as it would under a fast turn and not by the shorter way.</summary>
     internal sealed class ClampFrames
     {
-        private const double LargestTurn = 0.5;  // radians at once
-
         private readonly RodSchedule _schedule;
         private readonly StageSolver _solver;
         private double _proximal;  // turn that has been made, radians
@@ -52,7 +50,11 @@ namespace Guidewire.Core
             {
                 return null;
             }
-            int parts = 1 + (int)(Math.Max(Math.Abs(proximal), Math.Abs(distal)) / LargestTurn);
+            string? failure = Winding.Split(Math.Max(Math.Abs(proximal), Math.Abs(distal)), out int parts);
+            if (failure != null)
+            {
+                return failure;
+            }
             inParts = parts > 1;
             for (int k = 1; k <= parts; k++)
             {
@@ -60,7 +62,7 @@ namespace Guidewire.Core
                 _schedule.TurnFrames(shape, _proximal + share * proximal, _distal + share * distal);
                 if (k < parts)
                 {
-                    string? failure = _solver.Search(shape);
+                    failure = _solver.Search(shape);
                     if (failure != null)
                     {
                         return failure;

@@ -8,9 +8,7 @@ namespace Guidewire.Core
     /// does not find its way there from the straight.</summary>
     internal sealed class RestShape
     {
-        private const double LargestTurn = 0.5;    // radians a part
         private const double LargestShift = 0.01;  // of L a part
-        private const double MostTurns = 10_000.0; // radians that are sought at all
         private const double MostShifts = 1000.0;  // parts of a shift; by more than 10 L each is larger
 
         private readonly MaterialScene _scene;
@@ -76,11 +74,12 @@ namespace Guidewire.Core
             Vector3d end = shape.X[last];
             Vector3d endShift = clamped ? schedule.DistalPositionAt(0.0) - end : Vector3d.Zero;
             double shift = Math.Max(endShift.Length, clamped ? startShift.Length : 0.0) / _scene.Rod.TotalLength;
-            if (!(Math.Abs(turn) <= MostTurns))
+            string? failure = Winding.Split(turn, out int turns);
+            if (failure != null)
             {
-                return "no rest shape: distalRotation winds the wire up by more than " + MostTurns + " rad";
+                return "no rest shape: " + failure;
             }
-            int parts = 1 + (int)Math.Max(Math.Abs(turn) / LargestTurn, Math.Min(shift / LargestShift, MostShifts));
+            int parts = Math.Max(turns, 1 + (int)Math.Min(shift / LargestShift, MostShifts));
             for (int k = 1; k <= parts; k++)
             {
                 // Each part is spread over the rod as an even stretch and an even twist; the solver does the rest.

@@ -1,0 +1,28 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>A clamp's turn at once is made in parts, each solved before the next: a rod is then wound up, and not
+    /// turned the shorter way.</summary>
+    internal static class Winding
+    {
+        private const double LargestTurn = 0.5;   // radians a part
+        private const double MostTurn = 10_000.0; // radians that are wound up at once at all
+
+        /// <summary>Into how many parts a turn is split.</summary>
+        /// <param name="turn">Radians.</param>
+        /// <param name="parts">At least 1; of no use with a failure.</param>
+        /// <returns>Null, or why it cannot be wound up.</returns>
+        public static string? Split(double turn, out int parts)
+        {
+            double size = Math.Abs(turn);
+            if (!(size <= MostTurn))
+            {
+                parts = 0;
+                return "a clamp turns by more than " + MostTurn + " rad at once (distalRotation, twistPerStep)";
+            }
+            parts = 1 + (int)(size / LargestTurn);
+            return null;
+        }
+    }
+}
