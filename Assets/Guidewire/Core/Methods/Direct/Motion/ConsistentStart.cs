@@ -92,19 +92,6 @@ namespace Guidewire.Core
             return Math.Max(Math.Sqrt(shift) / _terms.Rod.TotalLength, Math.Sqrt(turn));
         }
 
-        /// <summary>Sum of the forces of all loads, N, whose time has been set.</summary>
-        public Vector3d LoadSum(RodShape shape)
-        {
-            Array.Clear(_gradient, 0, _gradient.Length);
-            _terms.AddLoadGradient(shape, _gradient);
-            Vector3d sum = Vector3d.Zero;
-            foreach (RodVector g in _gradient)
-            {
-                sum -= new Vector3d(g.X1, g.X2, g.X3);
-            }
-            return sum;
-        }
-
         /// <summary>A number that other forces or another mass would hardly give.</summary>
         public double CheckSum(RodShape shape)
         {

@@ -17,16 +17,14 @@ namespace Guidewire.Core
     /// jumps that are known in time.</remarks>
     internal sealed class RodDynamics
     {
-        private const double LargestPredictedTurn = 1.0;  // radians
         private const double LargestStart = 0.5;  // radians, or L, by which rates at the start may move the rod
         private const double SameTime = 1e-9;     // of a step
         private const double SamePlace = 1e-9;    // radians, or of L
 
-        private readonly RodSupports _supports;
         private readonly RodTerms _terms;
         private readonly RodSchedule _schedule;
+        private readonly RodStage _stage;
         private readonly InertiaEnergy _inertia;
-        private readonly StageSolver _solver;
         private readonly ClampFrames _frames;
         private readonly RungeKuttaScheme? _scheme;  // null: BDF2
         private readonly RungeKuttaScheme _starter = RungeKuttaScheme.Start();
@@ -36,20 +34,14 @@ namespace Guidewire.Core
         private readonly Bdf2History _history;
         private readonly StepStart _saved;        // where a step began that may have to be taken again
         private readonly Vector3d[] _startPositions;
-        private readonly Vector3d[] _velocityHistory;
-        private readonly RodShape _before;            // the last stage's
-        private readonly Quaterniond[] _predicted;
         private readonly int _last;                   // index of the stage that ends a step
-        private readonly double _mass;
         private readonly double _length;
-        private readonly bool _isLoose;               // held nowhere
         private Vector3d _oldMomentum;
         private bool _hasStepped;
         private bool _hasRates;               // the last stage has the rates of the next step's start
         private bool _hasPast;                // stages of the step before are at hand, to predict from
         private Vector3d _proximalVelocity;   // of the supports in the last step, m/s
         private Vector3d _distalVelocity;
-        private StageForces _endForces;       // in the last stage
         private StageForces _meanForces;
 
         /// <summary>A rod at rest in this shape.</summary>
@@ -63,7 +55,6 @@ namespace Guidewire.Core
             double tolerance, int mostIterations)
         {
             int n = shape.ElementCount;
-            _supports = terms.Supports;
             _terms = terms;
             _schedule = schedule;
             _scheme = scheme;
@@ -71,25 +62,13 @@ namespace Guidewire.Core
             Shape = shape;
             Velocities = new Vector3d[n + 1];
             Spins = new Vector3d[n];
-            _inertia = new InertiaEnergy(terms.Mass);
-            _solver = new StageSolver(terms, _inertia)
-            {
-                Tolerance = tolerance,
-                Balance = tolerance / (2.0 * (scheme == null ? 1.0 : scheme.WeightSum)),
-                MostIterations = mostIterations,
-            };
-            _frames = new ClampFrames(schedule, _solver);
-            _before = new RodShape(n);
-            _predicted = new Quaterniond[n];
-            _mass = terms.Mass.Total;
+            _stage = new RodStage(terms, schedule, shape, scheme, tolerance, mostIterations);
+            _inertia = _stage.Inertia;
+            _frames = _stage.Frames;
+            _rates = _stage.Rates;
             _length = terms.Rod.TotalLength;
-            _isLoose = _startsExplicitly && _supports.Proximal == ProximalEnd.Free
-                && _supports.Distal == DistalEnd.Free;
             _startPositions = new Vector3d[n + 1];
-            _velocityHistory = new Vector3d[n + 1];
-            int stages = scheme == null ? 1 : scheme.StageCount;
-            _last = stages - 1;
-            _rates = new StageRates(stages, n);
+            _last = scheme == null ? 0 : scheme.StageCount - 1;
             _start = new ConsistentStart(terms);
             _saved = new StepStart(n);
             _history = new Bdf2History(scheme == null ? n : 0);
@@ -131,7 +110,7 @@ namespace Guidewire.Core
         public double DistalTurn => _frames.Made.Distal;
 
         /// <summary>Counts of what was solved.</summary>
-        public StageSolver Solver => _solver;
+        public StageSolver Solver => _stage.Solver;
 
         /// <summary>How steps are cut, and what their errors were.</summary>
         public StepControl Control { get; }
@@ -141,7 +120,11 @@ namespace Guidewire.Core
 
         /// <summary>Whether <see cref="MomentumRate"/> and the forces beside it are kept; they cost a gradient a
         /// stage.</summary>
-        public bool TracksReactions { get; set; }
+        public bool TracksReactions
+        {
+            get => _stage.TracksForces;
+            set => _stage.TracksForces = value;
+        }
 
         /// <summary>Change of the momentum in the last step, N, as the scheme writes it: (P_new - P)/dt with stages,
         /// (3 P_new - 4 P + P_old)/(2 dt) for BDF2 after its first step. With the same scheme's weights it equals the
@@ -169,7 +152,7 @@ namespace Guidewire.Core
         public Vector3d ReactionAt(int node)
         {
             _terms.SetTime(_schedule, Time);
-            RodVector g = _hasStepped ? _solver.Reactions(Shape)[node] : _solver.StaticReactions(Shape)[node];
+            RodVector g = _hasStepped ? Solver.Reactions(Shape)[node] : Solver.StaticReactions(Shape)[node];
             return new Vector3d(g.X1, g.X2, g.X3);
         }
 
@@ -223,7 +206,7 @@ namespace Guidewire.Core
         public void ExchangeHistory(Snapshot snapshot, double dt)
         {
             _terms.Exchange(snapshot);
-            _solver.ExchangeCounts(snapshot);
+            Solver.ExchangeCounts(snapshot);
             Control.ExchangeCounts(snapshot);
             string scheme = _scheme == null ? "BDF2" : _scheme.StageCount + " stages " + Text(_scheme.Diagonal);
             snapshot.Section(scheme + " " + Text(dt), ExchangeStages);
@@ -236,12 +219,14 @@ namespace Guidewire.Core
             _rates.Exchange(snapshot);
             _history.Exchange(snapshot);
             _inertia.Exchange(snapshot);
-            _solver.ExchangeTrust(snapshot);
+            Solver.ExchangeTrust(snapshot);
             Control.ExchangeLength(snapshot);
             snapshot.Exchange(ref _hasPast);
             snapshot.Exchange(ref _proximalVelocity);
             snapshot.Exchange(ref _distalVelocity);
-            _endForces.Exchange(snapshot);
+            StageForces forces = _stage.Forces;
+            forces.Exchange(snapshot);
+            _stage.Forces = forces;
             // Rates are those of this rod under these loads; a reader on which other forces act begins anew.
             _terms.SetTime(_schedule, Time);
             double own = _start.CheckSum(Shape);
@@ -354,8 +339,9 @@ namespace Guidewire.Core
                 return false;
             }
             _rates.SetFirst(Velocities, Spins, false);
-            _endForces = _start.Forces;
-            _endForces.Load = LoadSum();
+            StageForces forces = _start.Forces;
+            forces.Load = _stage.LoadSum();
+            _stage.Forces = forces;
             return true;
         }
 
@@ -367,18 +353,20 @@ namespace Guidewire.Core
             int first = scheme.IsFirstExplicit ? 1 : 0;
             if (first > 0 && TracksReactions)
             {
-                _meanForces.Add(share * final[0], _endForces);
+                _meanForces.Add(share * final[0], _stage.Forces);
             }
             for (int s = first; s < scheme.StageCount; s++)
             {
-                _rates.Prepare(_inertia, scheme.Rows[s], dt, _startPositions, Velocities, Spins, _velocityHistory);
+                _rates.Prepare(_inertia, scheme.Rows[s], dt, _startPositions, Velocities, Spins,
+                    _stage.VelocityHistory);
                 StagePredictor predictor = _hasPast ? scheme.Predictors[s] : StagePredictor.Of(Math.Max(s - 1, 0));
                 int stage = s == scheme.StageCount - 1 ? _last : s;
-                string? failure = SolveStage(time + scheme.Times[s] * dt, jump, stage, predictor, share * final[s]);
+                string? failure = _stage.Solve(time + scheme.Times[s] * dt, jump, stage, _hasPast, predictor);
                 if (failure != null)
                 {
                     return failure;
                 }
+                TakeForces(share * final[s]);
             }
             _rates.Accept(_inertia, Velocities, Spins);
             return null;
@@ -387,11 +375,12 @@ namespace Guidewire.Core
         private string? StepByBdf2(double dt)
         {
             BeginStep(dt);
-            _history.Prepare(_inertia, _startPositions, Velocities, Spins, _velocityHistory, dt);
-            string? failure = SolveStage(Time + dt, double.PositiveInfinity, 0,
-                _hasPast ? StagePredictor.OneStage : StagePredictor.Of(0), 1.0);
+            _history.Prepare(_inertia, _startPositions, Velocities, Spins, _stage.VelocityHistory, dt);
+            string? failure = _stage.Solve(Time + dt, double.PositiveInfinity, 0, _hasPast,
+                _hasPast ? StagePredictor.OneStage : StagePredictor.Of(0));
             if (failure == null)
             {
+                TakeForces(1.0);
                 _rates.Accept(_inertia, Velocities, Spins);
                 _history.Complete();
                 _hasPast = true;
@@ -410,106 +399,12 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Places the supports, predicts from stages before, solves, and takes the stage's
-        /// rates.</summary>
-        /// <param name="jump">When a load jumps next: a stage at that time is before the jump.</param>
-        private string? SolveStage(double time, double jump, int stage, in StagePredictor predictor, double weight)
+        private void TakeForces(double weight)
         {
-            double h = _inertia.StageLength;
-            double before = Math.Min(time, jump);
-            _terms.SetTime(_schedule, before);
-            string? failure = _frames.Turn(Shape, time, out bool inParts);
-            if (failure != null)
-            {
-                return failure;
-            }
-            // A prediction knows nothing of turns just wound up, and one of more than a radian leads to another
-            // winding.
-            Vector3d start = PredictStart(time, h, predictor);
-            if (Predict(h, predictor) > LargestPredictedTurn || inParts)
-            {
-                Array.Copy(Shape.Q, _predicted, _predicted.Length);
-            }
-            Vector3d end = _schedule.DistalPositionAt(time);
-            _before.CopyFrom(Shape);
-            RodStep.PlaceElements(_supports, Shape, _predicted, start, end);
-            double loads = _schedule.LoadAt(before, _mass);
-            if (!_solver.Iterate(Shape, h, loads))
-            {
-                failure = Search(h, loads, start, end);
-                if (failure != null)
-                {
-                    return failure;
-                }
-            }
-            if (_isLoose)
-            {
-                _inertia.Balance(Shape, _start.LoadSum(Shape));
-            }
-            _rates.Take(stage, Shape, _inertia, _velocityHistory, _hasPast);
             if (TracksReactions)
             {
-                RodVector[] gradient = _solver.Reactions(Shape);
-                RodVector first = gradient[0];
-                RodVector last = gradient[_startPositions.Length - 1];
-                _endForces.Proximal = new Vector3d(first.X1, first.X2, first.X3);
-                _endForces.Distal = new Vector3d(last.X1, last.X2, last.X3);
-                _endForces.Load = LoadSum();
-                _meanForces.Add(weight, _endForces);
+                _meanForces.Add(weight, _stage.Forces);
             }
-            return null;
-        }
-
-        /// <summary>The slower search from the stage before, with what the iteration can still add to it.</summary>
-        private string? Search(double h, double loads, in Vector3d start, in Vector3d end)
-        {
-            Shape.CopyFrom(_before);
-            RodStep.PlaceElements(_supports, Shape, Shape.Q, start, end);
-            string? failure = _solver.Search(Shape);
-            if (failure == null)
-            {
-                _before.CopyFrom(Shape);
-                if (!_solver.Iterate(Shape, h, loads))
-                {
-                    Shape.CopyFrom(_before);
-                }
-            }
-            return failure;
-        }
-
-        /// <summary>Orientations by the accelerations of stages before; strains are not predicted but kept, because
-        /// EA makes a force of every error that the turns leave in a chord. Returns the largest turn.</summary>
-        private double Predict(double h, in StagePredictor predictor)
-        {
-            double largest = 0.0;
-            Vector3d[] first = _rates.SpinRate[predictor.First];
-            Vector3d[] second = _rates.SpinRate[predictor.Second];
-            double share = predictor.Share;
-            for (int j = 0; j < _predicted.Length; j++)
-            {
-                Vector3d rate = first[j] + share * (second[j] - first[j]);
-                Vector3d turn = _inertia.TurnHistory[j] + h * (_inertia.SpinHistory[j] + h * rate);
-                _predicted[j] = _inertia.Start[j] * RotationVector.Exp(turn);
-                largest = Math.Max(largest, _inertia.SquaredChange(turn, j));
-            }
-            return Math.Sqrt(largest);
-        }
-
-        private Vector3d PredictStart(double time, double h, in StagePredictor predictor)
-        {
-            return _supports.Proximal == ProximalEnd.Free
-                ? _inertia.FreePositions[0] + (h * h) * _rates.Acceleration[predictor.First][0]
-                : _schedule.ProximalPositionAt(time);
-        }
-
-        private Vector3d LoadSum()
-        {
-            Vector3d sum = Vector3d.Zero;
-            foreach (Vector3d force in _terms.Loads.Force)
-            {
-                sum += force;
-            }
-            return sum;
         }
 
         private void TakeSupportVelocities()
