@@ -48,25 +48,13 @@ namespace Guidewire.Core
 
         internal void Exchange(Snapshot snapshot)
         {
-            long passages = Passages;
-            double penetration = MaxPenetration;
-            double shortfall = DriveShortfall;
-            double asked = DriveAsked;
-            Vector3d total = Total;
-            Vector3d reaction = Reaction;
-            snapshot.Exchange(ref passages);
-            snapshot.Exchange(ref penetration);
-            snapshot.Exchange(ref shortfall);
-            snapshot.Exchange(ref asked);
-            snapshot.Exchange(ref total);
-            snapshot.Exchange(ref reaction);
+            Passages = snapshot.Exchange(Passages);
+            MaxPenetration = snapshot.Exchange(MaxPenetration);
+            DriveShortfall = snapshot.Exchange(DriveShortfall);
+            DriveAsked = snapshot.Exchange(DriveAsked);
+            Total = snapshot.Exchange(Total);
+            Reaction = snapshot.Exchange(Reaction);
             snapshot.Exchange(Forces);
-            Passages = passages;
-            MaxPenetration = penetration;
-            DriveShortfall = shortfall;
-            DriveAsked = asked;
-            Total = total;
-            Reaction = reaction;
         }
 
         internal void EndStep(RodState state, Vector3d[] predicted, double timeStep)

@@ -57,9 +57,7 @@ namespace Guidewire.Core
         /// <summary>Writes into a snapshot, or takes over from one, the passages so far.</summary>
         public void Exchange(Snapshot snapshot)
         {
-            long total = Total;
-            snapshot.Exchange(ref total);
-            Total = total;
+            Total = snapshot.Exchange(Total);
         }
 
         /// <summary>Counts those of the whole step, from x_k to x_{k+1} in units.</summary>

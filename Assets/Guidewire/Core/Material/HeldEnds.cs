@@ -120,12 +120,8 @@ namespace Guidewire.Core
         /// <summary>Writes or takes over the work.</summary>
         public void ExchangeWork(Snapshot snapshot)
         {
-            double work = Work;
-            double most = MostWork;
-            snapshot.Exchange(ref work);
-            snapshot.Exchange(ref most);
-            Work = work;
-            MostWork = most;
+            Work = snapshot.Exchange(Work);
+            MostWork = snapshot.Exchange(MostWork);
             snapshot.Exchange(ref _carried);
         }
 

@@ -5,8 +5,8 @@ namespace Guidewire.Core
     /// <summary>All that a run depends on at one moment, as bits: a run that goes on from it takes the same steps, bit
     /// for bit, as one that was not interrupted.</summary>
     /// <remarks>What belongs together is listed once, in a method that takes a snapshot and hands it each number by
-    /// reference: the same list writes a snapshot and reads one, so the two cannot differ. Every number takes 64
-    /// bits.</remarks>
+    /// reference, or takes each property back from it: the same list writes a snapshot and reads one, so the two cannot
+    /// differ. Every number takes 64 bits.</remarks>
     internal sealed class Snapshot
     {
         private long[] _bits = new long[256];
@@ -104,6 +104,48 @@ namespace Guidewire.Core
                 characters[i] = (char)character;
             }
             value = new string(characters);
+        }
+
+        /// <summary>A count that is a property: writes it, or returns what it is to be.</summary>
+        public long Exchange(long value)
+        {
+            Exchange(ref value);
+            return value;
+        }
+
+        /// <summary>A whole number that is a property, as a count.</summary>
+        public int Exchange(int value)
+        {
+            Exchange(ref value);
+            return value;
+        }
+
+        /// <summary>A number that is a property, as a count.</summary>
+        public double Exchange(double value)
+        {
+            Exchange(ref value);
+            return value;
+        }
+
+        /// <summary>A vector that is a property, as a count.</summary>
+        public Vector3d Exchange(Vector3d value)
+        {
+            Exchange(ref value);
+            return value;
+        }
+
+        /// <summary>An orientation that is a property, as a count.</summary>
+        public Quaterniond Exchange(Quaterniond value)
+        {
+            Exchange(ref value);
+            return value;
+        }
+
+        /// <summary>A text that is a property, as a count.</summary>
+        public string Exchange(string value)
+        {
+            Exchange(ref value);
+            return value;
         }
 
         /// <summary>Counts; a reader has as many.</summary>

@@ -62,21 +62,11 @@ namespace Guidewire.Core
         /// report.</summary>
         internal void Exchange(Snapshot snapshot)
         {
-            string method = Method;
-            long factorisations = Factorisations;
-            int iterations = EquilibriumIterations;
-            double residual = EquilibriumResidual;
-            double eigenvalue = SmallestEigenvalue;
-            snapshot.Exchange(ref method);
-            snapshot.Exchange(ref factorisations);
-            snapshot.Exchange(ref iterations);
-            snapshot.Exchange(ref residual);
-            snapshot.Exchange(ref eigenvalue);
-            Method = method;
-            Factorisations = factorisations;
-            EquilibriumIterations = iterations;
-            EquilibriumResidual = residual;
-            SmallestEigenvalue = eigenvalue;
+            Method = snapshot.Exchange(Method);
+            Factorisations = snapshot.Exchange(Factorisations);
+            EquilibriumIterations = snapshot.Exchange(EquilibriumIterations);
+            EquilibriumResidual = snapshot.Exchange(EquilibriumResidual);
+            SmallestEigenvalue = snapshot.Exchange(SmallestEigenvalue);
         }
     }
 }

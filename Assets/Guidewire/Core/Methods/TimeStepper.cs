@@ -53,9 +53,7 @@ namespace Guidewire.Core
         /// <summary>The same for <see cref="PredictionError"/>.</summary>
         protected void ExchangePredictionError(Snapshot snapshot)
         {
-            double error = PredictionError;
-            snapshot.Exchange(ref error);
-            PredictionError = error;
+            PredictionError = snapshot.Exchange(PredictionError);
         }
     }
 }

@@ -43,12 +43,8 @@ namespace Guidewire.Core
         {
             snapshot.Exchange(X);
             snapshot.Exchange(Q);
-            Quaterniond proximal = ProximalFrame;
-            Quaterniond distal = DistalFrame;
-            snapshot.Exchange(ref proximal);
-            snapshot.Exchange(ref distal);
-            ProximalFrame = proximal;
-            DistalFrame = distal;
+            ProximalFrame = snapshot.Exchange(ProximalFrame);
+            DistalFrame = snapshot.Exchange(DistalFrame);
         }
 
         /// <summary>A straight rod along d3 of <paramref name="frame"/>.</summary>

@@ -22,12 +22,10 @@ namespace Guidewire.Core
         /// <summary>Writes into a snapshot, or takes over from one, the windows so far.</summary>
         public void Exchange(Snapshot snapshot)
         {
-            double largest = Largest;
-            snapshot.Exchange(ref largest);
+            Largest = snapshot.Exchange(Largest);
             snapshot.Exchange(ref _step);
             snapshot.Exchange(ref _largest);
             snapshot.Exchange(ref _previousLargest);
-            Largest = largest;
         }
 
         /// <summary>Takes one step's largest strain; true at the end of a window that, like the one before, went above

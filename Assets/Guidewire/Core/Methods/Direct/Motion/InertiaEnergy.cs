@@ -128,9 +128,7 @@ namespace Guidewire.Core
         /// <summary>Writes or takes over the last stage, by which forces are told between steps.</summary>
         public override void Exchange(Snapshot snapshot)
         {
-            double length = StageLength;
-            snapshot.Exchange(ref length);
-            StageLength = length;
+            StageLength = snapshot.Exchange(StageLength);
             snapshot.Exchange(Start);
             snapshot.Exchange(FreePositions);
             snapshot.Exchange(TurnHistory);

@@ -192,15 +192,9 @@ namespace Guidewire.Core
         /// <summary>Writes or takes over the counts.</summary>
         public void ExchangeCounts(Snapshot snapshot)
         {
-            long factorisations = Factorisations;
-            long kept = KeptSolutions;
-            long searches = Searches;
-            snapshot.Exchange(ref factorisations);
-            snapshot.Exchange(ref kept);
-            snapshot.Exchange(ref searches);
-            Factorisations = factorisations;
-            KeptSolutions = kept;
-            Searches = searches;
+            Factorisations = snapshot.Exchange(Factorisations);
+            KeptSolutions = snapshot.Exchange(KeptSolutions);
+            Searches = snapshot.Exchange(Searches);
         }
 
         /// <summary>Writes or takes over what is expected of the next stage; a rod that answers otherwise than the

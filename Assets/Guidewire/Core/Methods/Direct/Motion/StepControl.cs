@@ -73,15 +73,9 @@ namespace Guidewire.Core
         /// <summary>Writes or takes over the counts.</summary>
         public void ExchangeCounts(Snapshot snapshot)
         {
-            double error = LargestError;
-            long steps = Steps;
-            long above = StepsAbove;
-            snapshot.Exchange(ref error);
-            snapshot.Exchange(ref steps);
-            snapshot.Exchange(ref above);
-            LargestError = error;
-            Steps = steps;
-            StepsAbove = above;
+            LargestError = snapshot.Exchange(LargestError);
+            Steps = snapshot.Exchange(Steps);
+            StepsAbove = snapshot.Exchange(StepsAbove);
         }
 
         /// <summary>Writes or takes over the length of the next step.</summary>
