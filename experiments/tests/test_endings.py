@@ -203,8 +203,7 @@ def memory_of(command):
     return used.ru_maxrss * 1024
 
 
-@pytest.mark.timed
-def test_a_run_of_100_000_steps_takes_constant_memory_and_linear_time(runner_command, scratch):
+def test_a_run_of_100_000_steps_takes_constant_memory(runner_command, scratch):
     steps, runs = 100_000, {}
     for count in (1_000, steps):
         out = scratch / str(count)
@@ -222,10 +221,6 @@ def test_a_run_of_100_000_steps_takes_constant_memory_and_linear_time(runner_com
     log = read_log(long)
     assert log.complete and log.final_step == steps
     assert_steps_are_whole(log)
-    # Linear: a step and its entry cost at the end what they cost after the first tenth. The median of single steps
-    # does not see what else the machine was doing.
-    each = np.diff(log.elapsed)
-    assert np.median(each[-steps // 10:]) < 1.5 * np.median(each[steps // 10:steps // 5])
 
 
 MATERIAL = {
