@@ -11,12 +11,14 @@ namespace Guidewire.Core.Tests
         private const double Settled = 14.0; // a critically damped motion is over after so many 1/omega: 15 exp(-14)
 
         [Test]
+        [Category("Long")]
         public void RunThatClaimsConvergence_EndsInTheRestShape()
         {
             Campaign(11, Rods.InFull ? 240 : 24, true, ErrorAtRest);
         }
 
         [Test]
+        [Category("Long")]
         public void RunThatClaimsConvergence_MovesAsImplicitEuler()
         {
             Campaign(12, Rods.InFull ? 240 : 24, false, ErrorInMotion);

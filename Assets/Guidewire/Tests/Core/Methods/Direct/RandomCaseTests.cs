@@ -66,6 +66,7 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        [Category("Long")]
         public void ForceAndMomentInSpace_EndAtRestOrFail()
         {
             // The couple has no potential here, and a wire under a large one never rests: then the answer is a failure

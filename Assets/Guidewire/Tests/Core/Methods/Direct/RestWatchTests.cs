@@ -40,6 +40,7 @@ namespace Guidewire.Core.Tests
         [TestCase(Solver.Direct, 1e-2, 1, 0.3)]
         [TestCase(Solver.Direct, 1.0, 1, 0.0)]
         [TestCase(Solver.Explicit, 1e-3, 5000, 0.05)]
+        [Category("Long")]
         public void DampedWire_ComesToRest_WhereItsRestShapeIs(Solver solver, double step, int substeps,
             double damping)
         {

@@ -11,6 +11,7 @@ namespace Guidewire.Core.Tests
     internal sealed class RandomPushTests
     {
         [Test]
+        [Category("Long")]
         public void Wire_PassesNoWall_AndMoves_UnderRandomPushes()
         {
             int runs = RandomGeometry.Cases(1_000);
