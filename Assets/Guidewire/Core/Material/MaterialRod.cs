@@ -56,6 +56,12 @@ namespace Guidewire.Core
         /// <summary>Curvature and twist at rest along the element's axes, rad/m.</summary>
         public Vector3d[] RestCurvature { get; }
 
+        /// <summary>Damping in proportion to mass, 1/s.</summary>
+        public double MassDamping { get; set; }
+
+        /// <summary>Damping in proportion to stiffness (Kelvin-Voigt), s.</summary>
+        public double MaterialDamping { get; set; }
+
         /// <summary>L, m.</summary>
         public double TotalLength
         {

@@ -28,7 +28,7 @@ namespace Guidewire.Core
             Supports = supports;
             Mass = new RodMass(rod, supports.Mass);
             Stretch = new StretchEnergy(rod);
-            Bending = CreateBending(rod, supports);
+            Bending = BendTwistTerm.Create(rod.Joints(supports), supports);
             Loads = new DeadLoads(Mass, rod.Length);
             Moment = new TipMoment();
             Moment.ActAtEnd(rod, scene.TipMoment);
@@ -79,10 +79,10 @@ namespace Guidewire.Core
             return Array.FindAll(All, term => term.HasPotential);
         }
 
-        /// <summary>Every term and one more.</summary>
-        public EnergyTerm[] With(EnergyTerm more)
+        /// <summary>Every term and these.</summary>
+        public EnergyTerm[] With(params EnergyTerm[] more)
         {
-            return Joined(All, new[] { more });
+            return Joined(All, more);
         }
 
         /// <summary>Sets all that is prescribed at this time.</summary>
@@ -179,16 +179,6 @@ namespace Guidewire.Core
             first.CopyTo(joined, 0);
             second.CopyTo(joined, first.Length);
             return joined;
-        }
-
-        private static BendTwistTerm CreateBending(MaterialRod rod, RodSupports supports)
-        {
-            Joint[] joints = rod.Joints(supports);
-            if (supports.Bend == BendLaw.Darboux)
-            {
-                return new BendTwistEnergy<DarbouxLaw>(joints, supports.HasProximalJoint, supports.HasDistalJoint);
-            }
-            return new BendTwistEnergy<RotationVectorLaw>(joints, supports.HasProximalJoint, supports.HasDistalJoint);
         }
     }
 }

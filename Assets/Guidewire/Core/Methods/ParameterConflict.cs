@@ -39,6 +39,15 @@ namespace Guidewire.Core
             {
                 return new ParameterConflict("solver", "pbd where a hand steers: it steers wires with gains only");
             }
+            if (method.TakesMaterial && parameters.Method.Damping != 0.0)
+            {
+                return new ParameterConflict("damping", "solver pbd: a material has massDamping (1/s), which is damping"
+                    + " over timeStep, and materialDamping (s)");
+            }
+            if (parameters.Material.MaterialDamping != 0.0 && method.Solver != Solver.Direct && method.TakesMaterial)
+            {
+                return new ParameterConflict("materialDamping", "solver direct: the others have no rates of strain");
+            }
             if (!method.TakesTipMoment && parameters.Scene.TipMoment != Vector3d.Zero)
             {
                 return new ParameterConflict("tipMoment", "solver direct or explicit: the others have no couples");

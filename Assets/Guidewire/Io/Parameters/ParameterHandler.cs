@@ -173,7 +173,8 @@ namespace Guidewire.Io
                     || (entry.IsRefusedElsewhere && AsksForMore(entry, given)))
                 {
                     throw Refused(entry.Key, "solver " + entry.MethodWords + "; this run has solver "
-                        + ChoiceEntry<Solver>.Word(Method.ToString()));
+                        + ChoiceEntry<Solver>.Word(Method.ToString())
+                        + (entry.Instead == null ? "" : ", which takes " + entry.Instead));
                 }
                 _ignored.Add(entry.Key);
                 _given.Remove(entry.Key);

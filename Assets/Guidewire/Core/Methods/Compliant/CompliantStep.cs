@@ -75,7 +75,7 @@ namespace Guidewire.Core
             _velocities = scene.Velocities;
             _spins = scene.Spins;
             _timeStep = method.TimeStep;
-            _remainingVelocity = Math.Pow(1.0 - method.Damping, 1.0 / method.Substeps);
+            _remainingVelocity = Math.Exp(-scene.Rod.MassDamping * method.TimeStep / method.Substeps);
             _substeps = method.Substeps;
             _sweeps = method.ConstraintSolverSteps;
             _directions = new DirectionError(scene, _inertia, _stretch, _bendTwist);

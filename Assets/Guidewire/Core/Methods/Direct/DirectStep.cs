@@ -13,7 +13,6 @@ namespace Guidewire.Core
         private readonly SolverReport _report;
         private StressRecord? _stress;
         private long _startFactorisations;  // of the rest shape
-        private readonly double _remainingVelocity;  // share that the wire keeps a step
         private readonly HeldEnds _ends;
         private readonly EnergyWatch _energy;
         private readonly RestWatch _rest;
@@ -28,7 +27,6 @@ namespace Guidewire.Core
             _dynamics = dynamics;
             _drive = drive;
             _timeStep = method.TimeStep;
-            _remainingVelocity = 1.0 - method.Damping;
             _report = report;
             _startFactorisations = report.Factorisations;
             Contacts = record;
@@ -48,10 +46,6 @@ namespace Guidewire.Core
         {
             int last = state.ElementCount;
             _drive.Prepare(_dynamics.Shape, _dynamics.Time);
-            if (_remainingVelocity != 1.0)
-            {
-                Damp();
-            }
             Vector3d free = _dynamics.Shape.X[last] + _timeStep * _dynamics.Velocities[last]
                 + (_timeStep * _timeStep) * _scene.Schedule.Gravity;
             string? failure = _dynamics.Step(_timeStep);
@@ -137,19 +131,6 @@ namespace Guidewire.Core
         private void FollowEnds()
         {
             _ends.Follow(_dynamics.Shape, _dynamics.ProximalTurn, _dynamics.DistalTurn);
-        }
-
-        private void Damp()
-        {
-            for (int i = 0; i < _dynamics.Velocities.Length; i++)
-            {
-                _dynamics.Velocities[i] = _remainingVelocity * _dynamics.Velocities[i];
-            }
-            for (int j = 0; j < _dynamics.Spins.Length; j++)
-            {
-                _dynamics.Spins[j] = _remainingVelocity * _dynamics.Spins[j];
-            }
-            _dynamics.Restart();
         }
     }
 }

@@ -43,7 +43,7 @@ namespace Guidewire.Core
             _gradient = new RodVector[_shape.ElementCount + 2];
             _timeStep = method.TimeStep;
             _substeps = method.Substeps;
-            _remainingVelocity = Math.Pow(1.0 - method.Damping, 1.0 / _substeps);
+            _remainingVelocity = Math.Exp(-scene.Rod.MassDamping * _timeStep / _substeps);
             _ends = new HeldEnds(terms, scene.Schedule);
             _stable = StableTimeStep(scene.Rod, scene.Supports);
             double part = _timeStep / _substeps / _stable;

@@ -55,6 +55,19 @@ namespace Guidewire.Io
             {
                 Methods = Takers.Material,
             },
+            new NumberEntry("massDamping", "1/s", NumberRange.NotNegative,
+                "a of the force -a M v: a mode of circular frequency w has the damping ratio a/(2 w), at any timeStep",
+                p => p.Simulation.Material.MassDamping, (p, v) => p.Simulation.Material.MassDamping = v)
+            {
+                Methods = Takers.Material,
+            },
+            new NumberEntry("materialDamping", "s", NumberRange.NotNegative,
+                "b of the stress b K times the rate of strain (Kelvin-Voigt): damping ratio b w/2, at any timeStep",
+                p => p.Simulation.Material.MaterialDamping, (p, v) => p.Simulation.Material.MaterialDamping = v)
+            {
+                Methods = Takers.Only(Solver.Direct),
+                IsRefusedElsewhere = true,
+            },
             new ChoiceEntry<ClampRule>("clampRule",
                 "weights of the joints at a clamp: order 4 under loads across the wire, order 2 (exact for an arc),"
                 + " order 1; a thrust comes out low by (k l)^2/12 with any, k the wave number of the buckled shape"

@@ -174,7 +174,8 @@ namespace Guidewire.Core.Tests
                     break;
                 case "twist and push":
                     parameters.Scene.Gravity = new Vector3d(0.0, -9.81, 0.0);
-                    parameters.Method.Damping = 0.01;
+                    parameters.Material.MassDamping = 0.01 / dt;
+                    parameters.Material.MaterialDamping = solver == Solver.Direct ? 0.1 * dt : 0.0;
                     parameters.Drive.Kind = Drive.Push;
                     parameters.Drive.DisplacementPerStep = 50.0 * dt;
                     parameters.Drive.TwistPerStep = 20.0 * dt;

@@ -25,6 +25,7 @@ namespace Guidewire.Core
         private readonly RodSchedule _schedule;
         private readonly RodStage _stage;
         private readonly InertiaEnergy _inertia;
+        private readonly RodDamping? _damping;
         private readonly ClampFrames _frames;
         private readonly RungeKuttaScheme? _scheme;  // null: BDF2
         private readonly RungeKuttaScheme _starter = RungeKuttaScheme.Start();
@@ -64,12 +65,13 @@ namespace Guidewire.Core
             Spins = new Vector3d[n];
             _stage = new RodStage(terms, schedule, shape, scheme, tolerance, mostIterations);
             _inertia = _stage.Inertia;
+            _damping = _stage.Damping;
             _frames = _stage.Frames;
             _rates = _stage.Rates;
             _length = terms.Rod.TotalLength;
             _startPositions = new Vector3d[n + 1];
             _last = scheme == null ? 0 : scheme.StageCount - 1;
-            _start = new ConsistentStart(terms);
+            _start = new ConsistentStart(terms, _damping);
             _saved = new StepStart(n);
             _history = new Bdf2History(scheme == null ? n : 0);
             Control = new StepControl(scheme == null ? 1 : scheme.EmbeddedOrder);
@@ -156,17 +158,6 @@ namespace Guidewire.Core
             return new Vector3d(g.X1, g.X2, g.X3);
         }
 
-        /// <summary>Velocities have been changed from outside: the next step begins anew. Held nodes keep the
-        /// velocities of their supports.</summary>
-        public void Restart()
-        {
-            _hasRates = false;
-            if (_startsExplicitly)
-            {
-                _start.Hold(Velocities, _proximalVelocity, _distalVelocity);
-            }
-        }
-
         /// <summary>One step.</summary>
         /// <param name="dt">s.</param>
         /// <returns>Null, or why a stage has no solution; the shape is then not to be used.</returns>
@@ -219,6 +210,10 @@ namespace Guidewire.Core
             _rates.Exchange(snapshot);
             _history.Exchange(snapshot);
             _inertia.Exchange(snapshot);
+            if (_damping != null)
+            {
+                snapshot.Section("damping", _damping.Exchange);
+            }
             Solver.ExchangeTrust(snapshot);
             Control.ExchangeLength(snapshot);
             snapshot.Exchange(ref _hasPast);
@@ -332,6 +327,11 @@ namespace Guidewire.Core
             _distalVelocity = distal;
             _hasPast = false;
             _terms.SetTime(_schedule, after);
+            if (_damping != null)
+            {
+                BeginDamping(_damping, after);
+                _damping.TakeMoment(h);
+            }
             double move = _start.SetRates(Shape, Spins, _rates.Acceleration[0], _rates.SpinRate[0]);
             if (!isInPlace || !(h * h * move <= LargestStart))
             {
@@ -347,7 +347,7 @@ namespace Guidewire.Core
 
         private string? StepByRungeKutta(RungeKuttaScheme scheme, double time, double dt, double jump, double share)
         {
-            BeginStep(dt);
+            BeginStep(time, dt);
             _inertia.StageLength = scheme.Diagonal * dt;
             double[] final = scheme.Rows[scheme.StageCount - 1];
             int first = scheme.IsFirstExplicit ? 1 : 0;
@@ -359,6 +359,7 @@ namespace Guidewire.Core
             {
                 _rates.Prepare(_inertia, scheme.Rows[s], dt, _startPositions, Velocities, Spins,
                     _stage.VelocityHistory);
+                _damping?.BeginStage(scheme.Rows[s], dt);
                 StagePredictor predictor = _hasPast ? scheme.Predictors[s] : StagePredictor.Of(Math.Max(s - 1, 0));
                 int stage = s == scheme.StageCount - 1 ? _last : s;
                 string? failure = _stage.Solve(time + scheme.Times[s] * dt, jump, stage, _hasPast, predictor);
@@ -374,8 +375,9 @@ namespace Guidewire.Core
 
         private string? StepByBdf2(double dt)
         {
-            BeginStep(dt);
-            _history.Prepare(_inertia, _startPositions, Velocities, Spins, _stage.VelocityHistory, dt);
+            BeginStep(Time, dt);
+            double h = _history.Prepare(_inertia, _startPositions, Velocities, Spins, _stage.VelocityHistory, dt);
+            _damping?.BeginStage(_history.IsComplete, h);
             string? failure = _stage.Solve(Time + dt, double.PositiveInfinity, 0, _hasPast,
                 _hasPast ? StagePredictor.OneStage : StagePredictor.Of(0));
             if (failure == null)
@@ -389,14 +391,24 @@ namespace Guidewire.Core
             return failure;
         }
 
-        private void BeginStep(double dt)
+        private void BeginStep(double time, double dt)
         {
             Array.Copy(Shape.X, _startPositions, _startPositions.Length);
             _inertia.BeginStep(Shape, dt);
+            if (_damping != null)
+            {
+                BeginDamping(_damping, time + SameTime * dt);
+            }
             foreach (EnergyTerm term in _terms.All)
             {
                 term.BeginStep(Shape, dt);
             }
+        }
+
+        private void BeginDamping(RodDamping damping, double time)
+        {
+            damping.Begin(Shape, Velocities, Spins, new Vector3d(0.0, 0.0, _schedule.ProximalTwistRate),
+                new Vector3d(0.0, 0.0, _schedule.DistalTwistRateAt(time)));
         }
 
         private void TakeForces(double weight)

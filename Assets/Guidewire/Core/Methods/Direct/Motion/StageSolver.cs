@@ -47,8 +47,8 @@ namespace Guidewire.Core
         private double _knownForce = double.PositiveInfinity;
         private int _stagesOnTrust;
 
-        /// <summary>A solver for a rod under its terms and its inertia.</summary>
-        public StageSolver(RodTerms terms, EnergyTerm inertia)
+        /// <summary>A solver for a rod under its terms, its inertia and what else a motion has.</summary>
+        public StageSolver(RodTerms terms, params EnergyTerm[] inertia)
         {
             MaterialRod rod = terms.Rod;
             _rod = rod;

@@ -86,7 +86,7 @@ namespace Guidewire.Core.Tests
             // Another way to the same shape: 5 s of overdamped motion, each stage solved with its inertia. Damped less,
             // the wire would flutter: eigenvalues a + ib grow in a motion unless the damping exceeds b/sqrt(a).
             SimulationParameters parameters = CoupleInSpace(3.0);
-            parameters.Method.Damping = 0.5;
+            parameters.Material.MassDamping = 0.5 / parameters.Method.TimeStep;
             parameters.Method.MaxSimulationSteps = 1000;
             RodState moved = Wires.Run(parameters).State;
             parameters.Method.MaxSimulationSteps = 0;

@@ -14,7 +14,8 @@ namespace Guidewire.Core.Tests
         private const double GradientTolerance = 1e-9;
         private const double HessianTolerance = 1e-8;
 
-        public static readonly string[] TermNames = { "stretch", "rotationVector", "darboux", "inertia", "plane" };
+        public static readonly string[] TermNames = { "stretch", "rotationVector", "darboux", "inertia", "plane",
+            "damping" };
 
         [Test]
         public void Gradient_IsTheDifferenceOfTheEnergy([ValueSource(nameof(TermNames))] string name,
@@ -152,6 +153,14 @@ namespace Guidewire.Core.Tests
                     return new BendTwistEnergy<DarbouxLaw>(rod.Joints(supports), true, true);
                 case "plane":
                     return Plane(rod, shape);
+                case "damping":
+                    rod.MassDamping = 0.3;
+                    rod.MaterialDamping = 0.7;
+                    var damping = new RodDamping(new RodTerms(rod, supports), 1);
+                    damping.Begin(Rods.Random(rod, 0.5 * angle, 0.2, 6), new Vector3d[rod.ElementCount + 1],
+                        new Vector3d[rod.ElementCount], Vector3d.Zero, Vector3d.Zero);
+                    damping.BeginStage(new[] { 0.8 }, 1.0);
+                    return damping;
                 default:
                     var inertia = new InertiaEnergy(new RodMass(rod, MassRule.Consistent)) { StageLength = 0.8 };
                     inertia.BeginStep(shape, 1.0);
