@@ -99,8 +99,8 @@ namespace Guidewire.Core
             _report.ProximalForce = _dynamics.ReactionAt(0);
             _report.DistalForce = _scene.Supports.HasDistalJoint ? _dynamics.ReactionAt(shape.ElementCount)
                 : Vector3d.Zero;
-            _report.ProximalMoment = _dynamics.Terms.Bending.ProximalCouple(shape);
-            _report.DistalMoment = _dynamics.Terms.Bending.DistalCouple(shape);
+            _report.ProximalMoment = _dynamics.ProximalCouple;
+            _report.DistalMoment = _dynamics.DistalCouple;
             return _report;
         }
 

@@ -128,6 +128,19 @@ namespace Guidewire.Core
             _rate[stage].SetDifference(_perStage, _now, _history);
         }
 
+        /// <summary>What the damping adds to the couple of the proximal clamp on the rod, N m, along the world's axes.
+        /// </summary>
+        public Vector3d ProximalCouple(RodShape shape)
+        {
+            return _bending.ProximalCouple(shape);
+        }
+
+        /// <summary>The same of the distal clamp.</summary>
+        public Vector3d DistalCouple(RodShape shape)
+        {
+            return _bending.DistalCouple(shape);
+        }
+
         /// <inheritdoc/>
         public override double Value(RodShape shape)
         {

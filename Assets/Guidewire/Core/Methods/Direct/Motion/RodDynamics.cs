@@ -130,7 +130,8 @@ namespace Guidewire.Core
 
         /// <summary>Change of the momentum in the last step, N, as the scheme writes it: (P_new - P)/dt with stages,
         /// (3 P_new - 4 P + P_old)/(2 dt) for BDF2 after its first step. With the same scheme's weights it equals the
-        /// forces: <see cref="MeanReaction"/> + <see cref="MeanDistalReaction"/> + <see cref="MeanLoad"/>.</summary>
+        /// forces: <see cref="MeanReaction"/> + <see cref="MeanDistalReaction"/> + <see cref="MeanLoad"/>, and what
+        /// mass-proportional damping takes.</summary>
         public Vector3d MomentumRate { get; private set; }
 
         /// <summary>Force that the supports exert on node 0, N, the mean over the last step by the scheme's weights
@@ -157,6 +158,15 @@ namespace Guidewire.Core
             RodVector g = _hasStepped ? Solver.Reactions(Shape)[node] : Solver.StaticReactions(Shape)[node];
             return new Vector3d(g.X1, g.X2, g.X3);
         }
+
+        /// <summary>Couple of the proximal clamp on the rod as it is now, N m, along the world's axes; with that of the
+        /// damping by the rates of the last stage.</summary>
+        public Vector3d ProximalCouple => _terms.Bending.ProximalCouple(Shape)
+            + (_damping == null ? Vector3d.Zero : _damping.ProximalCouple(Shape));
+
+        /// <summary>The same of the distal clamp.</summary>
+        public Vector3d DistalCouple => _terms.Bending.DistalCouple(Shape)
+            + (_damping == null ? Vector3d.Zero : _damping.DistalCouple(Shape));
 
         /// <summary>One step.</summary>
         /// <param name="dt">s.</param>
