@@ -197,7 +197,7 @@ def assert_rest_shape(summary: dict, parameters: dict) -> None:
     assert solver["equilibriumIterations"] > 0 and solver["equilibriumResidual"] is not None
     assert solver["smallestEigenvalue"] is not None
     if (parameters["solver"] != "direct" or parameters["maxSimulationSteps"] > 0 or parameters["wireSections"]
-            or parameters["loadTables"]):
+            or parameters["loadTables"] or any(parameters["tipFollowerForce"])):
         return
     # The supports carry the whole wire's weight and the loads at its ends.
     metres = parameters["metresPerUnit"]

@@ -30,8 +30,7 @@ namespace Guidewire.Core
             Stretch = new StretchEnergy(rod);
             Bending = BendTwistTerm.Create(rod.Joints(supports), supports);
             Loads = new DeadLoads(Mass, rod.Length);
-            Moment = new TipMoment();
-            Moment.ActAtEnd(rod, scene.TipMoment);
+            Followers = new TipFollowers(rod, scene);
             _elastic = new EnergyTerm[]
             {
                 Stretch,
@@ -40,7 +39,8 @@ namespace Guidewire.Core
             _loads = Joined(new EnergyTerm[]
             {
                 Loads,
-                Moment,
+                Followers.Moment,
+                Followers.Force,
             }, others);
             All = Joined(_elastic, _loads);
             _endGradient = new RodVector[rod.ElementCount + 2];
@@ -64,8 +64,8 @@ namespace Guidewire.Core
         /// <summary>Weight and forces on the nodes.</summary>
         public DeadLoads Loads { get; }
 
-        /// <summary>The couple on the last element, along its own axes.</summary>
-        public TipMoment Moment { get; }
+        /// <summary>Couple and force at the tip that turn with it.</summary>
+        public TipFollowers Followers { get; }
 
         /// <summary>Every term.</summary>
         public EnergyTerm[] All { get; }
@@ -89,6 +89,7 @@ namespace Guidewire.Core
         public void SetTime(RodSchedule schedule, double time)
         {
             schedule.SetLoads(Loads, time);
+            Followers.SetTime(time);
             foreach (EnergyTerm term in All)
             {
                 term.SetTime(time);

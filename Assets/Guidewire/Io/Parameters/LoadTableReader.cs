@@ -18,6 +18,8 @@ namespace Guidewire.Io
                 ["tipForce"] = (scene, table) => scene.TipForceTable = table,
                 ["distributedForce"] = (scene, table) => scene.DistributedForceTable = table,
                 ["axialForce"] = (scene, table) => scene.AxialForceTable = table,
+                ["tipMoment"] = (scene, table) => scene.TipMomentTable = table,
+                ["tipFollowerForce"] = (scene, table) => scene.TipFollowerForceTable = table,
             };
 
         /// <summary>Sets the tables of a scene; the files' names are replaced by those that were found.</summary>

@@ -108,7 +108,7 @@ namespace Guidewire.Core
             Vector3d end = _schedule.DistalPositionAt(time);
             _before.CopyFrom(_shape);
             RodStep.PlaceElements(_supports, _shape, _predicted, start, end);
-            double loads = _schedule.LoadAt(before, _mass);
+            double loads = _schedule.LoadAt(before, _mass) + _terms.Followers.Force.Force.Length;
             if (!Solver.Iterate(_shape, h, loads))
             {
                 failure = Search(h, loads, start, end);

@@ -57,7 +57,7 @@ namespace Guidewire.Core
             _terms = terms.With(inertia);
             _system = new BlockTridiagonal(rod, _supports);
             _search = new EquilibriumSolver(rod, _supports, _terms);
-            _creep = terms.HavePotential ? null : new DragFlow(rod, _supports, _terms, terms.Moment);
+            _creep = terms.HavePotential ? null : new DragFlow(rod, _supports, _terms, terms.Followers);
             _gradient = new RodVector[_system.VectorCount];
             _direction = new RodVector[_system.VectorCount];
             _totalLength = rod.TotalLength;

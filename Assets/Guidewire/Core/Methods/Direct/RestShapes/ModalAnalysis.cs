@@ -81,7 +81,7 @@ namespace Guidewire.Core
             var terms = new RodTerms(scene.Rod, scene.Supports, atRest.Scene);
             if (!terms.HavePotential)
             {
-                throw new ArgumentException("tipMoment needs to be 0: a couple that turns with the tip has no"
+                throw new ArgumentException(terms.Followers.Keys + " needs to be 0: what turns with the tip has no"
                     + " potential");
             }
             string? failure = new RestShape(scene, terms, 1e-10, 10 * atRest.Method.MaxNewtonIterations,

@@ -115,7 +115,7 @@ namespace Guidewire.Core.Tests
             MaterialRod rod = Rods.Wire(N);
             var rodTerms = new RodTerms(rod,
                 new RodSupports { Bend = BendLaw.Darboux, Clamp = ClampRule.HalfElement });
-            rodTerms.Moment.Moment = new Vector3d(1.1 * Rods.BendStiffness * N / Rods.Length, 0.0, 0.0);
+            rodTerms.Followers.Moment.Moment = new Vector3d(1.1 * Rods.BendStiffness * N / Rods.Length, 0.0, 0.0);
             EquilibriumResult result = new RodStatics(rodTerms).Solve(Rods.Straight(rod), 1e-10, 300);
             Assert.That(result.Converged, Is.False);
             Assert.That(result.Reason, Is.Not.Empty);
