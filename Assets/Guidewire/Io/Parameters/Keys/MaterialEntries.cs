@@ -50,7 +50,7 @@ namespace Guidewire.Io
                 "pieces of the wire with a material, a rest curvature or elements of their own, such as a soft, bent"
                 + " tip; an element across a border has the mean compliance, mass and rest curvature by length;"
                 + " stiffness and mass given directly count in place of those of material and radius, and rotary"
-                + " inertia is then massPerLength EI/EA with the mean of both EI",
+                + " inertia about each axis is then massPerLength EI/EA",
                 p => p.Simulation.Material.Sections, (p, v) => p.Simulation.Material.Sections = v)
             {
                 Methods = Takers.Material,

@@ -75,12 +75,11 @@ namespace Guidewire.Core
             }
             for (int j = 0; j < spinRate.Length; j++)
             {
-                // I = rho I l diag(1, 1, 2): w x I w over rho I l is (w2 w3, -w1 w3, 0).
-                double inverse = 1.0 / _terms.Mass.Rotary[j];
+                Vector3d i = _terms.Mass.Rotary[j];
                 Vector3d w = spins[j];
-                spinRate[j] = new Vector3d(-inverse * _gradient[j].T1 - w.Y * w.Z - damping * w.X,
-                    -inverse * _gradient[j].T2 + w.X * w.Z - damping * w.Y,
-                    -0.5 * inverse * _gradient[j].T3 - damping * w.Z);
+                RodVector g = _gradient[j];
+                spinRate[j] = new Vector3d(-(1.0 / i.X) * g.T1, -(1.0 / i.Y) * g.T2, -(1.0 / i.Z) * g.T3)
+                    - _terms.Mass.Precession(j, w) - damping * w;
                 turn = Math.Max(turn, spinRate[j].LengthSquared);
             }
             return Math.Max(Math.Sqrt(shift) / _terms.Rod.TotalLength, Math.Sqrt(turn));

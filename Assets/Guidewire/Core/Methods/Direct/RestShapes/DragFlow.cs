@@ -2,12 +2,13 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Finds where a rod comes to rest under a couple or a force that turns with its tip: lets it creep, as in a viscous
-    /// liquid, M u' = -(what is out of balance).</summary>
-    /// <remarks>Under forces the creeping rod would go downhill in its energy and end in a minimum. A couple in
-    /// space and a force that turns have no potential, but the motion makes sense all the same, and a shape is a rest shape where it ends and to
-    /// which it comes back when disturbed. Each step is one of implicit Euler, linearised, over the time 1/d: the step
-    /// of (K + d M), cut to a stated turn. Large d creeps, d = 0 is Newton's method; d follows how far the steps go.
+    /// <summary>Finds where a rod comes to rest under a couple or a force that turns with its tip: lets it creep, as
+    /// in a viscous liquid, M u' = -(what is out of balance).</summary>
+    /// <remarks>Under dead forces the creeping rod would go downhill in its energy and end in a minimum. A couple in
+    /// space and a force that turns have no potential, but the motion makes sense all the same, and a shape is a rest
+    /// shape where it ends and to which it comes back when disturbed. Each step is one of implicit Euler, linearised,
+    /// over the time 1/d: the step of (K + d M), cut to a stated turn. Large d creeps, d = 0 is Newton's method; d
+    /// follows how far the steps go.
     /// A rod that never rests, but turns round and round, ends with that reason; and so does one that Newton's steps
     /// brought to an equilibrium which a disturbance would leave (<see cref="DragSpectrum"/>).</remarks>
     internal sealed class DragFlow

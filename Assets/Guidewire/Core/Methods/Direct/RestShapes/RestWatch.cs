@@ -171,7 +171,7 @@ namespace Guidewire.Core
                 {
                     p += mass.Coupling[i] * _velocities[i + 1];
                     Vector3d w = _spins[i];
-                    spin = mass.Rotary[i] * new Vector3d(w.X, w.Y, 2.0 * w.Z);
+                    spin = new Vector3d(mass.Rotary[i].X * w.X, mass.Rotary[i].Y * w.Y, mass.Rotary[i].Z * w.Z);
                 }
                 _swing[i] = new RodVector { X1 = p.X, X2 = p.Y, X3 = p.Z, T1 = spin.X, T2 = spin.Y, T3 = spin.Z };
             }

@@ -39,8 +39,8 @@ namespace Guidewire.Core.Tests
             Assert.That(coarse, Is.EqualTo(Decrement(rod, 1, Integrator.Esdirk3, 200, 1e-4)).Within(1).Percent);
         }
 
-        /// <summary>In whole periods the energy decays by exp(-2 z w t). At 1e-8 of L a step, of an amplitude of 1e-3, the
-        /// error of some hundred steps is below 1 %.</summary>
+        /// <summary>In whole periods the energy decays by exp(-2 z w t). At 1e-8 of L a step, of an amplitude of 1e-3,
+        /// the error of some hundred steps is below 1 %.</summary>
         [Test]
         public void CutSteps_DecayAsTheirRatioSays([Values(true, false)] bool ofMass,
             [Values(Integrator.Trbdf2, Integrator.Esdirk3, Integrator.Esdirk4)] Integrator integrator)

@@ -138,7 +138,8 @@ namespace Guidewire.Core.Tests
                 rod.BendStiffness2[j] = j % 2 == 0 ? 0.5 : 0.9;
                 rod.TwistStiffness[j] = 0.3;
                 rod.LineDensity[j] = 1.1;
-                rod.RotaryInertia[j] = 0.4;
+                rod.RotaryInertia1[j] = 0.4;
+                rod.RotaryInertia2[j] = 0.4;
                 rod.RestCurvature[j] = new Vector3d(0.2, -0.4, 0.3);
             }
             var supports = new RodSupports { Distal = DistalEnd.Clamped, Clamp = ClampRule.HalfElement };
