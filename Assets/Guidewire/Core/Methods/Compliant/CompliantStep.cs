@@ -114,7 +114,7 @@ namespace Guidewire.Core
                 Divergence += "; raise substeps or constraintSolverSteps";
                 return;
             }
-            Failure = _scene.Joints.FindTurned(_shape, _time);
+            Failure = _scene.Joints.FindLost(_shape, _time);
             SteadyState = _rest.FindRest(_time);
             PredictionError = Vector3d.Distance(_predictedTip, _shape.X[_shape.ElementCount]) / _scene.Metres;
             _scene.Write(state, _shape, _velocities, _spins);

@@ -53,7 +53,8 @@ namespace Guidewire.Core
             {
                 Failure = "the step to t = " + _dynamics.Time.ToString("G6",
                     System.Globalization.CultureInfo.InvariantCulture) + " s has no solution: "
-                    + (_scene.Joints.FindTurned(_dynamics.Shape, _dynamics.Time) ?? failure);
+                    + (_scene.Joints.FindTurned(_dynamics.Shape, _dynamics.Time)
+                        ?? failure + "; a shorter timeStep may have one");
                 return;
             }
             _ends.Count(_dynamics.Shape, _dynamics.ProximalTurn, _dynamics.DistalTurn, _timeStep);
@@ -63,7 +64,7 @@ namespace Guidewire.Core
                 Divergence += "; lower timeStep, or take another integrator";
                 return;
             }
-            Failure = _scene.Joints.FindTurned(_dynamics.Shape, _dynamics.Time);
+            Failure = _scene.Joints.FindLost(_dynamics.Shape, _dynamics.Time);
             SteadyState = _rest.FindRest(_dynamics.Time);
             PredictionError = Vector3d.Distance(free, _dynamics.Shape.X[last]) / _scene.Metres;
             if (Contacts != null)

@@ -87,7 +87,7 @@ namespace Guidewire.Core
                 Divergence += Text(": a substep of {0:G4} s, in its rest shape stable below {1:G4} s; raise substeps");
                 return;
             }
-            Failure = _scene.Joints.FindTurned(_shape, _time);
+            Failure = _scene.Joints.FindLost(_shape, _time);
             SteadyState = _rest.FindRest(_time);
             PredictionError = Vector3d.Distance(free, _shape.X[last]) / _scene.Metres;
             if (Contacts != null)

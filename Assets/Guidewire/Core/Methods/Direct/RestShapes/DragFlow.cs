@@ -82,7 +82,7 @@ namespace Guidewire.Core
                 result.LastStep = size;
                 if (!(size < double.MaxValue))
                 {
-                    result.Reason = "the step is not a finite number";
+                    result.Reason = "the step is not a finite number under " + _keys;
                     return result;
                 }
                 double scale = Math.Min(1.0, LargestTurn / Math.Max(size, relative));

@@ -7,8 +7,9 @@ namespace Guidewire.Core
     /// <remarks>K is the symmetric second derivative S of the terms plus the part that no energy carries. That part
     /// acts between the turn theta of the last element and the place x of the last node only: [m]/2 on (theta,
     /// theta), N = R [f]/2 on (x, theta) and -N^T on (theta, x). It is put in exactly by Woodbury's formula: with G
-    /// the tip's answers to unit couples and forces of the symmetric system and Z the part, (1 + G Z)^-1 G in place of G,
-    /// at three more solutions for a couple and six for a force. M is the metric: l on turns, l/L^2 on shifts.</remarks>
+    /// the tip's answers to unit couples and forces of the symmetric system and Z the part, (1 + G Z)^-1 G in place
+    /// of G, at three more solutions for a couple and six for a force. M is the metric: l on turns, l/L^2 on
+    /// shifts.</remarks>
     internal sealed class FollowerTangent
     {
         private const int Most = 6;
