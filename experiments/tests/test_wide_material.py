@@ -21,6 +21,9 @@ KEY = re.compile(r"\b(timeStep|substeps|numberRodElements|restCurvature|maxNewto
                  r"tipMoment|tipFollowerForce|distalRotation|twistPerStep|distalDisplacement|gravity|startShape|"
                  r"integrator|wireRadius|youngsModulus|constraintSolverSteps)\b")
 
+# What does work on a wire that its own energies do not tell.
+DRIVEN = {"drive", "twistPerStep", "distalRotation", "tipFollowerForce", "tipMoment"}
+
 
 def log_uniform(rng: np.random.Generator, low: float, high: float) -> float:
     return float(10.0 ** rng.uniform(math.log10(low), math.log10(high)))
@@ -48,7 +51,7 @@ def scene_of(seed: int) -> dict:
         "proximalEnd": str(rng.choice(["clamped", "clamped", "held", "free"])),
         "distalEnd": str(rng.choice(["free", "free", "clamped", "sliding" if solver == "direct" else "clamped"])),
         "gravity": vector(rng, 9.81), "tipForce": vector(rng, stiffness * log_uniform(rng, 1e-3, 1e2)),
-        "maxSimulationSteps": int(rng.integers(1, 21)), "logOrientations": True,
+        "maxSimulationSteps": int(rng.integers(1, 21)), "logOrientations": True, "logStrains": True,
     }
     if solver == "direct":
         scene["integrator"] = str(rng.choice(["implicitEuler", "bdf2", "trbdf2", "esdirk3", "esdirk4"]))
@@ -108,10 +111,46 @@ def test_a_wire_of_any_size_ends_in_time_and_in_truth(wide, seed):
     if summary["outcome"] == "converged" and scene.get("initialState") == "equilibrium" and summary["steps"] == 0:
         assert solver["equilibriumResidual"] <= 1e-5
         assert solver["smallestEigenvalue"] is not None
-    last = log[str(summary["steps"])]
+    first, last = log["0"], log[str(summary["steps"])]
     state = np.array([list(sphere.values()) for sphere in last["sphere"].values()])
     assert np.isfinite(state).all()
     turns = np.array([list(q.values()) for q in last["orientation"].values()])
     assert np.allclose(np.linalg.norm(turns, axis=1), 1.0, rtol=0.0, atol=1e-9)
     if solver["energy"] is not None:
         assert math.isfinite(solver["energy"])
+    if "but" not in summary["reason"]:
+        assert_no_joint_lost_a_turn(scene, turns)
+        if not DRIVEN & scene.keys():
+            assert_energy_did_not_grow(first["stress"], last["stress"])
+
+
+def assert_no_joint_lost_a_turn(scene: dict, turns: np.ndarray) -> None:
+    """Wound up between two clamps that face one another: where all elements point forward, the turn about the wire's
+    axis from the first element to the last is that of the clamps, but for what the last half elements hold."""
+    x, y, z, w = turns.T
+    forward = (w**2 + z**2 > x**2 + y**2).all()
+    if scene["proximalEnd"] != "clamped" or "distalRotation" not in scene or len(turns) < 20 or not forward:
+        return
+    if scene.get("drive") == "force" or "restCurvature" in scene or "wireSections" in scene:
+        return
+    turned = np.diff(2.0 * np.arctan2(z, w))
+    turned -= 2.0 * np.pi * np.round(turned / (2.0 * np.pi))
+    asked = asked_turn(scene)
+    n = len(turns)
+    assert abs(turned.sum() * n / (n - 1) - asked) <= np.pi + 0.3 * abs(asked) * (scene["maxSimulationSteps"] > 0)
+
+
+def asked_turn(scene: dict) -> float:
+    """Turn of the distal clamp against the proximal one at the end, radians."""
+    time = scene["timeStep"] * scene["maxSimulationSteps"]
+    ramp = scene["distalRampTime"]
+    return scene["distalRotation"] * (1.0 if time >= ramp else time / ramp) - (
+        scene.get("twistPerStep", 0.0) * scene["maxSimulationSteps"])
+
+
+def assert_energy_did_not_grow(first: dict, last: dict) -> None:
+    """Of strains, motion and dead loads together, which nothing but a drive may add to."""
+    parts = ("kineticEnergy", "elasticEnergy", "potentialEnergy")
+    scale = last["kineticEnergy"] + last["elasticEnergy"] + first["elasticEnergy"] + abs(
+        last["potentialEnergy"] - first["potentialEnergy"])
+    assert sum(last[part] - first[part] for part in parts) <= 0.01 * scale

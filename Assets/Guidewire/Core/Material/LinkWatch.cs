@@ -41,7 +41,7 @@ namespace Guidewire.Core
             return string.Format(CultureInfo.InvariantCulture,
                 "of {0:G4} turns between its clamps the wire has lost {1}: in loops it has passed through itself,"
                 + " because it does not meet itself; fewer turns (distalRotation, twistPerStep) or a pull (axialForce,"
-                + " distalDisplacement) keep it straight", turn / (2.0 * Math.PI), lost);
+                + " distalDisplacement) keep it straight", Math.Abs(turn) / (2.0 * Math.PI), Math.Abs(lost));
         }
 
         /// <summary>psi from clamp to clamp, radians, joint by joint; false where an element does not point

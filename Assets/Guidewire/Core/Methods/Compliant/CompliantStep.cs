@@ -124,6 +124,7 @@ namespace Guidewire.Core
         public override StressRecord? Stress()
         {
             _stress ??= new StressRecord(_scene.Rod, _scene.Supports);
+            _terms.SetTime(_scene.Schedule, _time);
             _stress.Take(_terms, _shape, _inertia.KineticEnergy(_velocities, _spins));
             return _stress;
         }

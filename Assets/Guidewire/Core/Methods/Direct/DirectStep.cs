@@ -79,6 +79,7 @@ namespace Guidewire.Core
         {
             _stress ??= new StressRecord(_scene.Rod, _scene.Supports);
             RodTerms terms = _dynamics.Terms;
+            terms.SetTime(_scene.Schedule, _dynamics.Time);
             _stress.Take(terms, _dynamics.Shape, terms.Mass.KineticEnergy(_dynamics.Velocities, _dynamics.Spins));
             return _stress;
         }
