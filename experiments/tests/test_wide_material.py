@@ -109,7 +109,7 @@ def test_a_wire_of_any_size_ends_in_time_and_in_truth(wide, seed):
         return
     solver = summary["solver"]
     if summary["outcome"] == "converged" and scene.get("initialState") == "equilibrium" and summary["steps"] == 0:
-        assert solver["equilibriumResidual"] <= 1e-5
+        assert solver["equilibriumResidual"] <= 1e-5 + rounding_of(scene)
         assert solver["smallestEigenvalue"] is not None
     first, last = log["0"], log[str(summary["steps"])]
     state = np.array([list(sphere.values()) for sphere in last["sphere"].values()])
@@ -122,6 +122,16 @@ def test_a_wire_of_any_size_ends_in_time_and_in_truth(wide, seed):
         assert_no_joint_lost_a_turn(scene, turns)
         if not DRIVEN & scene.keys():
             assert_energy_did_not_grow(first["stress"], last["stress"])
+
+
+def rounding_of(scene: dict) -> float:
+    """What the last digit of a place makes of EA, over the loads and EI/L^2: EA/l times 2e-16 L."""
+    area = math.pi * scene["wireRadius"]**2
+    length = scene["guidewireLength"]
+    axial = scene["youngsModulus"] * area
+    loads = (0.25 * axial * (scene["wireRadius"] / length)**2 + np.linalg.norm(scene["tipForce"])
+             + scene["density"] * area * length * np.linalg.norm(scene["gravity"]))
+    return np.finfo(float).eps * axial * scene["numberRodElements"] / float(loads)
 
 
 def assert_no_joint_lost_a_turn(scene: dict, turns: np.ndarray) -> None:

@@ -6,6 +6,9 @@ namespace Guidewire.Core
     /// minimisation over the whole rod.</summary>
     internal sealed class DirectStep : TimeStepper
     {
+        // A step in which a disturbance would grow by much (a thrust beyond buckling) may end in any shape.
+        private const string Shorter = "; in a motion a shorter timeStep, or a timeStepError, may do";
+
         private readonly MaterialScene _scene;
         private readonly RodDynamics _dynamics;
         private readonly MaterialDrive _drive;
@@ -53,8 +56,7 @@ namespace Guidewire.Core
             {
                 Failure = "the step to t = " + _dynamics.Time.ToString("G6",
                     System.Globalization.CultureInfo.InvariantCulture) + " s has no solution: "
-                    + (_scene.Joints.FindTurned(_dynamics.Shape, _dynamics.Time)
-                        ?? failure + "; a shorter timeStep may have one");
+                    + (_scene.Joints.FindTurned(_dynamics.Shape, _dynamics.Time) ?? failure) + Shorter;
                 return;
             }
             _ends.Count(_dynamics.Shape, _dynamics.ProximalTurn, _dynamics.DistalTurn, _timeStep);
@@ -64,7 +66,8 @@ namespace Guidewire.Core
                 Divergence += "; lower timeStep, or take another integrator";
                 return;
             }
-            Failure = _scene.Joints.FindLost(_dynamics.Shape, _dynamics.Time);
+            string? lost = _scene.Joints.FindLost(_dynamics.Shape, _dynamics.Time);
+            Failure = lost == null ? null : lost + Shorter;
             SteadyState = _rest.FindRest(_dynamics.Time);
             PredictionError = Vector3d.Distance(free, _dynamics.Shape.X[last]) / _scene.Metres;
             if (Contacts != null)
