@@ -118,7 +118,10 @@ namespace Guidewire.Core.Tests
                 Vector3d b1 = b0 + random.Number(0.0, 2.0) * random.Point();
                 double impact = shape.Sweep(a0, b0, a1, b1, Clearance, out SurfaceContact contact);
                 double until = Math.Min(1.0, impact);
-                double keep = Math.Min(Clearance, 0.5 * Smallest(shape, a0, b0)) - 1e-9;
+                double kept = ContactShape.Kept(Smallest(shape, a0, b0), Clearance) - 1e-9;
+                double onTheWay = Math.Min(kept, 0.5 * Clearance - 1e-9);
+                double atTheEnd = Smallest(shape, Vector3d.Lerp(a0, a1, until), Vector3d.Lerp(b0, b1, until));
+                Assert.That(atTheEnd, Is.GreaterThanOrEqualTo(kept), "case " + i + " at its end");
                 bool met = false;
                 for (int k = 0; k <= 40; k++)
                 {
@@ -126,7 +129,7 @@ namespace Guidewire.Core.Tests
                     double distance = Smallest(shape, Vector3d.Lerp(a0, a1, time), Vector3d.Lerp(b0, b1, time));
                     if (time <= until)
                     {
-                        Assert.That(distance, Is.GreaterThanOrEqualTo(keep), "case " + i + " at " + time);
+                        Assert.That(distance, Is.GreaterThanOrEqualTo(onTheWay), "case " + i + " at " + time);
                     }
                     met |= distance <= 0.0;
                 }
