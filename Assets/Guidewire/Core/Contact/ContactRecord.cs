@@ -39,8 +39,8 @@ namespace Guidewire.Core
         /// <summary>The way that the drive asked of sphere 0, units, summed over the run.</summary>
         public double DriveAsked { get; internal set; }
 
-        /// <summary>Successive steps, up to the last, in which the drive asked sphere 0 to move and the walls gave it less
-        /// than a hundredth of the way.</summary>
+        /// <summary>Successive steps, up to the last, in which the drive asked sphere 0 to move and the walls gave it
+        /// less than a hundredth of the way.</summary>
         public int StuckSteps { get; private set; }
 
         /// <summary>Momenta over dt, dp/w, that walls gave each sphere in the present step, mass unit * unit.</summary>

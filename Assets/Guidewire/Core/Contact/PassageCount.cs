@@ -5,9 +5,9 @@ namespace Guidewire.Core
     /// <summary>Counts points of the wire that are inside before a step and outside after it, ten an element (s = 0,
     /// 0.1, ... 0.9) and the last sphere. Leaving through an open rim is no passage.</summary>
     /// <remarks>Where a point left is asked of each part of a step: the straight line between a whole step's ends may
-    /// cut the corner of a rim around which the wire really went. In a part, a point has left across a wall where it was
-    /// inside, is outside, and its straight way meets the wall itself and not the disc of a rim. Only the points of an
-    /// element that moved by as much as its distance from the wall are asked.</remarks>
+    /// cut the corner of a rim around which the wire really went. In a part, a point has left across a wall where it
+    /// was inside, is outside, and its straight way meets the wall itself and not the disc of a rim. Only the points of
+    /// an element that moved by as much as its distance from the wall are asked.</remarks>
     internal sealed class PassageCount
     {
         private const int SamplesPerElement = 10;
@@ -42,13 +42,10 @@ namespace Guidewire.Core
             for (int j = 0; j < n; j++)
             {
                 double motion = Math.Max(Vector3d.Distance(from[j], to[j]), Vector3d.Distance(from[j + 1], to[j + 1]));
-                if (motion < _search.ClearanceOf(j))
-                {
-                    continue;
-                }
                 for (int w = 0; w < _walls.Length; w++)
                 {
-                    if (_walls[w].Nearest(from[j], from[j + 1], motion + _clearance, ref _hint[w * n + j], out _))
+                    if (motion >= _search.ClearanceOf(w, j) && _walls[w].Nearest(
+                        from[j], from[j + 1], motion + _clearance, ref _hint[w * n + j], out _))
                     {
                         MarkElement(w, from, to, j);
                     }

@@ -31,9 +31,12 @@ namespace Guidewire.Core
         /// <summary>Depth of the wire, or <paramref name="known"/> where that is more; units.</summary>
         public double Deepest(Vector3d[] x, double known)
         {
-            for (int j = 0; j + 1 < x.Length; j++)
+            for (int w = 0; w < _walls.Length; w++)
             {
-                known = Deepest(x, j, known);
+                for (int j = 0; j + 1 < x.Length; j++)
+                {
+                    known = Deepest(w, j, x, known);
+                }
             }
             return known;
         }
@@ -44,25 +47,25 @@ namespace Guidewire.Core
             for (int j = 0; j + 1 < to.Length; j++)
             {
                 double motion = Math.Max(Vector3d.Distance(from[j], to[j]), Vector3d.Distance(from[j + 1], to[j + 1]));
-                if (_radius - (_search.ClearanceOf(j) - motion) > known)
+                for (int w = 0; w < _walls.Length; w++)
                 {
-                    known = Deepest(to, j, known);
+                    if (_radius - (_search.ClearanceOf(w, j) - motion) > known)
+                    {
+                        known = Deepest(w, j, to, known);
+                    }
                 }
             }
             return known;
         }
 
-        private double Deepest(Vector3d[] x, int j, double known)
+        private double Deepest(int w, int j, Vector3d[] x, double known)
         {
             int n = x.Length - 1;
-            for (int w = 0; w < _walls.Length; w++)
+            known = Deepest(w, x[j], x[j + 1], known, ref _elementHint[w * n + j]);
+            if (!_search.GuardsSpheres)
             {
-                known = Deepest(w, x[j], x[j + 1], known, ref _elementHint[w * n + j]);
-                if (!_search.GuardsSpheres)
-                {
-                    known = Deepest(w, x[j], x[j], known, ref _sphereHint[w * (n + 1) + j]);
-                    known = Deepest(w, x[j + 1], x[j + 1], known, ref _sphereHint[w * (n + 1) + j + 1]);
-                }
+                known = Deepest(w, x[j], x[j], known, ref _sphereHint[w * (n + 1) + j]);
+                known = Deepest(w, x[j + 1], x[j + 1], known, ref _sphereHint[w * (n + 1) + j + 1]);
             }
             return known;
         }

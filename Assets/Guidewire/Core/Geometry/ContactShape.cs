@@ -11,7 +11,6 @@ namespace Guidewire.Core
         public const double NoImpact = 2.0;
 
         private const double SlidingLoss = 1e-7;
-        private const int Halvings = 12;
 
         /// <summary>The place where segment a b comes nearest to the wall, if that is no farther than
         /// <paramref name="range"/>; a = b for a sphere's centre.</summary>
@@ -59,27 +58,21 @@ namespace Guidewire.Core
             double start = Nearest(a0, b0, 2.0 * clearance, ref hint, out SurfaceContact before)
                 ? Math.Abs(before.Distance) : 2.0 * clearance;
             double kept = Kept(start, clearance);
-            double impact = FreeUntil(a0, b0, a1, b1, kept);
+            double impact = FreeUntil(a0, b0, a1, b1, kept, hint);
             if (impact == NoImpact)
             {
                 return NoImpact;
             }
+            int near = hint;
             double floor = Math.Min(kept, 0.5 * clearance);
-            if (floor < kept)
+            if (floor < kept && !Nearest(a1, b1, kept, ref hint, out _))
             {
-                double free = FreeUntil(a0, b0, a1, b1, floor);
-                double last = Math.Min(1.0, free);
-                if (!IsWithin(a0, b0, a1, b1, last, kept, ref hint))
+                // It ends clear of the wall.
+                double free = FreeUntil(a0, b0, a1, b1, floor, near);
+                impact = Math.Max(impact, LastKept(a0, b0, a1, b1, free, kept, ref hint));
+                if (impact == NoImpact)
                 {
-                    if (free == NoImpact)
-                    {
-                        return NoImpact;
-                    }
-                    impact = last;
-                }
-                else
-                {
-                    impact = LastOutside(a0, b0, a1, b1, impact, last, kept, ref hint);
+                    return NoImpact;
                 }
             }
             Nearest(
@@ -99,34 +92,18 @@ namespace Guidewire.Core
         }
 
         /// <summary>Largest fraction of the motion for which it is proven that every point of the segment keeps a
-        /// distance of at least <paramref name="keep"/>, <see cref="NoImpact"/> for all of it.</summary>
+        /// distance of at least <paramref name="keep"/>, <see cref="NoImpact"/> for all of it. The hint, where the
+        /// nearest place was at the start or -1, changes the time that it takes.</summary>
         private protected abstract double FreeUntil(
-            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep);
+            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep, int hint);
 
-        private bool IsWithin(
+        // The time itself where the distance is kept then, or 0.
+        private double LastKept(
             in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double time, double kept, ref int hint)
         {
-            return Nearest(Vector3d.Lerp(a0, a1, time), Vector3d.Lerp(b0, b1, time), kept, ref hint, out _);
-        }
-
-        // A late time at which the distance is kept, between one at which it is and one at which it is not.
-        private double LastOutside(
-            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double outside, double within, double kept,
-            ref int hint)
-        {
-            for (int k = 0; k < Halvings; k++)
-            {
-                double middle = 0.5 * (outside + within);
-                if (IsWithin(a0, b0, a1, b1, middle, kept, ref hint))
-                {
-                    within = middle;
-                }
-                else
-                {
-                    outside = middle;
-                }
-            }
-            return outside;
+            bool isKept = time == NoImpact || !Nearest(
+                Vector3d.Lerp(a0, a1, time), Vector3d.Lerp(b0, b1, time), kept, ref hint, out _);
+            return isKept ? time : 0.0;
         }
     }
 }

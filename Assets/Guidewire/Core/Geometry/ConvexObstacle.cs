@@ -120,7 +120,7 @@ namespace Guidewire.Core
         }
 
         private protected override double FreeUntil(
-            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep)
+            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep, int hint)
         {
             return SweptTest.Impact(new Body(this), a0, b0, a1, b1, keep);
         }

@@ -56,7 +56,7 @@ namespace Guidewire.Core
         }
 
         private protected override double FreeUntil(
-            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep)
+            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep, int hint)
         {
             double da0 = Vector3d.Dot(a0 - _point, _normal);
             double db0 = Vector3d.Dot(b0 - _point, _normal);

@@ -10,7 +10,7 @@ namespace Guidewire.Core
     /// costs one look.</remarks>
     internal static class SweptTest
     {
-        private const int MaxAdvances = 64;
+        private const int MaxAdvances = 20;
 
         /// <summary>Fraction of the motion during which the distance stays at least <paramref name="keep"/>,
         /// <see cref="ContactShape.NoImpact"/> for all of it. It must be more at the start. Where the advances run out

@@ -118,7 +118,7 @@ namespace Guidewire.Core
         }
 
         private protected override double FreeUntil(
-            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep)
+            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep, int hint)
         {
             return _sweep.FreeUntil(a0, b0, a1, b1, keep);
         }
@@ -127,7 +127,8 @@ namespace Guidewire.Core
         // serves all of it, its term being concave, and then the part is nearest with an end. So a part is cut where
         // the terms of the pieces at its ends cross; when one of the two is the deepest there too, that place is the
         // nearest between. With slope at most 1, d is nowhere below (d0 + d1 - length)/2.
-        private int FindLeast(in Vector3d a, in Vector3d b, int guess, double range, out double s, out double distance)
+        private int FindLeast(
+            in Vector3d a, in Vector3d b, int guess, double range, out double s, out double distance)
         {
             int piece = _tree.Deepest(a, guess, out distance);
             s = 0.0;

@@ -11,8 +11,10 @@ namespace Guidewire.Core
     /// <see cref="MostLooks"/> looks counts as not free. Keeps scratch memory: one object serves one thread.</remarks>
     internal sealed class TubeSweep
     {
-        private const int MostLooks = 64;
-        private const double ShortestTime = 1.0 / 4096.0;
+        private const int MostLooks = 16;
+        private const double SafePart = 0.9;
+        private const double LeastShare = 1.0 / 16.0;
+        private const double ShortestTime = 1.0 / 128.0;
         private readonly TubeShape _tube;
         private TubeHandovers _before;
         private TubeHandovers _after;
@@ -31,6 +33,7 @@ namespace Guidewire.Core
         {
             bool isPoint = a0 == b0 && a1 == b1;
             double time = 0.0;
+            double end = 1.0;         // up to it nothing is known to come too near
             double step = 1.0;
             if (!isPoint)
             {
@@ -38,17 +41,26 @@ namespace Guidewire.Core
             }
             for (int looks = 0; looks < MostLooks && step >= ShortestTime; looks++)
             {
-                double until = Math.Min(1.0, time + step);
+                double until = Math.Min(end, time + step);
                 Vector3d a = Vector3d.Lerp(a0, a1, until);
                 Vector3d b = Vector3d.Lerp(b0, b1, until);
-                if (isPoint ? _tube.LeastDistance(Vector3d.Lerp(a0, a1, time), a) >= keep : IsFree(a, b, keep))
+                double least = isPoint ? _tube.LeastDistance(Vector3d.Lerp(a0, a1, time), a) : FindAfter(a, b);
+                if (least < keep)
+                {
+                    // How far it goes if the distance falls evenly.
+                    double before = isPoint ? _tube.Distance(Vector3d.Lerp(a0, a1, time), out _) : _before.Least;
+                    double share = SafePart * (before - keep) / (before - least);
+                    end = until;
+                    step = (end - time) * Math.Min(0.5, Math.Max(share, LeastShare));
+                }
+                else if (isPoint || IsFree(keep))
                 {
                     if (until == 1.0)
                     {
                         return ContactShape.NoImpact;
                     }
                     time = until;
-                    step *= 2.0;
+                    step = Math.Min(2.0 * step, 0.5 * (end - time) + (end < 1.0 ? 0.0 : 1.0));
                     (_before, _after) = (_after, _before);
                 }
                 else
@@ -59,20 +71,17 @@ namespace Guidewire.Core
             return time;
         }
 
-        // From where _before was found to a, b.
-        private bool IsFree(in Vector3d a, in Vector3d b, double keep)
+        private double FindAfter(in Vector3d a, in Vector3d b)
         {
             _after.Find(a, b);
-            if (_before.Least < keep || _after.Least < keep)
-            {
-                return false;
-            }
-            double motion = Math.Max(Vector3d.Distance(_before.A, a), Vector3d.Distance(_before.B, b));
-            if (0.5 * (_before.Least + _after.Least - motion) >= keep)
-            {
-                return true;
-            }
-            return _before.LeadTo(_after, keep);
+            return Math.Min(_before.Least, _after.Least);
+        }
+
+        // From where _before was found to where _after was.
+        private bool IsFree(double keep)
+        {
+            double motion = Math.Max(Vector3d.Distance(_before.A, _after.A), Vector3d.Distance(_before.B, _after.B));
+            return 0.5 * (_before.Least + _after.Least - motion) >= keep || _before.LeadTo(_after, keep);
         }
     }
 }

@@ -84,9 +84,9 @@ namespace Guidewire.Core
         }
 
         private protected override double FreeUntil(
-            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep)
+            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep, int hint)
         {
-            return _wall.Tree.Sweep(a0, b0, a1, b1, keep);
+            return _wall.Tree.Sweep(a0, b0, a1, b1, keep, hint);
         }
     }
 }

@@ -5,20 +5,16 @@ namespace Guidewire.Core
     /// <summary>Corrects a predicted state between walls (thesis 2.1.3, 3.1.2): collision detection, constraint solver
     /// with contacts, swept test.</summary>
     /// <remarks>A contact plane holds near the place where it was found. So a step whose drive moves farther than half
-    /// an element or a radius is done in that many parts more, P in all, each with its own detection and solve. A part
-    /// after which something would have passed a wall is solved again against the places where it met it, then halved,
-    /// down to an eighth; at the end it is pushed off those places without regard to the other constraints, and
-    /// shortened. What the drive did not get is reported. A step does no more than <see cref="SolvesAPart"/> P +
-    /// <see cref="MoreSolves"/> solves in this way; after that each part is solved once and shortened where it
-    /// must.</remarks>
+    /// an element or a radius is done in P parts, each with its own detection and solve. A part after which something
+    /// would have passed a wall is solved again against the places where it met it, twice; then it and those that
+    /// follow are halved, once; then it is pushed off those places without regard to the other constraints, and
+    /// shortened. What the drive did not get is reported. So a step takes no more than 2 P + 1 tries of three solves
+    /// each, however the wire lies.</remarks>
     internal sealed class ContactSolver : IConstraintSolver
     {
         private const int Resolves = 2;
-        private const int Fractions = 8;        // of a part, the smallest that is tried
         private const int MostParts = 4096;     // of a step; a drive that asks for more gets no more
-        private const int SolvesAPart = 4;
-        private const int MoreSolves = 16;
-        private const int Slides = 3;
+        private const int Slides = 2;
         private const int SweepsASlide = 8;
         private readonly double _timeStep;
         private readonly IConstraintSolver _solver;
@@ -35,7 +31,6 @@ namespace Guidewire.Core
         private readonly Vector3d[] _unshortened;
         private readonly Quaterniond[] _targetTurn;
         private readonly Quaterniond[] _safeTurn;
-        private int _solvesLeft;    // of this step
 
         /// <param name="state">The wire.</param>
         /// <param name="timeStep">dt in s.</param>
@@ -100,14 +95,12 @@ namespace Guidewire.Core
                 _target[0] = Vector3d.Lerp(start, askedTo, most / asked);
             }
             int parts = (int)Math.Max(1.0, Math.Ceiling(Math.Min(asked, most) / _longestPart));
-            double whole = Fractions * (double)parts;
-            int left = Fractions * parts;
-            int size = Fractions;
-            _solvesLeft = SolvesAPart * parts + MoreSolves;
+            int left = 2 * parts;
+            int halves = 2;
             while (left > 0)
             {
-                size = Math.Min(_solvesLeft > 0 ? size : Fractions, left);
-                PredictPart(state, size / whole, size == left);
+                int size = Math.Min(halves, left);
+                PredictPart(state, size / (2.0 * parts), size == left);
                 if (TryPart(state, size == 1))
                 {
                     left -= size;
@@ -116,7 +109,7 @@ namespace Guidewire.Core
                 }
                 else
                 {
-                    size = (size + 1) / 2;
+                    halves = 1;
                 }
             }
             _record.AddDrive(asked, asked > 0.0 ? Vector3d.Distance(askedTo, state.PredictedPositions[0]) : 0.0);
@@ -128,15 +121,15 @@ namespace Guidewire.Core
             Vector3d[] p = state.PredictedPositions;
             _search.Find(_safe, p);
             _response.Start(_search, p);
-            SolvePart(state);
+            _solver.Solve(state);
             for (int round = 0; _swept.Find(_safe, p); round++)
             {
-                if (round < Resolves && _solvesLeft > 0)
+                if (round < Resolves)
                 {
                     _response.Stop(_swept.Impacts);
-                    SolvePart(state);
+                    _solver.Solve(state);
                 }
-                else if (!isSmallest && _solvesLeft > 0)
+                else if (!isSmallest)
                 {
                     return false;
                 }
@@ -158,12 +151,6 @@ namespace Guidewire.Core
                 _record.MaxPenetration = _depth.Deepest(_safe, p, _record.MaxPenetration);
             }
             Array.Copy(p, _safe, p.Length);
-        }
-
-        private void SolvePart(RodState state)
-        {
-            _solvesLeft--;
-            _solver.Solve(state);
         }
 
         private void PredictPart(RodState state, double part, bool isLast)

@@ -10,7 +10,7 @@ namespace Guidewire.Core
     /// again, so all of them together cost no more than a few swept searches of the whole wire.</remarks>
     internal sealed class ShortenedMotion
     {
-        private const int CutRounds = 4;
+        private const int CutRounds = 2;
         private const double SafePart = 0.9;
         private readonly SweptSearch _swept;
         private readonly double[] _share;
