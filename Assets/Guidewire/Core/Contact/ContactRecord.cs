@@ -28,8 +28,8 @@ namespace Guidewire.Core
         /// <summary>Points of the wire, ten an element, that were inside before a step and outside after it.</summary>
         public long Passages { get; internal set; }
 
-        /// <summary>Largest depth by which the surface of a sphere or a rod element lay in a wall, at the start or after
-        /// a step, units; see <see cref="WireDepth"/>.</summary>
+        /// <summary>Largest depth by which the surface of a sphere or a rod element lay in a wall, at the start or
+        /// after a step, units; see <see cref="WireDepth"/>.</summary>
         public double MaxPenetration { get; internal set; }
 
         /// <summary>What the drive asked of sphere 0 and the walls did not let it go, units, summed over the

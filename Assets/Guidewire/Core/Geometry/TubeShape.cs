@@ -155,8 +155,8 @@ namespace Guidewire.Core
             return piece;
         }
 
-        private void Between(in Vector3d a, in Vector3d b, double length, in TubePlace from, in TubePlace to, double range,
-            int cuts, ref double s, ref double distance, ref int piece)
+        private void Between(in Vector3d a, in Vector3d b, double length, in TubePlace from, in TubePlace to,
+            double range, int cuts, ref double s, ref double distance, ref int piece)
         {
             double bound = 0.5 * (from.Distance + to.Distance - length * (to.S - from.S));
             if (from.Piece == to.Piece || bound > range || bound >= distance - _tree.Resolution || cuts == MostCuts
