@@ -40,16 +40,23 @@ namespace Guidewire.Core
         public bool Find(Vector3d[] from, Vector3d[] to)
         {
             Impacts.Clear();
+            bool wasHit = false;
             for (int i = 0; i < to.Length; i++)
             {
-                if (SphereImpact(from, to, i, out WireContact impact) < ContactShape.NoImpact)
+                WireContact element = default;
+                bool isHit = i + 1 < to.Length && ElementImpact(from, to, i, out element) < ContactShape.NoImpact;
+
+                // A sphere is an end of its elements: where they are free, it is.
+                if ((wasHit || isHit || !_search.GuardsElements)
+                    && SphereImpact(from, to, i, out WireContact sphere) < ContactShape.NoImpact)
                 {
-                    Impacts.Add(impact);
+                    Impacts.Add(sphere);
                 }
-                if (i + 1 < to.Length && ElementImpact(from, to, i, out impact) < ContactShape.NoImpact)
+                if (isHit)
                 {
-                    Impacts.Add(impact);
+                    Impacts.Add(element);
                 }
+                wasHit = isHit;
             }
             return Impacts.Count > 0;
         }

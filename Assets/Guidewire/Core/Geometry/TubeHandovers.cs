@@ -26,8 +26,9 @@ namespace Guidewire.Core
         /// <summary>Least distance of the ends and of all handovers, units.</summary>
         public double Least { get; private set; }
 
-        /// <summary>Takes the pieces of segment a b.</summary>
-        public void Find(in Vector3d a, in Vector3d b)
+        /// <summary>Takes the pieces of segment a b; where an end is nearer than <paramref name="enough"/>, only
+        /// <see cref="Least"/>.</summary>
+        public void Find(in Vector3d a, in Vector3d b, double enough)
         {
             A = a;
             B = b;
@@ -37,6 +38,10 @@ namespace Guidewire.Core
             var start = new TubePlace(0.0, da, first);
             _places.Clear();
             _places.Add(start);
+            if (Least < enough)
+            {
+                return;
+            }
             Cut(start, new TubePlace(1.0, db, last), 0);
             _places.Add(new TubePlace(1.0, db, last));
         }
@@ -71,8 +76,13 @@ namespace Guidewire.Core
 
         private void Cut(in TubePlace from, in TubePlace to, int cuts)
         {
-            if (from.Piece == to.Piece || cuts == MostCuts)
+            if (from.Piece == to.Piece)
             {
+                return;
+            }
+            if (cuts == MostCuts)
+            {
+                Least = double.NegativeInfinity;    // not known
                 return;
             }
             double s = _tree.Crossing(A, B, from, to);

@@ -37,14 +37,14 @@ namespace Guidewire.Core
             double step = 1.0;
             if (!isPoint)
             {
-                _before.Find(a0, b0);
+                _before.Find(a0, b0, keep);
             }
             for (int looks = 0; looks < MostLooks && step >= ShortestTime; looks++)
             {
                 double until = Math.Min(end, time + step);
                 Vector3d a = Vector3d.Lerp(a0, a1, until);
                 Vector3d b = Vector3d.Lerp(b0, b1, until);
-                double least = isPoint ? _tube.LeastDistance(Vector3d.Lerp(a0, a1, time), a) : FindAfter(a, b);
+                double least = isPoint ? _tube.LeastDistance(Vector3d.Lerp(a0, a1, time), a) : FindAfter(a, b, keep);
                 if (least < keep)
                 {
                     // How far it goes if the distance falls evenly.
@@ -71,9 +71,9 @@ namespace Guidewire.Core
             return time;
         }
 
-        private double FindAfter(in Vector3d a, in Vector3d b)
+        private double FindAfter(in Vector3d a, in Vector3d b, double keep)
         {
-            _after.Find(a, b);
+            _after.Find(a, b, keep);
             return Math.Min(_before.Least, _after.Least);
         }
 
