@@ -89,6 +89,13 @@ namespace Guidewire.Core
             in Vector3d a, in Vector3d b, double range, ref int hint, out SurfaceContact contact)
         {
             int guess = hint >= 0 && hint < _tree.Pieces.Length ? hint : 0;
+            ref readonly TubePiece last = ref _tree.Pieces[guess];
+            if (last.Distance(a) > range && last.Distance(b) > range)
+            {
+                // One piece, being convex, holds all of the segment that deep.
+                contact = default;
+                return false;
+            }
             int piece = FindLeast(a, b, guess, range, out double s, out _);
             hint = piece;
             Vector3d x = Vector3d.Lerp(a, b, s);

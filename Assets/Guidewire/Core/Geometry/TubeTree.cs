@@ -66,8 +66,13 @@ namespace Guidewire.Core
             double s1 = to.S;
             double over0 = from.Distance - last.Distance(Vector3d.Lerp(a, b, s0));
             double over1 = first.Distance(Vector3d.Lerp(a, b, s1)) - to.Distance;
+            if (!(over0 > 0.0) || !(over1 < 0.0))
+            {
+                // Equal at an end: two pieces hold what lies about their common knot alike.
+                return over0 > 0.0 ? s1 : s0;
+            }
             double s = s0;
-            for (int k = 0; k < MostSecants && over0 > 0.0 && over1 < 0.0; k++)
+            for (int k = 0; k < MostSecants; k++)
             {
                 s = s0 + (s1 - s0) * (over0 / (over0 - over1));
                 Vector3d x = Vector3d.Lerp(a, b, s);
