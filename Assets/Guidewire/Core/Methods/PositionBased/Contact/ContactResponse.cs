@@ -1,4 +1,3 @@
-using System;
 using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
@@ -8,7 +7,6 @@ namespace Guidewire.Core
     internal sealed class ContactResponse : IContactResponse
     {
         private const int ContactsPerSphere = 8;
-        private readonly double _radius;
         private readonly double _reach;
         private readonly double _gain;
         private readonly double _stop;    // what a stop keeps between core line and wall, units
@@ -25,7 +23,6 @@ namespace Guidewire.Core
         public ContactResponse(RodState state, int wallCount, double radius, double reach, double gain)
         {
             int capacity = ContactsPerSphere * wallCount * state.SphereCount;
-            _radius = radius;
             _reach = reach;
             _gain = gain;
             _stop = 2.0 * SweptSearch.ClearanceFor(radius);
@@ -65,6 +62,13 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
+        public void SweepStops(Vector3d[] x)
+        {
+            _elementStops.Sweep(x);
+            _sphereStops.Sweep(x);
+        }
+
+        /// <inheritdoc/>
         public void SpheresOf(int k, out int first, out int last)
         {
             SphereContactConstraint? spheres = At(ref k, out ElementContactConstraint? elements);
@@ -87,12 +91,6 @@ namespace Guidewire.Core
             _elements.AddImpulses(impulses);
             _elementStops.AddImpulses(impulses);
             _sphereStops.AddImpulses(impulses);
-        }
-
-        /// <inheritdoc/>
-        public double Penetration(Vector3d[] x)
-        {
-            return Math.Max(_spheres.LargestGap(x), _elements.LargestGap(x)) - (_reach - _radius);
         }
 
         // Where contact k of a sweep stands, and which it is there: spheres, or where that is null, elements.

@@ -1,4 +1,3 @@
-using System;
 using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
@@ -104,19 +103,6 @@ namespace Guidewire.Core
                 impulses[_element[k]] += (_impulse[k] * (1.0 - _position[k])) * _normal[k];
                 impulses[_element[k] + 1] += (_impulse[k] * _position[k]) * _normal[k];
             }
-        }
-
-        /// <summary>Largest reach - (x(s) - c).n over all contacts, units; negative when the wire is out of
-        /// reach.</summary>
-        public double LargestGap(Vector3d[] x)
-        {
-            double largest = double.NegativeInfinity;
-            for (int k = 0; k < Count; k++)
-            {
-                Vector3d point = Vector3d.Lerp(x[_element[k]], x[_element[k] + 1], _position[k]);
-                largest = Math.Max(largest, _offset[k] - Vector3d.Dot(point, _normal[k]));
-            }
-            return largest;
         }
     }
 }

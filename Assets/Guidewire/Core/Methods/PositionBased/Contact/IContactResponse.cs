@@ -16,6 +16,9 @@ namespace Guidewire.Core
         /// <param name="x">n + 1 positions in units, corrected in place.</param>
         void Sweep(Vector3d[] x);
 
+        /// <summary>Projects once what holds the wire off places that the swept test met, and nothing else.</summary>
+        void SweepStops(Vector3d[] x);
+
         /// <summary>Contacts at present, in the order of a sweep.</summary>
         int ContactCount { get; }
 
@@ -27,8 +30,5 @@ namespace Guidewire.Core
 
         /// <summary>Adds the momentum over dt, in mass unit * unit, that contacts gave each sphere.</summary>
         void AddImpulses(Vector3d[] impulses);
-
-        /// <summary>How far the wire's surface reaches into a wall, units; 0 or less where it does not.</summary>
-        double Penetration(Vector3d[] x);
     }
 }

@@ -1,4 +1,3 @@
-using System;
 using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
@@ -93,18 +92,6 @@ namespace Guidewire.Core
             {
                 impulses[_sphere[k]] += (_pushed[k] / _inverseMasses[_sphere[k]]) * _normal[k];
             }
-        }
-
-        /// <summary>Largest reach - (p - c).n over all contacts, units: how far the wire lies within its reach of the
-        /// wall; negative when nothing does.</summary>
-        public double LargestGap(Vector3d[] x)
-        {
-            double largest = double.NegativeInfinity;
-            for (int k = 0; k < Count; k++)
-            {
-                largest = Math.Max(largest, _offset[k] - Vector3d.Dot(x[_sphere[k]], _normal[k]));
-            }
-            return largest;
         }
     }
 }

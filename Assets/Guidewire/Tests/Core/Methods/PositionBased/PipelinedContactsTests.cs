@@ -71,8 +71,7 @@ namespace Guidewire.Core.Tests
             double reach = radius + contact.CollisionMargin;
             bool asPublished = contact.ElementContact == ElementContact.Seed;
             IContactResponse response = asPublished
-                ? (IContactResponse)new SeedContactResponse(state, walls.Length, radius, reach,
-                    contact.CollisionStiffness)
+                ? (IContactResponse)new SeedContactResponse(state, walls.Length, reach, contact.CollisionStiffness)
                 : new ContactResponse(state, walls.Length, radius, reach, contact.CollisionStiffness);
             IContactSearch search = asPublished ? (IContactSearch)new SeedContactSearch(walls, Elements, radius)
                 : new ContactSearch(walls, Elements, Length / Elements, radius, reach,
