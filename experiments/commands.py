@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from experiments import building
+from experiments import building, checking
 from experiments.prepare import DRAWING, ROOT, TESTING, PreparationError
 from experiments.runner import INTERNAL_ERROR, INTERRUPTED, Answer
 from experiments.sweep import SweepResult, sweep
@@ -23,8 +23,9 @@ if TYPE_CHECKING:
     from experiments.gallery import Gallery  # itself imported only where its packages are there
     from studies.table import Source
 
+BEYOND_A_GATE = 1  # all that was asked for is there, and a check is not passed
 FAILED = 5  # as of a run: something that was asked for is not there
-_RUNNER_WORDS = ("parameters", "out", "repeat", "lines", "logFile")  # the runner's own arguments, like -KEY
+_RUNNER_WORDS = ("parameters", "out", "force", "repeat", "lines", "logFile")  # the runner's own arguments, like -KEY
 _DESCRIPTION = "Simulates guidewires as Cosserat rods, without Unity: runs, sweeps, figures, tests."
 
 
@@ -37,7 +38,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True, parser_class=_Parser)
 
     demo = commands.add_parser("demo", help="build, run the default scene, fit tau, draw Figures 4.1 to 4.4")
-    demo.add_argument("--out", type=Path, default=Path("results/demo"), help="folder for the run and the pictures")
+    demo.add_argument("--out", type=_path, default=Path("results/demo"), help="folder for the run and the pictures")
     demo.set_defaults(action=_demo, packages=DRAWING)
 
     test = commands.add_parser("test", help="all tests; the last line says 'N passed, N failed'")
@@ -48,7 +49,10 @@ def parse(argv: list[str]) -> argparse.Namespace:
     run.add_argument("file", metavar="FILE", type=Path, help="parameter file, such as params/default.json")
     run.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], type=_assignment, dest="overrides",
                      help="a parameter laid over the file; may be given several times")
-    run.add_argument("--out", type=Path, help="folder of the run (results/<name of FILE>)")
+    run.add_argument("--out", type=_path, help="folder of the run (results/<name of FILE>); the same run is not made "
+                                               "again, and one of other parameters is not replaced")
+    run.add_argument("--force", action="store_true",
+                     help="replace a complete run that the folder holds, once this one is complete")
     _add_runner(run)
     run.set_defaults(action=_run, packages=())
 
@@ -56,7 +60,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
     sweep.add_argument("study", metavar="STUDY", choices=list(STUDIES), help=", ".join(STUDIES))
     sweep.add_argument("--jobs", type=_positive, default=os.cpu_count() or 1, metavar="N",
                        help="untimed runs at once (one per processor); timed ones always run alone")
-    sweep.add_argument("--out", type=Path, default=Path("results"), help="folder above the study's (results)")
+    sweep.add_argument("--out", type=_path, default=Path("results"), help="folder above the study's (results)")
     _add_runner(sweep)
     sweep.set_defaults(action=_sweep, packages=())
 
@@ -64,7 +68,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
     figures.add_argument("ids", metavar="ID", nargs="*", help="such as 4.5; all where none is given")
     figures.add_argument("--jobs", type=_positive, default=os.cpu_count() or 1, metavar="N",
                          help="untimed runs at once")
-    figures.add_argument("--out", type=Path, default=Path("results"),
+    figures.add_argument("--out", type=_path, default=Path("results"),
                          help="folder above the studies' (results); the pictures stand in its 'figures'")
     figures.set_defaults(action=_figures, packages=DRAWING)
 
@@ -76,7 +80,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
     modes.add_argument("file", type=Path, metavar="FILE",
                        help="parameter file; the modes are those about its rest shape")
     modes.add_argument("--count", type=_positive, default=6, metavar="K", help="how many (6)")
-    modes.add_argument("--out", type=Path, default=Path("results"), metavar="DIR",
+    modes.add_argument("--out", type=_path, default=Path("results"), metavar="DIR",
                        help="takes NAME-modes.png (results)")
     modes.set_defaults(action=_modes, packages=DRAWING)
 
@@ -127,6 +131,12 @@ def _assignment(text: str) -> tuple[str, str]:
     return key, value
 
 
+def _path(text: str) -> Path:
+    if not text.strip():
+        raise argparse.ArgumentTypeError("an empty name is no folder")
+    return Path(text)
+
+
 def _positive(text: str) -> int:
     if not text.isdecimal() or int(text) < 1:
         raise argparse.ArgumentTypeError(f"'{text}' is not a whole number above 0")
@@ -137,6 +147,7 @@ def _demo(arguments: argparse.Namespace) -> int:
     from analysis import figures
     from experiments import gallery
 
+    checking.check_out(arguments.out)
     command = _build_runner()
     result = _make("default", [STUDIES["default"]], command, arguments.out, jobs=1)
     if result.failures:
@@ -157,13 +168,19 @@ def _test(arguments: argparse.Namespace) -> int:
 
 def _run(arguments: argparse.Namespace) -> int:
     out = arguments.out or Path("results") / arguments.file.stem
+    checking.check_file(arguments.file)
+    checking.check_overrides(arguments.overrides)
+    checking.check_out(out)
     command = [*_runner_of(arguments), "-parameters", str(arguments.file), "-out", str(out)]
     for key, value in arguments.overrides:
         command += [f"-{key}", value]
+    if arguments.force:
+        command.append("-force")
     return _hand_to(command)
 
 
 def _sweep(arguments: argparse.Namespace) -> int:
+    checking.check_out(arguments.out)
     command = _runner_of(arguments)
     result = _make(arguments.study, [STUDIES[arguments.study]], command, arguments.out, arguments.jobs)
     print(f"runs: {os.path.relpath(result.folder / arguments.study)}")
@@ -179,6 +196,7 @@ def _figures(arguments: argparse.Namespace) -> int:
         raise PreparationError(f"there is no figure {unknown[0]}; there are {', '.join(known)}")
     ids = arguments.ids or list(known)
     studies = {name for figure in ids for name in known[figure].studies}
+    checking.check_out(arguments.out)
     command = _build_runner()
     asked: dict[str, tuple[Sequence[Source], Path]] = {name: ([STUDIES[name]], arguments.out) for name in STUDIES}
     asked |= {name: (checks, arguments.out / name) for name, checks in gallery.CHECKED.items()}
@@ -193,7 +211,11 @@ def _tell(drawn: Gallery) -> int:
     for problem in drawn.problems:
         print(f"guidewire: {problem}", file=sys.stderr)
     print(f"pictures and captions: {os.path.relpath(drawn.index)}")
-    return FAILED if drawn.problems else 0
+    for line in drawn.failed_gates:
+        print(f"guidewire: beyond its gate: {line}", file=sys.stderr)
+    if drawn.problems:
+        return FAILED
+    return BEYOND_A_GATE if drawn.failed_gates else 0
 
 
 def _stress(arguments: argparse.Namespace) -> int:
@@ -216,6 +238,8 @@ def _modes(arguments: argparse.Namespace) -> int:
 
     from analysis.figures.modes import draw_modes
 
+    checking.check_file(arguments.file)
+    checking.check_out(arguments.out)
     command = [*_build_runner(), "--modes", str(arguments.file), str(arguments.count)]
     done = subprocess.run(command, stdout=subprocess.PIPE, text=True)
     if done.returncode != 0:

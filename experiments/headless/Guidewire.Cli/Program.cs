@@ -16,7 +16,7 @@ namespace Guidewire.Cli
     internal static class Program
     {
         private const string Usage =
-            "usage: Guidewire.Cli -parameters FILE -out DIR [-KEY VALUE]...\n"
+            "usage: Guidewire.Cli -parameters FILE -out DIR [-force] [-KEY VALUE]...\n"
             + "       Guidewire.Cli -lines      one JSON request a line on standard input, one answer a line on"
             + " standard output:\n"
             + "           {\"id\": TEXT, \"parameters\": FILE, \"set\": {KEY: VALUE}, \"out\": DIR, \"repeat\": K,"
@@ -79,7 +79,7 @@ namespace Guidewire.Cli
         private static RunResult Simulate(RunRequest request, ParameterHandler handler)
         {
             var run = new SimulationRun(handler, request.Out, request.Repeat) { StopRequested = () => StopRequested };
-            return run.Execute(request.Reuse);
+            return run.Execute(request.Reuse ? Existing.Reuse : Existing.Replace);
         }
 
         private static int PrintModes(string[] arguments)

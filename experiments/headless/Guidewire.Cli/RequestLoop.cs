@@ -52,7 +52,7 @@ namespace Guidewire.Cli
                 RunResult result = execute(request, handler);
                 answer["exitCode"] = ExitCodes.Of(result.Outcome);
                 answer["outcome"] = result.Word;
-                answer["message"] = result.Reason;
+                answer["message"] = result.Reused ? "taken from an earlier run" : result.Reason;
                 answer["reused"] = result.Reused;
             }
             catch (ParameterException error)
