@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 import os
 import subprocess
 import sys
@@ -71,6 +72,20 @@ def parse(argv: list[str]) -> argparse.Namespace:
     figures.add_argument("--out", type=_path, default=Path("results"),
                          help="folder above the studies' (results); the pictures stand in its 'figures'")
     figures.set_defaults(action=_figures, packages=DRAWING)
+
+    render = commands.add_parser("render", help="a picture or a film of a run, with its vessel and obstacles")
+    render.add_argument("folder", type=Path, metavar="RUN", help="folder of a run")
+    render.add_argument("--out", type=_path, metavar="FILE", help="FILE.png or FILE.gif (RUN/render.png)")
+    render.add_argument("--times", type=_finite, nargs="+", metavar="T", default=[],
+                        help="of a .png: these moments, in s, in one picture, a colour each (the last moment, coloured "
+                             "by curvature)")
+    render.add_argument("--frames", type=_positive, default=40, metavar="K", help="of a .gif: pictures at most (40)")
+    render.add_argument("--target", type=_finite, nargs=3, metavar=("X", "Y", "Z"), help="point in the middle, units")
+    render.add_argument("--distance", type=_above_zero, metavar="D", help="of the camera from it, units")
+    render.add_argument("--yaw", type=_finite, default=-90.0, metavar="DEGREES",
+                        help="0 looks along z, -90 against x (-90)")
+    render.add_argument("--pitch", type=_finite, default=15.0, metavar="DEGREES", help="90 looks down, against y (15)")
+    render.set_defaults(action=_render, packages=DRAWING)
 
     stress = commands.add_parser("stress", help="draw what a run's material feels along the wire (logStrains)")
     stress.add_argument("folder", type=Path, metavar="DIR", help="folder of a run with logStrains; takes stress.png")
@@ -141,6 +156,23 @@ def _positive(text: str) -> int:
     if not text.isdecimal() or int(text) < 1:
         raise argparse.ArgumentTypeError(f"'{text}' is not a whole number above 0")
     return int(text)
+
+
+def _finite(text: str) -> float:
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    if not math.isfinite(number):
+        raise argparse.ArgumentTypeError(f"'{text}' is not a number")
+    return number
+
+
+def _above_zero(text: str) -> float:
+    number = _finite(text)
+    if number <= 0.0:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a number above 0")
+    return number
 
 
 def _demo(arguments: argparse.Namespace) -> int:
@@ -216,6 +248,38 @@ def _tell(drawn: Gallery) -> int:
     if drawn.problems:
         return FAILED
     return BEYOND_A_GATE if drawn.failed_gates else 0
+
+
+def _render(arguments: argparse.Namespace) -> int:
+    from analysis import render
+    from analysis.logs import LogError, read_log
+    from analysis.runs import read_run
+    from experiments import walls
+
+    out = arguments.out or arguments.folder / "render.png"
+    if out.suffix not in (".png", ".gif"):
+        raise PreparationError(f"--out {out}: a picture's name ends with .png, a film's with .gif")
+    if arguments.times and out.suffix == ".gif":
+        raise PreparationError(f"--times is for a picture, and {out.name} is a film: leave one of the two out")
+    try:
+        run = read_run(arguments.folder)
+        log = read_log(arguments.folder, "all")
+        middle, diagonal = render.extent(log)
+        checking.check_out(out.parent)
+        surfaces = walls.read_walls(_build_runner, run, middle, max(diagonal, 1.0))
+        view = render.View(tuple(arguments.target) if arguments.target else None, arguments.distance, arguments.yaw,
+                           arguments.pitch)
+        out.parent.mkdir(parents=True, exist_ok=True)
+        if out.suffix == ".gif":
+            render.save_film(render.draw_film(run, log, surfaces, view, arguments.frames), out)
+        else:
+            render.draw_picture(run, log, surfaces, view, arguments.times).save(out, optimize=True)
+    except LogError as error:
+        raise PreparationError(str(error)) from error
+    if log.warning:
+        print(f"guidewire: warning: {log.warning}", file=sys.stderr)
+    print(f"{'film' if out.suffix == '.gif' else 'picture'}: {os.path.relpath(out)}")
+    return 0
 
 
 def _stress(arguments: argparse.Namespace) -> int:

@@ -67,7 +67,7 @@ def finds(*errors):
 
 @pytest.mark.parametrize("errors, code, lines", [
     ((0.001, 0.01), 0, []), ((0.02, 0.001), 1, ["bars: direct 0, tip: error 0.020 is above its gate 0.010"]),
-    ((float("nan"),), 1, ["bars: direct 0, tip: error nan is above its gate 0.010"]),
+    ((float("nan"),), 1, ["bars: direct 0, tip: error not finite is above its gate 0.010"]),
 ])
 def test_a_gate_that_fails_is_printed_at_the_end_with_exit_code_1(tmp_path, monkeypatch, capsys, errors, code, lines):
     check = finds(*errors)

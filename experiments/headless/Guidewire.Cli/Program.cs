@@ -22,6 +22,9 @@ namespace Guidewire.Cli
             + "           {\"id\": TEXT, \"parameters\": FILE, \"set\": {KEY: VALUE}, \"out\": DIR, \"repeat\": K,"
             + " \"reuse\": true}\n"
             + "       Guidewire.Cli --modes FILE K   the K lowest frequencies and shapes of a material, as JSON\n"
+            + "       Guidewire.Cli --walls FILE X Y Z REACH   the walls' triangles in units, as JSON; of a wall without"
+            + " end\n"
+            + "           what is within REACH of (X, Y, Z)\n"
             + "       Guidewire.Cli --keys      the parameters as a Markdown table\n"
             + "       Guidewire.Cli --version\n"
             + "       Guidewire.Cli --help\n";
@@ -57,6 +60,9 @@ namespace Guidewire.Cli
                         return 0;
                     case "--modes":
                         return PrintModes(arguments);
+                    case "--walls":
+                        Console.Out.WriteLine(WallPrinter.Print(arguments));
+                        return 0;
                     case "--lines":
                     case "-lines":
                         return RequestLoop.Serve(Console.In, Console.Out, Simulate, () => StopRequested);
