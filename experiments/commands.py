@@ -10,7 +10,7 @@ import subprocess
 import sys
 import tempfile
 import traceback
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -98,6 +98,12 @@ def parse(argv: list[str]) -> argparse.Namespace:
     modes.add_argument("--out", type=_path, default=Path("results"), metavar="DIR",
                        help="takes NAME-modes.png (results)")
     modes.set_defaults(action=_modes, packages=DRAWING)
+
+    python = commands.add_parser("python", help="start a script that imports guidewire, with a Python that has what "
+                                                "it needs")
+    python.add_argument("script", metavar="SCRIPT", type=Path, help="Python file: 'from guidewire import Session'")
+    python.add_argument("words", metavar="...", nargs=argparse.REMAINDER, help="the script's own arguments")
+    python.set_defaults(action=_python, packages=DRAWING)
 
     bench = commands.add_parser("bench", help="what a step costs, part by part")
     bench.set_defaults(action=_bench, packages=())
@@ -318,6 +324,13 @@ def _modes(arguments: argparse.Namespace) -> int:
     return 0
 
 
+def _python(arguments: argparse.Namespace) -> int:
+    if not arguments.script.is_file():
+        raise PreparationError(f"{arguments.script}: no such file: give a Python script")
+    path = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")]))
+    return _hand_to([sys.executable, str(arguments.script), *arguments.words], environment={"PYTHONPATH": path})
+
+
 def _bench(_: argparse.Namespace) -> int:
     return _hand_to(_build_benchmarks())
 
@@ -384,9 +397,10 @@ def _progress_of(name: str) -> Callable[[int, int, Answer], None]:
     return progress
 
 
-def _hand_to(command: list[str], cwd: Path | None = None) -> int:
-    """Run a program on our terminal and return its exit code. Ctrl-C reaches it too: it decides how to end."""
-    process = subprocess.Popen(command, cwd=cwd)
+def _hand_to(command: list[str], cwd: Path | None = None, environment: Mapping[str, str] | None = None) -> int:
+    """Run a program on our terminal and return its exit code. Ctrl-C reaches it too: it decides how to end.
+    `environment` is laid over ours."""
+    process = subprocess.Popen(command, cwd=cwd, env={**os.environ, **(environment or {})})
     while True:
         try:
             code = process.wait()
