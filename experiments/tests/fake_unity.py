@@ -2,7 +2,7 @@
 """A stand-in for a Unity editor or player: it takes Unity's arguments and writes what a run would leave.
 
 The run's `-displacement` says what it does: 0 finishes, 4 diverges, 2 refuses, 5 ends with 0 and leaves nothing, 6 ends
-with 0 and an unfinished summary, 7 hangs, 8 ends with 1 although its summary says finished.
+with 0 and an unfinished summary, 7 hangs, 8 ends with 1 although its summary says finished, 9 says that the run is already there.
 """
 
 import json
@@ -25,6 +25,10 @@ def main(arguments):
         with log.open("a", encoding="utf-8") as lines:
             lines.write("guidewire: command line: displacement = x is not allowed\n")
         return 2
+    if wish == "9":
+        with log.open("a", encoding="utf-8") as lines:
+            lines.write("guidewire: already there: run (finished: as asked); --force runs it again\n")
+        return 0
     if wish == "5":
         return 0
     outcome, code = CODES.get(wish, ("finished", 0))
