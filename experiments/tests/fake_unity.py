@@ -18,7 +18,7 @@ def main(arguments):
     given = dict(zip(own[::2], own[1::2]))
     wish = given.get("-displacement", "0")
     log = Path(unity[unity.index("-logFile") + 1])
-    log.write_text("Initialize engine\n" + " ".join(unity) + "\n", encoding="utf-8")
+    log.write_text("Initialize engine\n" + " ".join(arguments) + "\n", encoding="utf-8")
     if wish == "7":
         time.sleep(60)
     if wish == "2":
