@@ -84,7 +84,7 @@ namespace Guidewire.Core.Tests
             int substeps = (int)Math.Ceiling(step / substep);
             SimulationParameters parameters = Rods.Clamped(n, Solver.Xpbd, step,
                 (int)((damped ? Settled : 2.0 * Math.PI) / (omega * step)));
-            parameters.Method.Damping = damped ? 2.0 * omega * step : 0.0;
+            parameters.Material.MassDamping = damped ? 2.0 * omega : 0.0;
             parameters.Method.ConstraintSolverSteps = sweeps;
             parameters.Material.WireRadius = radius;
             parameters.Material.YoungsModulus = young;

@@ -81,7 +81,7 @@ namespace Guidewire.Core.Tests
             double sound = Rods.Length / n / Math.Sqrt(Rods.Young / Rods.Density);
             SimulationParameters parameters = Rods.Clamped(n, Solver.Xpbd, 4e-5, 2000);
             parameters.Method.ConstraintSolverSteps = sweeps;
-            parameters.Method.Damping = 3e-3;
+            parameters.Material.MassDamping = 3e-3 / parameters.Method.TimeStep;
             parameters.Material.WireRadius = Radius;
             parameters.Method.Substeps =
                 (int)Math.Ceiling(parameters.Method.TimeStep / (0.35 * Math.Sqrt(sweeps) * sound));

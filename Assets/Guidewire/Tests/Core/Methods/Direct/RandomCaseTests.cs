@@ -114,7 +114,7 @@ namespace Guidewire.Core.Tests
             var supports = new RodSupports();
             var rodTerms = new RodTerms(rod, supports);
             rodTerms.Loads.Set(Vector3d.Zero, force);
-            rodTerms.Moment.Moment = moment;
+            rodTerms.Followers.Moment.Moment = moment;
             EquilibriumResult result = new RodStatics(rodTerms).Solve(shape, 1e-9, 500);
             if (!hasPotential && !result.Converged)
             {
