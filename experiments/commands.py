@@ -9,8 +9,10 @@ import os
 import subprocess
 import sys
 import tempfile
+import threading
 import traceback
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -65,7 +67,8 @@ def parse(argv: list[str]) -> argparse.Namespace:
     _add_runner(sweep)
     sweep.set_defaults(action=_sweep, packages=())
 
-    figures = commands.add_parser("figures", help="the thesis's figures and ours, running what is missing")
+    figures = commands.add_parser("figures", help="the thesis's figures and ours, running what is missing; ends with "
+                                                  "1 where a check is beyond its gate")
     figures.add_argument("ids", metavar="ID", nargs="*", help="such as 4.5; all where none is given")
     figures.add_argument("--jobs", type=_positive, default=os.cpu_count() or 1, metavar="N",
                          help="untimed runs at once")
@@ -359,15 +362,46 @@ def _runner_of(arguments: argparse.Namespace) -> list[str]:
 
 
 def _build_benchmarks() -> list[str]:
-    return building.build(building.BENCHMARKS, _tell_building)
+    with _seconds_counted() as tell:
+        return building.build(building.BENCHMARKS, tell)
 
 
 def _build_runner() -> list[str]:
-    return building.build(building.RUNNER, _tell_building)
+    with _seconds_counted() as tell:
+        return building.build(building.RUNNER, tell)
 
 
-def _tell_building(line: str) -> None:
-    print(line, file=sys.stderr, flush=True)
+@contextmanager
+def _seconds_counted() -> Iterator[Callable[[str], None]]:
+    """A function that prints a line and, on a terminal, counts the seconds behind it to the end of the block."""
+    screen, ended, counters = sys.stderr, threading.Event(), []
+
+    def count(line: str, ended: threading.Event) -> None:
+        seconds = 0
+        while not ended.wait(1.0):
+            seconds += 1
+            print(f"\r{line}: {seconds} s", end="", file=screen, flush=True)
+
+    def tell(line: str) -> None:
+        nonlocal ended
+        if counters:
+            finish()
+        print(line, end="" if screen.isatty() else "\n", file=screen, flush=True)
+        if screen.isatty():
+            ended = threading.Event()
+            counters.append(threading.Thread(target=count, args=(line, ended), daemon=True))
+            counters[-1].start()
+
+    def finish() -> None:
+        ended.set()
+        counters.pop().join()
+        print(file=screen)
+
+    try:
+        yield tell
+    finally:
+        if counters:
+            finish()
 
 
 def _make(name: str, sources: Sequence[Source], command: list[str], out: Path, jobs: int) -> SweepResult:

@@ -2,7 +2,7 @@
 """A stand-in for a Unity editor or player: it takes Unity's arguments and writes what a run would leave.
 
 The run's `-displacement` says what it does: 0 finishes, 4 diverges, 2 refuses, 5 ends with 0 and leaves nothing, 6 ends
-with 0 and an unfinished summary, 7 hangs, 8 ends with 1 although its summary says finished.
+with 0 and an unfinished summary, 7 hangs, 8 ends with 1 although its summary says finished, 9 says that the run is already there.
 """
 
 import json
@@ -18,13 +18,17 @@ def main(arguments):
     given = dict(zip(own[::2], own[1::2]))
     wish = given.get("-displacement", "0")
     log = Path(unity[unity.index("-logFile") + 1])
-    log.write_text("Initialize engine\n" + " ".join(unity) + "\n", encoding="utf-8")
+    log.write_text("Initialize engine\n" + " ".join(arguments) + "\n", encoding="utf-8")
     if wish == "7":
         time.sleep(60)
     if wish == "2":
         with log.open("a", encoding="utf-8") as lines:
             lines.write("guidewire: command line: displacement = x is not allowed\n")
         return 2
+    if wish == "9":
+        with log.open("a", encoding="utf-8") as lines:
+            lines.write("guidewire: already there: run (finished: as asked); --force runs it again\n")
+        return 0
     if wish == "5":
         return 0
     outcome, code = CODES.get(wish, ("finished", 0))

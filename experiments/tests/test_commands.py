@@ -1,14 +1,16 @@
 """The commands as a user types them, with the real runner."""
 
 import argparse
+import io
 import json
 import subprocess
 import sys
+import threading
 from pathlib import Path
 
 import pytest
 
-from experiments import commands
+from experiments import building, commands
 from experiments.prepare import ROOT
 
 
@@ -109,3 +111,38 @@ def test_an_error_of_the_program_itself_is_one_line_and_a_trace_in_a_file(capsys
     line = capsys.readouterr().err
     assert line.count("\n") == 1 and "ZeroDivisionError: a mistake" in line
     assert "in broken" in Path(line.split("please report ")[1].strip()).read_text()
+
+
+class Screen(io.StringIO):
+    """Standard error that is a terminal or not, and says when a first second was counted."""
+
+    def __init__(self, is_terminal):
+        super().__init__()
+        self.counted = threading.Event()
+        self._is_terminal = is_terminal
+
+    def isatty(self):
+        return self._is_terminal
+
+    def write(self, text):
+        if " s" in text:
+            self.counted.set()
+        return super().write(text)
+
+
+@pytest.mark.parametrize("is_terminal", [True, False])
+def test_a_build_is_told_in_lines_whose_seconds_are_counted_on_a_terminal_only(monkeypatch, is_terminal):
+    screen = Screen(is_terminal)
+    monkeypatch.setattr(sys, "stderr", screen)
+
+    def build(_, tell):
+        tell("waiting")
+        assert not is_terminal or screen.counted.wait(60.0)
+        tell("building it")
+        return ["program"]
+
+    monkeypatch.setattr(building, "build", build)
+    assert commands._build_runner() == ["program"]
+    lines = screen.getvalue().splitlines() if not is_terminal else screen.getvalue().split("\n")[:-1]
+    assert [line.split("\r")[0] for line in lines] == ["waiting", "building it"]
+    assert ("\rwaiting: 1 s" in screen.getvalue()) == is_terminal

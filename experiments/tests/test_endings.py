@@ -173,9 +173,12 @@ def test_a_run_that_was_interrupted_is_no_complete_one_and_gives_way(start, scra
     assert json.loads((out / "summary.json").read_text())["steps"] == 10
 
 
-def test_a_long_run_tells_a_terminal_how_far_it_is_and_takes_the_line_away_again(runner_command, scratch):
+def test_a_long_run_tells_a_terminal_and_no_pipe_how_far_it_is_and_takes_the_line_away_again(
+    start, runner_command, scratch
+):
     import pty
 
+    piped = start(scene_of(scratch), scratch / "piped")  # runs for longer than the other one
     screen, terminal = pty.openpty()
     process = subprocess.Popen(
         [*runner_command, "-parameters", str(scene_of(scratch)), "-out", str(scratch / "out")],
@@ -204,6 +207,9 @@ def test_a_long_run_tells_a_terminal_how_far_it_is_and_takes_the_line_away_again
     lines = seen.split("\n")
     assert max(map(len, lines[0].split("\r"))) < 100, "one line, written over"
     assert len(lines) == 2 and "\rinterrupted: stopped from outside after step " in lines[0]
+    piped.send_signal(signal.SIGINT)
+    said, complained = piped.communicate(timeout=30)
+    assert said.startswith("interrupted: ") and said.count("\n") == 1 and complained == ""
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])

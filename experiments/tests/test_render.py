@@ -101,3 +101,12 @@ def test_a_folder_without_a_run_and_a_mesh_that_is_gone_are_named(make_run, tmp_
     (folder / "parameters.json").write_text(json.dumps({**parameters, "vessel": {"shape": "mesh", "file": "gone.obj"}}))
     with pytest.raises(PreparationError, match="gone.obj"):
         draw(folder)
+
+
+@pytest.mark.parametrize("words", [[], ["0", "0", "0"], ["0", "0", "0", "0"], ["0", "nan", "0", "1"],
+                                   ["0", "0", "far", "1"], ["0", "0", "0", "1", "2"]])
+def test_walls_are_asked_for_with_four_numbers(runner_command, words):
+    done = subprocess.run([*runner_command, "--walls", str(ROOT / "params" / "collision-wall.json"), *words],
+                          capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.count("\n") == 1 and "three numbers and a number above 0" in done.stderr

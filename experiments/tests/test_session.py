@@ -57,8 +57,10 @@ def test_what_a_hand_asks_is_made_in_equal_parts_along_and_about_the_first_eleme
     assert (state.curvature, state.couple, state.strain, state.force) == (None, None, None, None)
 
 
-def test_sessions_side_by_side_save_restore_and_reset_to_the_same_bits():
-    with Session(**TUBE) as one, Session(**TUBE) as other:
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+def test_sessions_side_by_side_save_restore_and_reset_to_the_same_bits(friction):
+    scene = {**TUBE, "vessel": {**TUBE["vessel"], "frictionCoefficient": friction}}
+    with Session(**scene) as one, Session(**scene) as other:
         start = one.state
         one.step(push=40.0, steps=20)
         saved = one.save()

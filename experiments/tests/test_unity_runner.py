@@ -141,3 +141,21 @@ def test_one_editor_makes_one_run_at_a_time(tmp_path: Path) -> None:
     command = commands._runner_of(arguments)
     assert arguments.jobs == 1
     assert command[-1].endswith("Unity")
+
+
+def test_a_run_that_unity_says_is_already_there_stands_in(player: unity_runner.Unity, tmp_path: Path) -> None:
+    assert run(player, tmp_path, 9)["outcome"] is None, "there is none"
+    assert run(player, tmp_path, 0)["outcome"] == "finished"
+    ending = unity_runner.make_run(player, ["-out", str(tmp_path / "run"), "-displacement", "9"], tmp_path / "run")
+    assert (ending.code, ending.outcome, ending.reused) == (0, "finished", True)
+    assert ending.message.startswith("already there: ")
+
+
+def test_a_study_replaces_what_it_does_not_reuse_and_a_single_run_only_where_it_is_forced_to(
+    player: unity_runner.Unity, tmp_path: Path
+) -> None:
+    out = tmp_path / "run"
+    run(player, tmp_path, 0)
+    assert "-force" in (out / "unity.log").read_text().split()
+    unity_runner._one_run(player, ["-out", str(out), "-displacement", "0"])
+    assert "-force" not in (out / "unity.log").read_text().split()
