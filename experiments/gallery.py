@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from analysis.figures import FIGURES, FigureSpec
 from analysis.logs import LogError, read_log
 from analysis.relaxation import RelaxationError
-from analysis.runs import read_run
+from analysis.runs import read_runs
 from analysis.tables import measure_relaxation
 from analysis.validation.chart import CHART
 from analysis.validation.check import Check, replay
@@ -93,7 +93,7 @@ def draw(ids: Sequence[str], folders: Mapping[str, Path], out: Path) -> Gallery:
 
 def describe_default_run(study: Path) -> list[str]:
     """What the default study's run measured, one line each: relaxation time and period with the fit's error."""
-    run = read_run(study / "default")
+    run = read_runs(study)["default"]
     log = read_log(run.folder)
     relaxation = measure_relaxation(run, log.time, log.positions[:, 0])
     return [

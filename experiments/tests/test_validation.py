@@ -3,25 +3,32 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from analysis.runs import read_run
+from analysis.runs import read_runs
 from analysis.validation import scenes
 from analysis.validation.check import Check, Finding, Result, replay
 from analysis.validation.report import FAST, Report, as_csv, as_markdown
 from analysis.validation.wire import BASE, Wire
-from experiments.sweep import sweep
+from experiments.sweep import Means, SweepResult, sweep
 from studies.table import Case
+
+
+def make(checks: Sequence[Check], folder: Path, command: list[str], jobs: int = 1) -> SweepResult:
+    """Make the runs of checks into a folder."""
+    return sweep([(check, folder) for check in checks], folder / "runs", Means(command, jobs))
 
 
 @pytest.fixture(scope="module")
 def fast_report(tmp_path_factory: pytest.TempPathFactory, runner_command: list[str]) -> Report:
-    done = sweep(FAST, runner_command, tmp_path_factory.mktemp("validation"), 2, lambda *_: None)
+    folder = tmp_path_factory.mktemp("validation")
+    done = make(FAST, folder, runner_command, 2)
     assert done.failures == []
-    return Report({check: replay(check, done.folder) for check in FAST})
+    return Report({check: replay(check, folder) for check in FAST})
 
 
 @pytest.mark.parametrize("check", FAST, ids=lambda check: check.name)
@@ -53,19 +60,19 @@ def _adaptive():
 
 def test_later_cases_follow_from_earlier_runs(tmp_path: Path, runner_command: list[str]) -> None:
     check = Check("adaptive", "Test", "adaptive", _adaptive)
-    asked = []
-    done = sweep([check], runner_command, tmp_path, 1, lambda *_: asked.append(1))
-    assert len(asked) == 4 and done.failures == []
-    assert replay(check, done.folder).results[0].passed
+    done = make([check], tmp_path, runner_command)
+    assert done.made == 4 and done.failures == []
+    assert replay(check, tmp_path).results[0].passed
 
 
 def _wrong():
+    yield [Case("right", {"numberRodElements": 4})]
     yield [Case("wrong", {"numberRodElements": -1})]
     raise AssertionError("goes on after a run without a result")
 
 
 def test_check_whose_run_has_no_result_is_dropped_and_told(tmp_path: Path, runner_command: list[str]) -> None:
-    done = sweep([Check("wrong", "Test", "wrong", _wrong)], runner_command, tmp_path, 1, lambda *_: None)
+    done = make([Check("wrong", "Test", "wrong", _wrong)], tmp_path, runner_command)
     (failure,) = done.failures
     assert failure.exit_code == 2 and "numberRodElements" in failure.message
 
@@ -113,8 +120,8 @@ def test_stable_substep_that_a_run_states_is_that_of_the_linear_chain(
         stated.update((yield from scenes.stable_substeps(keys)))
         return Finding((), lambda figure: None, "")
 
-    done = sweep([Check("limits", "Test", "limits", plan)], runner_command, tmp_path, 1, lambda *_: None)
-    replay(Check("limits", "Test", "limits", plan), done.folder)
+    make([Check("limits", "Test", "limits", plan)], tmp_path, runner_command)
+    replay(Check("limits", "Test", "limits", plan), tmp_path)
     for name, (wire, n) in _WIRES.items():
         limit = 2.0 / _highest_frequency(wire, n)
         assert limit / math.sqrt(_slack(wire, n)) <= stated[name] * ROUNDED, name
@@ -132,10 +139,9 @@ def test_cost_in_turns_is_that_of_the_work_done(tmp_path: Path, runner_command: 
         return Finding((), lambda figure: None, "")
 
     check = Check("cost", "Test", "cost", plan, "params/default.json")
-    done = sweep([check], runner_command, tmp_path, 1, lambda *_: None)
-    assert done.failures == []
-    once, twice = (read_run(done.folder / "cost" / f"m={m}").measured("elementIterationsPerMillisecond")
-                   for m in (2000, 4000))
+    assert make([check], tmp_path, runner_command).failures == []
+    runs = read_runs(tmp_path / "cost")
+    once, twice = (runs[f"m={m}"].measured("elementIterationsPerMillisecond") for m in (2000, 4000))
     assert twice == pytest.approx(2.0 * once, rel=0.1)
     assert 600.0 < once < 6600.0
 

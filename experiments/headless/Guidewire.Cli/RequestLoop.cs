@@ -7,7 +7,8 @@ using Newtonsoft.Json.Linq;
 namespace Guidewire.Cli
 {
     /// <summary>Takes one run after another, so that a sweep pays for no process start: a JSON request a line, a JSON
-    /// answer a line. A request that cannot be run gets its answer and the next one is taken.</summary>
+    /// answer a line. A request that cannot be run gets its answer and the next one is taken. One that only asks for a
+    /// check is answered with the address of its run.</summary>
     internal static class RequestLoop
     {
         /// <summary>Serves until the end of the input, or until a stop is requested.</summary>
@@ -40,20 +41,25 @@ namespace Guidewire.Cli
                 ["outcome"] = null,
                 ["message"] = "",
                 ["out"] = null,
-                ["reused"] = false,
             };
             string? folder = null;
             try
             {
                 RunRequest request = RunRequest.Parse(line);
                 ParameterHandler handler = ParameterHandler.Load(request.ParameterFile, request.Overrides);
+                if (request.Check)
+                {
+                    answer["exitCode"] = 0;
+                    answer["address"] = RunSummary.Address(handler);
+                    answer["version"] = RunSummary.Maker;
+                    return answer;
+                }
                 folder = string.IsNullOrEmpty(request.Out) ? handler.Values.LogFilePath : request.Out;
                 answer["out"] = folder;
                 RunResult result = execute(request, handler);
                 answer["exitCode"] = ExitCodes.Of(result.Outcome);
                 answer["outcome"] = result.Word;
                 answer["message"] = result.Reason;
-                answer["reused"] = result.Reused;
             }
             catch (ParameterException error)
             {

@@ -12,7 +12,8 @@ namespace Guidewire.Cli
             ParameterFile = (string?)json["parameters"];
             Out = (string?)json["out"];
             Repeat = (int?)json["repeat"];
-            Reuse = (bool?)json["reuse"] ?? false;
+            Check = (bool?)json["check"] ?? false;
+            Log = (bool?)json["log"] ?? true;
             foreach (JProperty property in ((JObject?)json["set"] ?? new JObject()).Properties())
             {
                 Overrides.Add(new KeyValuePair<string, JToken>(property.Name, property.Value));
@@ -28,8 +29,11 @@ namespace Guidewire.Cli
         /// <summary>Number of a timed repeat, or null.</summary>
         public int? Repeat { get; }
 
-        /// <summary>Whether a whole earlier result stands in.</summary>
-        public bool Reuse { get; }
+        /// <summary>Whether the parameters are only checked, and the run's address told.</summary>
+        public bool Check { get; }
+
+        /// <summary>Whether the run leaves a log.</summary>
+        public bool Log { get; }
 
         /// <summary>Parameters that count instead of the file's.</summary>
         public List<KeyValuePair<string, JToken>> Overrides { get; } = new List<KeyValuePair<string, JToken>>();
@@ -39,11 +43,12 @@ namespace Guidewire.Cli
         public static RunRequest Parse(string line)
         {
             JObject json = JsonText.ParseObject(line, "request");
-            Check(json, "parameters", "a file's path", JTokenType.String);
-            Check(json, "out", "a folder's path", JTokenType.String);
-            Check(json, "repeat", "a whole number from 0", JTokenType.Integer);
-            Check(json, "reuse", "true or false", JTokenType.Boolean);
-            Check(json, "set", "an object of parameters", JTokenType.Object);
+            Require(json, "parameters", "a file's path", JTokenType.String);
+            Require(json, "out", "a folder's path", JTokenType.String);
+            Require(json, "repeat", "a whole number from 0", JTokenType.Integer);
+            Require(json, "check", "true or false", JTokenType.Boolean);
+            Require(json, "log", "true or false", JTokenType.Boolean);
+            Require(json, "set", "an object of parameters", JTokenType.Object);
             return new RunRequest(json);
         }
 
@@ -60,7 +65,7 @@ namespace Guidewire.Cli
             }
         }
 
-        private static void Check(JObject json, string key, string allowed, JTokenType type)
+        private static void Require(JObject json, string key, string allowed, JTokenType type)
         {
             JToken? value = json[key];
             if (value != null && value.Type != JTokenType.Null && value.Type != type)

@@ -55,7 +55,7 @@ namespace Guidewire.Io
             {
                 Error("warning: " + warning);
             }
-            RunResult result = run.Execute(reuse: false);
+            RunResult result = run.Execute();
             string ending = result.Word + ": " + result.Reason;
             if (result.Outcome == Outcome.Failed)
             {

@@ -21,7 +21,7 @@ namespace Guidewire.Io
         private readonly ParameterHandler _handler;
         private readonly string _folder;
         private readonly int? _repeat;
-        private readonly DataLogger _logger;
+        private readonly DataLogger? _logger;    // null: no log was asked for
         private readonly StepTimes _times = new StepTimes();
         private readonly Stopwatch _clock = new Stopwatch();
         private readonly List<string> _notes = new List<string>();
@@ -29,7 +29,7 @@ namespace Guidewire.Io
         private int _lastLogged = -1;
         private bool _lost;
 
-        private RunFolder(ParameterHandler handler, string folder, int? repeat, DataLogger logger)
+        private RunFolder(ParameterHandler handler, string folder, int? repeat, DataLogger? logger)
         {
             _handler = handler;
             _folder = folder;
@@ -44,14 +44,16 @@ namespace Guidewire.Io
         /// <param name="handler">The parameters.</param>
         /// <param name="folder">The folder.</param>
         /// <param name="repeat">Number of a timed repeat, or null.</param>
+        /// <param name="keepsLog">Whether there is to be a positions.json.</param>
         /// <exception cref="ParameterException">The folder cannot be written; nothing has been.</exception>
-        public static RunFolder Open(ParameterHandler handler, string folder, int? repeat)
+        public static RunFolder Open(ParameterHandler handler, string folder, int? repeat, bool keepsLog)
         {
             try
             {
                 Directory.CreateDirectory(folder);
                 string log = Path.Combine(folder, PositionsFile + AtomicFile.Partial);
-                return new RunFolder(handler, folder, repeat, DataLogger.Open(log, handler.Values));
+                return new RunFolder(handler, folder, repeat,
+                    keepsLog ? DataLogger.Open(log, handler.Values) : null);
             }
             catch (Exception error) when (error is IOException || error is UnauthorizedAccessException
                 || error is ArgumentException || error is NotSupportedException)
@@ -105,7 +107,7 @@ namespace Guidewire.Io
             {
                 if (!_lost)
                 {
-                    _logger.Close();
+                    _logger?.Close();
                     Publish();
                 }
             }
@@ -113,7 +115,7 @@ namespace Guidewire.Io
             {
                 Lose(simulation, "the log could not be written: " + error.Message);
             }
-            string log = _lost ? PositionsFile + AtomicFile.Partial : PositionsFile;
+            string? log = _logger == null ? null : _lost ? PositionsFile + AtomicFile.Partial : PositionsFile;
             try
             {
                 string text = RunSummary.Text(simulation, _handler, _times, 1e-3 * _setUp, _clock.Elapsed.TotalSeconds,
@@ -129,7 +131,7 @@ namespace Guidewire.Io
         /// <summary>Lets go of the log as it is.</summary>
         public void Dispose()
         {
-            _logger.Dispose();
+            _logger?.Dispose();
         }
 
         private static bool IsDisk(Exception error)
@@ -139,7 +141,7 @@ namespace Guidewire.Io
 
         private void Log(Simulation simulation)
         {
-            if (_lost)
+            if (_lost || _logger == null)
             {
                 return;
             }
@@ -171,7 +173,15 @@ namespace Guidewire.Io
             string parameters = Path.Combine(_folder, ParametersFile);
             AtomicFile.Prepare(parameters, _handler.ToJson().ToString(Formatting.Indented) + "\n");
             File.Delete(Path.Combine(_folder, RunSummary.FileName));
-            AtomicFile.Publish(Path.Combine(_folder, PositionsFile));
+            string log = Path.Combine(_folder, PositionsFile);
+            if (_logger != null)
+            {
+                AtomicFile.Publish(log);
+            }
+            else
+            {
+                File.Delete(log);    // of an earlier run
+            }
             AtomicFile.Publish(parameters);
         }
     }

@@ -5,11 +5,10 @@ namespace Guidewire.Io
     /// <summary>What became of a run.</summary>
     public sealed class RunResult
     {
-        internal RunResult(Outcome outcome, string reason, bool reused)
+        internal RunResult(Outcome outcome, string reason)
         {
             Outcome = outcome;
             Reason = reason;
-            Reused = reused;
         }
 
         /// <summary>The outcome's one word, as in summary.json.</summary>
@@ -20,8 +19,5 @@ namespace Guidewire.Io
 
         /// <summary>Why, in one line.</summary>
         public string Reason { get; }
-
-        /// <summary>True when an earlier result of the same parameters stood in for it.</summary>
-        public bool Reused { get; }
     }
 }

@@ -2,6 +2,8 @@ using System;
 using System.Collections.Generic;
 using System.IO;
 using System.Runtime.InteropServices;
+using System.Security.Cryptography;
+using System.Text;
 using Guidewire.Core;
 using Newtonsoft.Json;
 using Newtonsoft.Json.Linq;
@@ -25,10 +27,10 @@ namespace Guidewire.Io
         /// shape.</param>
         /// <param name="wallTime">Wall time since the start of the run in s, without that.</param>
         /// <param name="repeat">Number of a timed repeat, or null.</param>
-        /// <param name="log">Name of the log in the run's folder.</param>
+        /// <param name="log">Name of the log in the run's folder, or null where there is none.</param>
         /// <param name="notes">What other than the parameters made the run, one line each.</param>
         internal static string Text(Simulation simulation, ParameterHandler handler, StepTimes times, double setUpTime,
-            double wallTime, int? repeat, string log, IReadOnlyList<string> notes)
+            double wallTime, int? repeat, string? log, IReadOnlyList<string> notes)
         {
             var json = new JObject
             {
@@ -108,35 +110,17 @@ namespace Guidewire.Io
         /// <summary>The product's version.</summary>
         public static string Version => typeof(RunSummary).Assembly.GetName().Version?.ToString(3) ?? "0";
 
-        /// <summary>The outcome that a folder already holds for the same parameters, the same repeat and the same
-        /// build, or null.</summary>
-        internal static Outcome? Reusable(string folder, ParameterHandler handler, int? repeat)
+        /// <summary>What makes runs: version, identity of the compiled simulation, runtime.</summary>
+        public static string Maker => "guidewire " + Version + ", core " + CoreBuild + ", "
+            + RuntimeInformation.FrameworkDescription;
+
+        /// <summary>What a run's results depend on, wall times apart, in 32 hex digits: its parameters but output
+        /// paths, and what makes it. Runs with the same address have the same results.</summary>
+        public static string Address(ParameterHandler handler)
         {
-            string path = Path.Combine(folder, FileName);
-            if (!File.Exists(path))
-            {
-                return null;
-            }
-            try
-            {
-                JObject json = JsonText.ReadObject(path);
-                bool same = (bool?)json["complete"] == true
-                    && (string?)json["parameterHash"] == handler.Hash
-                    && (string?)json["versions"]?["core"] == CoreBuild
-                    && (int?)json["repeat"] == repeat
-                    && File.Exists(Path.Combine(folder, (string?)json["log"] ?? ""));
-                if (!same || !Enum.TryParse((string?)json["outcome"], true, out Outcome outcome))
-                {
-                    return null;
-                }
-                // What was stopped or lost is not done.
-                return outcome == Outcome.Interrupted || outcome == Outcome.Failed ? (Outcome?)null : outcome;
-            }
-            catch (Exception error) when (error is ParameterException || error is ArgumentException
-                || error is FormatException || error is InvalidCastException)
-            {
-                return null;    // not a summary that this program wrote: the run is done anew
-            }
+            using SHA256 sha = SHA256.Create();
+            byte[] digest = sha.ComputeHash(Encoding.UTF8.GetBytes(handler.Hash + "\n" + Maker));
+            return BitConverter.ToString(digest, 0, 16).Replace("-", "").ToLowerInvariant();
         }
 
         /// <summary>The outcome's one word.</summary>

@@ -40,21 +40,18 @@ namespace Guidewire.Io
         /// <summary>The folder of the results.</summary>
         public string Folder => _folder;
 
-        /// <summary>Runs to the end, or takes over what the folder already holds.</summary>
-        /// <param name="reuse">Whether a whole earlier result of the same parameters, repeat and build stands
-        /// in.</param>
+        /// <summary>Whether the run leaves positions.json (default), or parameters.json and summary.json
+        /// only.</summary>
+        public bool KeepsLog { get; set; } = true;
+
+        /// <summary>Runs to the end.</summary>
         /// <exception cref="ParameterException">The folder cannot be written; nothing has been.</exception>
-        public RunResult Execute(bool reuse)
+        public RunResult Execute()
         {
-            Outcome? earlier = reuse ? RunSummary.Reusable(_folder, _handler, _repeat) : null;
-            if (earlier.HasValue)
-            {
-                return new RunResult(earlier.Value, "taken from an earlier run", true);
-            }
             long before = Stopwatch.GetTimestamp();
             Simulation simulation = Simulation.Create(_handler.Values.Simulation);
             double setUp = (Stopwatch.GetTimestamp() - before) * RunFolder.ToMilliseconds;
-            using RunFolder results = RunFolder.Open(_handler, _folder, _repeat);
+            using RunFolder results = RunFolder.Open(_handler, _folder, _repeat, KeepsLog);
             results.Begin(simulation, setUp);
             if (_handler.Values.Simulation.Method.MaxSimulationSteps == 0 && simulation.Outcome == Outcome.Running)
             {
@@ -71,7 +68,7 @@ namespace Guidewire.Io
                 Progress?.Invoke(simulation, results.Elapsed);
             }
             results.Finish(simulation);
-            return new RunResult(simulation.Outcome, simulation.Reason, false);
+            return new RunResult(simulation.Outcome, simulation.Reason);
         }
     }
 }

@@ -58,7 +58,7 @@ namespace Guidewire.Io
             double setUp = (Stopwatch.GetTimestamp() - before) * RunFolder.ToMilliseconds;
             if (logFolder.Length > 0)
             {
-                session._results = RunFolder.Open(handler, logFolder, null);
+                session._results = RunFolder.Open(handler, logFolder, null, keepsLog: true);
                 session._results.Begin(session.Simulation, setUp);
                 if (isSteered)
                 {

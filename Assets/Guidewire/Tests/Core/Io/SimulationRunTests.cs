@@ -33,7 +33,7 @@ namespace Guidewire.Core.Tests
         {
             ParameterHandler handler = Load(("maxSimulationSteps", 7), ("constraintSolverSteps", 20),
                 ("displacementDirection", new JArray(1.0, 2.0, 3.0)));
-            new SimulationRun(handler, _folder, null).Execute(false);
+            new SimulationRun(handler, _folder, null).Execute();
             JObject log = Read("positions.json");
             Simulation again = Simulation.Create(handler.Values.Simulation);
             Assert.That(log.Count, Is.EqualTo(8));
@@ -62,7 +62,7 @@ namespace Guidewire.Core.Tests
             Thread.CurrentThread.CurrentCulture = commas;
             try
             {
-                new SimulationRun(Load(("maxSimulationSteps", 2)), _folder, null).Execute(false);
+                new SimulationRun(Load(("maxSimulationSteps", 2)), _folder, null).Execute();
             }
             finally
             {
@@ -75,7 +75,7 @@ namespace Guidewire.Core.Tests
         public void ThinnedLog_KeepsEveryKthStepAndTheLast()
         {
             new SimulationRun(Load(("maxSimulationSteps", 10), ("logEvery", 4), ("logSpheres", "last"),
-                ("logOrientations", true)), _folder, null).Execute(false);
+                ("logOrientations", true)), _folder, null).Execute();
             JObject log = Read("positions.json");
             Assert.That(((IDictionary<string, JToken?>)log).Keys, Is.EqualTo(new[] { "0", "4", "8", "10" }));
             Assert.That(((JObject)log["8"]!["sphere"]!).Count, Is.EqualTo(1));
@@ -85,7 +85,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void Summary_SaysWhatBecameOfTheRun()
         {
-            RunResult result = new SimulationRun(Load(("maxSimulationSteps", 5)), _folder, 2).Execute(false);
+            RunResult result = new SimulationRun(Load(("maxSimulationSteps", 5)), _folder, 2).Execute();
             JObject summary = Read("summary.json");
             Assert.That(result.Outcome, Is.EqualTo(Outcome.Finished));
             Assert.That((string?)summary["outcome"], Is.EqualTo("finished"));
@@ -104,20 +104,32 @@ namespace Guidewire.Core.Tests
             int asked = 0;
             var run = new SimulationRun(Load(("constraintSolverSteps", 1)), _folder, null)
                 { StopRequested = () => ++asked > 4 };
-            Assert.That(run.Execute(false).Outcome, Is.EqualTo(Outcome.Interrupted));
+            Assert.That(run.Execute().Outcome, Is.EqualTo(Outcome.Interrupted));
             Assert.That(Read("positions.json").Count, Is.EqualTo(5), "entries 0 to 4");
             Assert.That((string?)Read("summary.json")["outcome"], Is.EqualTo("interrupted"));
         }
 
         [Test]
-        public void EarlierResult_StandsIn_OnlyForTheSameParametersAndRepeat()
+        public void Address_TellsRunsApart_ByParametersButNotByPaths()
+        {
+            string address = RunSummary.Address(Load(("maxSimulationSteps", 3)));
+            Assert.That(address, Does.Match("^[0-9a-f]{32}$"));
+            Assert.That(RunSummary.Address(Load(("maxSimulationSteps", 3), ("logFilePath", "x"))), Is.EqualTo(address));
+            Assert.That(RunSummary.Address(Load(("maxSimulationSteps", 4))), Is.Not.EqualTo(address));
+        }
+
+        [Test]
+        public void RunWithoutALog_HasTheSameResult_AndTakesAnEarlierLogAway()
         {
             ParameterHandler handler = Load(("maxSimulationSteps", 3));
-            new SimulationRun(handler, _folder, null).Execute(false);
-            Assert.That(new SimulationRun(handler, _folder, null).Execute(true).Reused, Is.True);
-            Assert.That(new SimulationRun(handler, _folder, 0).Execute(true).Reused, Is.False, "timed and untimed");
-            Assert.That(new SimulationRun(handler, _folder, 1).Execute(true).Reused, Is.False, "another repeat");
-            Assert.That(new SimulationRun(Load(("maxSimulationSteps", 4)), _folder, 1).Execute(true).Reused, Is.False);
+            new SimulationRun(handler, _folder, null).Execute();
+            JObject logged = Read("summary.json");
+            new SimulationRun(handler, _folder, null) { KeepsLog = false }.Execute();
+            JObject summary = Read("summary.json");
+            Assert.That(File.Exists(Path.Combine(_folder, "positions.json")), Is.False);
+            Assert.That(summary["log"]!.Type, Is.EqualTo(JTokenType.Null));
+            Assert.That(summary["predictionError"], Is.EqualTo(logged["predictionError"]));
+            Assert.That(Directory.GetFiles(_folder, "*.partial"), Is.Empty);
         }
 
         [Test]
@@ -131,7 +143,7 @@ namespace Guidewire.Core.Tests
                 {
                     try
                     {
-                        inner = new SimulationRun(Load(("maxSimulationSteps", 1)), _folder, null).Execute(false);
+                        inner = new SimulationRun(Load(("maxSimulationSteps", 1)), _folder, null).Execute();
                     }
                     catch (ParameterException error)
                     {
@@ -139,7 +151,7 @@ namespace Guidewire.Core.Tests
                     }
                 },
             };
-            run.Execute(false);
+            run.Execute();
             Assert.That(inner, Is.Null);
             Assert.That(refused!.Message, Does.Contain("no other run is writing"));
         }
