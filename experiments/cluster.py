@@ -36,6 +36,7 @@ from experiments.worker import Job, Runners
 _BATCH = 0.5  # s, what a batch should take
 _CHECKED = 500  # runs, of which a batch of checks is at most
 _IN_HAND = 2  # batches for each place: one at work, one that waits
+_WHOLE = ("converged", "finished", "diverged")  # with these, a runner has written all that was asked for
 _TO_ANSWER = 5.0  # s, for a scheduler
 _TO_END = 60.0  # s, for a run that was interrupted
 _BETWEEN_LOOKS = 5.0  # s, for workers that came or went
@@ -290,7 +291,7 @@ class _Queue:
                 self._seconds += made["seconds"]
                 self._answered += len(answers)
             for job, answer in zip(jobs, answers):
-                if job.is_done or job.request.out in self._second:
+                if answer.outcome in _WHOLE or job.is_done or job.request.out in self._second:
                     self._on_answer(job, answer)
                 else:
                     self._second.add(job.request.out)

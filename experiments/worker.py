@@ -10,6 +10,7 @@ import json
 import threading
 import time
 from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -96,6 +97,13 @@ class Runners(WorkerPlugin):
             for runner in self._all:
                 runner.interrupt()
 
+    def start(self, command: Sequence[str], count: int) -> None:
+        """Start so many runners of a command, at once; raises as `runner` does."""
+        with ThreadPoolExecutor(count) as pool:
+            started = list(pool.map(self._start, [command] * count))
+        with self._lock:
+            self._free.setdefault(tuple(command), []).extend(started)
+
     @contextmanager
     def runner(self, command: Sequence[str]) -> Iterator[Runner]:
         """A runner of a command that nobody else uses meanwhile, started and found to be of the right version.
@@ -164,14 +172,17 @@ def check(plugin: str, command: Sequence[str], jobs: Sequence[Plain]) -> list[Pl
 
 
 def probe(plugin: str, command: Sequence[str], mark: str) -> str:
-    """Why this worker cannot make runs, in one line; empty where it can. It must see what is at `mark`."""
+    """Start this worker's runners. Why it cannot make runs, in one line; empty where it can. It must see what is at
+    `mark`."""
     if not Path(mark).exists():
         return f"does not see {Path(mark).parent}: workers need the folder of the results under the same path"
+    here = get_worker()
+    count = here.state.nthreads if hasattr(here, "state") else here.nthreads  # which depends on dask's version
     try:
-        with get_worker().plugins[plugin].runner(command):
-            return ""
+        here.plugins[plugin].start(command, count)
     except WorkerProblem as problem:
         return str(problem)
+    return ""
 
 
 def stop(plugin: str) -> None:

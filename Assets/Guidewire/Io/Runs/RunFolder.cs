@@ -171,17 +171,17 @@ namespace Guidewire.Io
             // First what may not fit on the disk; from then on names only change. Without its summary an earlier result
             // does not count, so no mixture of two runs ever does.
             string parameters = Path.Combine(_folder, ParametersFile);
+            string log = Path.Combine(_folder, PositionsFile);
+            if (_logger == null)
+            {
+                File.Delete(Path.Combine(_folder, RunSummary.FileName));    // an earlier run's, as the others
+                File.Delete(log);
+                File.Delete(parameters);
+                return;
+            }
             AtomicFile.Prepare(parameters, _handler.ToJson().ToString(Formatting.Indented) + "\n");
             File.Delete(Path.Combine(_folder, RunSummary.FileName));
-            string log = Path.Combine(_folder, PositionsFile);
-            if (_logger != null)
-            {
-                AtomicFile.Publish(log);
-            }
-            else
-            {
-                File.Delete(log);    // of an earlier run
-            }
+            AtomicFile.Publish(log);
             AtomicFile.Publish(parameters);
         }
     }

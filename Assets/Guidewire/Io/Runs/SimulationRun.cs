@@ -40,8 +40,7 @@ namespace Guidewire.Io
         /// <summary>The folder of the results.</summary>
         public string Folder => _folder;
 
-        /// <summary>Whether the run leaves positions.json (default), or parameters.json and summary.json
-        /// only.</summary>
+        /// <summary>Whether the run leaves all three files (default), or summary.json only.</summary>
         public bool KeepsLog { get; set; } = true;
 
         /// <summary>Runs to the end.</summary>
