@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from analysis.runs import read_runs
+from analysis.stability import limit_explicit
 from analysis.validation import scenes
 from analysis.validation.check import Check, Finding, Result, replay
 from analysis.validation.report import FAST, Report, as_csv, as_markdown
@@ -77,23 +78,6 @@ def test_check_whose_run_has_no_result_is_dropped_and_told(tmp_path: Path, runne
     assert failure.exit_code == 2 and "numberRodElements" in failure.message
 
 
-def _highest_frequency(wire: Wire, n: int) -> float:
-    """Of small motions of a free chain with lumped masses, rad/s: across it, with elements that turn, and along it."""
-    length = wire.length / n
-    turning = np.full(n, wire.second_moment / wire.area)
-    mass = wire.line_density * length * np.array([0.5, *np.ones(n - 1), 0.5, *turning])
-    shear = np.zeros((n, 2 * n + 1))  # (y' - angle), of n+1 places and n angles
-    for j in range(n):
-        shear[j, [j, j + 1, n + 1 + j]] = -1.0 / length, 1.0 / length, -1.0
-    bend = np.diff(np.eye(2 * n + 1)[n + 1:], axis=0)
-    stiffness = wire.shearing * length * shear.T @ shear + wire.bending / length * bend.T @ bend
-    across = np.linalg.eigvalsh(stiffness / np.sqrt(np.outer(mass, mass)))[-1]
-    side = np.diff(np.eye(n + 1), axis=0)
-    along = np.linalg.eigvalsh(
-        wire.stretching / length * side.T @ side / np.sqrt(np.outer(mass[:n + 1], mass[:n + 1])))[-1]
-    return math.sqrt(max(across, along))
-
-
 ROUNDED = 1.0 + 1e-9
 _WIRES = {"thin": (BASE, 30), "thick": (Wire(radius=5e-3), 60), "coarse": (Wire(radius=5e-3), 4)}
 
@@ -123,7 +107,7 @@ def test_stable_substep_that_a_run_states_is_that_of_the_linear_chain(
     make([Check("limits", "Test", "limits", plan)], tmp_path, runner_command)
     replay(Check("limits", "Test", "limits", plan), tmp_path)
     for name, (wire, n) in _WIRES.items():
-        limit = 2.0 / _highest_frequency(wire, n)
+        limit = limit_explicit(wire, n)
         assert limit / math.sqrt(_slack(wire, n)) <= stated[name] * ROUNDED, name
         assert stated[name] <= limit * ROUNDED, name
 
