@@ -285,7 +285,7 @@ class _Asked:
                 line = {"outcome": word, "reason": answer.message}
             self._lines.append({"key": row.case.key, "variant": row.case.variant, **row.case.values,
                                 "repeat": row.repeat, **line})
-            if line["outcome"] not in self.source.results:
+            if summary is None or line["outcome"] not in self.source.results:
                 name = f"{self.source.name}: {row.case.key}" + (f", repeat {row.repeat}" if row.repeat else "")
                 code = answers[row.folder].exit_code if row.folder in answers else FAILED
                 self.lost.append(Answer(name, BAD_INPUT if row.refused else code, line["outcome"], line["reason"]))
