@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Globalization;
 using Guidewire.Core;
 using Newtonsoft.Json.Linq;
 
@@ -15,14 +16,18 @@ namespace Guidewire.Io
         /// <param name="values">Its parameters; a mesh's file name is replaced by the one that was found.</param>
         /// <param name="vesselSource">The parameter file that names the vessel, or "command line".</param>
         /// <param name="obstacleSource">The same for the obstacles.</param>
+        /// <param name="warnings">Gets a line for a wall that goes through itself.</param>
         /// <exception cref="ParameterException">A wall that cannot be made.</exception>
-        public static ContactShape[] Read(RunParameters values, string vesselSource, string obstacleSource)
+        public static ContactShape[] Read(
+            RunParameters values, string vesselSource, string obstacleSource, List<string> warnings)
         {
             var walls = new List<ContactShape>();
             if (values.Vessel != null)
             {
                 var fields = new JsonFields(vesselSource, "vessel", values.Vessel);
-                walls.Add(Vessel(fields, values, vesselSource));
+                ContactShape vessel = Vessel(fields, values, vesselSource);
+                walls.Add(vessel);
+                WarnOfSelfIntersection(vessel, fields.Text("file"), warnings);
             }
             int count = 0;
             foreach (JToken item in values.Obstacles ?? new JArray())
@@ -30,6 +35,18 @@ namespace Guidewire.Io
                 walls.Add(Obstacle(new JsonFields(obstacleSource, "obstacles[" + count++ + "]", item)));
             }
             return walls.ToArray();
+        }
+
+        private static void WarnOfSelfIntersection(ContactShape vessel, string file, List<string> warnings)
+        {
+            Vector3d place = Vector3d.Zero;
+            int count = vessel is MeshShape mesh ? mesh.CountSelfIntersections(out place) : 0;
+            if (count > 0)
+            {
+                warnings.Add(string.Format(CultureInfo.InvariantCulture,
+                    "{0}: the mesh goes through itself: {1} edges pierce a triangle, the first at ({2:G6}, {3:G6},"
+                    + " {4:G6}); what is inside there is not defined", file, count, place.X, place.Y, place.Z));
+            }
         }
 
         private static ContactShape Vessel(JsonFields fields, RunParameters scene, string source)

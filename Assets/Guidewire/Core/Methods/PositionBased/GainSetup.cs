@@ -6,10 +6,10 @@ namespace Guidewire.Core
     internal static class GainSetup
     {
         /// <summary>The wire at its start, sphere 0 displaced, and its stepper.</summary>
-        /// <exception cref="ArgumentException">A wire that starts outside the vessel.</exception>
+        /// <exception cref="ArgumentException">A wire that starts outside the vessel or is too thick.</exception>
         public static MethodStart Build(SimulationParameters parameters, Scene scene)
         {
-            string? problem = WireStart.FindProblem(scene);
+            string? problem = WireStart.FindProblem(parameters, scene);
             if (problem != null)
             {
                 throw new ArgumentException(problem);
