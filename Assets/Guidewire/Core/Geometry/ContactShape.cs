@@ -12,6 +12,10 @@ namespace Guidewire.Core
 
         private const double SlidingLoss = 1e-7;
 
+        /// <summary>mu, Coulomb's coefficient of friction between the wire and this wall, 0 or more,
+        /// dimensionless.</summary>
+        public double FrictionCoefficient { get; set; }
+
         /// <summary>The place where segment a b comes nearest to the wall, if that is no farther than
         /// <paramref name="range"/>; a = b for a sphere's centre.</summary>
         /// <param name="a">First end of the segment.</param>

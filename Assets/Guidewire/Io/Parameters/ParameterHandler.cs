@@ -204,6 +204,11 @@ namespace Guidewire.Io
             string vessel = _given.TryGetValue("vessel", out var named) ? named.Source : "";
             string obstacles = _given.TryGetValue("obstacles", out var given) ? given.Source : "";
             simulation.Scene.Walls = WallReader.Read(Values, vessel, obstacles, _warnings);
+            ParameterConflict? conflict = ParameterConflict.Find(simulation);
+            if (conflict != null)
+            {
+                throw Refused(conflict.Key, conflict.Needed);
+            }
             string? complaint = WireStart.FindProblem(simulation);
             if (complaint != null)
             {
