@@ -59,7 +59,7 @@ namespace Guidewire.Core
                     contact.ElementContact == ElementContact.Barycentric);
             IContactResponse response = asPublished
                 ? (IContactResponse)new SeedContactResponse(state, walls, reach, contact.CollisionStiffness)
-                : new ContactResponse(state, scene.Walls, radius, reach, contact.CollisionStiffness);
+                : new ContactResponse(state, scene.Walls, radius, reach, contact.CollisionStiffness, iterations);
             var sweeps = new GaussSeidelSolver(iterations, scalar, fastest, response);
             record = new ContactRecord(state.SphereCount);
             return new ContactSolver(state, method.TimeStep, sweeps, search, response, record);

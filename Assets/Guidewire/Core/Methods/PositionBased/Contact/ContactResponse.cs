@@ -23,17 +23,19 @@ namespace Guidewire.Core
         /// <param name="radius">r in units.</param>
         /// <param name="reach">r + margin in units: the distance that contacts keep.</param>
         /// <param name="gain">k_C in [0, 1], per iteration.</param>
-        public ContactResponse(RodState state, ContactShape[] walls, double radius, double reach, double gain)
+        /// <param name="iterations">m of a solve.</param>
+        public ContactResponse(RodState state, ContactShape[] walls, double radius, double reach, double gain,
+            int iterations)
         {
             int capacity = ContactsPerSphere * walls.Length * state.SphereCount;
             _friction = Array.ConvertAll(walls, wall => wall.FrictionCoefficient);
             _reach = reach;
             _gain = gain;
             _stop = 2.0 * SweptSearch.ClearanceFor(radius);
-            _spheres = new SphereContactConstraint(state, capacity);
-            _elements = new ElementContactConstraint(state, capacity);
-            _sphereStops = new SphereContactConstraint(state, capacity);
-            _elementStops = new ElementContactConstraint(state, capacity);
+            _spheres = new SphereContactConstraint(state, capacity, iterations);
+            _elements = new ElementContactConstraint(state, capacity, iterations);
+            _sphereStops = new SphereContactConstraint(state, capacity, iterations);
+            _elementStops = new ElementContactConstraint(state, capacity, iterations);
         }
 
         /// <inheritdoc/>

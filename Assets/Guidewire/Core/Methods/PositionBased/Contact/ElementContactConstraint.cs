@@ -23,7 +23,8 @@ namespace Guidewire.Core
 
         /// <param name="state">The wire, with its final masses.</param>
         /// <param name="capacity">Contacts that fit; what comes on top is left out.</param>
-        public ElementContactConstraint(RodState state, int capacity)
+        /// <param name="iterations">m of a solve, for what walls rub.</param>
+        public ElementContactConstraint(RodState state, int capacity, int iterations = 1)
         {
             _inverseMasses = state.InverseMasses;
             _element = new int[capacity];
@@ -33,7 +34,7 @@ namespace Guidewire.Core
             _offset = new double[capacity];
             _gain = new double[capacity];
             _impulse = new double[capacity];
-            _friction = new WallFriction(capacity);
+            _friction = new WallFriction(capacity, iterations);
             _from = state.Positions;
         }
 

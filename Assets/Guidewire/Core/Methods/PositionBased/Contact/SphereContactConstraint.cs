@@ -20,7 +20,8 @@ namespace Guidewire.Core
 
         /// <param name="state">The wire, with its final masses.</param>
         /// <param name="capacity">Contacts that fit; what comes on top is left out.</param>
-        public SphereContactConstraint(RodState state, int capacity)
+        /// <param name="iterations">m of a solve, for what walls rub.</param>
+        public SphereContactConstraint(RodState state, int capacity, int iterations = 1)
         {
             _inverseMasses = state.InverseMasses;
             _sphere = new int[capacity];
@@ -28,7 +29,7 @@ namespace Guidewire.Core
             _offset = new double[capacity];
             _gain = new double[capacity];
             _pushed = new double[capacity];
-            _friction = new WallFriction(capacity);
+            _friction = new WallFriction(capacity, iterations);
             _from = state.Positions;
         }
 

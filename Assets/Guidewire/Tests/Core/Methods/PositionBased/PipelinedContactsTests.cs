@@ -73,7 +73,7 @@ namespace Guidewire.Core.Tests
             bool asPublished = contact.ElementContact == ElementContact.Seed;
             IContactResponse response = asPublished
                 ? (IContactResponse)new SeedContactResponse(state, walls.Length, reach, contact.CollisionStiffness)
-                : new ContactResponse(state, walls, radius, reach, contact.CollisionStiffness);
+                : new ContactResponse(state, walls, radius, reach, contact.CollisionStiffness, Iterations);
             IContactSearch search = asPublished ? (IContactSearch)new SeedContactSearch(walls, Elements, radius)
                 : new ContactSearch(walls, Elements, Length / Elements, radius, reach,
                     contact.ElementContact == ElementContact.Barycentric);

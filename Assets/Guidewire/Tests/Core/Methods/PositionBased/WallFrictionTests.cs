@@ -22,9 +22,13 @@ namespace Guidewire.Core.Tests
             p.Drive.Kind = Drive.Displace;
             p.Drive.DisplacementPerStep = 0.002;
             Simulation simulation = Simulation.Create(p);
-            double friction = Coefficient * Weight(p) * FreeShare;
-            Vector3d reaction = MeanReaction(simulation, 3000, 1000);
-            Assert.That(reaction.Z - Drag(p), Is.EqualTo(friction).Within(Share * friction));
+            Vector3d reaction = MeanReaction(simulation, 3000, 1000, out Vector3d wall);
+
+            // The held sphere carries a little of the wire, which at a gain of 0.01 sinks in by a hundredth of a unit.
+            double weight = gain < 0.1 ? wall.Y : Weight(p) * FreeShare;
+            Assert.That(wall.Y, Is.EqualTo(Weight(p) * FreeShare).Within(0.06 * Weight(p)));
+            Assert.That(reaction.Z - Drag(p), Is.EqualTo(Coefficient * weight).Within(Share * Coefficient * weight));
+            Assert.That(wall.Z, Is.EqualTo(-Coefficient * wall.Y).Within(1e-3 * Coefficient * wall.Y));
             Assert.That(simulation.State.Velocities[10].Z, Is.GreaterThan(0.0));
         }
 
@@ -35,7 +39,7 @@ namespace Guidewire.Core.Tests
             p.Scene.Walls[0].FrictionCoefficient = 0.0;
             p.Drive.Kind = Drive.Displace;
             p.Drive.DisplacementPerStep = 0.002;
-            Vector3d reaction = MeanReaction(Simulation.Create(p), 3000, 1000);
+            Vector3d reaction = MeanReaction(Simulation.Create(p), 3000, 1000, out _);
             Assert.That(Math.Abs(reaction.Z - Drag(p)), Is.LessThan(0.001 * Coefficient * Weight(p)));
         }
 
@@ -43,13 +47,15 @@ namespace Guidewire.Core.Tests
         public void FreeWire_StaysUnderLessThanMuTimesItsWeight_AndGoesUnderMore(
             [Values(ElementContact.Barycentric, ElementContact.None)] ElementContact rule)
         {
-            // The force stands at sphere 0; the others are reached by compression, a small part of an element.
-            Vector3d[] held = AfterForce(rule, 0.98, out double[] ways);
-            Assert.That(ways[10], Is.LessThan(1e-9), "last sphere");
-            Assert.That(ways[0], Is.LessThan(0.5));
-            Assert.That(held[0].Y, Is.GreaterThan(-0.1));
-            AfterForce(rule, 1.02, out ways);
-            Assert.That(ways[10], Is.GreaterThan(1.0), "last sphere");
+            // Put on at sphere 0; the others are reached by compression, less than 1e-3 units in all. Contacts that let
+            // go and catch again jitter by some 1e-6 units, along the wire too.
+            double[] ways = AfterForce(rule, 0.98, out _);
+            Assert.That(ways[10], Is.LessThan(1e-6), "last sphere");
+            Assert.That(ways[0], Is.LessThan(1e-3), "first sphere");
+
+            // What is left over meets damping: v = (F - mu W) dt/(d M), for the time of the whole force.
+            double[] moved = AfterForce(rule, 1.02, out double expected);
+            Assert.That(moved[10], Is.EqualTo(expected).Within(0.05 * expected));
         }
 
         [Test]
@@ -90,14 +96,15 @@ namespace Guidewire.Core.Tests
                 Vector3d n = random.Direction();
                 double s = random.Number(0.0, 1.0);
                 double mu = random.Number(0.01, 2.0);
+                int iterations = 20;
                 Vector3d[] from = { random.Point(), random.Point() };
                 var x = new[] { from[0] + 0.1 * random.Point(), from[1] + 0.1 * random.Point() };
                 Vector3d start = Vector3d.Lerp(x[0], x[1], s);
-                var elements = new ElementContactConstraint(state, 4);
+                var elements = new ElementContactConstraint(state, 4, iterations);
                 elements.Clear(from);
                 double reach = random.Number(0.0, 0.2);
                 elements.Add(0, new SurfaceContact(s, Vector3d.Lerp(from[0], from[1], s), n, 0.0), reach, 0.3, mu);
-                for (int sweep = 0; sweep < 20; sweep++)
+                for (int sweep = 0; sweep < iterations; sweep++)
                 {
                     elements.Sweep(x);
                 }
@@ -126,39 +133,47 @@ namespace Guidewire.Core.Tests
             return motion - Vector3d.Dot(motion, n) * n;
         }
 
-        private static Vector3d[] AfterForce(ElementContact rule, double share, out double[] ways)
+        // How far each sphere is moved by a share of mu times the weight, put on slowly: what is put on at once swings
+        // to twice its force.
+        private static double[] AfterForce(ElementContact rule, double share, out double expected)
         {
+            const int Steps = 3000;
             SimulationParameters p = LyingWire(rule, 0.3);
             p.Drive.Kind = Drive.Force;
-            Simulation settled = Simulation.Create(p);
+            double friction = Coefficient * Weight(p);
+            double dt = p.Method.TimeStep;
+            expected = (share - 1.0) * friction * dt / (p.Method.Damping * p.Gains.TotalMass) * Steps * dt;
+            Simulation simulation = Simulation.Create(p);
             for (int k = 0; k < 500; k++)
             {
-                settled.Step();
+                simulation.Step();
             }
-            var before = (Vector3d[])settled.State.Positions.Clone();
-            for (int k = 0; k < 6000; k++)
+            var before = (Vector3d[])simulation.State.Positions.Clone();
+            for (int k = 0; k < 2 * Steps; k++)
             {
-                // Put on slowly: what is put on at once swings to twice its force.
-                double part = Math.Min(1.0, k / 3000.0);
-                settled.State.Forces[0] = new Vector3d(0.0, 0.0, part * share * Coefficient * Weight(p));
-                settled.Step();
+                double part = Math.Min(1.0, k / (double)Steps);
+                simulation.State.Forces[0] = new Vector3d(0.0, 0.0, part * share * friction);
+                simulation.Step();
             }
-            ways = new double[before.Length];
+            var ways = new double[before.Length];
             for (int i = 0; i < ways.Length; i++)
             {
-                ways[i] = Math.Abs(settled.State.Positions[i].Z - before[i].Z);
+                ways[i] = Math.Abs(simulation.State.Positions[i].Z - before[i].Z);
             }
-            return settled.State.Positions;
+            return ways;
         }
 
-        private static Vector3d MeanReaction(Simulation simulation, int before, int over)
+        private static Vector3d MeanReaction(Simulation simulation, int before, int over, out Vector3d wall)
         {
             Vector3d sum = Vector3d.Zero;
+            wall = Vector3d.Zero;
             for (int k = 0; k < before + over; k++)
             {
                 simulation.Step();
                 sum += k >= before ? simulation.Contacts!.Reaction : Vector3d.Zero;
+                wall += k >= before ? simulation.Contacts!.Total : Vector3d.Zero;
             }
+            wall = wall / over;
             return sum / over;
         }
 
