@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from analysis.passages import SAMPLES, sample_wire
-from analysis.wall_search import MeshSearch, distance_from, least_along
+from analysis.wall_search import ClosedForm, MeshSearch, closed_form
 
 FINE_SAMPLES = 40  # points an element, on the last entry of a log
 FROZEN_STEPS = 20
@@ -19,10 +19,10 @@ SAME = 1e-9  # of the radius, or of the way asked for: what figures may differ b
 
 @dataclass(frozen=True)
 class Walls:
-    """The walls of a scene: the vessel's closed mesh, or None, and all others as signed distances of points."""
+    """The walls of a scene: the vessel's closed mesh, or None, and all others in closed form."""
 
     mesh: MeshSearch | None
-    others: list[Callable[[np.ndarray], np.ndarray]]
+    others: list[ClosedForm]
 
     @classmethod
     def of(cls, scene: dict[str, Any], triangles: np.ndarray, rotation: Callable) -> Walls:
@@ -30,12 +30,12 @@ class Walls:
         others = list(scene.get("obstacles") or [])
         is_mesh = scene["vessel"]["shape"] == "mesh"
         others += [] if is_mesh else [scene["vessel"]]
-        return cls(MeshSearch(triangles) if is_mesh else None, [distance_from(wall, rotation) for wall in others])
+        return cls(MeshSearch(triangles) if is_mesh else None, [closed_form(wall, rotation) for wall in others])
 
     def beyond(self, points: np.ndarray) -> np.ndarray:
         """Whether points (..., 3) are beyond each wall, shape (walls, ...)."""
         flat = points.reshape(-1, 3)
-        answers = [distance(flat) <= 0.0 for distance in self.others]
+        answers = [wall.distance(flat) <= 0.0 for wall in self.others]
         if self.mesh:
             answers.append(~self.mesh.inside(flat))
         return np.array(answers).reshape(-1, *points.shape[:-1])
@@ -50,7 +50,8 @@ def judge(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray,
     positions : ndarray, shape (k, n + 1, 3)
         Of all spheres after every step from 0 on, in units.
     """
-    return [*_passages(scene["elementContact"], summary, positions, walls), *_frozen(positions),
+    rubs = scene["vessel"].get("frictionCoefficient", 0.0) > 0.0  # friction may hold an element where it is
+    return [*_passages(scene["elementContact"], summary, positions, walls), *([] if rubs else _frozen(positions)),
             *_drive(scene, summary, positions), *_penetration(scene, summary, positions, walls)]
 
 
@@ -84,10 +85,10 @@ def _crossings(positions: np.ndarray, walls: Walls) -> np.ndarray:
     """Elements, numbered through all entries, whose core line goes through a wall."""
     a, b = _elements(positions)
     through = walls.mesh.crosses(a, b) if walls.mesh else np.zeros(len(a), bool)
-    for distance in walls.others:
-        near = np.flatnonzero(distance(a) + distance(b) <= np.linalg.norm(b - a, axis=1))
+    for wall in walls.others:
+        near = np.flatnonzero(wall.distance(a) + wall.distance(b) <= np.linalg.norm(b - a, axis=1))
         for k in near:
-            through[k] = through[k] or least_along(distance, a[k:k + 1], b[k:k + 1], 0.0) < 0.0
+            through[k] = through[k] or wall.least_along(a[k:k + 1], b[k:k + 1], 0.0) < 0.0
     return np.flatnonzero(through)
 
 
@@ -121,8 +122,8 @@ def _penetration(scene: dict[str, Any], summary: dict[str, Any], positions: np.n
     radius = scene["sphereRadius"]
     a, b = _elements(positions)
     least = radius
-    for distance in walls.others:
-        least = min(least, _least_other(distance, a, b, least, scene["elementContact"]))
+    for wall in walls.others:
+        least = min(least, _least_other(wall, a, b, least, scene["elementContact"]))
     if walls.mesh:
         least = min(least, _least_mesh(walls.mesh, positions, least, scene["elementContact"]))
     true = radius - least
@@ -131,14 +132,13 @@ def _penetration(scene: dict[str, Any], summary: dict[str, Any], positions: np.n
     return []
 
 
-def _least_other(distance, a: np.ndarray, b: np.ndarray, known: float, rule: str) -> float:
-    """Least distance of a core line; one that crosses the wall has 0, one beyond it a negative one."""
-    ends = np.minimum(distance(a), distance(b))
-    outside = np.maximum(distance(a), distance(b)) <= 0.0
-    if rule == "seed" and (ends < 0.0).any():
-        known = min(known, ends.min())
-    clear = ~outside
-    return min(known, max(0.0, least_along(distance, a[clear], b[clear], known)) if clear.any() else known)
+def _least_other(wall: ClosedForm, a: np.ndarray, b: np.ndarray, known: float, rule: str) -> float:
+    """Least distance of a core line; one that crosses the wall has 0, a sphere beyond it a negative one."""
+    at_a, at_b = wall.distance(a), wall.distance(b)
+    if rule == "seed":
+        known = min(known, at_a.min(), at_b.min())
+    clear = (at_a > 0.0) | (at_b > 0.0)
+    return min(known, max(0.0, wall.least_along(a[clear], b[clear], known)) if clear.any() else known)
 
 
 def _least_mesh(mesh: MeshSearch, positions: np.ndarray, known: float, rule: str) -> float:

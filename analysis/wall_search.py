@@ -188,27 +188,47 @@ def _segment_segment(p: np.ndarray, q: np.ndarray, a: np.ndarray, b: np.ndarray)
     return np.where(within, np.minimum(least, height), least)
 
 
-def least_along(distance: Callable[[np.ndarray], np.ndarray], a: np.ndarray, b: np.ndarray, known: float) -> float:
-    """Least value of a point's signed distance from a wall on segments a b, shapes (p, 3), where it is below a known
-    one."""
-    length = np.linalg.norm(b - a, axis=1)
-    at_a, at_b = distance(a), distance(b)
-    known = min(known, at_a.min(), at_b.min())
-    finest = _FINEST * length.max(initial=1.0)
-    while len(a):
-        may_be_less = (0.5 * (at_a + at_b - length) < known) & (length > finest)
-        a, b, at_a, at_b = a[may_be_less], b[may_be_less], at_a[may_be_less], at_b[may_be_less]
-        length = 0.5 * length[may_be_less]
-        middle = 0.5 * (a + b)
-        at = distance(middle) if len(a) else at_a
-        known = min(known, at.min(initial=np.inf))
-        a, b = np.concatenate([a, middle]), np.concatenate([middle, b])
-        at_a, at_b, length = np.concatenate([at_a, at]), np.concatenate([at, at_b]), np.tile(length, 2)
-    return known
+class ClosedForm:
+    """A wall as the largest of several functions of a point, each a signed distance that changes by no more than the
+    way to the next point: positive where a wire may be.
+
+    Parameters
+    ----------
+    terms : the functions' values at points (p, 3), shape (terms, p).
+    are_concave : whether none of them has a minimum inside a segment, as of the inside of a convex body.
+    """
+
+    def __init__(self, terms: Callable[[np.ndarray], np.ndarray], are_concave: bool) -> None:
+        self._terms = terms
+        self._are_concave = are_concave
+
+    def distance(self, points: np.ndarray) -> np.ndarray:
+        """Signed distance in units of points (p, 3), shape (p,)."""
+        return self._terms(points).max(axis=0)
+
+    def least_along(self, a: np.ndarray, b: np.ndarray, known: float) -> float:
+        """Least distance on segments a b, shapes (p, 3), where it is below a known one."""
+        length = np.linalg.norm(b - a, axis=1)
+        at_a, at_b = self._terms(a), self._terms(b)
+        finest = _FINEST * length.max(initial=1.0)
+        while len(a):
+            ends_a, ends_b = at_a.max(axis=0), at_b.max(axis=0)
+            known = min(known, ends_a.min(), ends_b.min())
+            bound = 0.5 * (ends_a + ends_b - length)
+            if self._are_concave:
+                bound = np.maximum(bound, np.minimum(at_a, at_b).max(axis=0))
+            less = (bound < known) & (length > finest)
+            a, b, at_a, at_b, length = a[less], b[less], at_a[:, less], at_b[:, less], 0.5 * length[less]
+            middle = 0.5 * (a + b)
+            at = self._terms(middle)
+            a, b = np.concatenate([a, middle]), np.concatenate([middle, b])
+            at_a, at_b = np.concatenate([at_a, at], axis=1), np.concatenate([at, at_b], axis=1)
+            length = np.tile(length, 2)
+        return known
 
 
-def distance_from(wall: dict[str, Any], rotation: Callable) -> Callable[[np.ndarray], np.ndarray]:
-    """The signed distance, positive where a wire may be, of points (p, 3) from a wall in closed form.
+def closed_form(wall: dict[str, Any], rotation: Callable) -> ClosedForm:
+    """A wall in closed form.
 
     Parameters
     ----------
@@ -219,25 +239,25 @@ def distance_from(wall: dict[str, Any], rotation: Callable) -> Callable[[np.ndar
     if shape == "plane":
         normal = np.array(wall["normal"], float)
         normal /= np.linalg.norm(normal)
-        return lambda x: (x - wall["point"]) @ normal
+        return ClosedForm(lambda x: ((x - wall["point"]) @ normal)[None], True)
     if shape == "tube":
-        return _tube(np.array(wall["knots"], float), np.array(wall["radius"], float))
+        return ClosedForm(_tube(np.array(wall["knots"], float), np.array(wall["radius"], float)), True)
     if shape == "sphere":
-        return lambda x: np.linalg.norm(x - wall["centre"], axis=1) - wall["radius"]
+        return ClosedForm(lambda x: (np.linalg.norm(x - wall["centre"], axis=1) - wall["radius"])[None], False)
     if shape == "capsule":
         start, end = np.array(wall["from"], float), np.array(wall["to"], float)
-        return lambda x: _point_segment(x, start, end) - wall["radius"]
+        return ClosedForm(lambda x: (_point_segment(x, start, end) - wall["radius"])[None], False)
     turn, half = rotation(np.array(wall["rotation"], float)), np.array(wall["halfSize"], float)
 
     def box(x: np.ndarray) -> np.ndarray:
         beyond = np.abs((x - wall["centre"]) @ turn) - half
-        return np.linalg.norm(np.maximum(beyond, 0.0), axis=1) + np.minimum(beyond.max(axis=1), 0.0)
+        return (np.linalg.norm(np.maximum(beyond, 0.0), axis=1) + np.minimum(beyond.max(axis=1), 0.0))[None]
 
-    return box
+    return ClosedForm(box, False)
 
 
 def _tube(knots: np.ndarray, radii: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
-    """Largest R - |x - c| over balls on a line whose radius changes linearly from knot to knot; its ends go on
+    """R - |x - c| over balls on each piece of a line whose radius changes linearly from knot to knot; its ends go on
     straight with the radius that they have."""
     far = 1e4 * np.linalg.norm(np.diff(knots, axis=0), axis=1).sum()
     before = knots[0] + far * (knots[0] - knots[1]) / np.linalg.norm(knots[0] - knots[1])
@@ -247,8 +267,8 @@ def _tube(knots: np.ndarray, radii: np.ndarray) -> Callable[[np.ndarray], np.nda
     first = np.concatenate([[radii[0]], radii[:-1], [radii[-1]]])
     last = np.concatenate([[radii[0]], radii[1:], [radii[-1]]])
 
-    def distance(x: np.ndarray) -> np.ndarray:
-        best = np.full(len(x), -np.inf)
+    def terms(x: np.ndarray) -> np.ndarray:
+        values = []
         for a, b, r, s in zip(starts, ends, first, last):
             length = np.linalg.norm(b - a)
             axis = (b - a) / length
@@ -256,7 +276,7 @@ def _tube(knots: np.ndarray, radii: np.ndarray) -> Callable[[np.ndarray], np.nda
             across = np.linalg.norm(x - a - along[:, None] * axis, axis=1)
             slope = (s - r) / length
             at = np.clip(along + slope * across / np.sqrt(1.0 - slope**2), 0.0, length)
-            best = np.maximum(best, r + slope * at - np.hypot(along - at, across))
-        return best
+            values.append(r + slope * at - np.hypot(along - at, across))
+        return np.array(values)
 
-    return distance
+    return terms

@@ -13,7 +13,7 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -79,7 +79,7 @@ def make(runner: Runner, seed: int, folder: Path) -> Push:
     return Push(seed, kind, claims, seconds)
 
 
-def campaign(command: Sequence[str], seeds: Sequence[int], folder: Path) -> Iterator[Push]:
+def campaign(command: Sequence[str], seeds: Iterable[int], folder: Path) -> Iterator[Push]:
     """The pushes of these seeds, one after another in one process; files of those that break nothing are removed."""
     runner = Runner(command)
     try:

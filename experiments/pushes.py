@@ -241,6 +241,9 @@ def draw(seed: int, folder: Path) -> tuple[str, dict[str, Any]]:
         scene["obstacles"] = [_obstacle(random, vessel, radius) for _ in range(random.integers(1, 4))]
     if len(vessel.faces):
         _write_mesh(random, scene, vessel, folder / f"push-{seed}.obj")
+    if rule != "seed" and random.uniform() < 0.3:
+        for wall in (scene["vessel"], *scene.get("obstacles", [])):
+            wall["frictionCoefficient"] = random.uniform(0.05, 0.8)
     return kind, scene
 
 

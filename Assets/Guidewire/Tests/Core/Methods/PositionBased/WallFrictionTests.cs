@@ -22,7 +22,7 @@ namespace Guidewire.Core.Tests
             p.Drive.Kind = Drive.Displace;
             p.Drive.DisplacementPerStep = 0.002;
             Simulation simulation = Simulation.Create(p);
-            Vector3d reaction = MeanReaction(simulation, 3000, 1000, out Vector3d wall);
+            Vector3d reaction = MeanReaction(simulation, 1000, 500, out Vector3d wall);
 
             // The held sphere carries a little of the wire, which at a gain of 0.01 sinks in by a hundredth of a unit.
             double weight = gain < 0.1 ? wall.Y : Weight(p) * FreeShare;
@@ -39,7 +39,7 @@ namespace Guidewire.Core.Tests
             p.Scene.Walls[0].FrictionCoefficient = 0.0;
             p.Drive.Kind = Drive.Displace;
             p.Drive.DisplacementPerStep = 0.002;
-            Vector3d reaction = MeanReaction(Simulation.Create(p), 3000, 1000, out _);
+            Vector3d reaction = MeanReaction(Simulation.Create(p), 1000, 500, out _);
             Assert.That(Math.Abs(reaction.Z - Drag(p)), Is.LessThan(0.001 * Coefficient * Weight(p)));
         }
 
@@ -64,7 +64,7 @@ namespace Guidewire.Core.Tests
             [Values(0.2, 0.35)] double slope)
         {
             // Gravity along the wire and into the plane: a = g (sin - mu cos), or 0 where that is negative.
-            const int Steps = 2000;
+            const int Steps = 500;
             SimulationParameters p = LyingWire(rule, 0.3);
             double g = 10.0;
             double angle = Math.Atan(slope);
@@ -137,7 +137,7 @@ namespace Guidewire.Core.Tests
         // to twice its force.
         private static double[] AfterForce(ElementContact rule, double share, out double expected)
         {
-            const int Steps = 3000;
+            const int Steps = 1500;
             SimulationParameters p = LyingWire(rule, 0.3);
             p.Drive.Kind = Drive.Force;
             double friction = Coefficient * Weight(p);
