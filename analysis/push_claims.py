@@ -133,11 +133,11 @@ def _penetration(scene: dict[str, Any], summary: dict[str, Any], positions: np.n
 
 
 def _least_other(wall: ClosedForm, a: np.ndarray, b: np.ndarray, known: float, rule: str) -> float:
-    """Least distance of a core line; one that crosses the wall has 0, a sphere beyond it a negative one."""
-    at_a, at_b = wall.distance(a), wall.distance(b)
+    """Least distance of a core line. With the published rule it may lie beyond the wall, at negative distances; with
+    the others one that crosses the wall has 0."""
     if rule == "seed":
-        known = min(known, at_a.min(), at_b.min())
-    clear = (at_a > 0.0) | (at_b > 0.0)
+        return wall.least_along(a, b, known)
+    clear = (wall.distance(a) > 0.0) | (wall.distance(b) > 0.0)
     return min(known, max(0.0, wall.least_along(a[clear], b[clear], known)) if clear.any() else known)
 
 
