@@ -95,6 +95,13 @@ namespace Guidewire.Core
             return (1.0 - SlidingLoss) * Math.Min(start, clearance);
         }
 
+        /// <summary>How far a guarded wire's element is from the wall's surface, units, by its signed distance. Spheres
+        /// are beyond no wall that has no way out: an element of negative distance then lies across it.</summary>
+        internal virtual double SizeOf(double distance)
+        {
+            return Math.Max(0.0, distance);
+        }
+
         /// <summary>Largest fraction of the motion for which it is proven that every point of the segment keeps a
         /// distance of at least <paramref name="keep"/>, <see cref="NoImpact"/> for all of it. The hint, where the
         /// nearest place was at the start or -1, changes the time that it takes.</summary>
