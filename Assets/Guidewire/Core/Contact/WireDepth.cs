@@ -78,7 +78,7 @@ namespace Guidewire.Core
             {
                 return known;
             }
-            double distance = _search.GuardsSpheres ? Math.Abs(contact.Distance) : contact.Distance;
+            double distance = _search.GuardsSpheres ? _walls[w].SizeOf(contact.Distance) : contact.Distance;
             return Math.Max(known, _radius - distance);
         }
     }

@@ -12,6 +12,10 @@ namespace Guidewire.Core
 
         private const double SlidingLoss = 1e-7;
 
+        /// <summary>mu, Coulomb's coefficient of friction between the wire and this wall, 0 or more,
+        /// dimensionless.</summary>
+        public double FrictionCoefficient { get; set; }
+
         /// <summary>The place where segment a b comes nearest to the wall, if that is no farther than
         /// <paramref name="range"/>; a = b for a sphere's centre.</summary>
         /// <param name="a">First end of the segment.</param>
@@ -89,6 +93,13 @@ namespace Guidewire.Core
         internal static double Kept(double start, double clearance)
         {
             return (1.0 - SlidingLoss) * Math.Min(start, clearance);
+        }
+
+        /// <summary>How far a guarded wire's element is from the wall's surface, units, by its signed distance. Spheres
+        /// are beyond no wall that has no way out: an element of negative distance then lies across it.</summary>
+        internal virtual double SizeOf(double distance)
+        {
+            return Math.Max(0.0, distance);
         }
 
         /// <summary>Largest fraction of the motion for which it is proven that every point of the segment keeps a

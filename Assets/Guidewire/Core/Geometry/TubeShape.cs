@@ -59,7 +59,15 @@ namespace Guidewire.Core
             }
             _tree = new TubeTree(_knots, _radii, 1e-12 * (length + widest));
             _sweep = new TubeSweep(this, _tree);
+            FirstKnot = shift;
+            LastKnot = shift + count - 1;
         }
+
+        /// <summary>The first knot that was given: 1 behind an open start, else 0.</summary>
+        internal int FirstKnot { get; }
+
+        /// <summary>The last knot that was given.</summary>
+        internal int LastKnot { get; }
 
         /// <summary>Knots of the centreline in units; an open end's last knot is far away.</summary>
         internal Vector3d[] Knots => _knots;

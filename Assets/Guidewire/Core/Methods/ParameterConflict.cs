@@ -35,6 +35,12 @@ namespace Guidewire.Core
             {
                 return new ParameterConflict("vessel", "solver pbd: a wire with a material meets no walls");
             }
+            if (parameters.Contact.ElementContact == ElementContact.Seed
+                && Array.Exists(parameters.Scene.Walls, wall => wall.FrictionCoefficient > 0.0))
+            {
+                return new ParameterConflict("elementContact",
+                    "\"barycentric\" or \"none\" where a wall has a frictionCoefficient");
+            }
             if (!method.TakesSteering && parameters.Drive.Steering != null)
             {
                 return new ParameterConflict("solver", "pbd where a hand steers: it steers wires with gains only");

@@ -36,6 +36,20 @@ namespace Guidewire.Core
         /// <summary>The wall's triangles where they are.</summary>
         internal MeshGeometry Wall => _wall;
 
+        /// <summary>The distance without its sign: what cuts a mesh is at 0, and a wire that left by an open rim may
+        /// lie beside it.</summary>
+        internal override double SizeOf(double distance)
+        {
+            return Math.Abs(distance);
+        }
+
+        /// <summary>How many times an edge of the wall pierces one of its triangles, and where it does first, units.
+        /// </summary>
+        public int CountSelfIntersections(out Vector3d place)
+        {
+            return SelfIntersection.Count(_wall, out place);
+        }
+
         /// <summary>Moves, turns and scales the wall; its hierarchy is refitted, not built again.</summary>
         public void Place(in Placement placement)
         {

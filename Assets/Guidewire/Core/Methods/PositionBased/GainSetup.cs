@@ -6,10 +6,10 @@ namespace Guidewire.Core
     internal static class GainSetup
     {
         /// <summary>The wire at its start, sphere 0 displaced, and its stepper.</summary>
-        /// <exception cref="ArgumentException">A wire that starts outside the vessel.</exception>
+        /// <exception cref="ArgumentException">A wire that starts outside the vessel or is too thick.</exception>
         public static MethodStart Build(SimulationParameters parameters, Scene scene)
         {
-            string? problem = WireStart.FindProblem(scene);
+            string? problem = WireStart.FindProblem(parameters, scene);
             if (problem != null)
             {
                 throw new ArgumentException(problem);
@@ -59,7 +59,7 @@ namespace Guidewire.Core
                     contact.ElementContact == ElementContact.Barycentric);
             IContactResponse response = asPublished
                 ? (IContactResponse)new SeedContactResponse(state, walls, reach, contact.CollisionStiffness)
-                : new ContactResponse(state, walls, radius, reach, contact.CollisionStiffness);
+                : new ContactResponse(state, scene.Walls, radius, reach, contact.CollisionStiffness, iterations);
             var sweeps = new GaussSeidelSolver(iterations, scalar, fastest, response);
             record = new ContactRecord(state.SphereCount);
             return new ContactSolver(state, method.TimeStep, sweeps, search, response, record);

@@ -120,7 +120,7 @@ namespace Guidewire.Core
         {
             Vector3d[] p = state.PredictedPositions;
             _search.Find(_safe, p);
-            _response.Start(_search, p);
+            _response.Start(_search, _safe, p);
             _solver.Solve(state);
             for (int round = 0; _swept.Find(_safe, p); round++)
             {

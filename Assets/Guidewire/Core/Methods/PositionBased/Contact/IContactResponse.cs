@@ -6,8 +6,10 @@ namespace Guidewire.Core
     {
         /// <summary>Forgets all contacts and takes over those of a search.</summary>
         /// <param name="found">The search, after it has looked.</param>
+        /// <param name="from">Where the motion that it looked at begins, n + 1 positions in units, which stay as they
+        /// are until the next start.</param>
         /// <param name="x">Where it looked: the n + 1 predicted positions in units.</param>
-        void Start(IContactSearch found, Vector3d[] x);
+        void Start(IContactSearch found, Vector3d[] from, Vector3d[] x);
 
         /// <summary>Holds spheres and elements off the places where the swept test met a wall.</summary>
         void Stop(StructList<WireContact> impacts);

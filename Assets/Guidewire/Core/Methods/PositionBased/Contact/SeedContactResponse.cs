@@ -24,7 +24,7 @@ namespace Guidewire.Core
         public int ContactCount => _contacts.Count;
 
         /// <inheritdoc/>
-        public void Start(IContactSearch found, Vector3d[] x)
+        public void Start(IContactSearch found, Vector3d[] from, Vector3d[] x)
         {
             _contacts.Clear();
             for (int k = 0; k < found.Contacts.Count; k++)

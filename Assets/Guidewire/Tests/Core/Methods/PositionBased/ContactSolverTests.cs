@@ -164,7 +164,7 @@ namespace Guidewire.Core.Tests
         {
             var walls = new ContactShape[] { new PlaneShape(Vector3d.Zero, Vector3d.UnitY) };
             var search = new ContactSearch(walls, Elements, Length / Elements, Radius, Radius, true);
-            var response = new ContactResponse(state, walls.Length, Radius, Radius, 0.1);
+            var response = new ContactResponse(state, walls, Radius, Radius, 0.1, iterations: 1);
             record = new ContactRecord(state.SphereCount);
             return new ContactSolver(state, 0.01, solver, search, response, record);
         }
