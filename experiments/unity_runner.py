@@ -32,6 +32,7 @@ INTERRUPTED = 130
 _SECONDS = 3600.0
 _TRACE = "unity.log"
 _REQUEST = "unity-request.json"
+_ALREADY_THERE = "already there: "  # what a run says that takes over an earlier one
 
 
 @dataclass(frozen=True)
@@ -121,11 +122,12 @@ def make_run(unity: Unity, own: list[str], out: Path) -> Ending:
         return Ending(INTERRUPTED, "interrupted", "stopped from outside")
     said = _last_word(log)
     after = summary.stat().st_mtime_ns if summary.is_file() else None
-    outcome = _outcome(summary) if after != before else None
+    is_taken_over = said.startswith(_ALREADY_THERE)
+    outcome = _outcome(summary) if after != before or is_taken_over else None
     if outcome is not None and OUTCOMES.get(outcome) == code:
         if log.is_file():
             log.replace(out / _TRACE)
-        return Ending(code, outcome, said or outcome)
+        return Ending(code, outcome, said or outcome, reused=is_taken_over)
     if code in (2, INTERNAL) and said:
         return Ending(code, None, said)
     return Ending(INTERNAL, None, f"Unity ended with {code} and left no whole result that says so (log: {log})")
@@ -182,6 +184,7 @@ def answer(unity: Unity, line: str) -> dict[str, Any]:
             own += [f"-{key}", value if isinstance(value, str) else json.dumps(value)]
         if request.get("repeat") is not None:
             own += ["-repeat", str(request["repeat"])]
+        own.append("-force")    # a study's folder is its own: what is not reused is replaced
     except (ValueError, KeyError, TypeError, AttributeError, OSError) as error:
         reply["message"] = f"the request cannot be read: {type(error).__name__}: {error}"
         return reply

@@ -16,7 +16,7 @@ import numpy as np
 from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 
-from key_table import Key
+from experiments.key_table import Key
 
 FULL = os.environ.get("GUIDEWIRE_ALL") == "1"
 SOLVERS = ("pbd", "xpbd", "direct", "explicit")

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from key_table import foreign_keys, own_keys
+from experiments.key_table import foreign_keys, own_keys
 from parameter_strategies import FITTED, REFUSED_IN_FILES, SOLVERS, allowed, examples, scenes
 from run_claims import assert_refused, assert_true_outcome, read_strictly, refuse_constant
 from wrong_values import wrong

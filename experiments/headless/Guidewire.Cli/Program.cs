@@ -16,12 +16,15 @@ namespace Guidewire.Cli
     internal static class Program
     {
         private const string Usage =
-            "usage: Guidewire.Cli -parameters FILE -out DIR [-KEY VALUE]...\n"
+            "usage: Guidewire.Cli -parameters FILE -out DIR [-force] [-KEY VALUE]...\n"
             + "       Guidewire.Cli -lines      one JSON request a line on standard input, one answer a line on"
             + " standard output:\n"
             + "           {\"id\": TEXT, \"parameters\": FILE, \"set\": {KEY: VALUE}, \"out\": DIR, \"repeat\": K,"
             + " \"reuse\": true}\n"
             + "       Guidewire.Cli --modes FILE K   the K lowest frequencies and shapes of a material, as JSON\n"
+            + "       Guidewire.Cli --walls FILE X Y Z REACH   the walls' triangles in units, as JSON; of a wall without"
+            + " end\n"
+            + "           what is within REACH of (X, Y, Z)\n"
             + "       Guidewire.Cli --keys      the parameters as a Markdown table\n"
             + "       Guidewire.Cli --version\n"
             + "       Guidewire.Cli --help\n";
@@ -57,6 +60,9 @@ namespace Guidewire.Cli
                         return 0;
                     case "--modes":
                         return PrintModes(arguments);
+                    case "--walls":
+                        Console.Out.WriteLine(WallPrinter.Print(arguments));
+                        return 0;
                     case "--lines":
                     case "-lines":
                         return RequestLoop.Serve(Console.In, Console.Out, Simulate, () => StopRequested);
@@ -79,7 +85,7 @@ namespace Guidewire.Cli
         private static RunResult Simulate(RunRequest request, ParameterHandler handler)
         {
             var run = new SimulationRun(handler, request.Out, request.Repeat) { StopRequested = () => StopRequested };
-            return run.Execute(request.Reuse);
+            return run.Execute(request.Reuse ? Existing.Reuse : Existing.Replace);
         }
 
         private static int PrintModes(string[] arguments)

@@ -13,11 +13,12 @@ namespace Guidewire.Cli
         /// <summary>Serves until the end of the input, or until a stop is requested.</summary>
         /// <param name="input">The requests.</param>
         /// <param name="output">Takes the answers.</param>
-        /// <param name="execute">What is done with the parameters of a request.</param>
-        /// <param name="stopRequested">Asked between requests.</param>
+        /// <param name="execute">What is done with the parameters of a request for a run.</param>
+        /// <param name="stopRequested">Asked between requests, and between the steps of a session.</param>
         public static int Serve(TextReader input, TextWriter output,
             Func<RunRequest, ParameterHandler, RunResult> execute, Func<bool> stopRequested)
         {
+            var sessions = new SessionHost(stopRequested);
             string? line;
             while (!stopRequested() && (line = input.ReadLine()) != null)
             {
@@ -25,13 +26,14 @@ namespace Guidewire.Cli
                 {
                     continue;
                 }
-                output.WriteLine(Answer(line, execute).ToString(Formatting.None));
+                output.WriteLine(Answer(line, execute, sessions).ToString(Formatting.None));
                 output.Flush();
             }
             return stopRequested() ? ExitCodes.Of(Core.Outcome.Interrupted) : 0;
         }
 
-        private static JObject Answer(string line, Func<RunRequest, ParameterHandler, RunResult> execute)
+        private static JObject Answer(string line, Func<RunRequest, ParameterHandler, RunResult> execute,
+            SessionHost sessions)
         {
             var answer = new JObject
             {
@@ -46,13 +48,19 @@ namespace Guidewire.Cli
             try
             {
                 RunRequest request = RunRequest.Parse(line);
+                if (request.Session != null)
+                {
+                    sessions.Answer(request, answer);
+                    answer["exitCode"] = 0;
+                    return answer;
+                }
                 ParameterHandler handler = ParameterHandler.Load(request.ParameterFile, request.Overrides);
                 folder = string.IsNullOrEmpty(request.Out) ? handler.Values.LogFilePath : request.Out;
                 answer["out"] = folder;
                 RunResult result = execute(request, handler);
                 answer["exitCode"] = ExitCodes.Of(result.Outcome);
                 answer["outcome"] = result.Word;
-                answer["message"] = result.Reason;
+                answer["message"] = result.Reused ? "taken from an earlier run" : result.Reason;
                 answer["reused"] = result.Reused;
             }
             catch (ParameterException error)

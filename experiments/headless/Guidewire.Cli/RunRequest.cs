@@ -13,6 +13,12 @@ namespace Guidewire.Cli
             Out = (string?)json["out"];
             Repeat = (int?)json["repeat"];
             Reuse = (bool?)json["reuse"] ?? false;
+            Session = (string?)json["session"];
+            Hand = (bool?)json["hand"];
+            Steps = (int?)json["steps"] ?? 1;
+            Push = (double?)json["push"] ?? 0.0;
+            Turn = (double?)json["turn"] ?? 0.0;
+            Snapshot = (string?)json["snapshot"] ?? "";
             foreach (JProperty property in ((JObject?)json["set"] ?? new JObject()).Properties())
             {
                 Overrides.Add(new KeyValuePair<string, JToken>(property.Name, property.Value));
@@ -31,6 +37,24 @@ namespace Guidewire.Cli
         /// <summary>Whether a whole earlier result stands in.</summary>
         public bool Reuse { get; }
 
+        /// <summary>What is to be done with a run that is stepped by requests, or null for a whole run.</summary>
+        public string? Session { get; }
+
+        /// <summary>Whether a hand steers it in place of the drive; null: wherever the method may be steered.</summary>
+        public bool? Hand { get; }
+
+        /// <summary>Steps to make.</summary>
+        public int Steps { get; }
+
+        /// <summary>Way of sphere 0 along the first element in all of them, units.</summary>
+        public double Push { get; }
+
+        /// <summary>Turn of the first element about its axis in all of them, rad.</summary>
+        public double Turn { get; }
+
+        /// <summary>What is to be restored, as base64.</summary>
+        public string Snapshot { get; }
+
         /// <summary>Parameters that count instead of the file's.</summary>
         public List<KeyValuePair<string, JToken>> Overrides { get; } = new List<KeyValuePair<string, JToken>>();
 
@@ -42,8 +66,16 @@ namespace Guidewire.Cli
             Check(json, "parameters", "a file's path", JTokenType.String);
             Check(json, "out", "a folder's path", JTokenType.String);
             Check(json, "repeat", "a whole number from 0", JTokenType.Integer);
+            Check(json, "steps", "a whole number from 1", JTokenType.Integer);
             Check(json, "reuse", "true or false", JTokenType.Boolean);
             Check(json, "set", "an object of parameters", JTokenType.Object);
+            Check(json, "session", "a text", JTokenType.String);
+            Check(json, "hand", "true or false", JTokenType.Boolean);
+            Check(json, "snapshot", "base64 as of \"save\"", JTokenType.String);
+            CheckNumber(json, "repeat", 0.0, int.MaxValue, "a whole number from 0");
+            CheckNumber(json, "steps", 1.0, int.MaxValue, "a whole number from 1");
+            CheckNumber(json, "push", double.MinValue, double.MaxValue, "a number (units)");
+            CheckNumber(json, "turn", double.MinValue, double.MaxValue, "a number (rad)");
             return new RunRequest(json);
         }
 
@@ -57,6 +89,20 @@ namespace Guidewire.Cli
             catch (ParameterException)
             {
                 return null;
+            }
+        }
+
+        private static void CheckNumber(JObject json, string key, double low, double high, string allowed)
+        {
+            JToken? value = json[key];
+            if (value == null || value.Type == JTokenType.Null)
+            {
+                return;
+            }
+            bool isNumber = value.Type == JTokenType.Integer || value.Type == JTokenType.Float;
+            if (!isNumber || !((double)value >= low && (double)value <= high))
+            {
+                throw new ParameterException("request", key, value.ToString(Newtonsoft.Json.Formatting.None), allowed);
             }
         }
 

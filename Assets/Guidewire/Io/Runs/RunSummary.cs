@@ -1,6 +1,5 @@
 using System;
 using System.Collections.Generic;
-using System.IO;
 using System.Runtime.InteropServices;
 using Guidewire.Core;
 using Newtonsoft.Json;
@@ -15,7 +14,7 @@ namespace Guidewire.Io
         public const string FileName = "summary.json";
 
         // Changes with every change of the code that simulates, and with nothing else.
-        private static string CoreBuild => typeof(Simulation).Module.ModuleVersionId.ToString("N");
+        internal static string CoreBuild => typeof(Simulation).Module.ModuleVersionId.ToString("N");
 
         /// <summary>The summary as text.</summary>
         /// <param name="simulation">The run at its end.</param>
@@ -107,37 +106,6 @@ namespace Guidewire.Io
 
         /// <summary>The product's version.</summary>
         public static string Version => typeof(RunSummary).Assembly.GetName().Version?.ToString(3) ?? "0";
-
-        /// <summary>The outcome that a folder already holds for the same parameters, the same repeat and the same
-        /// build, or null.</summary>
-        internal static Outcome? Reusable(string folder, ParameterHandler handler, int? repeat)
-        {
-            string path = Path.Combine(folder, FileName);
-            if (!File.Exists(path))
-            {
-                return null;
-            }
-            try
-            {
-                JObject json = JsonText.ReadObject(path);
-                bool same = (bool?)json["complete"] == true
-                    && (string?)json["parameterHash"] == handler.Hash
-                    && (string?)json["versions"]?["core"] == CoreBuild
-                    && (int?)json["repeat"] == repeat
-                    && File.Exists(Path.Combine(folder, (string?)json["log"] ?? ""));
-                if (!same || !Enum.TryParse((string?)json["outcome"], true, out Outcome outcome))
-                {
-                    return null;
-                }
-                // What was stopped or lost is not done.
-                return outcome == Outcome.Interrupted || outcome == Outcome.Failed ? (Outcome?)null : outcome;
-            }
-            catch (Exception error) when (error is ParameterException || error is ArgumentException
-                || error is FormatException || error is InvalidCastException)
-            {
-                return null;    // not a summary that this program wrote: the run is done anew
-            }
-        }
 
         /// <summary>The outcome's one word.</summary>
         internal static string Word(Outcome outcome)
