@@ -3,11 +3,31 @@
 
 Needs nothing but Python's standard library (3.6 can read this file). It looks for a Python that can do what is asked,
 makes one if there is none, and hands over to experiments/commands.py there.
+
+To a script that `python3 guidewire.py python SCRIPT` starts it is a module: `from guidewire import Session, read_run,
+read_log` (docs/python.md).
 """
 
+import importlib
 import sys
 
 from experiments import prepare
+
+
+_LENT = {  # name to where it stands; looked up when it is asked for, because it needs numpy
+    "Session": "experiments.session", "SessionError": "experiments.session", "State": "experiments.session",
+    "read_run": "analysis.runs", "Run": "analysis.runs",
+    "read_log": "analysis.logs", "read_entries": "analysis.logs", "PositionLog": "analysis.logs",
+    "LogError": "analysis.logs",
+}
+__all__ = sorted(_LENT)
+
+
+def __getattr__(name):
+    """What scripts import from here."""
+    if name not in _LENT:
+        raise AttributeError("module 'guidewire' has no attribute '{}'".format(name))
+    return getattr(importlib.import_module(_LENT[name]), name)
 
 
 def main():

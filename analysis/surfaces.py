@@ -38,12 +38,13 @@ class Surface:
 def curvature(positions: np.ndarray) -> np.ndarray:
     """Curvature at each sphere in 1/unit, shape (n+1,): the angle between neighbouring elements over their mean length.
 
-    positions : ndarray (n+1, 3), units. The two end spheres have none: 0.
+    positions : ndarray (n+1, 3), units. The two end spheres have none: 0, and so has one that another coincides with.
     """
     elements = np.diff(positions, axis=0)
     lengths = np.linalg.norm(elements, axis=1)
-    cosine = np.einsum("ij,ij->i", elements[:-1], elements[1:]) / (lengths[:-1] * lengths[1:])
-    angle = np.arccos(np.clip(cosine, -1.0, 1.0))
+    product = lengths[:-1] * lengths[1:]
+    cosine = np.einsum("ij,ij->i", elements[:-1], elements[1:]) / np.where(product > 0.0, product, 1.0)
+    angle = np.where(product > 0.0, np.arccos(np.clip(cosine, -1.0, 1.0)), 0.0)
     return np.concatenate([[0.0], angle / (0.5 * (lengths[:-1] + lengths[1:])), [0.0]])
 
 
@@ -67,7 +68,10 @@ def tube(positions: np.ndarray, radius: float, per_element: int = 4, sides: int 
     a, b, ma, mb = positions[j], positions[j + 1], slopes[j], slopes[j + 1]
     centres = s * s * (1 + 2 * t) * a + t * t * (3 - 2 * t) * b + t * s * s * ma - t * t * s * mb
     tangents = 6 * t * s * (b - a) + s * (1 - 3 * t) * ma + t * (3 * t - 2) * mb
-    tangents /= np.linalg.norm(tangents, axis=1, keepdims=True)
+    lengths = np.linalg.norm(tangents, axis=1, keepdims=True)
+    has_one = lengths[:, 0] > 0.0  # not where spheres coincide: such a place takes the direction before it
+    before = np.maximum.accumulate(np.where(has_one, np.arange(len(tangents)), has_one.argmax()))
+    tangents = (tangents / np.where(lengths > 0.0, lengths, 1.0))[before]
     values = np.interp(at, np.arange(last + 1), bend)
     radii = np.full(len(at), radius)
 
@@ -89,6 +93,26 @@ def tube(positions: np.ndarray, radius: float, per_element: int = 4, sides: int 
         around = np.outer(np.cos(turn), normal) + np.outer(np.sin(turn), np.cross(tangent, normal))
         vertices[ring] = centre + radii[ring] * around
     return Surface(vertices.reshape(-1, 3), _strips(len(centres), sides, outward=True), np.repeat(values, sides))
+
+
+def refine(surface: Surface, longest: float) -> Surface:
+    """The same surface of triangles that have no side longer than ``longest``, units; those that had none stay."""
+    corners = surface.vertices[surface.triangles]
+    done = []
+    while len(corners):
+        sides = np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2)
+        small = sides.max(axis=1) <= longest
+        done.append(corners[small])
+        # The longest side is halved: that ends, and leaves no triangle flatter than half of what it was.
+        large, side = corners[~small], sides[~small].argmax(axis=1)
+        order = (side[:, None] + np.arange(3)) % 3
+        a, b, c = np.moveaxis(np.take_along_axis(large, order[:, :, None], axis=1), 1, 0)
+        middle = 0.5 * (a + b)
+        corners = np.concatenate([np.stack([a, middle, c], 1), np.stack([middle, b, c], 1)])
+    if len(done) == 1:
+        return surface
+    vertices, triangles = np.unique(np.concatenate(done).reshape(-1, 3), axis=0, return_inverse=True)
+    return Surface(vertices, triangles.reshape(-1, 3), np.zeros(len(vertices)))
 
 
 def wall(parameters: Mapping[str, Any], middle: np.ndarray, reach: float) -> Surface | None:

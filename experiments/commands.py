@@ -5,17 +5,18 @@ from __future__ import annotations
 import argparse
 import difflib
 import json
+import math
 import os
 import subprocess
 import sys
 import tempfile
 import traceback
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from experiments import building
+from experiments import building, checking
 from experiments.prepare import DRAWING, ROOT, SWEEPING, TESTING, PreparationError
 from experiments.runner import INTERNAL_ERROR, INTERRUPTED
 from experiments.sweep import FAILED, Bar, Means, SweepResult, sweep
@@ -27,8 +28,9 @@ from studies.table import Source, Study
 if TYPE_CHECKING:
     from experiments.gallery import Gallery  # itself imported only where its packages are there
 
+BEYOND_A_GATE = 1  # all that was asked for is there, and a check is not passed
 _RUNS = "runs"  # folder of all runs, in that of the results
-_RUNNER_WORDS = ("parameters", "out", "repeat", "lines", "logFile")  # the runner's own arguments, like -KEY
+_RUNNER_WORDS = ("parameters", "out", "force", "repeat", "lines", "logFile")  # the runner's own arguments, like -KEY
 _DESCRIPTION = "Simulates guidewires as Cosserat rods, without Unity: runs, sweeps, figures, tests."
 
 
@@ -41,7 +43,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True, parser_class=_Parser)
 
     demo = commands.add_parser("demo", help="build, run the default scene, fit tau, draw Figures 4.1 to 4.4")
-    demo.add_argument("--out", type=Path, default=Path("results/demo"), help="folder for the run and the pictures")
+    demo.add_argument("--out", type=_path, default=Path("results/demo"), help="folder for the run and the pictures")
     demo.set_defaults(action=_demo, packages=DRAWING + SWEEPING)
 
     test = commands.add_parser("test", help="all tests; the last line says 'N passed, N failed'")
@@ -52,13 +54,16 @@ def parse(argv: list[str]) -> argparse.Namespace:
     run.add_argument("file", metavar="FILE", type=Path, help="parameter file, such as params/default.json")
     run.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], type=_assignment, dest="overrides",
                      help="a parameter laid over the file; may be given several times")
-    run.add_argument("--out", type=Path, help="folder of the run (results/<name of FILE>)")
+    run.add_argument("--out", type=_path, help="folder of the run (results/<name of FILE>); the same run is not made "
+                                               "again, and one of other parameters is not replaced")
+    run.add_argument("--force", action="store_true",
+                     help="replace a complete run that the folder holds, once this one is complete")
     _add_runner(run)
     run.set_defaults(action=_run, packages=())
 
     sweep = commands.add_parser("sweep", help="a study's runs; what is done already is not run again")
     sweep.add_argument("study", metavar="STUDY", help=f"{', '.join(STUDIES)}; or a study of your own, a JSON file")
-    sweep.add_argument("--out", type=Path, default=Path("results"), help="folder above the study's (results)")
+    sweep.add_argument("--out", type=_path, default=Path("results"), help="folder above the study's (results)")
     sweep.add_argument("--logs", action="store_true", help="every run leaves its log, whatever the study's file says")
     sweep.add_argument("--yes", action="store_true", help="make the runs, however many the study's file asks for")
     _add_workers(sweep)
@@ -67,10 +72,24 @@ def parse(argv: list[str]) -> argparse.Namespace:
 
     figures = commands.add_parser("figures", help="the thesis's figures and ours, running what is missing")
     figures.add_argument("ids", metavar="ID", nargs="*", help="such as 4.5; all where none is given")
-    figures.add_argument("--out", type=Path, default=Path("results"),
+    figures.add_argument("--out", type=_path, default=Path("results"),
                          help="folder above the studies' (results); the pictures stand in its 'figures'")
     _add_workers(figures)
     figures.set_defaults(action=_figures, packages=DRAWING + SWEEPING)
+
+    render = commands.add_parser("render", help="a picture or a film of a run, with its vessel and obstacles")
+    render.add_argument("folder", type=Path, metavar="RUN", help="folder of a run")
+    render.add_argument("--out", type=_path, metavar="FILE", help="FILE.png or FILE.gif (RUN/render.png)")
+    render.add_argument("--times", type=_finite, nargs="+", metavar="T", default=[],
+                        help="of a .png: these moments, in s, in one picture, a colour each (the last moment, coloured "
+                             "by curvature)")
+    render.add_argument("--frames", type=_positive, default=40, metavar="K", help="of a .gif: pictures at most (40)")
+    render.add_argument("--target", type=_finite, nargs=3, metavar=("X", "Y", "Z"), help="point in the middle, units")
+    render.add_argument("--distance", type=_above_zero, metavar="D", help="of the camera from it, units")
+    render.add_argument("--yaw", type=_finite, default=-90.0, metavar="DEGREES",
+                        help="0 looks along z, -90 against x (-90)")
+    render.add_argument("--pitch", type=_finite, default=15.0, metavar="DEGREES", help="90 looks down, against y (15)")
+    render.set_defaults(action=_render, packages=DRAWING)
 
     stress = commands.add_parser("stress", help="draw what a run's material feels along the wire (logStrains)")
     stress.add_argument("folder", type=Path, metavar="DIR", help="folder of a run with logStrains; takes stress.png")
@@ -80,9 +99,15 @@ def parse(argv: list[str]) -> argparse.Namespace:
     modes.add_argument("file", type=Path, metavar="FILE",
                        help="parameter file; the modes are those about its rest shape")
     modes.add_argument("--count", type=_positive, default=6, metavar="K", help="how many (6)")
-    modes.add_argument("--out", type=Path, default=Path("results"), metavar="DIR",
+    modes.add_argument("--out", type=_path, default=Path("results"), metavar="DIR",
                        help="takes NAME-modes.png (results)")
     modes.set_defaults(action=_modes, packages=DRAWING)
+
+    python = commands.add_parser("python", help="start a script that imports guidewire, with a Python that has what "
+                                                "it needs")
+    python.add_argument("script", metavar="SCRIPT", type=Path, help="Python file: 'from guidewire import Session'")
+    python.add_argument("words", metavar="...", nargs=argparse.REMAINDER, help="the script's own arguments")
+    python.set_defaults(action=_python, packages=DRAWING)
 
     bench = commands.add_parser("bench", help="what a step costs, part by part")
     bench.set_defaults(action=_bench, packages=())
@@ -131,16 +156,40 @@ def _assignment(text: str) -> tuple[str, str]:
     return key, value
 
 
+def _path(text: str) -> Path:
+    if not text.strip():
+        raise argparse.ArgumentTypeError("an empty name is no folder")
+    return Path(text)
+
+
 def _positive(text: str) -> int:
     if not text.isdecimal() or int(text) < 1:
         raise argparse.ArgumentTypeError(f"'{text}' is not a whole number above 0")
     return int(text)
 
 
+def _finite(text: str) -> float:
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    if not math.isfinite(number):
+        raise argparse.ArgumentTypeError(f"'{text}' is not a number")
+    return number
+
+
+def _above_zero(text: str) -> float:
+    number = _finite(text)
+    if number <= 0.0:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a number above 0")
+    return number
+
+
 def _demo(arguments: argparse.Namespace) -> int:
     from analysis import figures
     from experiments import gallery
 
+    checking.check_out(arguments.out)
     means = Means(_build_runner(), bar=_bar_of("default"))
     if _make([(STUDIES["default"], arguments.out)], arguments.out, means).failures:
         return FAILED
@@ -160,13 +209,19 @@ def _test(arguments: argparse.Namespace) -> int:
 
 def _run(arguments: argparse.Namespace) -> int:
     out = arguments.out or Path("results") / arguments.file.stem
+    checking.check_file(arguments.file)
+    checking.check_overrides(arguments.overrides)
+    checking.check_out(out)
     command = [*_runner_of(arguments), "-parameters", str(arguments.file), "-out", str(out)]
     for key, value in arguments.overrides:
         command += [f"-{key}", value]
+    if arguments.force:
+        command.append("-force")
     return _hand_to(command)
 
 
 def _sweep(arguments: argparse.Namespace) -> int:
+    checking.check_out(arguments.out)
     study = _study_of(arguments)
     means = _means_of(arguments, _runner_of(arguments), study.name, study.file and study.file.parent)
     result = _make([(study, arguments.out)], arguments.out, means)
@@ -202,6 +257,7 @@ def _figures(arguments: argparse.Namespace) -> int:
         raise PreparationError(f"there is no figure {unknown[0]}; there are {', '.join(known)}")
     ids = arguments.ids or list(known)
     studies = {name for figure in ids for name in known[figure].studies}
+    checking.check_out(arguments.out)
     means = _means_of(arguments, _build_runner(), "figures")
     asked: list[tuple[Source, Path]] = [(STUDIES[name], arguments.out) for name in STUDIES if name in studies]
     asked += [(check, arguments.out / name) for name, checks in gallery.CHECKED.items() if name in studies
@@ -216,7 +272,43 @@ def _tell(drawn: Gallery) -> int:
     for problem in drawn.problems:
         print(f"guidewire: {problem}", file=sys.stderr)
     print(f"pictures and captions: {os.path.relpath(drawn.index)}")
-    return FAILED if drawn.problems else 0
+    for line in drawn.failed_gates:
+        print(f"guidewire: beyond its gate: {line}", file=sys.stderr)
+    if drawn.problems:
+        return FAILED
+    return BEYOND_A_GATE if drawn.failed_gates else 0
+
+
+def _render(arguments: argparse.Namespace) -> int:
+    from analysis import render
+    from analysis.logs import LogError, read_log
+    from analysis.runs import read_run
+    from experiments import walls
+
+    out = arguments.out or arguments.folder / "render.png"
+    if out.suffix not in (".png", ".gif"):
+        raise PreparationError(f"--out {out}: a picture's name ends with .png, a film's with .gif")
+    if arguments.times and out.suffix == ".gif":
+        raise PreparationError(f"--times is for a picture, and {out.name} is a film: leave one of the two out")
+    try:
+        run = read_run(arguments.folder)
+        log = read_log(arguments.folder, "all")
+        middle, diagonal = render.extent(log)
+        checking.check_out(out.parent)
+        surfaces = walls.read_walls(_build_runner, run, middle, max(diagonal, 1.0))
+        view = render.View(tuple(arguments.target) if arguments.target else None, arguments.distance, arguments.yaw,
+                           arguments.pitch)
+        out.parent.mkdir(parents=True, exist_ok=True)
+        if out.suffix == ".gif":
+            render.save_film(render.draw_film(run, log, surfaces, view, arguments.frames), out)
+        else:
+            render.draw_picture(run, log, surfaces, view, arguments.times).save(out, optimize=True)
+    except LogError as error:
+        raise PreparationError(str(error)) from error
+    if log.warning:
+        print(f"guidewire: warning: {log.warning}", file=sys.stderr)
+    print(f"{'film' if out.suffix == '.gif' else 'picture'}: {os.path.relpath(out)}")
+    return 0
 
 
 def _stress(arguments: argparse.Namespace) -> int:
@@ -239,6 +331,8 @@ def _modes(arguments: argparse.Namespace) -> int:
 
     from analysis.figures.modes import draw_modes
 
+    checking.check_file(arguments.file)
+    checking.check_out(arguments.out)
     command = [*_build_runner(), "--modes", str(arguments.file), str(arguments.count)]
     done = subprocess.run(command, stdout=subprocess.PIPE, text=True)
     if done.returncode != 0:
@@ -251,6 +345,13 @@ def _modes(arguments: argparse.Namespace) -> int:
     draw_modes(modes["frequencies"], np.asarray(modes["positions"]), np.asarray(modes["shapes"])).savefig(picture)
     print(f"picture: {os.path.relpath(picture)}")
     return 0
+
+
+def _python(arguments: argparse.Namespace) -> int:
+    if not arguments.script.is_file():
+        raise PreparationError(f"{arguments.script}: no such file: give a Python script")
+    path = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")]))
+    return _hand_to([sys.executable, str(arguments.script), *arguments.words], environment={"PYTHONPATH": path})
 
 
 def _bench(_: argparse.Namespace) -> int:
@@ -325,9 +426,10 @@ def _bar_of(name: str) -> Callable[[int, int, int], Bar]:
     return bar
 
 
-def _hand_to(command: list[str], cwd: Path | None = None) -> int:
-    """Run a program on our terminal and return its exit code. Ctrl-C reaches it too: it decides how to end."""
-    process = subprocess.Popen(command, cwd=cwd)
+def _hand_to(command: list[str], cwd: Path | None = None, environment: Mapping[str, str] | None = None) -> int:
+    """Run a program on our terminal and return its exit code. Ctrl-C reaches it too: it decides how to end.
+    `environment` is laid over ours."""
+    process = subprocess.Popen(command, cwd=cwd, env={**os.environ, **(environment or {})})
     while True:
         try:
             code = process.wait()

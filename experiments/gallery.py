@@ -11,12 +11,13 @@ import matplotlib.pyplot as pyplot
 from matplotlib.figure import Figure
 
 from analysis.figures import FIGURES, FigureSpec
+from analysis.figures.wording import number
 from analysis.logs import LogError, read_log
 from analysis.relaxation import RelaxationError
 from analysis.runs import read_runs
 from analysis.tables import measure_relaxation
 from analysis.validation.chart import CHART
-from analysis.validation.check import Check, replay
+from analysis.validation.check import Check, Finding, Result, replay
 from analysis.validation.integrators import INTEGRATORS
 from analysis.validation.report import ROWS, Report, draw_finding, draw_overview, read_report, write_report
 
@@ -34,8 +35,13 @@ def _draw_validation(folders: Mapping[str, Path]) -> tuple[Figure, str]:
     return draw_overview(_validation(folders[VALIDATION]))
 
 
+@lru_cache(maxsize=None)
+def _finding(check: Check, folder: Path) -> Finding:
+    return replay(check, folder)
+
+
 def _draw_check(check: Check, folders: Mapping[str, Path]) -> tuple[Figure, str]:
-    finding = replay(check, folders[check.name])
+    finding = _finding(check, folders[check.name])
     return draw_finding(finding), finding.caption
 
 
@@ -53,10 +59,12 @@ SPECS: dict[str, FigureSpec] = {
 
 @dataclass(frozen=True)
 class Gallery:
-    """What was drawn: the index of the folder, and one line for each figure that could not be drawn."""
+    """What was drawn: the index of the folder, one line for each figure that could not be drawn, and one for each line
+    of a check that is beyond its gate."""
 
     index: Path
     problems: tuple[str, ...]
+    failed_gates: tuple[str, ...] = ()
 
 
 def draw(ids: Sequence[str], folders: Mapping[str, Path], out: Path) -> Gallery:
@@ -74,7 +82,7 @@ def draw(ids: Sequence[str], folders: Mapping[str, Path], out: Path) -> Gallery:
     """
     pyplot.switch_backend("Agg")  # pictures go to files; no screen is needed
     out.mkdir(parents=True, exist_ok=True)
-    problems = []
+    problems, gates = [], []
     for name in ids:
         try:
             figure, caption = SPECS[name].draw({study: folders[study] for study in SPECS[name].studies})
@@ -84,11 +92,25 @@ def draw(ids: Sequence[str], folders: Mapping[str, Path], out: Path) -> Gallery:
         figure.savefig(out / f"figure-{name}.png")
         pyplot.close(figure)
         (out / f"figure-{name}.txt").write_text(caption + "\n", encoding="utf-8")
+        gates += failed_gates(_results(name, folders))
     if VALIDATION in ids and not any(f"figure {VALIDATION} " in problem for problem in problems):
         write_report(_validation(folders[VALIDATION]), out / VALIDATION)
     index = out / INDEX
     index.write_text(_index(out), encoding="utf-8")
-    return Gallery(index, tuple(problems))
+    return Gallery(index, tuple(problems), tuple(gates))
+
+
+def failed_gates(results: Sequence[tuple[Check, Result]]) -> list[str]:
+    """One line for each result that is beyond its gate."""
+    return [f"{check.title}: {r.solver}, {r.what}: error {number(r.error, 2)} is above its gate {number(r.gate, 2)}"
+            for check, r in results if r.passed is False]
+
+
+def _results(name: str, folders: Mapping[str, Path]) -> list[tuple[Check, Result]]:
+    """What a figure's checks found; nothing for a figure of a study."""
+    if name == VALIDATION:
+        return _validation(folders[VALIDATION]).results
+    return [(check, result) for check in CHECKED.get(name, ()) for result in _finding(check, folders[name]).results]
 
 
 def describe_default_run(study: Path) -> list[str]:

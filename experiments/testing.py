@@ -14,7 +14,7 @@ import sys
 import time
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 from experiments.building import DOTNET_TESTS, HEADLESS, dotnet
@@ -23,10 +23,9 @@ from experiments.process import Process, file_name
 
 RESULTS = ROOT / "results" / "tests"
 FULL_CAMPAIGNS = "GUIDEWIRE_ALL"
-# The build that Unity compiles has the same sources and runs here on the same runtime as the other: of the random
-# campaigns over geometry and pushes it makes one case in 40 where the other makes one in 10; all else it makes too.
-ONE_CASE_IN = "GUIDEWIRE_ONE_IN"
-FEWER_CASES = {"Guidewire.Core.Tests.NetStandard": {ONE_CASE_IN: "40"}}
+# The build that Unity compiles has the same sources and runs here on the same runtime as the other: tests of the
+# category Long, which take a second and more, it makes only where campaigns run in full.
+WITHOUT_LONG = ("Guidewire.Core.Tests.NetStandard",)
 # The longest files of experiments/tests: a suite of their own, so that the rest runs beside it.
 LONGEST = ("test_validation.py", "test_random_parameters.py", "test_core_against_reference.py")
 _SUITE_SECONDS = {False: 900, True: 6 * 3600}
@@ -60,7 +59,6 @@ class Suite:
     read : how that file is read.
     needs_build : starts only after a build that went well.
     alone : runs with nothing beside it.
-    environment : variables of its own.
     """
 
     name: str
@@ -69,7 +67,6 @@ class Suite:
     read: Callable[[Path], Count]
     needs_build: bool = True
     alone: bool = False
-    environment: Mapping[str, str] = field(default_factory=dict)
 
 
 def run_tests(full: bool) -> int:
@@ -80,19 +77,25 @@ def run_tests(full: bool) -> int:
     full : random campaigns in full instead of a seeded fraction.
     """
     RESULTS.mkdir(parents=True, exist_ok=True)
-    environment = {name: value for name, value in os.environ.items() if name not in (FULL_CAMPAIGNS, ONE_CASE_IN)}
+    environment = {name: value for name, value in os.environ.items() if name != FULL_CAMPAIGNS}
     if full:
         environment[FULL_CAMPAIGNS] = "1"
     program, _ = dotnet()
     build = [sys.executable, "-m", "experiments.building"]
-    total = run_suites(build, suites(program), environment, _SUITE_SECONDS[full], os.cpu_count() or 1)
+    total = run_suites(build, suites(program, full), environment, _SUITE_SECONDS[full], os.cpu_count() or 1)
     total += check_unity_files(ROOT)
     print(total, flush=True)
     return 0 if total.failed == 0 and total.passed > 0 else 1
 
 
-def suites(program: str) -> list[Suite]:
-    """Every suite of the project, in the order in which they start; long ones first, so that none is left over."""
+def suites(program: str, full: bool) -> list[Suite]:
+    """Every suite of the project, in the order in which they start; long ones first, so that none is left over.
+
+    Parameters
+    ----------
+    program : dotnet.
+    full : each with all of its tests.
+    """
     tests = "experiments/tests"
     longest = [f"{tests}/{name}" for name in LONGEST]
     not_timed = ["-m", "not timed"]
@@ -101,7 +104,7 @@ def suites(program: str) -> list[Suite]:
         _pytest_suite("unitycheck/tests", ["unitycheck/tests"], needs_build=False),
         _pytest_suite(f"{tests}, the longest", [*not_timed, *longest]),
         _pytest_suite(f"{tests}, the rest", [*not_timed, tests, *(f"--ignore={path}" for path in longest)]),
-        *(_dotnet_suite(program, name) for name in DOTNET_TESTS),
+        *(_dotnet_suite(program, name, full) for name in DOTNET_TESTS),
         _pytest_suite(f"{tests}, timed", ["-m", "timed", tests], alone=True),
     ]
 
@@ -144,8 +147,7 @@ def run_suites(
             while (suite := _next(waiting, built, list(running.values()), places)) is not None:
                 waiting.remove(suite)
                 (RESULTS / suite.report).unlink(missing_ok=True)
-                own = {**environment, **suite.environment}
-                running[Process(suite.name, suite.command, own, RESULTS, seconds)] = suite
+                running[Process(suite.name, suite.command, environment, RESULTS, seconds)] = suite
             time.sleep(_POLL_SECONDS)
     finally:
         for process in running:
@@ -226,13 +228,15 @@ def read_junit(path: Path) -> Count:
     return count
 
 
-def _dotnet_suite(program: str, name: str) -> Suite:
+def _dotnet_suite(program: str, name: str, full: bool) -> Suite:
     report = f"{name}.trx"
     command = [
         program, "test", str(HEADLESS / name / f"{name}.csproj"), "-c", "Release", "--no-build", "--nologo",
         "--logger", f"trx;LogFileName={report}", "--results-directory", str(RESULTS),
     ]
-    return Suite(name, command, report, read_trx, environment=FEWER_CASES.get(name, {}))
+    if not full and name in WITHOUT_LONG:
+        command += ["--filter", "TestCategory!=Long"]
+    return Suite(name, command, report, read_trx)
 
 
 def _pytest_suite(name: str, arguments: Sequence[str], needs_build: bool = True, alone: bool = False) -> Suite:

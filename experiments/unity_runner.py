@@ -31,6 +31,7 @@ INTERNAL = 70
 INTERRUPTED = 130
 _SECONDS = 3600.0
 _TRACE = "unity.log"
+_ALREADY_THERE = "already there: "  # what a run says that takes over an earlier one
 
 
 @dataclass(frozen=True)
@@ -119,7 +120,8 @@ def make_run(unity: Unity, own: list[str], out: Path) -> Ending:
         return Ending(INTERRUPTED, "interrupted", "stopped from outside")
     said = _last_word(log)
     after = summary.stat().st_mtime_ns if summary.is_file() else None
-    outcome = _outcome(summary) if after != before else None
+    is_taken_over = said.startswith(_ALREADY_THERE)
+    outcome = _outcome(summary) if after != before or is_taken_over else None
     if outcome is not None and OUTCOMES.get(outcome) == code:
         if log.is_file():
             log.replace(out / _TRACE)
@@ -182,6 +184,7 @@ def answer(unity: Unity, line: str) -> dict[str, Any]:
             own += [f"-{key}", value if isinstance(value, str) else json.dumps(value)]
         if request.get("repeat") is not None:
             own += ["-repeat", str(request["repeat"])]
+        own.append("-force")    # the folder is this run's own: what is asked for again is replaced
     except (ValueError, KeyError, TypeError, AttributeError, OSError) as error:
         reply["message"] = f"the request cannot be read: {type(error).__name__}: {error}"
         return reply

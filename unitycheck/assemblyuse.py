@@ -51,13 +51,15 @@ def check(project: Project) -> Iterator[Violation]:
     """Rules asmdef-needed, internals."""
     asmdefs = assemblies(project)
     home = {path: owner(asmdefs, path) for path in project.assets(".cs")}
-    # Types at the top level, by namespace and name: the assemblies that declare them.
-    declared: dict[tuple[str, str], list[tuple[Asmdef, Declaration]]] = {}
+    # Types at the top level, by namespace, then by name: the assemblies that declare them.
+    declared: dict[str, dict[str, list[tuple[Asmdef, Declaration]]]] = {}
     for path, found in types(project).items():
         for declaration in found:
             if home[path] is not None and not declaration.outer:
-                declared.setdefault((declaration.namespace, declaration.name), []).append((home[path], declaration))
-    namespaces = {namespace for namespace, _ in declared}
+                named = declared.setdefault(declaration.namespace, {})
+                named.setdefault(declaration.name, []).append((home[path], declaration))
+    inhabitants = {namespace: {where.name for places in named.values() for where, _ in places}
+                   for namespace, named in declared.items()}
     seen = {asmdef.name: [asmdef] + [target for _, target in targets(project, asmdef) if target is not None]
             for asmdef in asmdefs}
     known = {asmdef.name: friends(project, asmdef) for asmdef in asmdefs}
@@ -73,7 +75,7 @@ def check(project: Project) -> Iterator[Violation]:
         reported: set[str] = set()
         for line, namespace in usings(project.text(path)):
             yield from _package(project, path, line, namespace, asmdef)
-            homes = {where.name for (place, _), places in declared.items() if place == namespace for where, _ in places}
+            homes = inhabitants.get(namespace, set())
             if homes and not homes & {where.name for where in seen[asmdef.name]}:
                 reported |= {min(homes)}
         own = {declaration.namespace for declaration in types(project)[path]}
@@ -81,9 +83,9 @@ def check(project: Project) -> Iterator[Violation]:
             ".".join(namespace.split(".")[:depth]) for namespace in own
             for depth in range(1, namespace.count(".") + 2)}
         used = _bare_words(project.text(path))
-        for namespace in sorted(open_to & namespaces):
-            for (place, name), places in declared.items():
-                if place != namespace or name not in used or len(reported) > 3:
+        for namespace in sorted(open_to & declared.keys()):
+            for name, places in declared[namespace].items():
+                if name not in used or len(reported) > 3:
                     continue
                 reached = [(where, declaration) for where, declaration in places if where in seen[asmdef.name]]
                 if not reached:

@@ -39,6 +39,7 @@ _CALLS = {"SetFloat": FLOATS, "GetFloat": FLOATS, "SetColor": COLOURS, "GetColor
           "SetInt": FLOATS, "SetInteger": FLOATS, "HasProperty": FLOATS | COLOURS | TEXTURES,
           "PropertyToID": FLOATS | COLOURS | TEXTURES, "EnableKeyword": KEYWORDS, "DisableKeyword": KEYWORDS,
           "IsKeywordEnabled": KEYWORDS}
+_ASKS = re.compile("|".join((r"Shader\.", r"Keyword\(", *_CALLS)))
 
 
 def check(project: Project) -> Iterator[Violation]:
@@ -117,7 +118,7 @@ def _standard(path: str, line: int, data: dict[str, Any]) -> Iterator[Violation]
 
 
 def _calls(path: str, source: str, own: set[str]) -> Iterator[Violation]:
-    if not any(name in source for name in ("Shader.", "Keyword(", *_CALLS)):
+    if not _ASKS.search(source):
         return
     items = tokens(source)
     for i in range(1, len(items) - 2):

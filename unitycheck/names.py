@@ -17,13 +17,14 @@ _LAYER_NAMES = {"Default", "TransparentFX", "Ignore Raycast", "Water", "UI"}
 _CALLS = {"LoadScene": "scene", "LoadSceneAsync": "scene", "FindWithTag": "tag", "FindGameObjectWithTag": "tag",
           "FindGameObjectsWithTag": "tag", "CompareTag": "tag", "NameToLayer": "layer", "GetMask": "layer",
           "GetAxis": "axis", "GetAxisRaw": "axis", "GetButton": "axis", "GetButtonDown": "axis", "GetButtonUp": "axis"}
+_ASKS = re.compile("|".join((*_CALLS, "Resources")))
 
 
 def check(project: Project) -> Iterator[Violation]:
     """Rule name-unknown."""
     known = project.derived("names", _known)
     for path in project.assets(".cs"):
-        if any(call in project.text(path) for call in (*_CALLS, "Resources")):
+        if _ASKS.search(project.text(path)):
             items = tokens(project.text(path))
             for i in range(1, len(items) - 2):
                 kind = _CALLS.get(items[i].text)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +10,9 @@ import pytest
 from PIL import Image
 
 from analysis import render, surfaces
+from analysis.logs import LogError, PositionLog
 from analysis.raster import Camera, Picture, draw
+from analysis.runs import Run
 from analysis.surfaces import Surface
 
 RADIUS = 4.0
@@ -95,30 +97,101 @@ def test_back_is_not_drawn() -> None:
     assert not np.isfinite(picture.depth).any()
 
 
-def write_run(folder: Path, vessel: object) -> None:
-    """A run of three states of a straight wire that moves along z."""
-    folder.mkdir()
-    entries = {str(k): {"totalTime": 0.1 * k, "elapsedMilliseconds": k, "delta": 0.0, "sphere": {
-        str(i): {"x": 0, "y": 0, "z": 10.0 * i + k, "vx": 0, "vy": 0, "vz": 0} for i in range(6)}} for k in range(3)}
-    lines = ",\n".join(f"{json.dumps(key)}: {json.dumps(entry)}" for key, entry in entries.items())
-    (folder / "positions.json").write_text("{\n" + lines + "\n}\n")
-    (folder / "parameters.json").write_text(json.dumps({"sphereRadius": 3.0, "vessel": vessel}))
+def test_refined_triangles_cover_the_same_area_with_short_sides() -> None:
+    whole = square(0.0, -1.0)
+    fine = surfaces.refine(whole, 3.0)
+    corners = fine.vertices[fine.triangles]
+    normals = 0.5 * np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    assert normals.sum(axis=0) == pytest.approx([0.0, 0.0, -400.0])  # the square's own: they face as it does
+    assert (normals[:, 2] < 0.0).all()
+    assert np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max() <= 3.0
+    assert surfaces.refine(whole, 30.0) is whole
 
 
-def test_pictures_of_a_run(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    write_run(tmp_path / "run", {"shape": "plane", "point": [0, -5, 0], "normal": [0, 1, 0]})
-    assert render.main([str(tmp_path / "run"), "--out", str(tmp_path / "out"), "--frames", "3"]) == 0
-    assert capsys.readouterr().out.split() == [str(tmp_path / "out" / name) for name in ("run.png", "run.gif")]
-    with Image.open(tmp_path / "out" / "run.png") as picture:
-        assert picture.size == render.SIZE
-        middle = picture.convert("RGB").getpixel((render.SIZE[0] // 2, render.SIZE[1] // 2))
-    assert min(middle) > 80, "the wire passes the middle"
-    with Image.open(tmp_path / "out" / "run.gif") as film:
+def test_coinciding_spheres_have_no_curvature_and_are_drawn() -> None:
+    wire = np.array([[0, 0, 0], [0, 0, 0], [0, 0, 10.0], [0, 5.0, 20.0]])
+    assert np.isfinite(surfaces.curvature(wire)).all() and surfaces.curvature(wire)[1] == 0.0
+    assert np.isfinite(surfaces.tube(wire, RADIUS).vertices).all()
+
+
+LENGTH = 50.0  # of the wire that is drawn, units
+
+
+def make_run(**parameters: object) -> tuple[Run, PositionLog]:
+    """A run of three states, 0.1 s apart, of a straight wire along z; in each it lies 40 units higher."""
+    wire = np.stack([np.zeros(6), np.zeros(6), np.linspace(0.0, LENGTH, 6)], axis=1)
+    positions = wire + 40.0 * np.arange(3)[:, None, None] * np.array([0.0, 1.0, 0.0])
+    steps, time = np.arange(3), 0.1 * np.arange(3)
+    log = PositionLog(Path("run"), steps, time, time, 0.0 * time, np.arange(6), positions, None, 2, np.arange(6),
+                      positions[-1], None)
+    return Run(Path("run"), {"sphereRadius": 3.0, **parameters}, None), log
+
+
+def place_of(picture: Image.Image, stage: render.Stage, point: tuple[float, float, float]) -> tuple[int, int, int]:
+    """Colour where a point is seen."""
+    right, up, forward = stage.camera.view(np.array([point]))[0]
+    scale = 0.5 * render.SIZE[1] / np.tan(0.5 * np.radians(stage.camera.field_of_view)) / forward
+    return picture.convert("RGB").getpixel((int(render.SIZE[0] / 2 + scale * right),
+                                            int(render.SIZE[1] / 2 - scale * up)))
+
+
+def test_a_picture_shows_the_last_moment_or_each_moment_in_its_own_colour() -> None:
+    run, log = make_run()
+    stage = render.set_stage(run, log, [], render.View())
+    middles = [(0.0, 40.0 * k, 0.5 * LENGTH) for k in range(3)]
+    last = render.draw_picture(run, log, [], render.View(), [])
+    seen = [place_of(last, stage, middle) for middle in middles]
+    assert max(seen[0]) < 40 and max(seen[1]) < 40 and min(seen[2]) > 80, "the last alone, grey where it is straight"
+    both = render.draw_picture(run, log, [], render.View(), [0.19, 0.0, 0.01])
+    seen = [place_of(both, stage, middle) for middle in middles]
+    assert max(seen[0]) > 80 and max(seen[1]) < 40 and max(seen[2]) > 80
+    assert seen[2][1] - seen[0][1] > 60, "plasma: the later, the more green"
+
+
+def test_a_film_has_as_many_pictures_as_asked_for_and_no_more_than_moments(tmp_path: Path) -> None:
+    run, log = make_run()
+    for frames, count in ((1, 1), (2, 2), (40, 3)):
+        images = render.draw_film(run, log, [], render.View(), frames)
+        assert len(images) == count
+    render.save_film(images, tmp_path / "film.gif")
+    with Image.open(tmp_path / "film.gif") as film:
         assert film.n_frames == 3
 
 
-def test_what_cannot_be_drawn_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    write_run(tmp_path / "run", {"shape": "mesh", "file": str(tmp_path / "nowhere.obj")})
-    assert render.main([str(tmp_path / "run"), "--out", str(tmp_path / "out")]) == 2
-    error = capsys.readouterr().err
-    assert error.startswith("guidewire: ") and "nowhere.obj" in error and error.count("\n") == 1
+def test_an_obstacle_before_the_wire_tints_it_and_the_vessel_lies_behind() -> None:
+    front, back = (Surface(square(0.0, 1.0).vertices[:, [2, 1, 0]] + [x, 80.0, 0.5 * LENGTH],
+                           square(0.0, 1.0).triangles[:, ::-1], np.zeros(4)) for x in (20.0, -20.0))
+    bare_run, log = make_run()
+    vessel_run, _ = make_run(vessel={"shape": "plane"})
+    stage = render.set_stage(bare_run, log, [], render.View())
+    at = (0.0, 80.0, 0.5 * LENGTH)
+    plain, tinted, before_wall = (
+        np.array(place_of(render.draw_picture(run, log, walls, render.View(), []), stage, at))
+        for run, walls in ((bare_run, []), (bare_run, [front]), (vessel_run, [back])))
+    assert np.abs(tinted - plain).max() > 15 and min(tinted) > 60
+    assert np.abs(before_wall - plain).max() <= 2
+
+
+@pytest.mark.parametrize("parameters, radius", [
+    ({"sphereRadius": 3.0}, 3.0), ({"wireRadius": 2e-3, "metresPerUnit": 1e-3}, 2.0),
+    ({"wireRadius": 1e-6, "metresPerUnit": 1e-3}, np.hypot(80.0, LENGTH) / 400.0),
+])
+def test_the_wire_has_its_own_radius_unless_that_is_too_thin_to_be_seen(parameters: dict, radius: float) -> None:
+    run, log = make_run(**parameters)
+    assert render.set_stage(run, log, [], render.View()).radius == pytest.approx(radius)
+
+
+@pytest.mark.parametrize("value, rounded", [(0.01, 0.01), (0.011, 0.02), (3.0, 5.0), (70.0, 100.0)])
+def test_full_red_is_a_round_number(value: float, rounded: float) -> None:
+    assert render._round_up(value) == pytest.approx(rounded)
+
+
+def test_what_cannot_be_drawn_is_said() -> None:
+    run, log = make_run()
+    lost = replace(log, positions=np.where(log.time[:, None, None] > 0.15, np.nan, log.positions))
+    with pytest.raises(LogError, match="step 2 has a position that is not finite"):
+        render.draw_picture(run, lost, [], render.View(), [])
+    assert render.draw_picture(run, lost, [], render.View(), [0.1]).size == render.SIZE
+    with pytest.raises(LogError, match="logSpheres"):
+        render.set_stage(run, replace(log, spheres=log.spheres[-1:], positions=log.positions[:, -1:]), [],
+                         render.View())

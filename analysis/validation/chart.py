@@ -48,7 +48,8 @@ class _Point:
 
 def _settled(method: Mapping[str, Any], step: float) -> dict[str, Any]:
     return {
-        "timeStep": step, "damping": 2.0 * _FIRST * step, "maxSimulationSteps": math.ceil(_REST_TIME / step),
+        "timeStep": step, "maxSimulationSteps": math.ceil(_REST_TIME / step),
+        **scenes.damping(method.get("solver", "direct"), 2.0 * _FIRST, step),
         "logSpheres": "last", "logEvery": 1_000_000, "gravity": [0.0, -_GRAVITY, 0.0], **method,
     }
 
@@ -168,7 +169,8 @@ def _twist_points(gain: float, stable: Mapping[str, float]) -> list[_Point]:
     def turned(method: Mapping[str, Any], step: float, n: int = scenes.ELEMENTS) -> dict[str, Any]:
         return {
             "numberRodElements": n, "distalEnd": "clamped", "distalRotation": _TURN, "timeStep": step,
-            "damping": min(1.0, 2.0 * omega * step), "maxSimulationSteps": math.ceil(_TWIST_TIME / step),
+            **scenes.damping(method.get("solver", "direct"), 2.0 * omega, step),
+            "maxSimulationSteps": math.ceil(_TWIST_TIME / step),
             "logEvery": 1_000_000, "logOrientations": True, "distalRampTime": 0.05 / _TWIST_FREQUENCY, **method,
         }
 

@@ -143,7 +143,7 @@ def _time_step() -> Plan:
     omega = 2.0 * math.pi * beam.frequencies(BASE, 1)[0]
     settled = {
         dt: Case(run_key("settled", {"dt": dt}), {
-            "tipForce": [0.0, -_FORCE, 0.0], "timeStep": dt, "damping": 2.0 * omega * dt, "logEvery": 1_000_000,
+            "tipForce": [0.0, -_FORCE, 0.0], "timeStep": dt, "massDamping": 2.0 * omega, "logEvery": 1_000_000,
             "maxSimulationSteps": math.ceil(15.0 / omega / dt),
         })
         for dt in _TIME_STEPS

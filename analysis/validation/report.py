@@ -29,7 +29,7 @@ ROWS: tuple[Check, ...] = (
 _QUICK = (
     "clamp-compliance", "clamp-frequencies", "plane", "end-moment", "end-moment-darboux", "localised-helix", "bar",
     "force-balance", "force-balance-default", "order-in-time", "order-in-time-axial", "large-turns", "elements",
-    "tolerance", "time-step",
+    "tolerance",
     *(check.name for check in joint.CHECKS),
 )
 FAST = (  # what tests run

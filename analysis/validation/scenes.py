@@ -42,6 +42,11 @@ def wire_parameters(wire: Wire) -> dict[str, Any]:
     }
 
 
+def damping(solver: str, rate: float, step: float) -> dict[str, float]:
+    """The key that makes a force -rate M v (rate in 1/s) under a solver with this time step (s)."""
+    return {"damping": min(1.0, rate * step)} if solver == "pbd" else {"massDamping": rate}
+
+
 def bend_parameters(bend: Bend) -> dict[str, Any]:
     """The keys of a curved wire under a force at its tip, with a unit of 1 m."""
     return {
@@ -76,7 +81,7 @@ def settled(
         "solver": solver,
         "timeStep": step,
         **(explicit_steps(step, stable) if solver == "explicit" else xpbd_steps(wire, step, elements)),
-        "damping": 2.0 * omega * step,  # critical
+        **damping(solver, 2.0 * omega, step),  # critical
         "maxSimulationSteps": math.ceil(_SETTLED / omega / step),
         "logEvery": 1_000_000,
         "logOrientations": True,

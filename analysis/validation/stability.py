@@ -220,7 +220,8 @@ def motion(
     held = {**scenes.wire_parameters(wire), **supports}
     method = yield from scenes.small_steps(solver, wire, step, held, name)
     return {
-        **held, "solver": solver, "timeStep": step, "damping": 2.0 * rate * step, "maxSimulationSteps": _FRAMES,
+        **held, "solver": solver, "timeStep": step, **scenes.damping(solver, 2.0 * rate, step),
+        "maxSimulationSteps": _FRAMES,
         "logEvery": 1_000_000, "logOrientations": True, **method,
     }
 

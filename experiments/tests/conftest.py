@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from experiments import building
-from key_table import read_key_table
+from experiments.key_table import read_key_table
 from run_claims import Campaign
 
 

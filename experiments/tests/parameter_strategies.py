@@ -16,12 +16,12 @@ import numpy as np
 from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 
-from key_table import Key
+from experiments.key_table import Key
 
 FULL = os.environ.get("GUIDEWIRE_ALL") == "1"
 SOLVERS = ("pbd", "xpbd", "direct", "explicit")
 # What a run without them would answer another question than the file asks.
-REFUSED_IN_FILES = ("tipMoment", "vessel", "obstacles")
+REFUSED_IN_FILES = ("tipMoment", "tipFollowerForce", "damping", "materialDamping", "vessel", "obstacles")
 LOAD_TABLE = Path(__file__).with_name("load_table.csv")
 ARCH = Path(__file__).resolve().parents[2] / "params" / "meshes" / "arch.obj"
 LENGTH, OFFSET = 300.0, -120.0  # what the keys are where a scene does not name them
@@ -84,7 +84,8 @@ def inner_radii(draw, scene: Mapping[str, Any]) -> float:
 
 @st.composite
 def load_tables(draw, scene: Mapping[str, Any]) -> dict | None:
-    loads = draw(st.sets(st.sampled_from(["gravity", "tipForce", "distributedForce", "axialForce"])))
+    loads = draw(st.sets(st.sampled_from(["gravity", "tipForce", "distributedForce", "axialForce", "tipMoment",
+                                                  "tipFollowerForce"])))
     return {load: str(LOAD_TABLE) for load in sorted(loads)} or None
 
 
@@ -148,7 +149,7 @@ VALUES: dict[str, st.SearchStrategy] = {
     "startTurns": st.floats(-5.0, 5.0), "distalRotation": st.floats(-30.0, 30.0),
     "distalDisplacement": st.floats(-20.0, 20.0), "distalRampTime": st.one_of(st.just(0), log_uniform(1e-6, 1.0)),
     "axialForce": st.floats(-1.0, 1.0), "distributedForce": around(1.0), "gravity": around(20.0),
-    "tipForce": around(1.0),
+    "tipForce": around(1.0), "tipFollowerForce": around(1.0),
     "tipForceReleaseTime": st.one_of(st.just(0), log_uniform(1e-6, 1.0)), "tipMoment": around(1e-2),
     "position": vectors(st.floats(-20.0, 20.0)), "scale": vectors(st.sampled_from([0.5, 1.0, 2.0])),
     "rotation": angles,
@@ -158,7 +159,8 @@ VALUES: dict[str, st.SearchStrategy] = {
     "bendStiffness": log_uniform(1e-3, 100.0),
     "youngsModulus": log_uniform(1e6, 1e12), "shearModulus": log_uniform(1e6, 1e12),
     "density": log_uniform(100.0, 3e4), "wireRadius": log_uniform(1e-5, 2e-3), "restCurvature": around(100.0),
-    "shearFactor": st.floats(0.3, 1.0),
+    "shearFactor": st.floats(0.3, 1.0), "massDamping": st.one_of(st.just(0), log_uniform(1e-3, 1e4)),
+    "materialDamping": st.one_of(st.just(0), log_uniform(1e-7, 1.0)),
     "sphereRadius": log_uniform(0.01, 20.0), "collisionMargin": st.floats(0.0, 5.0),
     "collisionStiffness": st.floats(0.0, 1.0),
     "logEvery": whole(1, 20), "logFilePath": st.sampled_from(["", "elsewhere", "Gefäß 1"]),

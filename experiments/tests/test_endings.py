@@ -3,6 +3,8 @@
 import json
 import os
 import random
+import re
+import select
 import signal
 import subprocess
 import sys
@@ -35,8 +37,8 @@ def start(runner_command):
     """A function that starts a run; what still runs at the end of the test is killed."""
     started = []
 
-    def start_run(scene, out):
-        process = subprocess.Popen([*runner_command, "-parameters", str(scene), "-out", str(out)],
+    def start_run(scene, out, *more):
+        process = subprocess.Popen([*runner_command, "-parameters", str(scene), "-out", str(out), *more],
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         started.append(process)
         return process
@@ -117,15 +119,91 @@ def test_a_run_killed_at_its_very_start_leaves_nothing_that_reads_as_a_result(st
             assert "\n" not in str(error)
 
 
-def test_a_killed_run_leaves_an_earlier_result_as_it_was(start, scratch):
+def contents(folder):
+    return {name: (folder / name).read_bytes() for name in ("positions.json", "parameters.json", "summary.json")}
+
+
+@pytest.mark.parametrize("number, code", [(signal.SIGKILL, -9), (signal.SIGINT, 130), (signal.SIGTERM, 130)])
+def test_a_run_that_is_stopped_leaves_an_earlier_result_as_it_was(start, scratch, number, code):
     out = scratch / "out"
     assert start(scene_of(scratch, maxSimulationSteps=10), out).wait() == 0
-    before = {name: (out / name).read_bytes() for name in ("positions.json", "parameters.json", "summary.json")}
+    before = contents(out)
+    process = start(scene_of(scratch), out, "--force")
+    wait_for_log(out)
+    process.send_signal(number)
+    said, _ = process.communicate(timeout=30)
+    assert process.returncode == code
+    assert contents(out) == before
+    if code == 130:
+        assert said.count("\n") == 1 and f"{out} held before is kept" in said and "positions.json.partial" in said
+
+
+def test_a_run_of_other_parameters_replaces_an_earlier_result_only_where_it_is_forced_to(start, scratch):
+    out = scratch / "out"
+    assert start(scene_of(scratch, maxSimulationSteps=10), out).wait() == 0
+    before = contents(out)
+    refused = start(scene_of(scratch, maxSimulationSteps=11, timeStep=0.005), out)
+    said, complained = refused.communicate(timeout=30)
+    assert (refused.returncode, said) == (2, "") and complained.count("\n") == 1
+    for word in (str(out), "timeStep is 0.01 there and 0.005 here", "maxSimulationSteps is 10 there", "--force"):
+        assert word in complained
+    assert contents(out) == before and sorted(path.name for path in out.iterdir()) == sorted(before)
+    assert start(scratch / "scene.json", out, "--force").wait() == 0
+    assert json.loads((out / "summary.json").read_text())["steps"] == 11
+
+
+def test_the_same_run_again_is_already_there_and_writes_nothing(start, scratch):
+    out = scratch / "out"
+    assert start(scene_of(scratch, maxSimulationSteps=10), out).wait() == 0
+    before = contents(out), [path.stat().st_mtime_ns for path in sorted(out.iterdir())]
+    again = start(scratch / "scene.json", out)
+    said, complained = again.communicate(timeout=30)
+    assert (again.returncode, complained) == (0, "")
+    assert said.startswith(f"already there: {out} (finished: all 10 steps are done)")
+    assert (contents(out), [path.stat().st_mtime_ns for path in sorted(out.iterdir())]) == before
+
+
+def test_a_run_that_was_interrupted_is_no_complete_one_and_gives_way(start, scratch):
+    out = scratch / "out"
     process = start(scene_of(scratch), out)
     wait_for_log(out)
-    process.kill()
-    process.wait()
-    assert {name: (out / name).read_bytes() for name in before} == before
+    process.send_signal(signal.SIGINT)
+    assert process.wait(timeout=30) == 130
+    assert start(scene_of(scratch, maxSimulationSteps=10), out).wait() == 0
+    assert json.loads((out / "summary.json").read_text())["steps"] == 10
+
+
+def test_a_long_run_tells_a_terminal_how_far_it_is_and_takes_the_line_away_again(runner_command, scratch):
+    import pty
+
+    screen, terminal = pty.openpty()
+    process = subprocess.Popen(
+        [*runner_command, "-parameters", str(scene_of(scratch)), "-out", str(scratch / "out")],
+        stdin=terminal, stdout=terminal, stderr=terminal)
+    os.close(terminal)
+    seen = ""
+    try:
+        while seen.count(" left") < 2:  # it comes after a second; a run without it would go on for minutes
+            seen += os.read(screen, 4096).decode()
+        process.send_signal(signal.SIGINT)
+        while process.poll() is None or select.select([screen], [], [], 0)[0]:
+            try:
+                seen += os.read(screen, 4096).decode()
+            except OSError:
+                break  # the terminal's other end is closed
+    finally:
+        process.kill()
+        process.wait()
+        os.close(screen)
+    line = re.search(r"step (\d+) of 1000000, \d+ (?:s|min|h) left, (\d+) steps/s, t = ([\d.]+) s, (\d+) x real time",
+                     seen)
+    assert line, seen
+    step, rate, time_in_game, factor = map(float, line.groups())
+    assert time_in_game == pytest.approx(0.01 * step)
+    assert factor == pytest.approx(0.01 * rate, abs=0.51 + 0.0051)  # both are rounded
+    lines = seen.split("\n")
+    assert max(map(len, lines[0].split("\r"))) < 100, "one line, written over"
+    assert len(lines) == 2 and "\rinterrupted: stopped from outside after step " in lines[0]
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
@@ -173,13 +251,11 @@ def test_a_disk_that_fills_ends_a_run_as_failed_and_says_so(start, scratch, smal
 def test_a_disk_that_fills_leaves_an_earlier_result_whole(start, scratch, small_disk):
     out = small_disk / "out"
     assert start(scene_of(scratch, maxSimulationSteps=10), out).wait() == 0
-    positions = (out / "positions.json").read_bytes()
-    process = start(scene_of(scratch), out)
-    process.communicate(timeout=60)
-    assert process.returncode == 5
-    assert (out / "positions.json").read_bytes() == positions
-    summary = json.loads((out / "summary.json").read_text())
-    assert summary["outcome"] == "failed" or summary["steps"] == 10
+    before = contents(out)
+    process = start(scene_of(scratch), out, "--force")
+    _, complaint = process.communicate(timeout=60)
+    assert process.returncode == 5 and "is kept" in complaint and complaint.count("\n") == 1
+    assert contents(out) == before
 
 
 def test_a_sweep_goes_on_after_a_full_disk(runner_command, scratch, small_disk):
@@ -203,8 +279,7 @@ def memory_of(command):
     return used.ru_maxrss * 1024
 
 
-@pytest.mark.timed
-def test_a_run_of_100_000_steps_takes_constant_memory_and_linear_time(runner_command, scratch):
+def test_a_run_of_100_000_steps_takes_constant_memory(runner_command, scratch):
     steps, runs = 100_000, {}
     for count in (1_000, steps):
         out = scratch / str(count)
@@ -222,10 +297,6 @@ def test_a_run_of_100_000_steps_takes_constant_memory_and_linear_time(runner_com
     log = read_log(long)
     assert log.complete and log.final_step == steps
     assert_steps_are_whole(log)
-    # Linear: a step and its entry cost at the end what they cost after the first tenth. The median of single steps
-    # does not see what else the machine was doing.
-    each = np.diff(log.elapsed)
-    assert np.median(each[-steps // 10:]) < 1.5 * np.median(each[steps // 10:steps // 5])
 
 
 MATERIAL = {

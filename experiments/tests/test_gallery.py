@@ -2,11 +2,13 @@
 
 from pathlib import Path
 
+import pytest
 from matplotlib.figure import Figure
 
 from analysis.figures import FIGURES, FigureSpec
 from analysis.logs import LogError
-from experiments import gallery
+from analysis.validation.check import Check, Finding, Result
+from experiments import commands, gallery
 from studies.builtin import STUDIES
 
 
@@ -51,3 +53,28 @@ def test_a_figure_that_cannot_be_drawn_is_told_and_the_others_are_drawn(tmp_path
     drawn = gallery.draw(["1.1", "1.2"], {"default": Path("a")}, tmp_path)
     assert drawn.problems == ("figure 1.1 cannot be drawn: study.json: no such file",)
     assert (tmp_path / "figure-1.2.png").exists() and not (tmp_path / "figure-1.1.png").exists()
+
+
+def finds(*errors):
+    """A check of lines with these errors, each with a gate of 0.01."""
+    def plan():
+        yield []
+        lines = tuple(Result("tip", f"direct {k}", 1.0, 1.0, error, 0.01) for k, error in enumerate(errors))
+        return Finding(lines, lambda figure: None, "A check.")
+
+    return Check("bars", "statics", "bars", plan)
+
+
+@pytest.mark.parametrize("errors, code, lines", [
+    ((0.001, 0.01), 0, []), ((0.02, 0.001), 1, ["bars: direct 0, tip: error 0.020 is above its gate 0.010"]),
+    ((float("nan"),), 1, ["bars: direct 0, tip: error not finite is above its gate 0.010"]),
+])
+def test_a_gate_that_fails_is_printed_at_the_end_with_exit_code_1(tmp_path, monkeypatch, capsys, errors, code, lines):
+    check = finds(*errors)
+    monkeypatch.setattr(gallery, "CHECKED", {"bars": (check,)})
+    monkeypatch.setattr(gallery, "SPECS", {"bars": FigureSpec(
+        "bars", "bars", ("bars",), lambda folders: gallery._draw_check(check, folders))})
+    drawn = gallery.draw(["bars"], {"bars": tmp_path}, tmp_path / "out")
+    assert drawn.problems == () and list(drawn.failed_gates) == lines
+    assert commands._tell(drawn) == code
+    assert capsys.readouterr().err.splitlines() == [f"guidewire: beyond its gate: {line}" for line in lines]

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from key_table import foreign_keys, own_keys
+from experiments.key_table import foreign_keys, own_keys
 from parameter_strategies import (
     FITTED, REFUSED_IN_FILES, SOLVERS, VALUES, allowed, examples, extreme, scenes,
 )

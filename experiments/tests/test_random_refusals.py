@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from key_table import foreign_keys, own_keys
+from experiments.key_table import foreign_keys, own_keys
 from parameter_strategies import FITTED, REFUSED_IN_FILES, SOLVERS, allowed, examples, scenes
 from run_claims import assert_refused, assert_true_outcome, read_strictly, refuse_constant
 from wrong_values import wrong
@@ -47,9 +47,10 @@ def test_the_program_refuses_such_a_key_among_its_arguments_too(runner_command, 
 
 
 @every_method
-def test_a_wall_or_a_couple_that_a_method_does_not_take_is_refused_in_a_file(campaign, table, solver):
+def test_a_wall_a_load_or_a_damping_that_a_method_does_not_take_is_refused_in_a_file(campaign, table, solver):
     for name in set(REFUSED_IN_FILES) & set(foreign_keys(table, solver)):
-        scene = {"solver": solver, "maxSimulationSteps": 1, name: EXAMPLE_OF_FITTED.get(name, [1e-3, 0, 0])}
+        other = 1e-3 if table[name].kind == "number" else [1e-3, 0, 0]
+        scene = {"solver": solver, "maxSimulationSteps": 1, name: EXAMPLE_OF_FITTED.get(name, other)}
         assert_refused(*campaign.run(scene), "scene.json", name, f"solver {solver}")
 
 

@@ -5,7 +5,7 @@ import math
 from hypothesis import strategies as st
 from hypothesis.strategies import integers as whole
 
-from key_table import Key
+from experiments.key_table import Key
 
 
 def wrong(key: Key) -> st.SearchStrategy:

@@ -10,6 +10,7 @@ namespace Guidewire.Core
         private readonly TimeStepper _stepper;
         private readonly StopRule _stopRule;
         private readonly StepClock _clock;
+        private readonly RodStart _start;    // a place where the wire may be built, which not every later one is
         private string? _ownReason;
         private string? _warning;
 
@@ -20,6 +21,8 @@ namespace Guidewire.Core
             _stepper = start.Stepper;
             _stopRule = new StopRule(parameters.MaxSimulationSteps);
             _clock = new StepClock(parameters.TimeStep);
+            _start = new RodStart((Vector3d[])State.Positions.Clone(), (Quaterniond[])State.Orientations.Clone(),
+                (Vector3d[])State.Velocities.Clone(), (Vector3d[])State.AngularVelocities.Clone());
         }
 
         /// <summary>The wire as it is now.</summary>
@@ -117,16 +120,61 @@ namespace Guidewire.Core
                 throw new ArgumentException("solver needs to be one for " + (_hasMaterial ? "a material" : "gains")
                     + ": this run goes on with the wire that it has");
             }
-            SimulationParameters continued = parameters.Copy();
-            continued.Scene.Start = new RodStart(State.Positions, State.Orientations, State.Velocities,
-                State.AngularVelocities);
-            continued.Scene.InitialState = InitialState.Straight;
-            continued.Drive.Displacement = 0.0;
-            Simulation next = Create(continued);
             var snapshot = new Snapshot();
             Exchange(snapshot);
-            next.Exchange(snapshot.ToRead());
-            return next;
+            return Rebuild(parameters, new RodStart(State.Positions, State.Orientations, State.Velocities,
+                State.AngularVelocities), snapshot.ToRead());
+        }
+
+        /// <summary>All that the next steps depend on besides the parameters, as bytes for <see
+        /// cref="Restore"/>.</summary>
+        public byte[] Save()
+        {
+            var snapshot = new Snapshot();
+            int elements = State.ElementCount;
+            snapshot.Exchange(ref elements);
+            ExchangeStart(snapshot, _start);
+            Exchange(snapshot);
+            snapshot.Exchange(PredictionError);
+            Contacts?.Exchange(snapshot);    // of the last step, as the error before: what is shown and not what counts
+            snapshot.Exchange((int)Outcome);
+            snapshot.Exchange(Outcome == Outcome.Running ? "" : Reason);
+            return snapshot.ToBytes();
+        }
+
+        /// <summary>The run that was saved: it takes the same steps as the one that was, bit for bit.</summary>
+        /// <param name="parameters">Those of the run that was saved.</param>
+        /// <param name="saved">What <see cref="Save"/> gave.</param>
+        /// <exception cref="ArgumentException">As <see cref="Create"/>; bytes that <see cref="Save"/> did not give for
+        /// a run of these parameters.</exception>
+        public static Simulation Restore(SimulationParameters parameters, ReadOnlySpan<byte> saved)
+        {
+            Snapshot snapshot = Snapshot.OfBytes(saved);
+            try
+            {
+                int n = snapshot.Exchange(0);
+                if (n != ElementLayout.Count(parameters))
+                {
+                    throw new ArgumentException("what was saved is a wire of " + n + " elements");
+                }
+                var start = new RodStart(new Vector3d[n + 1], new Quaterniond[n], new Vector3d[n + 1],
+                    new Vector3d[n]);
+                ExchangeStart(snapshot, start);
+                Simulation simulation = Rebuild(parameters, start, snapshot);
+                simulation._stepper.PredictionError = snapshot.Exchange(0.0);
+                simulation.Contacts?.Exchange(snapshot);
+                var outcome = (Outcome)snapshot.Exchange(0);
+                string reason = snapshot.Exchange("");
+                if (outcome != Outcome.Running)
+                {
+                    simulation.End(outcome, reason);
+                }
+                return simulation;
+            }
+            catch (InvalidOperationException error)
+            {
+                throw new ArgumentException("what was saved is no run of these parameters: " + error.Message, error);
+            }
         }
 
         /// <summary>Ends the run where it is.</summary>
@@ -137,6 +185,25 @@ namespace Guidewire.Core
             _warning = outcome == Outcome.Interrupted ? _stepper.AccuracyWarning : null;
             Outcome = outcome;
             _ownReason = reason;
+        }
+
+        private static Simulation Rebuild(SimulationParameters parameters, RodStart start, Snapshot snapshot)
+        {
+            SimulationParameters continued = parameters.Copy();
+            continued.Scene.Start = start;
+            continued.Scene.InitialState = InitialState.Straight;
+            continued.Drive.Displacement = 0.0;
+            Simulation next = Create(continued);
+            next.Exchange(snapshot);
+            return next;
+        }
+
+        private static void ExchangeStart(Snapshot snapshot, RodStart start)
+        {
+            snapshot.Exchange(start.Positions);
+            snapshot.Exchange(start.Orientations);
+            snapshot.Exchange(start.Velocities);
+            snapshot.Exchange(start.AngularVelocities);
         }
 
         private void Exchange(Snapshot snapshot)

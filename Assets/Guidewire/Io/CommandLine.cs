@@ -15,6 +15,9 @@ namespace Guidewire.Io
         /// <summary>Number of a timed repeat, or null for a run that is not timed.</summary>
         public int? Repeat { get; internal set; }
 
+        /// <summary>Whether a complete run that the folder holds may be replaced.</summary>
+        public bool Force { get; internal set; }
+
         /// <summary>Parameters that count instead of the file's, in the order given.</summary>
         public List<KeyValuePair<string, JToken>> Overrides { get; } = new List<KeyValuePair<string, JToken>>();
     }

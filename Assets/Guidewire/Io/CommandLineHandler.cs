@@ -13,7 +13,7 @@ namespace Guidewire.Io
         /// <summary>What errors name as their source.</summary>
         public const string Source = "command line";
 
-        /// <summary>Reads <c>-parameters FILE -out DIR -repeat K -KEY VALUE ...</c>.</summary>
+        /// <summary>Reads <c>-parameters FILE -out DIR -repeat K -force -KEY VALUE ...</c>.</summary>
         /// <param name="arguments">The arguments.</param>
         /// <param name="logFileIsOurs">Whether the thesis's <c>-logFile DIR</c> stands for <c>-out</c>; in Unity it is
         /// Unity's own.</param>
@@ -30,6 +30,12 @@ namespace Guidewire.Io
                 {
                     throw new ParameterException(Source + ": '" + argument + "' stands where a key is expected: "
                         + "-parameters FILE, -out DIR or -KEY VALUE");
+                }
+                if (key == "force")
+                {
+                    line.Force = true;
+                    i--;    // it has no value
+                    continue;
                 }
                 ParameterEntry? entry = ParameterTable.Find(key);
                 bool isOut = key == "out" || (logFileIsOurs && key == "logFile");
@@ -97,6 +103,8 @@ namespace Guidewire.Io
             text.Append("\nA run:\n"
                 + "  -parameters FILE   JSON file with the parameters; without it the defaults count\n"
                 + "  -out DIR           folder of the results (positions.json, parameters.json, summary.json)\n"
+                + "  -force             replaces a complete run of other parameters in that folder, once this one is"
+                + " complete\n"
                 + "  -repeat K          the run is timed, this is its K-th repeat\n"
                 + "  -KEY VALUE         any parameter, instead of the file's\n\nParameters:\n");
             foreach (ParameterGroup group in ParameterTable.Groups)

@@ -64,9 +64,10 @@ namespace Guidewire.Benchmarks
                 [Figure] = both.FirstBest / both.SecondBest * ElementIterations / milliseconds,
                 ["wallTimePerSecond"] = 1e-6 * both.First / milliseconds,
                 ["elementIterationTime"] = both.Second / ElementIterations,
+                ["parameterHash"] = handler.Hash,
                 ["complete"] = true,
             }.ToString(Formatting.Indented) + "\n");
-            return new RunResult(motion.Outcome, motion.Reason);
+            return new RunResult(motion.Outcome, motion.Reason, false);
         }
     }
 }

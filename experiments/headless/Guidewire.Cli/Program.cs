@@ -16,13 +16,16 @@ namespace Guidewire.Cli
     internal static class Program
     {
         private const string Usage =
-            "usage: Guidewire.Cli -parameters FILE -out DIR [-KEY VALUE]...\n"
+            "usage: Guidewire.Cli -parameters FILE -out DIR [-force] [-KEY VALUE]...\n"
             + "       Guidewire.Cli -lines [-attached]      one JSON request a line on standard input, one answer a line on"
             + " standard output:\n"
             + "           {\"id\": TEXT, \"parameters\": FILE, \"set\": {KEY: VALUE}, \"out\": DIR, \"repeat\": K,"
             + " \"log\": true, \"check\": false}\n"
             + "           -attached: where the input ends, the run under way ends too, as by Ctrl-C\n"
             + "       Guidewire.Cli --modes FILE K   the K lowest frequencies and shapes of a material, as JSON\n"
+            + "       Guidewire.Cli --walls FILE X Y Z REACH   the walls' triangles in units, as JSON; of a wall without"
+            + " end\n"
+            + "           what is within REACH of (X, Y, Z)\n"
             + "       Guidewire.Cli --keys      the parameters as a Markdown table\n"
             + "       Guidewire.Cli --version\n"
             + "       Guidewire.Cli --help\n";
@@ -58,6 +61,9 @@ namespace Guidewire.Cli
                         return 0;
                     case "--modes":
                         return PrintModes(arguments);
+                    case "--walls":
+                        Console.Out.WriteLine(WallPrinter.Print(arguments));
+                        return 0;
                     case "--lines":
                     case "-lines":
                         return Serve(arguments);
@@ -84,7 +90,7 @@ namespace Guidewire.Cli
                 StopRequested = () => StopRequested,
                 KeepsLog = request.Log,
             };
-            return run.Execute();
+            return run.Execute(Existing.Replace);
         }
 
         // Attached, the end of the input says that whoever started us is gone: nobody waits for the run under way, and

@@ -7,18 +7,18 @@ using Newtonsoft.Json.Linq;
 namespace Guidewire.Cli
 {
     /// <summary>Takes one run after another, so that a sweep pays for no process start: a JSON request a line, a JSON
-    /// answer a line. A request that cannot be run gets its answer and the next one is taken. One that only asks for a
-    /// check is answered with the address of its run.</summary>
+    /// answer a line. A request that cannot be run gets its answer and the next one is taken.</summary>
     internal static class RequestLoop
     {
         /// <summary>Serves until the end of the input, or until a stop is requested.</summary>
         /// <param name="input">The requests.</param>
         /// <param name="output">Takes the answers.</param>
-        /// <param name="execute">What is done with the parameters of a request.</param>
-        /// <param name="stopRequested">Asked between requests.</param>
+        /// <param name="execute">What is done with the parameters of a request for a run.</param>
+        /// <param name="stopRequested">Asked between requests, and between the steps of a session.</param>
         public static int Serve(TextReader input, TextWriter output,
             Func<RunRequest, ParameterHandler, RunResult> execute, Func<bool> stopRequested)
         {
+            var sessions = new SessionHost(stopRequested);
             string? line;
             while (!stopRequested() && (line = input.ReadLine()) != null)
             {
@@ -26,13 +26,14 @@ namespace Guidewire.Cli
                 {
                     continue;
                 }
-                output.WriteLine(Answer(line, execute).ToString(Formatting.None));
+                output.WriteLine(Answer(line, execute, sessions).ToString(Formatting.None));
                 output.Flush();
             }
             return stopRequested() ? ExitCodes.Of(Core.Outcome.Interrupted) : 0;
         }
 
-        private static JObject Answer(string line, Func<RunRequest, ParameterHandler, RunResult> execute)
+        private static JObject Answer(string line, Func<RunRequest, ParameterHandler, RunResult> execute,
+            SessionHost sessions)
         {
             var answer = new JObject
             {
@@ -46,8 +47,14 @@ namespace Guidewire.Cli
             try
             {
                 RunRequest request = RunRequest.Parse(line);
+                if (request.Session != null)
+                {
+                    sessions.Answer(request, answer);
+                    answer["exitCode"] = 0;
+                    return answer;
+                }
                 ParameterHandler handler = ParameterHandler.Load(request.ParameterFile, request.Overrides);
-                if (request.Check)
+                if (request.IsCheck)
                 {
                     answer["exitCode"] = 0;
                     answer["address"] = RunSummary.Address(handler);

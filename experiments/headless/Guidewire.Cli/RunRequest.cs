@@ -12,8 +12,14 @@ namespace Guidewire.Cli
             ParameterFile = (string?)json["parameters"];
             Out = (string?)json["out"];
             Repeat = (int?)json["repeat"];
-            Check = (bool?)json["check"] ?? false;
+            IsCheck = (bool?)json["check"] ?? false;
             Log = (bool?)json["log"] ?? true;
+            Session = (string?)json["session"];
+            Hand = (bool?)json["hand"];
+            Steps = (int?)json["steps"] ?? 1;
+            Push = (double?)json["push"] ?? 0.0;
+            Turn = (double?)json["turn"] ?? 0.0;
+            Snapshot = (string?)json["snapshot"] ?? "";
             foreach (JProperty property in ((JObject?)json["set"] ?? new JObject()).Properties())
             {
                 Overrides.Add(new KeyValuePair<string, JToken>(property.Name, property.Value));
@@ -30,10 +36,28 @@ namespace Guidewire.Cli
         public int? Repeat { get; }
 
         /// <summary>Whether the parameters are only checked, and the run's address told.</summary>
-        public bool Check { get; }
+        public bool IsCheck { get; }
 
         /// <summary>Whether the run leaves a log.</summary>
         public bool Log { get; }
+
+        /// <summary>What is to be done with a run that is stepped by requests, or null for a whole run.</summary>
+        public string? Session { get; }
+
+        /// <summary>Whether a hand steers it in place of the drive; null: wherever the method may be steered.</summary>
+        public bool? Hand { get; }
+
+        /// <summary>Steps to make.</summary>
+        public int Steps { get; }
+
+        /// <summary>Way of sphere 0 along the first element in all of them, units.</summary>
+        public double Push { get; }
+
+        /// <summary>Turn of the first element about its axis in all of them, rad.</summary>
+        public double Turn { get; }
+
+        /// <summary>What is to be restored, as base64.</summary>
+        public string Snapshot { get; }
 
         /// <summary>Parameters that count instead of the file's.</summary>
         public List<KeyValuePair<string, JToken>> Overrides { get; } = new List<KeyValuePair<string, JToken>>();
@@ -43,12 +67,20 @@ namespace Guidewire.Cli
         public static RunRequest Parse(string line)
         {
             JObject json = JsonText.ParseObject(line, "request");
-            Require(json, "parameters", "a file's path", JTokenType.String);
-            Require(json, "out", "a folder's path", JTokenType.String);
-            Require(json, "repeat", "a whole number from 0", JTokenType.Integer);
-            Require(json, "check", "true or false", JTokenType.Boolean);
-            Require(json, "log", "true or false", JTokenType.Boolean);
-            Require(json, "set", "an object of parameters", JTokenType.Object);
+            Check(json, "parameters", "a file's path", JTokenType.String);
+            Check(json, "out", "a folder's path", JTokenType.String);
+            Check(json, "repeat", "a whole number from 0", JTokenType.Integer);
+            Check(json, "steps", "a whole number from 1", JTokenType.Integer);
+            Check(json, "check", "true or false", JTokenType.Boolean);
+            Check(json, "log", "true or false", JTokenType.Boolean);
+            Check(json, "set", "an object of parameters", JTokenType.Object);
+            Check(json, "session", "a text", JTokenType.String);
+            Check(json, "hand", "true or false", JTokenType.Boolean);
+            Check(json, "snapshot", "base64 as of \"save\"", JTokenType.String);
+            CheckNumber(json, "repeat", 0.0, int.MaxValue, "a whole number from 0");
+            CheckNumber(json, "steps", 1.0, int.MaxValue, "a whole number from 1");
+            CheckNumber(json, "push", double.MinValue, double.MaxValue, "a number (units)");
+            CheckNumber(json, "turn", double.MinValue, double.MaxValue, "a number (rad)");
             return new RunRequest(json);
         }
 
@@ -65,7 +97,21 @@ namespace Guidewire.Cli
             }
         }
 
-        private static void Require(JObject json, string key, string allowed, JTokenType type)
+        private static void CheckNumber(JObject json, string key, double low, double high, string allowed)
+        {
+            JToken? value = json[key];
+            if (value == null || value.Type == JTokenType.Null)
+            {
+                return;
+            }
+            bool isNumber = value.Type == JTokenType.Integer || value.Type == JTokenType.Float;
+            if (!isNumber || !((double)value >= low && (double)value <= high))
+            {
+                throw new ParameterException("request", key, value.ToString(Newtonsoft.Json.Formatting.None), allowed);
+            }
+        }
+
+        private static void Check(JObject json, string key, string allowed, JTokenType type)
         {
             JToken? value = json[key];
             if (value != null && value.Type != JTokenType.Null && value.Type != type)

@@ -28,7 +28,8 @@ namespace Guidewire.Core
         /// <summary>Points of the wire, ten an element, that were inside before a step and outside after it.</summary>
         public long Passages { get; internal set; }
 
-        /// <summary>Largest depth by which the wire's surface reached into a wall after a step, units.</summary>
+        /// <summary>Largest depth by which the surface of a sphere or a rod element lay in a wall, at the start or
+        /// after a step, units; see <see cref="WireDepth"/>.</summary>
         public double MaxPenetration { get; internal set; }
 
         /// <summary>What the drive asked of sphere 0 and the walls did not let it go, units, summed over the
@@ -37,6 +38,10 @@ namespace Guidewire.Core
 
         /// <summary>The way that the drive asked of sphere 0, units, summed over the run.</summary>
         public double DriveAsked { get; internal set; }
+
+        /// <summary>Successive steps, up to the last, in which the drive asked sphere 0 to move and the walls gave it
+        /// less than a hundredth of the way.</summary>
+        public int StuckSteps { get; private set; }
 
         /// <summary>Momenta over dt, dp/w, that walls gave each sphere in the present step, mass unit * unit.</summary>
         internal Vector3d[] Impulses => _impulses;
@@ -52,9 +57,22 @@ namespace Guidewire.Core
             MaxPenetration = snapshot.Exchange(MaxPenetration);
             DriveShortfall = snapshot.Exchange(DriveShortfall);
             DriveAsked = snapshot.Exchange(DriveAsked);
+            StuckSteps = snapshot.Exchange(StuckSteps);
             Total = snapshot.Exchange(Total);
             Reaction = snapshot.Exchange(Reaction);
             snapshot.Exchange(Forces);
+        }
+
+        /// <summary>Adds what the drive asked of sphere 0 in a step, and what of it the walls did not give,
+        /// units.</summary>
+        internal void AddDrive(double asked, double shortfall)
+        {
+            DriveAsked += asked;
+            DriveShortfall += shortfall;
+            if (asked > 0.0)
+            {
+                StuckSteps = shortfall > 0.99 * asked ? StuckSteps + 1 : 0;
+            }
         }
 
         internal void EndStep(RodState state, Vector3d[] predicted, double timeStep)

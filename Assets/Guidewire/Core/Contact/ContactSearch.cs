@@ -16,7 +16,8 @@ namespace Guidewire.Core
         private readonly double _clearance;
         private readonly int[] _elementHint;
         private readonly int[] _sphereHint;
-        private readonly double[] _distance;
+        private readonly int _elementCount;
+        private readonly double[] _distance;    // at least, where the motion starts, per wall and element
         private readonly bool[] _isKnown;
         private readonly bool _leavesGaps;
 
@@ -40,7 +41,8 @@ namespace Guidewire.Core
             _sphereHint = new int[walls.Length * (elementCount + 1)];
             Array.Fill(_elementHint, -1);
             Array.Fill(_sphereHint, -1);
-            _distance = new double[elementCount];
+            _elementCount = elementCount;
+            _distance = new double[walls.Length * elementCount];
             _isKnown = new bool[elementCount + 1];
             _leavesGaps = elementLength > 2.0 * radius;
             Contacts = new StructList<WireContact>(_elementHint.Length + _sphereHint.Length);
@@ -70,8 +72,7 @@ namespace Guidewire.Core
         {
             Contacts.Clear();
             Impacts.Clear();
-            int n = _distance.Length;
-            Array.Fill(_distance, double.PositiveInfinity);
+            int n = _elementCount;
             for (int w = 0; w < Walls.Length; w++)
             {
                 bool previousNear = false;
@@ -93,20 +94,20 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public double ClearanceOf(int j)
+        public double ClearanceOf(int w, int j)
         {
-            return _distance[j];
+            return _distance[w * _elementCount + j];
         }
 
         // True where the element comes near the wall, or may have met it on its way.
         private bool FindElement(int w, int j, Vector3d[] from, Vector3d[] to)
         {
-            ref int hint = ref _elementHint[w * _distance.Length + j];
+            ref int hint = ref _elementHint[w * _elementCount + j];
             double motion = Math.Max(Vector3d.Distance(from[j], to[j]), Vector3d.Distance(from[j + 1], to[j + 1]));
             ContactShape wall = Walls[w];
             bool near = wall.Nearest(to[j], to[j + 1], _range, ref hint, out SurfaceContact contact);
-            double distance = near ? Math.Abs(contact.Distance) : _range;
-            _distance[j] = Math.Min(_distance[j], distance - motion);
+            double distance = near ? wall.SizeOf(contact.Distance) : _range;
+            _distance[w * _elementCount + j] = distance - motion;
             bool mayHaveMet = distance <= motion + _clearance;
             if (near && !mayHaveMet && (contact.Position == 0.0 || contact.Position == 1.0))
             {

@@ -29,8 +29,8 @@ namespace Guidewire.Core
         /// <param name="to">Where the prediction takes them.</param>
         void Find(Vector3d[] from, Vector3d[] to);
 
-        /// <summary>Lower bound of the distance of element j from all walls at <c>from</c>, as the last search saw it,
+        /// <summary>Lower bound of the distance of element j from wall w at <c>from</c>, as the last search saw it,
         /// units.</summary>
-        double ClearanceOf(int j);
+        double ClearanceOf(int w, int j);
     }
 }

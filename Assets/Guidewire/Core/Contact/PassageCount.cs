@@ -5,15 +5,16 @@ namespace Guidewire.Core
     /// <summary>Counts points of the wire that are inside before a step and outside after it, ten an element (s = 0,
     /// 0.1, ... 0.9) and the last sphere. Leaving through an open rim is no passage.</summary>
     /// <remarks>Where a point left is asked of each part of a step: the straight line between a whole step's ends may
-    /// cut the corner of a rim around which the wire really went. Only an element whose straight way comes within the
-    /// clearance of a wall is asked: another changes no side. The clearance must not be 0, where the swept test may end
-    /// behind the wall by rounding and see it recede.</remarks>
+    /// cut the corner of a rim around which the wire really went. In a part, a point has left across a wall where it
+    /// was inside, is outside, and its straight way meets the wall itself and not the disc of a rim. Only the points of
+    /// an element that moved by as much as its distance from the wall are asked.</remarks>
     internal sealed class PassageCount
     {
         private const int SamplesPerElement = 10;
         private readonly IContactSearch _search;
         private readonly ContactShape[] _walls;
         private readonly double _clearance;
+        private readonly int[] _hint;     // where the nearest place was, per wall and element
         private readonly bool[] _left;    // whether a point left across a wall in this step, per wall and point
 
         /// <param name="search">Its walls and radius; it knows for each element a lower bound of its distance from the
@@ -24,6 +25,8 @@ namespace Guidewire.Core
             _search = search;
             _walls = search.Walls;
             _clearance = SweptSearch.ClearanceFor(search.Radius);
+            _hint = new int[_walls.Length * elementCount];
+            Array.Fill(_hint, -1);
             _left = new bool[_walls.Length * PointsOf(elementCount)];
         }
 
@@ -39,14 +42,10 @@ namespace Guidewire.Core
             for (int j = 0; j < n; j++)
             {
                 double motion = Math.Max(Vector3d.Distance(from[j], to[j]), Vector3d.Distance(from[j + 1], to[j + 1]));
-                if (motion < _search.ClearanceOf(j))
-                {
-                    continue;
-                }
                 for (int w = 0; w < _walls.Length; w++)
                 {
-                    if (_walls[w].Sweep(
-                        from[j], from[j + 1], to[j], to[j + 1], _clearance, out _) < ContactShape.NoImpact)
+                    if (motion >= _search.ClearanceOf(w, j) && _walls[w].Nearest(
+                        from[j], from[j + 1], motion + _clearance, ref _hint[w * n + j], out _))
                     {
                         MarkElement(w, from, to, j);
                     }
@@ -83,8 +82,9 @@ namespace Guidewire.Core
             {
                 Vector3d before = Point(from, k);
                 Vector3d after = Point(to, k);
-                if (_walls[w].Contains(before) && !_walls[w].Contains(after)
-                    && _walls[w].Sweep(before, before, after, after, _clearance, out _) < ContactShape.NoImpact)
+                int hint = _hint[w * n + j];
+                if (_walls[w].Nearest(before, after, _clearance, ref hint, out _) && _walls[w].Contains(before)
+                    && !_walls[w].Contains(after))
                 {
                     _left[w * PointsOf(n) + k] = true;
                 }

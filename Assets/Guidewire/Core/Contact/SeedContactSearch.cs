@@ -69,9 +69,9 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public double ClearanceOf(int j)
+        public double ClearanceOf(int w, int j)
         {
-            return 0.0;
+            return double.NegativeInfinity;
         }
     }
 }

@@ -40,16 +40,23 @@ namespace Guidewire.Core
         public bool Find(Vector3d[] from, Vector3d[] to)
         {
             Impacts.Clear();
+            bool wasHit = false;
             for (int i = 0; i < to.Length; i++)
             {
-                if (SphereImpact(from, to, i, out WireContact impact) < ContactShape.NoImpact)
+                WireContact element = default;
+                bool isHit = i + 1 < to.Length && ElementImpact(from, to, i, out element) < ContactShape.NoImpact;
+
+                // A sphere is an end of its elements: where they are free, it is.
+                if ((wasHit || isHit || !_search.GuardsElements)
+                    && SphereImpact(from, to, i, out WireContact sphere) < ContactShape.NoImpact)
                 {
-                    Impacts.Add(impact);
+                    Impacts.Add(sphere);
                 }
-                if (i + 1 < to.Length && ElementImpact(from, to, i, out impact) < ContactShape.NoImpact)
+                if (isHit)
                 {
-                    Impacts.Add(impact);
+                    Impacts.Add(element);
                 }
+                wasHit = isHit;
             }
             return Impacts.Count > 0;
         }
@@ -63,10 +70,7 @@ namespace Guidewire.Core
             {
                 return ContactShape.NoImpact;
             }
-            int last = to.Length - 2;
-            double known = Math.Max(
-                i > 0 ? _search.ClearanceOf(i - 1) : 0.0, i <= last ? _search.ClearanceOf(i) : 0.0);
-            return Impact(from, to, i, i, known, out impact);
+            return Impact(from, to, i, i, out impact);
         }
 
         /// <summary>The same for the rod element from sphere j to sphere j + 1.</summary>
@@ -74,20 +78,24 @@ namespace Guidewire.Core
         {
             impact = default;
             return _search.GuardsElements
-                ? Impact(from, to, j, j + 1, _search.ClearanceOf(j), out impact) : ContactShape.NoImpact;
+                ? Impact(from, to, j, j + 1, out impact) : ContactShape.NoImpact;
         }
 
-        private double Impact(Vector3d[] from, Vector3d[] to, int i, int k, double known, out WireContact impact)
+        private double Impact(Vector3d[] from, Vector3d[] to, int i, int k, out WireContact impact)
         {
             impact = default;
             double motion = Math.Max(Vector3d.Distance(from[i], to[i]), Vector3d.Distance(from[k], to[k]));
-            if (motion + _clearance < known || motion == 0.0)
-            {
-                return ContactShape.NoImpact;
-            }
             double first = ContactShape.NoImpact;
+            if (motion == 0.0)
+            {
+                return first;
+            }
             for (int w = 0; w < _walls.Length; w++)
             {
+                if (motion + _clearance < ClearanceOf(w, i, k, to.Length - 1))
+                {
+                    continue;
+                }
                 double time = _walls[w].Sweep(from[i], from[k], to[i], to[k], _clearance, out SurfaceContact at);
                 if (time < first)
                 {
@@ -96,6 +104,17 @@ namespace Guidewire.Core
                 }
             }
             return first;
+        }
+
+        // What is known of an element, or of a sphere by its elements.
+        private double ClearanceOf(int w, int i, int k, int elementCount)
+        {
+            if (i != k)
+            {
+                return _search.ClearanceOf(w, i);
+            }
+            return Math.Max(
+                i > 0 ? _search.ClearanceOf(w, i - 1) : 0.0, i < elementCount ? _search.ClearanceOf(w, i) : 0.0);
         }
     }
 }

@@ -1,37 +1,110 @@
+using System;
 using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>Where a wire may start: with every element in the lumen and none across a wall.</summary>
+    /// <summary>Where a wire may start: with every element in the lumen and none across a wall, and in a lumen that is
+    /// wide enough for it as far as it is pushed.</summary>
     public static class WireStart
     {
+        // Whole vessels are 0.2 to 20 lengths of a wire, lumens 1.05 to 60 of its radii; metres taken for millimetres
+        // are a factor of 1000.
+        private const double OddLengths = 100.0;
+        private const double OddRadii = 300.0;
+
         /// <summary>What is wrong with the start that the parameters describe, in one phrase, or null.</summary>
-        /// <exception cref="System.ArgumentException">There is no such start.</exception>
+        /// <exception cref="ArgumentException">There is no such start.</exception>
         public static string? FindProblem(SimulationParameters parameters)
         {
-            return parameters.Scene.Walls.Length == 0 ? null : FindProblem(new Scene(parameters));
+            return parameters.Scene.Walls.Length == 0 ? null : FindProblem(parameters, new Scene(parameters));
+        }
+
+        /// <summary>One line that gives the sizes of vessel and wire where they hardly belong together, or
+        /// null.</summary>
+        public static string? FindOddSizes(SimulationParameters parameters)
+        {
+            if (parameters.Scene.Walls.Length == 0)
+            {
+                return null;
+            }
+            double length = parameters.Scene.GuidewireLength;
+            double radius = parameters.Contact.SphereRadius;
+            Vector3d[] wire = new Scene(parameters).Shape.X;
+            foreach (ContactShape wall in parameters.Scene.Walls)
+            {
+                Extents? box = wall is ConvexObstacle ? null : Extents.Of(wall);
+                if (!box.HasValue)
+                {
+                    continue;
+                }
+                double share = box.Value.LargestSide / length;
+                double width = DistanceFrom(wall, wire[wire.Length - 1]);
+                if (share > OddLengths || share < 1.0 / OddLengths || width > OddRadii * radius)
+                {
+                    return string.Format(CultureInfo.InvariantCulture,
+                        "the sizes of vessel and wire hardly belong together: the vessel is {0:G3} units long and its"
+                        + " wall {1:G3} units from the wire's tip, the wire {2:G3} units long with a radius of {3:G3};"
+                        + " scale and metresPerUnit change a vessel's size", box.Value.LargestSide, width, length,
+                        radius);
+                }
+            }
+            return null;
         }
 
         /// <summary>What is wrong with the start of a scene, in one phrase, or null.</summary>
-        internal static string? FindProblem(Scene scene)
+        internal static string? FindProblem(SimulationParameters parameters, Scene scene)
         {
             Vector3d[] x = scene.Shape.X;
-            for (int j = 0; j < scene.Shape.ElementCount; j++)
+            foreach (ContactShape wall in scene.Walls)
             {
-                foreach (ContactShape wall in scene.Walls)
+                for (int j = 0; j < scene.Shape.ElementCount; j++)
                 {
                     int hint = -1;
                     wall.Nearest(x[j], x[j + 1], double.PositiveInfinity, ref hint, out SurfaceContact contact);
                     if (!(contact.Distance > 0.0) || !wall.Contains(x[j]) || !wall.Contains(x[j + 1]))
                     {
-                        return string.Format(CultureInfo.InvariantCulture,
-                            "the wire starts outside: rod element {0} from {1} to {2} is not on the free side of the"
-                            + " wall",
-                            j, x[j], x[j + 1]);
+                        return Outside(x, j, wall);
                     }
                 }
             }
+            foreach (ContactShape wall in scene.Walls)
+            {
+                var lumen = new LumenWidth(wall, parameters.Contact.SphereRadius);
+                if (lumen.IsTooNarrow(x, WayAhead(parameters)))
+                {
+                    return string.Format(CultureInfo.InvariantCulture,
+                        "sphereRadius = {0} is larger than the lumen on the wire's way: {1:G4} units at ({2:G4},"
+                        + " {3:G4}, {4:G4})", parameters.Contact.SphereRadius, lumen.Width, lumen.Place.X,
+                        lumen.Place.Y, lumen.Place.Z);
+                }
+            }
             return null;
+        }
+
+        private static string Outside(Vector3d[] x, int element, ContactShape wall)
+        {
+            Extents? box = Extents.Of(wall);
+            string what = wall is ConvexObstacle ? "the obstacle" : "the vessel";
+            return string.Format(CultureInfo.InvariantCulture,
+                "the wire starts outside: rod element {0} from {1} to {2} is not on the free side of the wall; the wire"
+                + " reaches {3}{4}", element, x[element], x[element + 1], Extents.Of(x),
+                box.HasValue ? ", " + what + " " + box.Value : "");
+        }
+
+        // How far the drive means to push the tip, units.
+        private static double WayAhead(SimulationParameters parameters)
+        {
+            DriveParameters drive = parameters.Drive;
+            return drive.Steering != null || drive.Kind == Drive.Force ? double.PositiveInfinity
+                : drive.Kind == Drive.Hold ? Math.Abs(drive.Displacement)
+                : Math.Max(0.0, drive.DisplacementPerStep * parameters.Method.MaxSimulationSteps);
+        }
+
+        private static double DistanceFrom(ContactShape wall, in Vector3d x)
+        {
+            int hint = -1;
+            wall.Nearest(x, x, double.PositiveInfinity, ref hint, out SurfaceContact contact);
+            return contact.Distance;
         }
     }
 }

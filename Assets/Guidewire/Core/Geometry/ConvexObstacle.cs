@@ -119,23 +119,10 @@ namespace Guidewire.Core
             return _gjk.Distance(point, point, _points, out _, out _, out _) > _radius;
         }
 
-        /// <inheritdoc/>
-        public override double Sweep(
-            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance,
-            out SurfaceContact contact)
+        private protected override double FreeUntil(
+            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep, int hint)
         {
-            int hint = -1;
-            Nearest(a0, b0, double.PositiveInfinity, ref hint, out contact);
-            double keep = Math.Min(clearance, 0.5 * contact.Distance);
-            double impact = SweptTest.Impact(new Body(this), a0, b0, a1, b1, keep);
-            contact = default;
-            if (impact < NoImpact)
-            {
-                Nearest(
-                    Vector3d.Lerp(a0, a1, impact), Vector3d.Lerp(b0, b1, impact), double.PositiveInfinity, ref hint,
-                    out contact);
-            }
-            return impact;
+            return SweptTest.Impact(new Body(this), a0, b0, a1, b1, keep);
         }
 
         private readonly struct Body : IConvexBody

@@ -55,25 +55,14 @@ namespace Guidewire.Core
             return Vector3d.Dot(point - _point, _normal) > 0.0;
         }
 
-        /// <inheritdoc/>
-        public override double Sweep(
-            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance,
-            out SurfaceContact contact)
+        private protected override double FreeUntil(
+            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep, int hint)
         {
             double da0 = Vector3d.Dot(a0 - _point, _normal);
             double db0 = Vector3d.Dot(b0 - _point, _normal);
             double da1 = Vector3d.Dot(a1 - _point, _normal);
             double db1 = Vector3d.Dot(b1 - _point, _normal);
-            double keep = Math.Min(clearance, 0.5 * Math.Min(da0, db0));
-            double impact = Math.Min(Crossing(da0, da1, keep), Crossing(db0, db1, keep));
-            contact = default;
-            if (impact < NoImpact)
-            {
-                contact = At(
-                    Vector3d.Lerp(a0, a1, impact), Vector3d.Lerp(b0, b1, impact),
-                    da0 + impact * (da1 - da0), db0 + impact * (db1 - db0));
-            }
-            return impact;
+            return Math.Min(Crossing(da0, da1, keep), Crossing(db0, db1, keep));
         }
 
         private static double Crossing(double before, double after, double keep)

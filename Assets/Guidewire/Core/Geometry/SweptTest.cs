@@ -10,18 +10,21 @@ namespace Guidewire.Core
     /// costs one look.</remarks>
     internal static class SweptTest
     {
-        private const int MaxAdvances = 64;
+        private const int MaxAdvances = 20;
 
         /// <summary>Fraction of the motion during which the distance stays at least <paramref name="keep"/>,
         /// <see cref="ContactShape.NoImpact"/> for all of it. It must be more at the start. Where the advances run out
-        /// before the answer is known, the time that is proven safe is returned.</summary>
+        /// before the answer is known, the time that is proven safe is returned. Nobody asks what comes after
+        /// <paramref name="limit"/>.</summary>
         public static double Impact<TBody>(
-            in TBody body, in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep)
+            in TBody body, in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
+            double limit = 1.0)
             where TBody : struct, IConvexBody
         {
             Vector3d va = a1 - a0;
             Vector3d vb = b1 - b0;
             double time = 0.0;
+            double proven = 0.0;    // the last time at which the distance was seen
             for (int k = 0; k < MaxAdvances; k++)
             {
                 Vector3d a = a0 + time * va;
@@ -29,12 +32,13 @@ namespace Guidewire.Core
                 double distance = body.Closest(a, b, out double s, out Vector3d c);
                 if (!(distance > 0.0))
                 {
-                    return time;
+                    return proven;
                 }
+                proven = time;
                 Vector3d n = (Vector3d.Lerp(a, b, s) - c) / distance;
                 double advance = Math.Min(
                     TimeToPlane(a - c, va, n, keep, time), TimeToPlane(b - c, vb, n, keep, time));
-                if (advance >= 1.0 - time)
+                if (advance >= limit - time)
                 {
                     return ContactShape.NoImpact;
                 }

@@ -8,17 +8,14 @@ namespace Guidewire.Core
     /// points from x to the centre c that gives the maximum. d is the exact distance outside a crease, has slope 1
     /// everywhere and is 0 on the wall; where two pieces meet at the inner side of a bend it may be smaller than the
     /// distance to their common edge, never larger. Each piece's term is concave, because its lumen is convex: an
-    /// element therefore touches with its ends or where two pieces' terms cross. Cost grows with the number of
-    /// pieces; a vessel of many is better given as a mesh.</remarks>
+    /// element therefore touches with its ends or where two pieces' terms cross.</remarks>
     public sealed class TubeShape : ContactShape
     {
-        private const int MaxHalvings = 48;
-        private const int MaxHandovers = 64;
-        private const int MaxSplits = 20;
-        private const double LeastAdvance = 1e-12;
+        private const int MostCuts = 64;
         private readonly Vector3d[] _knots;
         private readonly double[] _radii;
-        private readonly double _resolution;
+        private readonly TubeTree _tree;
+        private readonly TubeSweep _sweep;
         private TubePlaces? _places;
 
         /// <summary>The tube through <paramref name="knots"/> (at least 2, units) with a radius at each (positive,
@@ -60,8 +57,17 @@ namespace Guidewire.Core
                     + far * Vector3d.Normalize(knots[count - 1] - knots[count - 2]);
                 _radii[count + shift] = radii[count - 1];
             }
-            _resolution = 1e-12 * (length + widest);
+            _tree = new TubeTree(_knots, _radii, 1e-12 * (length + widest));
+            _sweep = new TubeSweep(this, _tree);
+            FirstKnot = shift;
+            LastKnot = shift + count - 1;
         }
+
+        /// <summary>The first knot that was given: 1 behind an open start, else 0.</summary>
+        internal int FirstKnot { get; }
+
+        /// <summary>The last knot that was given.</summary>
+        internal int LastKnot { get; }
 
         /// <summary>Knots of the centreline in units; an open end's last knot is far away.</summary>
         internal Vector3d[] Knots => _knots;
@@ -73,52 +79,45 @@ namespace Guidewire.Core
         /// <remarks>On the centreline of a piece the normal has no direction and is 0.</remarks>
         public double Distance(in Vector3d x, out Vector3d normal)
         {
-            double best = double.NegativeInfinity;
-            Vector3d centre = x;
-            for (int i = 0; i + 1 < _knots.Length; i++)
-            {
-                double value = PieceDistance(i, x, out Vector3d c);
-                if (value > best)
-                {
-                    best = value;
-                    centre = c;
-                }
-            }
+            int piece = _tree.Deepest(x, 0, out _);
+            double distance = _tree.Pieces[piece].Distance(x, out Vector3d centre, out _);
             normal = Vector3d.Normalize(centre - x);
-            return best;
+            return distance;
         }
 
         /// <inheritdoc/>
         public override bool Contains(in Vector3d point)
         {
-            return Distance(point, out _) > 0.0;
+            _tree.Deepest(point, 0, out double distance);
+            return distance > 0.0;
         }
 
         /// <inheritdoc/>
         public override bool Nearest(
             in Vector3d a, in Vector3d b, double range, ref int hint, out SurfaceContact contact)
         {
-            double da = Distance(a, out Vector3d na);
-            double s = 0.0;
-            double distance = da;
-            Vector3d normal = na;
-            double length = Vector3d.Distance(a, b);
-            if (length > 0.0)
+            int guess = hint >= 0 && hint < _tree.Pieces.Length ? hint : 0;
+            ref readonly TubePiece last = ref _tree.Pieces[guess];
+            if (last.Distance(a) > range && last.Distance(b) > range)
             {
-                double db = Distance(b, out Vector3d nb);
-                if (db < distance)
-                {
-                    s = 1.0;
-                    distance = db;
-                    normal = nb;
-                }
-                if (0.5 * (da + db - length) <= Math.Min(distance, range))
-                {
-                    Between(a, b, length, 0.0, da, 1.0, db, range, 0, ref s, ref distance, ref normal);
-                }
+                // One piece, being convex, holds all of the segment that deep.
+                contact = default;
+                return false;
             }
-            contact = new SurfaceContact(s, Vector3d.Lerp(a, b, s) - distance * normal, normal, distance);
+            int piece = FindLeast(a, b, guess, range, out double s, out _);
+            hint = piece;
+            Vector3d x = Vector3d.Lerp(a, b, s);
+            double distance = _tree.Pieces[piece].Distance(x, out Vector3d centre, out _);
+            Vector3d normal = Vector3d.Normalize(centre - x);
+            contact = new SurfaceContact(s, x - distance * normal, normal, distance);
             return distance <= range;
+        }
+
+        /// <summary>Least distance along segment a b, units.</summary>
+        internal double LeastDistance(in Vector3d a, in Vector3d b)
+        {
+            FindLeast(a, b, 0, double.PositiveInfinity, out _, out double distance);
+            return distance;
         }
 
         /// <summary>The least and the largest distances along the segment, by turns: ends that it approaches the wall
@@ -133,169 +132,84 @@ namespace Guidewire.Core
             _places.Find(a, b, range, places);
         }
 
-        /// <inheritdoc/>
-        public override double Sweep(
-            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance,
-            out SurfaceContact contact)
+        private protected override double FreeUntil(
+            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep, int hint)
         {
-            contact = default;
-            int hint = -1;
-            Nearest(a0, b0, double.PositiveInfinity, ref hint, out SurfaceContact start);
-            double keep = Math.Min(clearance, 0.5 * start.Distance);
-            double impact = SafeUntil(a0, b0, a1, b1, 0.0, NoImpact, keep, 0);
-            if (impact < NoImpact)
-            {
-                Nearest(
-                    Vector3d.Lerp(a0, a1, impact), Vector3d.Lerp(b0, b1, impact), double.PositiveInfinity, ref hint,
-                    out contact);
-            }
-            return impact;
+            return _sweep.FreeUntil(a0, b0, a1, b1, keep);
         }
 
-        // Smallest d on s0..s1, given its values at both ends: with slope at most 1 it is nowhere below
-        // (d0 + d1 - length)/2, and where one piece serves both ends it is nowhere below the smaller of the two.
-        private void Between(
-            in Vector3d a, in Vector3d b, double length, double s0, double d0, double s1, double d1, double range,
-            int depth, ref double s, ref double distance, ref Vector3d normal)
+        // Where d is least along the segment, and the piece whose term it is. A piece that serves both ends of a part
+        // serves all of it, its term being concave, and then the part is nearest with an end. So a part is cut where
+        // the terms of the pieces at its ends cross; when one of the two is the deepest there too, that place is the
+        // nearest between. With slope at most 1, d is nowhere below (d0 + d1 - length)/2.
+        private int FindLeast(
+            in Vector3d a, in Vector3d b, int guess, double range, out double s, out double distance)
         {
-            double bound = 0.5 * (d0 + d1 - length * (s1 - s0));
-            if (bound > range || bound >= distance - _resolution || depth == MaxHalvings
-                || HullClearance(Vector3d.Lerp(a, b, s0), Vector3d.Lerp(a, b, s1)) >= distance)
+            int piece = _tree.Deepest(a, guess, out distance);
+            s = 0.0;
+            if (a == b)
+            {
+                return piece;
+            }
+            int last = _tree.Deepest(b, piece, out double db);
+            int first = piece;
+            double da = distance;
+            if (db < distance)
+            {
+                s = 1.0;
+                distance = db;
+                piece = last;
+            }
+            if (first != last)
+            {
+                double length = Vector3d.Distance(a, b);
+                var start = new TubePlace(0.0, da, first);
+                var end = new TubePlace(1.0, db, last);
+                Between(a, b, length, start, end, range, 0, ref s, ref distance, ref piece);
+            }
+            return piece;
+        }
+
+        private void Between(in Vector3d a, in Vector3d b, double length, in TubePlace from, in TubePlace to,
+            double range, int cuts, ref double s, ref double distance, ref int piece)
+        {
+            double bound = 0.5 * (from.Distance + to.Distance - length * (to.S - from.S));
+            if (from.Piece == to.Piece || bound > range || bound >= distance - _tree.Resolution || cuts == MostCuts
+                || IsHeld(from.Piece, a, b, to.S, distance) || IsHeld(to.Piece, a, b, from.S, distance))
             {
                 return;
             }
-            double middle = 0.5 * (s0 + s1);
-            double d = Distance(Vector3d.Lerp(a, b, middle), out Vector3d n);
-            if (d < distance)
+            double middle = _tree.Crossing(a, b, from, to);
+            int deepest = _tree.Deepest(Vector3d.Lerp(a, b, middle), from.Piece, out double d);
+            if (d < distance - _tree.Resolution)
             {
                 s = middle;
                 distance = d;
-                normal = n;
+                piece = deepest;
             }
-            Between(a, b, length, s0, d0, middle, d, range, depth + 1, ref s, ref distance, ref normal);
-            Between(a, b, length, middle, d, s1, d1, range, depth + 1, ref s, ref distance, ref normal);
+            double crossing = Math.Max(
+                _tree.Pieces[from.Piece].Distance(Vector3d.Lerp(a, b, middle)),
+                _tree.Pieces[to.Piece].Distance(Vector3d.Lerp(a, b, middle)));
+            if (d <= crossing + _tree.Resolution)
+            {
+                return;
+            }
+            var cut = new TubePlace(middle, d, deepest);
+            Between(a, b, length, from, cut, range, cuts + 1, ref s, ref distance, ref piece);
+            Between(a, b, length, cut, to, range, cuts + 1, ref s, ref distance, ref piece);
         }
 
-        // Largest value that one piece's term keeps on the whole segment: a lower bound of d on it.
-        private double HullClearance(in Vector3d a, in Vector3d b)
+        // True where the piece's term at the other end of its part is no less than the least distance so far.
+        private bool IsHeld(int piece, in Vector3d a, in Vector3d b, double s, double distance)
         {
-            double best = double.NegativeInfinity;
-            for (int i = 0; i + 1 < _knots.Length; i++)
-            {
-                double value = PieceDistance(i, a, out _);
-                if (value > best)
-                {
-                    best = Math.Max(best, Math.Min(value, PieceDistance(i, b, out _)));
-                }
-            }
-            return best;
-        }
-
-        // Largest time until which the segment is proven to keep its distance, from a time at which it does. While one
-        // piece's lumen, being convex, holds both ends it holds all between them; where none does, each half is asked,
-        // first the one whose end is nearer to the wall, which limits what is asked of the other.
-        private double SafeUntil(
-            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double time, double limit, double keep,
-            int depth)
-        {
-            for (int k = 0; k < MaxHandovers; k++)
-            {
-                double until = time;
-                for (int i = 0; i + 1 < _knots.Length && until < 1.0; i++)
-                {
-                    until = Math.Max(until, LeavesPiece(i, a0, b0, a1, b1, time, keep));
-                }
-                if (until >= 1.0 || until >= limit)
-                {
-                    return NoImpact;
-                }
-                if (until - time <= LeastAdvance)
-                {
-                    break;
-                }
-                time = until;
-            }
-            if (depth == MaxSplits)
-            {
-                return time;
-            }
-            Vector3d m0 = Vector3d.Lerp(a0, b0, 0.5);
-            Vector3d m1 = Vector3d.Lerp(a1, b1, 0.5);
-            double atA = Distance(Vector3d.Lerp(a0, a1, time), out _);
-            double atB = Distance(Vector3d.Lerp(b0, b1, time), out _);
-            double nearer = atA <= atB
-                ? SafeUntil(a0, m0, a1, m1, time, limit, keep, depth + 1)
-                : SafeUntil(m0, b0, m1, b1, time, limit, keep, depth + 1);
-            if (nearer <= time)
-            {
-                return nearer;
-            }
-            limit = Math.Min(limit, nearer);
-            double farther = atA <= atB
-                ? SafeUntil(m0, b0, m1, b1, time, limit, keep, depth + 1)
-                : SafeUntil(a0, m0, a1, m1, time, limit, keep, depth + 1);
-            return Math.Min(nearer, farther);
-        }
-
-        // When the first end leaves piece i's lumen, less the distance to keep; the time itself when it is not in it.
-        // The piece's term is concave along each end's straight way, so it leaves once.
-        private double LeavesPiece(
-            int i, in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double time, double keep)
-        {
-            if (!IsInPiece(i, Vector3d.Lerp(a0, a1, time), Vector3d.Lerp(b0, b1, time), keep))
-            {
-                return time;
-            }
-            if (IsInPiece(i, a1, b1, keep))
-            {
-                return 1.0;
-            }
-            double inside = time;
-            double outside = 1.0;
-            while (outside - inside > LeastAdvance)
-            {
-                double middle = 0.5 * (inside + outside);
-                if (IsInPiece(i, Vector3d.Lerp(a0, a1, middle), Vector3d.Lerp(b0, b1, middle), keep))
-                {
-                    inside = middle;
-                }
-                else
-                {
-                    outside = middle;
-                }
-            }
-            return inside;
-        }
-
-        private bool IsInPiece(int i, in Vector3d a, in Vector3d b, double keep)
-        {
-            return PieceDistance(i, a, out _) >= keep && PieceDistance(i, b, out _) >= keep;
-        }
-
-        // max over u in [0, 1] of R(u) - |x - c(u)| for piece i, and the centre that gives it. With h the distance of
-        // x from the line, z its foot's arc length and k = (R1 - R0)/length the slope of the radius, |k| < 1, the
-        // maximum of R0 + k y - sqrt(h^2 + (z - y)^2) lies at y = z + k h/sqrt(1 - k^2).
-        private double PieceDistance(int i, in Vector3d x, out Vector3d centre)
-        {
-            return PieceDistance(i, x, out centre, out _);
+            return _tree.Pieces[piece].Distance(Vector3d.Lerp(a, b, s)) >= distance - _tree.Resolution;
         }
 
         /// <summary>The term of piece i at x with the centre that gives it, and where along the piece that centre would
         /// lie if the piece had no ends: from 0 to 1 between its knots.</summary>
         internal double PieceDistance(int i, in Vector3d x, out Vector3d centre, out double along)
         {
-            Vector3d from = _knots[i];
-            Vector3d axis = _knots[i + 1] - from;
-            double length = axis.Length;
-            Vector3d offset = x - from;
-            double z = Vector3d.Dot(offset, axis) / length;
-            double h = Vector3d.Cross(axis, offset).Length / length;
-            double k = (_radii[i + 1] - _radii[i]) / length;
-            double free = z + k * h / Math.Sqrt(1.0 - k * k);
-            double y = Math.Min(Math.Max(free, 0.0), length);
-            along = free / length;
-            centre = from + (y / length) * axis;
-            return _radii[i] + k * y - Vector3d.Distance(x, centre);
+            return _tree.Pieces[i].Distance(x, out centre, out along);
         }
 
         private static string? Check(Vector3d[] knots, double[] radii)

@@ -23,8 +23,11 @@ namespace Guidewire.Core
         /// <summary>rho A, kg/m.</summary>
         public double LineDensity;
 
-        /// <summary>rho I about d1 and d2, the mean of both, kg m; about d3 it is twice that.</summary>
-        public double RotaryInertia;
+        /// <summary>rho I about d1, kg m; about d3 it is the sum of both.</summary>
+        public double RotaryInertia1;
+
+        /// <summary>rho I about d2, kg m.</summary>
+        public double RotaryInertia2;
 
         /// <summary>Curvature and twist at rest, rad/m.</summary>
         public Vector3d RestCurvature;
@@ -100,12 +103,13 @@ namespace Guidewire.Core
                 BendStiffness2 = youngsModulus * second,
                 TwistStiffness = 2.0 * shearModulus * second,
                 LineDensity = density * area,
-                RotaryInertia = density * second,
+                RotaryInertia1 = density * second,
+                RotaryInertia2 = density * second,
             };
         }
 
         /// <summary>Takes over what is given as stiffness and mass. Rotary inertia follows from them, rho A EI/EA about
-        /// either axis, where it is not given.</summary>
+        /// each axis, where it is not given.</summary>
         private void TakeDirect(WireSection given)
         {
             StretchStiffness = given.AxialStiffness ?? StretchStiffness;
@@ -116,12 +120,14 @@ namespace Guidewire.Core
             LineDensity = given.MassPerLength ?? LineDensity;
             if (given.RotaryInertia.HasValue)
             {
-                RotaryInertia = given.RotaryInertia.Value;
+                RotaryInertia1 = given.RotaryInertia.Value;
+                RotaryInertia2 = given.RotaryInertia.Value;
             }
             else if (given.AxialStiffness.HasValue || given.BendingStiffness1.HasValue
                 || given.BendingStiffness2.HasValue || given.MassPerLength.HasValue)
             {
-                RotaryInertia = LineDensity * 0.5 * (BendStiffness1 + BendStiffness2) / StretchStiffness;
+                RotaryInertia1 = LineDensity * BendStiffness1 / StretchStiffness;
+                RotaryInertia2 = LineDensity * BendStiffness2 / StretchStiffness;
             }
         }
 
@@ -134,7 +140,8 @@ namespace Guidewire.Core
             rod.BendStiffness2[j] = BendStiffness2;
             rod.TwistStiffness[j] = TwistStiffness;
             rod.LineDensity[j] = LineDensity;
-            rod.RotaryInertia[j] = RotaryInertia;
+            rod.RotaryInertia1[j] = RotaryInertia1;
+            rod.RotaryInertia2[j] = RotaryInertia2;
             rod.RestCurvature[j] = RestCurvature;
         }
     }

@@ -31,7 +31,8 @@ namespace Guidewire.Core
             for (int j = 0; j < spins.Length; j++)
             {
                 Vector3d w = spins[j];
-                twice += _mass.Rotary[j] * (w.LengthSquared + w.Z * w.Z);
+                Vector3d i = _mass.Rotary[j];
+                twice += i.X * w.X * w.X + i.Y * w.Y * w.Y + i.Z * w.Z * w.Z;
             }
             return 0.5 * twice;
         }

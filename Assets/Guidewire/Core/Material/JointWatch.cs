@@ -22,6 +22,7 @@ namespace Guidewire.Core
         private readonly RodSupports _supports;
         private readonly RodSchedule _schedule;
         private readonly MaterialRod _rod;
+        private readonly LinkWatch _link;
         private readonly double _end;       // of the run, s
         private readonly double _least = Math.Cos(0.5 * Limit);
 
@@ -33,7 +34,18 @@ namespace Guidewire.Core
             _rod = scene.Rod;
             _supports = scene.Supports;
             _schedule = scene.Schedule;
+            _link = new LinkWatch(scene.Supports, scene.Schedule, scene.Shape);
             _end = end;
+        }
+
+        /// <summary>What the wire has lost of its twist in this shape, or is about to, in one line; or null.</summary>
+        /// <param name="time">s; the clamps have turned as they should by then.</param>
+        /// <param name="done">How much of what the ends are asked to do at this time they have done, above 0 to
+        /// 1.</param>
+        public string? FindLost(RodShape shape, double time, double done = 1.0)
+        {
+            return FindTurned(shape, time, done)
+                ?? _link.FindLost(shape, done * (_schedule.DistalTurnAt(time) - _schedule.ProximalTurnAt(time)));
         }
 
         /// <summary>The joint that is turned too far in this shape, its angle and what would help, in one line; or

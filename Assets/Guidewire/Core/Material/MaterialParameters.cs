@@ -33,6 +33,12 @@ namespace Guidewire.Core
         /// <summary>Pieces of the wire that differ from the rest; later ones count where they overlap.</summary>
         public IReadOnlyList<WireSection> Sections { get; set; } = Array.Empty<WireSection>();
 
+        /// <summary>a of the force -a M v, 1/s.</summary>
+        public double MassDamping { get; set; }
+
+        /// <summary>b of the stress b K times the rate of strain (Kelvin-Voigt), s.</summary>
+        public double MaterialDamping { get; set; }
+
         /// <summary>Weights of the joints at a clamp.</summary>
         public ClampRule ClampRule { get; set; } = ClampRule.FourthOrder;
 

@@ -21,7 +21,8 @@ namespace Guidewire.Core
             BendStiffness2 = new double[elementCount];
             TwistStiffness = new double[elementCount];
             LineDensity = new double[elementCount];
-            RotaryInertia = new double[elementCount];
+            RotaryInertia1 = new double[elementCount];
+            RotaryInertia2 = new double[elementCount];
             RestCurvature = new Vector3d[elementCount];
             _sides = new JointSide[]?[elementCount];
         }
@@ -50,11 +51,20 @@ namespace Guidewire.Core
         /// <summary>rho A, kg/m.</summary>
         public double[] LineDensity { get; }
 
-        /// <summary>rho I about d1 and d2, the mean of both, kg m; about d3 it is twice that.</summary>
-        public double[] RotaryInertia { get; }
+        /// <summary>rho I about d1, kg m; about d3 a flat piece of wire has the sum of both.</summary>
+        public double[] RotaryInertia1 { get; }
+
+        /// <summary>rho I about d2, kg m.</summary>
+        public double[] RotaryInertia2 { get; }
 
         /// <summary>Curvature and twist at rest along the element's axes, rad/m.</summary>
         public Vector3d[] RestCurvature { get; }
+
+        /// <summary>Damping in proportion to mass, 1/s.</summary>
+        public double MassDamping { get; set; }
+
+        /// <summary>Damping in proportion to stiffness (Kelvin-Voigt), s.</summary>
+        public double MaterialDamping { get; set; }
 
         /// <summary>L, m.</summary>
         public double TotalLength

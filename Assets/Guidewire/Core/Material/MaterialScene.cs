@@ -96,7 +96,11 @@ namespace Guidewire.Core
         {
             var profile = new WireProfile(parameters.Material, parameters.Scene.GuidewireLength);
             ElementLayout.Lengths(parameters, 1.0, out double[] places);
-            var rod = new MaterialRod(lengths.Length);
+            var rod = new MaterialRod(lengths.Length)
+            {
+                MassDamping = parameters.Material.MassDamping,
+                MaterialDamping = parameters.Material.MaterialDamping,
+            };
             for (int j = 0; j < lengths.Length; j++)
             {
                 rod.Length[j] = lengths[j];

@@ -12,8 +12,8 @@ namespace Guidewire.Core
             InverseInertia = new Vector3d[n];
             for (int j = 0; j < n; j++)
             {
-                double rotary = mass.Rotary[j];
-                InverseInertia[j] = new Vector3d(1.0 / rotary, 1.0 / rotary, 0.5 / rotary);
+                Vector3d rotary = mass.Rotary[j];
+                InverseInertia[j] = new Vector3d(1.0 / rotary.X, 1.0 / rotary.Y, 1.0 / rotary.Z);
             }
             for (int i = 0; i <= n; i++)
             {
@@ -32,7 +32,7 @@ namespace Guidewire.Core
         /// <summary>1/kg, n+1.</summary>
         public double[] InverseMass { get; }
 
-        /// <summary>1/(rho I l), 1/(rho I l), 1/(2 rho I l) along the element's axes, 1/(kg m^2), n.</summary>
+        /// <summary>1/I along the element's axes, 1/(kg m^2), n.</summary>
         public Vector3d[] InverseInertia { get; }
 
         /// <summary>Kinetic energy of what is not held, J.</summary>

@@ -12,7 +12,7 @@ namespace Guidewire.Core
             Nodal = new double[n + 1];
             Diagonal = new double[n + 1];
             Coupling = new double[n];
-            Rotary = new double[n];
+            Rotary = new Vector3d[n];
             for (int j = 0; j < n; j++)
             {
                 double mass = rod.LineDensity[j] * rod.Length[j];
@@ -22,7 +22,9 @@ namespace Guidewire.Core
                 Diagonal[j] += share;
                 Diagonal[j + 1] += share;
                 Coupling[j] = rule == MassRule.Consistent ? mass / 6.0 : 0.0;
-                Rotary[j] = rod.RotaryInertia[j] * rod.Length[j];
+                double first = rod.RotaryInertia1[j] * rod.Length[j];
+                double second = rod.RotaryInertia2[j] * rod.Length[j];
+                Rotary[j] = new Vector3d(first, second, first + second);
                 Total += mass;
             }
             if (rule == MassRule.Uniform)
@@ -44,8 +46,8 @@ namespace Guidewire.Core
         /// <summary>The mass matrix between nodes i and i+1, kg, n.</summary>
         public double[] Coupling { get; }
 
-        /// <summary>rho I l about d1 and d2, kg m^2, n; about d3 it is twice that.</summary>
-        public double[] Rotary { get; }
+        /// <summary>I = l (rho I1, rho I2, rho (I1 + I2)) about d1, d2 and d3, kg m^2, n.</summary>
+        public Vector3d[] Rotary { get; }
 
         /// <summary>Linear momentum, kg m/s, of these velocities.</summary>
         public Vector3d Momentum(Vector3d[] velocities)
@@ -62,6 +64,13 @@ namespace Guidewire.Core
             return sum;
         }
 
+        /// <summary>w x I w of element j over I: as I3 = I1 + I2, (w2 w3, -w1 w3, w1 w2 (I2 - I1)/I3).</summary>
+        public Vector3d Precession(int j, in Vector3d w)
+        {
+            Vector3d i = Rotary[j];
+            return new Vector3d(w.Y * w.Z, -(w.X * w.Z), (i.Y - i.X) / i.Z * (w.X * w.Y));
+        }
+
         /// <summary>Kinetic energy, J, of these velocities and angular velocities.</summary>
         public double KineticEnergy(Vector3d[] velocities, Vector3d[] spins)
         {
@@ -73,7 +82,7 @@ namespace Guidewire.Core
                 {
                     Vector3d w = spins[i];
                     sum += Coupling[i] * Vector3d.Dot(velocities[i], velocities[i + 1])
-                        + 0.5 * Rotary[i] * (w.LengthSquared + w.Z * w.Z);
+                        + 0.5 * (Rotary[i].X * w.X * w.X + Rotary[i].Y * w.Y * w.Y + Rotary[i].Z * w.Z * w.Z);
                 }
             }
             return sum;

@@ -28,10 +28,9 @@ namespace Guidewire.Core
             Supports = supports;
             Mass = new RodMass(rod, supports.Mass);
             Stretch = new StretchEnergy(rod);
-            Bending = CreateBending(rod, supports);
+            Bending = BendTwistTerm.Create(rod.Joints(supports), supports);
             Loads = new DeadLoads(Mass, rod.Length);
-            Moment = new TipMoment();
-            Moment.ActAtEnd(rod, scene.TipMoment);
+            Followers = new TipFollowers(rod, scene);
             _elastic = new EnergyTerm[]
             {
                 Stretch,
@@ -40,7 +39,8 @@ namespace Guidewire.Core
             _loads = Joined(new EnergyTerm[]
             {
                 Loads,
-                Moment,
+                Followers.Moment,
+                Followers.Force,
             }, others);
             All = Joined(_elastic, _loads);
             _endGradient = new RodVector[rod.ElementCount + 2];
@@ -64,8 +64,8 @@ namespace Guidewire.Core
         /// <summary>Weight and forces on the nodes.</summary>
         public DeadLoads Loads { get; }
 
-        /// <summary>The couple on the last element, along its own axes.</summary>
-        public TipMoment Moment { get; }
+        /// <summary>Couple and force at the tip that turn with it.</summary>
+        public TipFollowers Followers { get; }
 
         /// <summary>Every term.</summary>
         public EnergyTerm[] All { get; }
@@ -79,16 +79,17 @@ namespace Guidewire.Core
             return Array.FindAll(All, term => term.HasPotential);
         }
 
-        /// <summary>Every term and one more.</summary>
-        public EnergyTerm[] With(EnergyTerm more)
+        /// <summary>Every term and these.</summary>
+        public EnergyTerm[] With(params EnergyTerm[] more)
         {
-            return Joined(All, new[] { more });
+            return Joined(All, more);
         }
 
         /// <summary>Sets all that is prescribed at this time.</summary>
         public void SetTime(RodSchedule schedule, double time)
         {
             schedule.SetLoads(Loads, time);
+            Followers.SetTime(time);
             foreach (EnergyTerm term in All)
             {
                 term.SetTime(time);
@@ -179,16 +180,6 @@ namespace Guidewire.Core
             first.CopyTo(joined, 0);
             second.CopyTo(joined, first.Length);
             return joined;
-        }
-
-        private static BendTwistTerm CreateBending(MaterialRod rod, RodSupports supports)
-        {
-            Joint[] joints = rod.Joints(supports);
-            if (supports.Bend == BendLaw.Darboux)
-            {
-                return new BendTwistEnergy<DarbouxLaw>(joints, supports.HasProximalJoint, supports.HasDistalJoint);
-            }
-            return new BendTwistEnergy<RotationVectorLaw>(joints, supports.HasProximalJoint, supports.HasDistalJoint);
         }
     }
 }

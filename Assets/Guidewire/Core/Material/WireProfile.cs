@@ -89,7 +89,8 @@ namespace Guidewire.Core
             private double _bend2;
             private double _twist;
             private double _density;
-            private double _rotary;
+            private double _rotary1;
+            private double _rotary2;
             private Vector3d _curvature;
 
             public void Add(in CrossSection piece, double weight)
@@ -100,7 +101,8 @@ namespace Guidewire.Core
                 _bend2 += weight / piece.BendStiffness2;
                 _twist += weight / piece.TwistStiffness;
                 _density += weight * piece.LineDensity;
-                _rotary += weight * piece.RotaryInertia;
+                _rotary1 += weight * piece.RotaryInertia1;
+                _rotary2 += weight * piece.RotaryInertia2;
                 _curvature += weight * piece.RestCurvature;
             }
 
@@ -114,7 +116,8 @@ namespace Guidewire.Core
                     BendStiffness2 = 1.0 / _bend2,
                     TwistStiffness = 1.0 / _twist,
                     LineDensity = _density,
-                    RotaryInertia = _rotary,
+                    RotaryInertia1 = _rotary1,
+                    RotaryInertia2 = _rotary2,
                     RestCurvature = _curvature,
                 };
             }

@@ -18,7 +18,7 @@ namespace Guidewire.Core
         /// <summary>The order of one sweep.</summary>
         public SweepOrder SweepOrder { get; set; } = SweepOrder.Naive;
 
-        /// <summary>d, the share of its velocity that a sphere loses a step.</summary>
+        /// <summary>d, the share of its velocity that a sphere loses a step, with gains.</summary>
         public double Damping { get; set; }
 
         /// <summary>Parts into which the explicit and the compliant solver divide a time step.</summary>

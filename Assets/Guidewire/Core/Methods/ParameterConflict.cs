@@ -35,9 +35,24 @@ namespace Guidewire.Core
             {
                 return new ParameterConflict("vessel", "solver pbd: a wire with a material meets no walls");
             }
+            if (parameters.Contact.ElementContact == ElementContact.Seed
+                && Array.Exists(parameters.Scene.Walls, wall => wall.FrictionCoefficient > 0.0))
+            {
+                return new ParameterConflict("elementContact",
+                    "\"barycentric\" or \"none\" where a wall has a frictionCoefficient");
+            }
             if (!method.TakesSteering && parameters.Drive.Steering != null)
             {
                 return new ParameterConflict("solver", "pbd where a hand steers: it steers wires with gains only");
+            }
+            if (method.TakesMaterial && parameters.Method.Damping != 0.0)
+            {
+                return new ParameterConflict("damping", "solver pbd: a material has massDamping (1/s), which is damping"
+                    + " over timeStep, and materialDamping (s)");
+            }
+            if (parameters.Material.MaterialDamping != 0.0 && method.Solver != Solver.Direct && method.TakesMaterial)
+            {
+                return new ParameterConflict("materialDamping", "solver direct: the others have no rates of strain");
             }
             if (!method.TakesTipMoment && parameters.Scene.TipMoment != Vector3d.Zero)
             {

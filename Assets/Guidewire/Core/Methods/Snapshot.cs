@@ -1,4 +1,5 @@
 using System;
+using System.Buffers.Binary;
 
 namespace Guidewire.Core
 {
@@ -20,6 +21,28 @@ namespace Guidewire.Core
         public Snapshot ToRead()
         {
             return new Snapshot { _bits = _bits, _count = _count, IsWritten = false };
+        }
+
+        /// <summary>What has been written, eight bytes a number, the lowest first on every machine.</summary>
+        public byte[] ToBytes()
+        {
+            var bytes = new byte[sizeof(long) * _count];
+            for (int i = 0; i < _count; i++)
+            {
+                BinaryPrimitives.WriteInt64LittleEndian(bytes.AsSpan(sizeof(long) * i), _bits[i]);
+            }
+            return bytes;
+        }
+
+        /// <summary>A snapshot to be read, of bytes that another one was made into.</summary>
+        public static Snapshot OfBytes(ReadOnlySpan<byte> bytes)
+        {
+            var bits = new long[bytes.Length / sizeof(long)];
+            for (int i = 0; i < bits.Length; i++)
+            {
+                bits[i] = BinaryPrimitives.ReadInt64LittleEndian(bytes.Slice(sizeof(long) * i));
+            }
+            return new Snapshot { _bits = bits, _count = bits.Length, IsWritten = false };
         }
 
         /// <summary>A count.</summary>

@@ -6,7 +6,7 @@ namespace Guidewire.Core
     {
         /// <summary>Distance in units between the last sphere's prediction and where the constraints left it in the
         /// last step (Delta_p, thesis 4.1.1).</summary>
-        public double PredictionError { get; protected set; }
+        public double PredictionError { get; protected internal set; }
 
         /// <summary>Why the method gave up in the last step, in one line, or null.</summary>
         public string? Failure { get; protected set; }

@@ -138,6 +138,12 @@ namespace Guidewire.Core
             return Ramp(time) * DistalRotation;
         }
 
+        /// <summary>Turning of the distal frame about its own d3 at this time, rad/s.</summary>
+        public double DistalTwistRateAt(double time)
+        {
+            return time < DistalRampTime ? DistalRotation / DistalRampTime : 0.0;
+        }
+
         /// <summary>Whether all that is prescribed stays as it is from this time to an end, s.</summary>
         public bool IsOver(double time, double end)
         {

@@ -77,6 +77,15 @@ namespace Guidewire.Core
         /// <summary>Couple at the wire's end along the axes there, N m: it turns with them.</summary>
         public Vector3d TipMoment { get; set; }
 
+        /// <summary>Force on the last sphere along the axes of the wire's end, N: it turns with them.</summary>
+        public Vector3d TipFollowerForce { get; set; }
+
+        /// <summary>Factor on <see cref="TipMoment"/> over time, or null.</summary>
+        public LoadTable? TipMomentTable { get; set; }
+
+        /// <summary>Factor on <see cref="TipFollowerForce"/> over time, or null.</summary>
+        public LoadTable? TipFollowerForceTable { get; set; }
+
         /// <summary>Force along the axis of a sliding distal end, N; a pull is positive.</summary>
         public double AxialForce { get; set; }
 

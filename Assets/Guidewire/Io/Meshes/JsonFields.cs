@@ -10,6 +10,10 @@ namespace Guidewire.Io
     /// </summary>
     internal sealed class JsonFields
     {
+        // Beyond it squares and volumes lose their last digits, and nothing there is a vessel.
+        private const double Largest = 1e9;
+        private const string OneNumber = "a number, 1e9 at most";
+        private const string ThreeNumbers = "three numbers [x, y, z], each 1e9 at most";
         private readonly string _source;
         private readonly string _key;
         private readonly JObject _object;
@@ -63,8 +67,8 @@ namespace Guidewire.Io
             {
                 return missing.Value;
             }
-            return value != null && NumberEntry.TryNumber(value, out double number)
-                ? number : throw Wrong(name, "a number");
+            return value != null && NumberEntry.TryNumber(value, out double number) && IsSmall(number)
+                ? number : throw Wrong(name, OneNumber);
         }
 
         /// <summary>A vector, or what counts where it is missing (null: it may not be).</summary>
@@ -75,8 +79,8 @@ namespace Guidewire.Io
             {
                 return missing.Value;
             }
-            return value != null && VectorEntry.TryVector(value, out Vector3d vector)
-                ? vector : throw Wrong(name, "three numbers [x, y, z]");
+            return value != null && VectorEntry.TryVector(value, out Vector3d vector) && IsSmall(vector)
+                ? vector : throw Wrong(name, ThreeNumbers);
         }
 
         /// <summary>A list of vectors.</summary>
@@ -85,8 +89,8 @@ namespace Guidewire.Io
             var vectors = new List<Vector3d>();
             foreach (JToken item in _object[name] as JArray ?? throw Wrong(name, "a list of [x, y, z]"))
             {
-                vectors.Add(VectorEntry.TryVector(item, out Vector3d vector) ? vector
-                    : throw Wrong(name, "a list of [x, y, z]"));
+                vectors.Add(VectorEntry.TryVector(item, out Vector3d vector) && IsSmall(vector) ? vector
+                    : throw WrongItem(name, vectors.Count, item, ThreeNumbers));
             }
             return vectors.ToArray();
         }
@@ -95,17 +99,18 @@ namespace Guidewire.Io
         public double[] Numbers(string name, int count)
         {
             JToken? value = _object[name];
-            if (value != null && NumberEntry.TryNumber(value, out double same))
+            if (value != null && NumberEntry.TryNumber(value, out double same) && IsSmall(same))
             {
                 var all = new double[count];
                 Array.Fill(all, same);
                 return all;
             }
             var numbers = new List<double>();
-            foreach (JToken item in value as JArray ?? throw Wrong(name, "a number or a list of numbers"))
+            foreach (JToken item in value as JArray
+                ?? throw Wrong(name, "a number, 1e9 at most, or a list of such numbers"))
             {
-                numbers.Add(NumberEntry.TryNumber(item, out double number) ? number
-                    : throw Wrong(name, "a number or a list of numbers"));
+                numbers.Add(NumberEntry.TryNumber(item, out double number) && IsSmall(number) ? number
+                    : throw WrongItem(name, numbers.Count, item, OneNumber));
             }
             return numbers.ToArray();
         }
@@ -120,7 +125,7 @@ namespace Guidewire.Io
                 foreach (JProperty property in
                     (value as JObject ?? throw Wrong(name, "named points {\"name\": [x, y, z]}")).Properties())
                 {
-                    points.Add(VectorEntry.TryVector(property.Value, out Vector3d point) ? point
+                    points.Add(VectorEntry.TryVector(property.Value, out Vector3d point) && IsSmall(point) ? point
                         : throw Wrong(name, "named points {\"name\": [x, y, z]}"));
                 }
             }
@@ -138,6 +143,22 @@ namespace Guidewire.Io
         {
             return new ParameterException(
                 _source, _key + "." + name, _object[name]?.ToString(Formatting.None) ?? "(missing)", allowed);
+        }
+
+        private ParameterException WrongItem(string name, int index, JToken item, string allowed)
+        {
+            return new ParameterException(
+                _source, _key + "." + name + "[" + index + "]", item.ToString(Formatting.None), allowed);
+        }
+
+        private static bool IsSmall(double number)
+        {
+            return Math.Abs(number) <= Largest;
+        }
+
+        private static bool IsSmall(in Vector3d vector)
+        {
+            return IsSmall(vector.X) && IsSmall(vector.Y) && IsSmall(vector.Z);
         }
 
         /// <summary>The line for something that Core refused.</summary>

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Globalization;
 using Guidewire.Core;
 using Newtonsoft.Json.Linq;
 
@@ -15,21 +16,41 @@ namespace Guidewire.Io
         /// <param name="values">Its parameters; a mesh's file name is replaced by the one that was found.</param>
         /// <param name="vesselSource">The parameter file that names the vessel, or "command line".</param>
         /// <param name="obstacleSource">The same for the obstacles.</param>
+        /// <param name="warnings">Gets a line for a wall that goes through itself.</param>
         /// <exception cref="ParameterException">A wall that cannot be made.</exception>
-        public static ContactShape[] Read(RunParameters values, string vesselSource, string obstacleSource)
+        public static ContactShape[] Read(
+            RunParameters values, string vesselSource, string obstacleSource, List<string> warnings)
         {
             var walls = new List<ContactShape>();
             if (values.Vessel != null)
             {
                 var fields = new JsonFields(vesselSource, "vessel", values.Vessel);
-                walls.Add(Vessel(fields, values, vesselSource));
+                ContactShape vessel = Vessel(fields, values, vesselSource);
+                vessel.FrictionCoefficient = Friction(fields);
+                walls.Add(vessel);
+                WarnOfSelfIntersection(vessel, fields.Text("file"), warnings);
             }
             int count = 0;
             foreach (JToken item in values.Obstacles ?? new JArray())
             {
-                walls.Add(Obstacle(new JsonFields(obstacleSource, "obstacles[" + count++ + "]", item)));
+                var fields = new JsonFields(obstacleSource, "obstacles[" + count++ + "]", item);
+                ContactShape obstacle = Obstacle(fields);
+                obstacle.FrictionCoefficient = Friction(fields);
+                walls.Add(obstacle);
             }
             return walls.ToArray();
+        }
+
+        private static void WarnOfSelfIntersection(ContactShape vessel, string file, List<string> warnings)
+        {
+            Vector3d place = Vector3d.Zero;
+            int count = vessel is MeshShape mesh ? mesh.CountSelfIntersections(out place) : 0;
+            if (count > 0)
+            {
+                warnings.Add(string.Format(CultureInfo.InvariantCulture,
+                    "{0}: the mesh goes through itself: {1} edges pierce a triangle, the first at ({2:G6}, {3:G6},"
+                    + " {4:G6}); what is inside there is not defined", file, count, place.X, place.Y, place.Z));
+            }
         }
 
         private static ContactShape Vessel(JsonFields fields, RunParameters scene, string source)
@@ -40,13 +61,13 @@ namespace Guidewire.Io
                 switch (fields.Text("shape"))
                 {
                     case "plane":
-                        fields.Allow("shape", "point", "normal");
+                        fields.Allow("shape", "frictionCoefficient", "point", "normal");
                         return Plane(fields, scene, placement);
                     case "tube":
-                        fields.Allow("shape", "knots", "radius", "openStart", "openEnd");
+                        fields.Allow("shape", "frictionCoefficient", "knots", "radius", "openStart", "openEnd");
                         return Tube(fields, scene, placement);
                     case "mesh":
-                        fields.Allow("shape", "file", "metresPerUnit", "openRims");
+                        fields.Allow("shape", "frictionCoefficient", "file", "metresPerUnit", "openRims");
                         return Mesh(fields, scene, placement, source);
                     default:
                         throw fields.Wrong("shape", "one of \"plane\", \"tube\", \"mesh\"");
@@ -56,6 +77,12 @@ namespace Guidewire.Io
             {
                 throw fields.Refused(error.Message);
             }
+        }
+
+        private static double Friction(JsonFields fields)
+        {
+            double coefficient = fields.Number("frictionCoefficient", 0.0);
+            return coefficient >= 0.0 ? coefficient : throw fields.Wrong("frictionCoefficient", "a number >= 0");
         }
 
         private static PlaneShape Plane(JsonFields fields, RunParameters scene, in Placement placement)
@@ -115,19 +142,19 @@ namespace Guidewire.Io
                 switch (fields.Text("shape"))
                 {
                     case "sphere":
-                        fields.Allow("shape", "centre", "radius");
+                        fields.Allow("shape", "frictionCoefficient", "centre", "radius");
                         return ConvexObstacle.Sphere(fields.Vector("centre", null), fields.Number("radius", null));
                     case "capsule":
-                        fields.Allow("shape", "from", "to", "radius");
+                        fields.Allow("shape", "frictionCoefficient", "from", "to", "radius");
                         return ConvexObstacle.Capsule(
                             fields.Vector("from", null), fields.Vector("to", null), fields.Number("radius", null));
                     case "box":
-                        fields.Allow("shape", "centre", "halfSize", "rotation");
+                        fields.Allow("shape", "frictionCoefficient", "centre", "halfSize", "rotation");
                         return ConvexObstacle.Box(
                             fields.Vector("centre", null), fields.Vector("halfSize", null),
                             Placement.FromEulerDegrees(fields.Vector("rotation", Vector3d.Zero)));
                     case "hull":
-                        fields.Allow("shape", "points", "radius");
+                        fields.Allow("shape", "frictionCoefficient", "points", "radius");
                         return new ConvexObstacle(fields.Vectors("points"), fields.Number("radius", 0.0));
                     default:
                         throw fields.Wrong("shape", "one of \"sphere\", \"capsule\", \"box\", \"hull\"");

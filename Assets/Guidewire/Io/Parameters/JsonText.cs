@@ -21,7 +21,7 @@ namespace Guidewire.Io
         /// <exception cref="ParameterException">The file cannot be read, is not JSON or holds no object.</exception>
         public static JObject ReadObject(string file)
         {
-            return ParseObject(ReadFile(file), file);
+            return ParseObject(PlainFile.ReadText(file, "a parameter file"), file);
         }
 
         /// <summary>The object that a text holds.</summary>
@@ -37,26 +37,6 @@ namespace Guidewire.Io
             }
             return Parse(text) as JObject
                 ?? throw new ParameterException(source + ": needs one JSON object, { \"key\": value, ... }");
-        }
-
-        private static string ReadFile(string file)
-        {
-            try
-            {
-                return File.ReadAllText(file);
-            }
-            catch (IOException error)
-            {
-                bool missing = error is FileNotFoundException || error is DirectoryNotFoundException;
-                throw new ParameterException(file
-                    + (missing ? ": no such file" : ": cannot be read: " + error.Message));
-            }
-            catch (System.UnauthorizedAccessException)
-            {
-                throw new ParameterException(file
-                    + (Directory.Exists(file) ? ": is a folder, a parameter file is needed"
-                    : ": cannot be read: permission denied"));
-            }
         }
     }
 }

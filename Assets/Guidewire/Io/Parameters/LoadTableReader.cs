@@ -18,6 +18,8 @@ namespace Guidewire.Io
                 ["tipForce"] = (scene, table) => scene.TipForceTable = table,
                 ["distributedForce"] = (scene, table) => scene.DistributedForceTable = table,
                 ["axialForce"] = (scene, table) => scene.AxialForceTable = table,
+                ["tipMoment"] = (scene, table) => scene.TipMomentTable = table,
+                ["tipFollowerForce"] = (scene, table) => scene.TipFollowerForceTable = table,
             };
 
         /// <summary>Sets the tables of a scene; the files' names are replaced by those that were found.</summary>
@@ -64,12 +66,11 @@ namespace Guidewire.Io
             string[] lines;
             try
             {
-                lines = File.ReadAllLines(file);
+                lines = PlainFile.ReadText(file, "a table").Split('\n');
             }
-            catch (Exception error) when (error is IOException || error is UnauthorizedAccessException
-                || error is ArgumentException || error is NotSupportedException)
+            catch (ParameterException error)
             {
-                throw new ParameterException(where + file + " cannot be read: " + error.Message);
+                throw new ParameterException(where + error.Message);
             }
             for (int i = 0; i < lines.Length; i++)
             {

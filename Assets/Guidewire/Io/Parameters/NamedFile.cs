@@ -12,8 +12,9 @@ namespace Guidewire.Io
         public static string Find(string file, string source)
         {
             string beside = Path.Combine(Path.GetDirectoryName(source) ?? "", file);
+            bool isThere = File.Exists(beside) || Directory.Exists(beside);
             return file.Length == 0 ? file
-                : Path.GetFullPath(source != CommandLineHandler.Source && File.Exists(beside) ? beside : file);
+                : Path.GetFullPath(source != CommandLineHandler.Source && isThere ? beside : file);
         }
     }
 }

@@ -38,6 +38,9 @@ namespace Guidewire.Io
         /// a run without the wall or the load that it names would answer another question.</summary>
         public bool IsRefusedElsewhere { get; internal set; }
 
+        /// <summary>The keys that say it for the other methods, or null.</summary>
+        public string? Instead { get; internal set; }
+
         /// <summary>What is allowed, as a noun phrase with the unit.</summary>
         public abstract string Allowed { get; }
 

@@ -173,7 +173,8 @@ namespace Guidewire.Io
                     || (entry.IsRefusedElsewhere && AsksForMore(entry, given)))
                 {
                     throw Refused(entry.Key, "solver " + entry.MethodWords + "; this run has solver "
-                        + ChoiceEntry<Solver>.Word(Method.ToString()));
+                        + ChoiceEntry<Solver>.Word(Method.ToString())
+                        + (entry.Instead == null ? "" : ", which takes " + entry.Instead));
                 }
                 _ignored.Add(entry.Key);
                 _given.Remove(entry.Key);
@@ -203,11 +204,21 @@ namespace Guidewire.Io
         {
             string vessel = _given.TryGetValue("vessel", out var named) ? named.Source : "";
             string obstacles = _given.TryGetValue("obstacles", out var given) ? given.Source : "";
-            simulation.Scene.Walls = WallReader.Read(Values, vessel, obstacles);
+            simulation.Scene.Walls = WallReader.Read(Values, vessel, obstacles, _warnings);
+            ParameterConflict? conflict = ParameterConflict.Find(simulation);
+            if (conflict != null)
+            {
+                throw Refused(conflict.Key, conflict.Needed);
+            }
             string? complaint = WireStart.FindProblem(simulation);
             if (complaint != null)
             {
                 throw new ParameterException((vessel.Length > 0 ? vessel : obstacles) + ": " + complaint);
+            }
+            string? sizes = WireStart.FindOddSizes(simulation);
+            if (sizes != null)
+            {
+                AddWarning("{0}: {1}", vessel, sizes);
             }
         }
 

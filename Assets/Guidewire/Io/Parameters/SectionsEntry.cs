@@ -27,7 +27,8 @@ namespace Guidewire.Io
             new Number("torsionalStiffness", "GJ, N m^2", s => s.TorsionalStiffness,
                 (s, v) => s.TorsionalStiffness = v),
             new Number("massPerLength", "kg/m", s => s.MassPerLength, (s, v) => s.MassPerLength = v),
-            new Number("rotaryInertia", "kg m", s => s.RotaryInertia, (s, v) => s.RotaryInertia = v),
+            new Number("rotaryInertia", "rho I about d1 and d2 alike, kg m", s => s.RotaryInertia,
+                (s, v) => s.RotaryInertia = v),
         };
 
         private readonly Func<RunParameters, IReadOnlyList<WireSection>> _get;

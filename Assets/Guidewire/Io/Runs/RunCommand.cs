@@ -55,15 +55,24 @@ namespace Guidewire.Io
             {
                 Error("warning: " + warning);
             }
-            RunResult result = run.Execute();
+            RunResult result = run.Execute(line.Force ? Existing.Replace : Existing.Keep);
             string ending = result.Word + ": " + result.Reason;
+            if (result.KeptEarlier)
+            {
+                ending += "; the complete run that " + run.Folder + " held before is kept, the log of this one is "
+                    + RunFolder.PartialLog;
+            }
             if (result.Outcome == Outcome.Failed)
             {
                 Error(ending);
             }
+            else if (result.Reused)
+            {
+                Say("already there: " + run.Folder + " (" + ending + "); --force runs it again");
+            }
             else
             {
-                Say(ending + " -> " + run.Folder);
+                Say(ending + (result.KeptEarlier ? "" : " -> " + run.Folder));
             }
             return ExitCodes.Of(result.Outcome);
         }

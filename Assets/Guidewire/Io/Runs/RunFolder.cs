@@ -11,11 +11,16 @@ namespace Guidewire.Io
     /// Whoever steps a simulation, a loop of its own or Unity's frames, steps it through here to have it
     /// logged.</summary>
     /// <remarks>All three are written as *.partial and renamed at the end, the summary last, so that an earlier result
-    /// stays whole until the new one is. What a killed run leaves is positions.json.partial.</remarks>
+    /// stays whole until the new one is, and stays where the new one does not come to an end of its own. What a killed
+    /// run leaves is positions.json.partial.</remarks>
     public sealed class RunFolder : IDisposable
     {
+        internal const string ParametersFile = "parameters.json";
         private const string PositionsFile = "positions.json";
-        private const string ParametersFile = "parameters.json";
+
+        /// <summary>Name of a log that is not whole yet.</summary>
+        internal const string PartialLog = PositionsFile + AtomicFile.Partial;
+
         internal static readonly double ToMilliseconds = 1000.0 / Stopwatch.Frequency;    // of a Stopwatch's ticks
 
         private readonly ParameterHandler _handler;
@@ -40,11 +45,18 @@ namespace Guidewire.Io
         /// <summary>Wall time since the run's start in ms.</summary>
         public double Elapsed => _clock.Elapsed.TotalMilliseconds;
 
+        /// <summary>Outcomes that take the place of no result that the folder held before; none where this is not
+        /// set.</summary>
+        public IReadOnlyList<Outcome> LeavesEarlierWhen { get; set; } = Array.Empty<Outcome>();
+
+        /// <summary>Whether such a result is there still, after <see cref="Finish"/>.</summary>
+        public bool KeptEarlier { get; private set; }
+
         /// <summary>A folder that takes a run; made where it is missing.</summary>
         /// <param name="handler">The parameters.</param>
         /// <param name="folder">The folder.</param>
         /// <param name="repeat">Number of a timed repeat, or null.</param>
-        /// <param name="keepsLog">Whether there is to be a positions.json.</param>
+        /// <param name="keepsLog">Whether there are to be a positions.json and a parameters.json.</param>
         /// <exception cref="ParameterException">The folder cannot be written; nothing has been.</exception>
         public static RunFolder Open(ParameterHandler handler, string folder, int? repeat, bool keepsLog)
         {
@@ -108,19 +120,26 @@ namespace Guidewire.Io
                 if (!_lost)
                 {
                     _logger?.Close();
-                    Publish();
+                    if (!LeaveEarlier(simulation))
+                    {
+                        Publish(simulation);
+                    }
+                    return;
                 }
             }
             catch (Exception error) when (IsDisk(error))
             {
                 Lose(simulation, "the log could not be written: " + error.Message);
             }
-            string? log = _logger == null ? null : _lost ? PositionsFile + AtomicFile.Partial : PositionsFile;
+            if (LeaveEarlier(simulation))
+            {
+                return;
+            }
             try
             {
-                string text = RunSummary.Text(simulation, _handler, _times, 1e-3 * _setUp, _clock.Elapsed.TotalSeconds,
-                    _repeat, log, _notes);
-                AtomicFile.Write(Path.Combine(_folder, RunSummary.FileName), text);
+                string? log = _logger == null ? null
+                    : File.Exists(Path.Combine(_folder, PartialLog)) ? PartialLog : PositionsFile;
+                AtomicFile.Write(Path.Combine(_folder, RunSummary.FileName), Summary(simulation, log));
             }
             catch (Exception error) when (IsDisk(error))
             {
@@ -166,23 +185,50 @@ namespace Guidewire.Io
             }
         }
 
-        private void Publish()
+        private bool LeaveEarlier(Simulation simulation)
+        {
+            foreach (Outcome outcome in LeavesEarlierWhen)
+            {
+                KeptEarlier |= simulation.Outcome == outcome && EarlierRun.In(_folder) != null;
+            }
+            return KeptEarlier;
+        }
+
+        private void Publish(Simulation simulation)
         {
             // First what may not fit on the disk; from then on names only change. Without its summary an earlier result
             // does not count, so no mixture of two runs ever does.
             string parameters = Path.Combine(_folder, ParametersFile);
-            string log = Path.Combine(_folder, PositionsFile);
+            string summary = Path.Combine(_folder, RunSummary.FileName);
             if (_logger == null)
             {
-                File.Delete(Path.Combine(_folder, RunSummary.FileName));    // an earlier run's, as the others
-                File.Delete(log);
+                AtomicFile.Prepare(summary, Summary(simulation, null));
+                File.Delete(summary);    // an earlier run's, as the others
+                File.Delete(Path.Combine(_folder, PositionsFile));
                 File.Delete(parameters);
+                AtomicFile.Publish(summary);
                 return;
             }
             AtomicFile.Prepare(parameters, _handler.ToJson().ToString(Formatting.Indented) + "\n");
-            File.Delete(Path.Combine(_folder, RunSummary.FileName));
-            AtomicFile.Publish(log);
+            try
+            {
+                AtomicFile.Prepare(summary, Summary(simulation, PositionsFile));
+            }
+            catch (Exception error) when (IsDisk(error))
+            {
+                File.Delete(parameters + AtomicFile.Partial);
+                throw;
+            }
+            File.Delete(summary);
+            AtomicFile.Publish(Path.Combine(_folder, PositionsFile));
             AtomicFile.Publish(parameters);
+            AtomicFile.Publish(summary);
+        }
+
+        private string Summary(Simulation simulation, string? log)
+        {
+            return RunSummary.Text(simulation, _handler, _times, 1e-3 * _setUp, _clock.Elapsed.TotalSeconds, _repeat,
+                log, _notes);
         }
     }
 }

@@ -5,10 +5,12 @@ namespace Guidewire.Io
     /// <summary>What became of a run.</summary>
     public sealed class RunResult
     {
-        internal RunResult(Outcome outcome, string reason)
+        internal RunResult(Outcome outcome, string reason, bool reused, bool keptEarlier = false)
         {
             Outcome = outcome;
             Reason = reason;
+            Reused = reused;
+            KeptEarlier = keptEarlier;
         }
 
         /// <summary>The outcome's one word, as in summary.json.</summary>
@@ -19,5 +21,12 @@ namespace Guidewire.Io
 
         /// <summary>Why, in one line.</summary>
         public string Reason { get; }
+
+        /// <summary>True when an earlier result of the same parameters stood in for it.</summary>
+        public bool Reused { get; }
+
+        /// <summary>True when the run came to no end of its own, and a whole result that the folder held before it is
+        /// there still.</summary>
+        public bool KeptEarlier { get; }
     }
 }

@@ -1,6 +1,5 @@
 using System;
 using System.Collections.Generic;
-using System.IO;
 using System.Runtime.InteropServices;
 using System.Security.Cryptography;
 using System.Text;
@@ -17,7 +16,7 @@ namespace Guidewire.Io
         public const string FileName = "summary.json";
 
         // Changes with every change of the code that simulates, and with nothing else.
-        private static string CoreBuild => typeof(Simulation).Module.ModuleVersionId.ToString("N");
+        internal static string CoreBuild => typeof(Simulation).Module.ModuleVersionId.ToString("N");
 
         /// <summary>The summary as text.</summary>
         /// <param name="simulation">The run at its end.</param>

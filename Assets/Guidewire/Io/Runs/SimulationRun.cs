@@ -43,14 +43,28 @@ namespace Guidewire.Io
         /// <summary>Whether the run leaves all three files (default), or summary.json only.</summary>
         public bool KeepsLog { get; set; } = true;
 
-        /// <summary>Runs to the end.</summary>
-        /// <exception cref="ParameterException">The folder cannot be written; nothing has been.</exception>
-        public RunResult Execute()
+        /// <summary>Runs to the end, or takes over what the folder already holds.</summary>
+        /// <param name="existing">What becomes of a run that the folder holds.</param>
+        /// <exception cref="ParameterException">The folder cannot be written, or holds a run that is to be kept;
+        /// nothing has been written.</exception>
+        public RunResult Execute(Existing existing)
         {
+            EarlierRun? earlier = existing == Existing.Replace ? null : EarlierRun.In(_folder);
+            if (earlier != null && earlier.IsSame(_handler, _repeat))
+            {
+                return new RunResult(earlier.Outcome, earlier.Reason, true);
+            }
+            if (earlier != null)
+            {
+                throw new ParameterException("out = " + _folder + " holds a complete run already ("
+                    + earlier.Difference(_handler, _repeat)
+                    + "): give another folder, or --force to replace that run once this one is complete");
+            }
             long before = Stopwatch.GetTimestamp();
             Simulation simulation = Simulation.Create(_handler.Values.Simulation);
             double setUp = (Stopwatch.GetTimestamp() - before) * RunFolder.ToMilliseconds;
             using RunFolder results = RunFolder.Open(_handler, _folder, _repeat, KeepsLog);
+            results.LeavesEarlierWhen = new[] { Outcome.Interrupted, Outcome.Failed };
             results.Begin(simulation, setUp);
             if (_handler.Values.Simulation.Method.MaxSimulationSteps == 0 && simulation.Outcome == Outcome.Running)
             {
@@ -67,7 +81,7 @@ namespace Guidewire.Io
                 Progress?.Invoke(simulation, results.Elapsed);
             }
             results.Finish(simulation);
-            return new RunResult(simulation.Outcome, simulation.Reason);
+            return new RunResult(simulation.Outcome, simulation.Reason, false, results.KeptEarlier);
         }
     }
 }

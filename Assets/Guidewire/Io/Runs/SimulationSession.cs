@@ -1,6 +1,8 @@
 using System;
 using System.Collections.Generic;
 using System.Diagnostics;
+using System.Security.Cryptography;
+using System.Text;
 using Guidewire.Core;
 using Newtonsoft.Json.Linq;
 
@@ -12,14 +14,18 @@ namespace Guidewire.Io
     {
         private const double Smoothing = 0.02;     // share of the newest step in the step time shown
 
-        private readonly string _file;
+        private const string Magic = "guidewire-snapshot";
+        private const int LongestHead = 256;       // bytes of the line before a snapshot's numbers
+
+        private readonly string? _file;
         private readonly List<KeyValuePair<string, JToken>> _overrides;
         private ParameterHandler _handler;
         private readonly Steering? _hand;
         private RunFolder? _results;
         private bool _isNoted;
+        private readonly byte[] _start;
 
-        private SimulationSession(string file, List<KeyValuePair<string, JToken>> overrides, ParameterHandler handler,
+        private SimulationSession(string? file, List<KeyValuePair<string, JToken>> overrides, ParameterHandler handler,
             bool isSteered)
         {
             _hand = isSteered ? new Steering() : null;
@@ -28,6 +34,7 @@ namespace Guidewire.Io
             _overrides = overrides;
             _handler = handler;
             Simulation = Simulation.Create(handler.Values.Simulation);
+            _start = Simulation.Save();
         }
 
         /// <summary>The run as it is now; another object after <see cref="Set"/>.</summary>
@@ -41,6 +48,35 @@ namespace Guidewire.Io
 
         /// <summary>Wall time of a step in ms, smoothed over some 50 steps; 0 before the first.</summary>
         public double StepTime { get; private set; }
+
+        /// <summary>All effective values of the keys that the method takes.</summary>
+        public JObject EffectiveParameters => _handler.ToJson();
+
+        /// <summary>Whether a hand holds the first element, in place of the drive.</summary>
+        public bool IsSteered => _hand != null;
+
+        /// <summary>A run at its start that is not logged, and states contact forces and reactions wherever its method
+        /// has them.</summary>
+        /// <param name="file">Parameter file, or null for the defaults.</param>
+        /// <param name="overrides">Parameters that count instead of the file's.</param>
+        /// <param name="isSteered">Whether a hand holds the first element, in place of the drive; null: wherever the
+        /// method may be steered.</param>
+        /// <exception cref="ParameterException">The file or a value cannot be used.</exception>
+        public static SimulationSession Open(string? file, IEnumerable<KeyValuePair<string, JToken>> overrides,
+            bool? isSteered)
+        {
+            var given = new List<KeyValuePair<string, JToken>>(overrides);
+            ParameterHandler handler = ParameterHandler.Load(file, given);
+            MethodParameters method = handler.Values.Simulation.Method;
+            bool takesSteering = MethodTable.Of(method.Solver).TakesSteering;
+            if (isSteered == true && !takesSteering)
+            {
+                throw new ParameterException((file ?? CommandLineHandler.Source) + ": a wire of solver "
+                    + Get(handler, "solver") + " is not steered by hand: its file's drive moves it");
+            }
+            method.StatesReactions |= ParameterTable.Find("logContacts")!.IsTakenBy(method.Solver);
+            return new SimulationSession(file, given, handler, isSteered ?? takesSteering);
+        }
 
         /// <summary>A run at its start.</summary>
         /// <param name="file">Parameter file.</param>
@@ -95,7 +131,55 @@ namespace Guidewire.Io
         /// <summary>The value of a parameter, as in a file.</summary>
         public JToken Get(string key)
         {
-            return ParameterTable.Find(key)!.Write(_handler.Values);
+            return Get(_handler, key);
+        }
+
+        private static JToken Get(ParameterHandler handler, string key)
+        {
+            return ParameterTable.Find(key)!.Write(handler.Values);
+        }
+
+        /// <summary>All that the next steps depend on, as bytes: this run or another one of the same parameters goes on
+        /// from there with the same bits.</summary>
+        public byte[] Save()
+        {
+            byte[] numbers = Simulation.Save();
+            byte[] head = Encoding.ASCII.GetBytes(Head(numbers));
+            var saved = new byte[head.Length + numbers.Length];
+            head.CopyTo(saved, 0);
+            numbers.CopyTo(saved, head.Length);
+            return saved;
+        }
+
+        /// <summary>Goes on from what was saved. Not for a run that is logged: a log goes forward in time.</summary>
+        /// <param name="saved">What <see cref="Save"/> gave, here or in another run of the same parameters by the same
+        /// build.</param>
+        /// <exception cref="ParameterException">It did not; nothing has changed.</exception>
+        public void Restore(byte[] saved)
+        {
+            int end = Array.IndexOf(saved, (byte)'\n', 0, Math.Min(saved.Length, LongestHead)) + 1;
+            var numbers = new ReadOnlySpan<byte>(saved, end, saved.Length - end);
+            if (Encoding.ASCII.GetString(saved, 0, end) != Head(numbers.ToArray()))
+            {
+                throw new ParameterException("what is to be restored was not saved by a session of these parameters and"
+                    + " this build, or is not whole");
+            }
+            Simulation = Simulation.Restore(_handler.Values.Simulation, numbers);
+        }
+
+        /// <summary>Back to the start. As <see cref="Restore"/>, not for a run that is logged.</summary>
+        public void Reset()
+        {
+            Simulation = Simulation.Restore(_handler.Values.Simulation, _start);
+        }
+
+        // What a snapshot must agree in with who reads it, and a sum that says whether it is whole.
+        private string Head(byte[] numbers)
+        {
+            using SHA256 sha = SHA256.Create();
+            string sum = BitConverter.ToString(sha.ComputeHash(numbers), 0, 8).Replace("-", "");
+            string holds = IsSteered ? "hand" : "drive";
+            return string.Join(" ", Magic, _handler.Hash, RunSummary.CoreBuild, holds, sum) + "\n";
         }
 
         /// <summary>Changes a parameter; the wire goes on from where it is.</summary>

@@ -8,6 +8,7 @@ namespace Guidewire.Core
     internal sealed class Bvh
     {
         private const int StackSize = 96;
+        private const double RoundedUp = 1.0 + 1e-9;
         private readonly BvhNode[] _nodes;
         private readonly int[] _order;
         private readonly int[] _leaf;          // node that holds a triangle, per triangle
@@ -185,22 +186,28 @@ namespace Guidewire.Core
         }
 
         /// <summary>Fraction of the motion of segment a b during which it stays at least <paramref name="keep"/> from
-        /// every triangle, <see cref="ContactShape.NoImpact"/> for all of it, and the triangle that ends it (-1 for
-        /// none). </summary>
+        /// every triangle, <see cref="ContactShape.NoImpact"/> for all of it. <paramref name="hint"/>: a triangle that
+        /// may be near, -1 for none.</summary>
+        /// <remarks>Once something is met, only what the segment may come to before then is looked at.</remarks>
         public double Sweep(
-            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep, out int triangle)
+            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep, int hint)
         {
             var swept = new BvhNode();
             swept.EncloseSwept(a0, b0, a1, b1, keep);
             double impact = ContactShape.NoImpact;
-            triangle = -1;
+            double motion = Math.Max(Vector3d.Distance(a0, a1), Vector3d.Distance(b0, b1));
+            var search = new SegmentSearch(a0, b0, RoundedUp * (keep + motion));
+            if (hint >= 0)
+            {
+                SweepLeaf(_nodes[_leaf[hint]], a0, b0, a1, b1, keep, motion, ref search, ref impact);
+            }
             Span<int> stack = stackalloc int[StackSize];
             int depth = 0;
             stack[depth++] = 0;
             while (depth > 0)
             {
                 ref readonly BvhNode node = ref _nodes[stack[--depth]];
-                if (!swept.Overlaps(node))
+                if (!swept.Overlaps(node) || !search.MayHold(node, out _))
                 {
                     continue;
                 }
@@ -210,24 +217,37 @@ namespace Guidewire.Core
                     stack[depth++] = node.First + 1;
                     continue;
                 }
-                for (int k = node.First; k < node.First + node.Count; k++)
-                {
-                    ref readonly Vector3d v0 = ref _corners[3 * k];
-                    ref readonly Vector3d v1 = ref _corners[3 * k + 1];
-                    ref readonly Vector3d v2 = ref _corners[3 * k + 2];
-                    if (StaysOnOneSide(a0, b0, a1, b1, v0, v1, v2, keep))
-                    {
-                        continue;
-                    }
-                    double time = SweptTest.Impact(new TriangleBody(v0, v1, v2), a0, b0, a1, b1, keep);
-                    if (time < impact)
-                    {
-                        impact = time;
-                        triangle = _order[k];
-                    }
-                }
+                SweepLeaf(node, a0, b0, a1, b1, keep, motion, ref search, ref impact);
             }
             return impact;
+        }
+
+        private void SweepLeaf(
+            in BvhNode leaf, in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
+            double motion, ref SegmentSearch search, ref double impact)
+        {
+            for (int k = leaf.First; k < leaf.First + leaf.Count; k++)
+            {
+                ref readonly Vector3d v0 = ref _corners[3 * k];
+                ref readonly Vector3d v1 = ref _corners[3 * k + 1];
+                ref readonly Vector3d v2 = ref _corners[3 * k + 2];
+                double limit = Math.Min(1.0, impact);
+                double range = RoundedUp * (keep + limit * motion);
+                if (StaysOnOneSide(a0, b0, a1, b1, v0, v1, v2, keep)
+                    || !MayReach(a0, b0, range, v0, v1, v2, out double from, out double to))
+                {
+                    continue;
+                }
+                double time = SweptTest.Impact(
+                    new TriangleBody(v0, v1, v2), Vector3d.Lerp(a0, b0, from), Vector3d.Lerp(a0, b0, to),
+                    Vector3d.Lerp(a1, b1, from), Vector3d.Lerp(a1, b1, to), keep, limit);
+                if (time < impact)
+                {
+                    impact = time;
+                    range = RoundedUp * (keep + time * motion);
+                    search.Squared = range * range;
+                }
+            }
         }
 
         private Vector3d SumOfAreas(int first, int count)
@@ -255,6 +275,36 @@ namespace Guidewire.Core
             {
                 search.Accept(squared, slot, s, point, feature);
             }
+        }
+
+        // The part of the segment that may come to the triangle: what lies within the range of the ball around it. Of
+        // a long segment that turns about its touching place, that part moves little.
+        private static bool MayReach(
+            in Vector3d a, in Vector3d b, double range, in Vector3d v0, in Vector3d v1, in Vector3d v2,
+            out double from, out double to)
+        {
+            from = 0.0;
+            to = 1.0;
+            Vector3d middle = (1.0 / 3.0) * (v0 + v1 + v2);
+            double reach = range + Math.Sqrt(Math.Max(
+                (v0 - middle).LengthSquared, Math.Max((v1 - middle).LengthSquared, (v2 - middle).LengthSquared)));
+            Vector3d along = b - a;
+            double lengthSquared = along.LengthSquared;
+            double reachSquared = reach * reach;
+            if (!(lengthSquared > 0.0))
+            {
+                return (middle - a).LengthSquared <= reachSquared;
+            }
+            double foot = Vector3d.Dot(middle - a, along) / lengthSquared;
+            double left = reachSquared - (middle - a - foot * along).LengthSquared;
+            if (left < 0.0)
+            {
+                return false;
+            }
+            double half = Math.Sqrt(left / lengthSquared);
+            from = Math.Max(0.0, foot - half);
+            to = Math.Min(1.0, foot + half);
+            return from <= to;
         }
 
         private static bool StaysOnOneSide(

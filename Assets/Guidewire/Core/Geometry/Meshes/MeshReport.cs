@@ -5,13 +5,14 @@ namespace Guidewire.Core
     /// <summary>What was found in a vessel's mesh and what of it was repaired, by count.</summary>
     public sealed class MeshReport
     {
-        /// <summary>Vertices after equal ones became one.</summary>
+        /// <summary>Vertices after those that are one up to rounding became one.</summary>
         public int Vertices { get; internal set; }
 
         /// <summary>Triangles that are used.</summary>
         public int Triangles { get; internal set; }
 
-        /// <summary>Vertices that were equal to an earlier one, digit by digit.</summary>
+        /// <summary>Vertices that were taken for an earlier one: no farther from it than
+        /// <see cref="VertexWeld.RelativeTolerance"/> of the mesh's size.</summary>
         public int WeldedVertices { get; internal set; }
 
         /// <summary>Triangles left out because two of their corners are one vertex.</summary>

@@ -36,6 +36,20 @@ namespace Guidewire.Core
         /// <summary>The wall's triangles where they are.</summary>
         internal MeshGeometry Wall => _wall;
 
+        /// <summary>The distance without its sign: what cuts a mesh is at 0, and a wire that left by an open rim may
+        /// lie beside it.</summary>
+        internal override double SizeOf(double distance)
+        {
+            return Math.Abs(distance);
+        }
+
+        /// <summary>How many times an edge of the wall pierces one of its triangles, and where it does first, units.
+        /// </summary>
+        public int CountSelfIntersections(out Vector3d place)
+        {
+            return SelfIntersection.Count(_wall, out place);
+        }
+
         /// <summary>Moves, turns and scales the wall; its hierarchy is refitted, not built again.</summary>
         public void Place(in Placement placement)
         {
@@ -83,23 +97,10 @@ namespace Guidewire.Core
             return _closed.ContactAt(point, 0.0, c, Math.Sqrt(squared), triangle, feature).Distance > 0.0;
         }
 
-        /// <inheritdoc/>
-        public override double Sweep(
-            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance,
-            out SurfaceContact contact)
+        private protected override double FreeUntil(
+            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep, int hint)
         {
-            int hint = -1;
-            double keep = Nearest(a0, b0, 2.0 * clearance, ref hint, out contact)
-                ? 0.5 * Math.Abs(contact.Distance) : clearance;
-            double impact = _wall.Tree.Sweep(a0, b0, a1, b1, keep, out hint);
-            contact = default;
-            if (impact < NoImpact)
-            {
-                Nearest(
-                    Vector3d.Lerp(a0, a1, impact), Vector3d.Lerp(b0, b1, impact), double.PositiveInfinity, ref hint,
-                    out contact);
-            }
-            return impact;
+            return _wall.Tree.Sweep(a0, b0, a1, b1, keep, hint);
         }
     }
 }

@@ -1,14 +1,18 @@
 using System;
 using System.Collections.Generic;
+using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>Makes one oriented surface of a file's triangles: equal vertices become one, collapsed and repeated
-    /// triangles go, neighbours are turned the same way round, open rims are found. What has no single answer is
-    /// refused: an edge of three triangles, a surface of one side only, several surfaces, a hole that nobody
-    /// named.</summary>
+    /// <summary>Makes one oriented surface of a file's triangles: vertices that are one up to rounding become one (see
+    /// <see cref="VertexWeld"/>), collapsed and repeated triangles go, neighbours are turned the same way round, open
+    /// rims are found. What has no single answer is refused: an edge of three triangles, a surface of one side only,
+    /// several surfaces, a hole that nobody named.</summary>
     internal sealed class MeshTopology
     {
+        // Beyond it squares and volumes lose their last digits, and nothing there is a vessel; units.
+        private const double FarthestCoordinate = 1e9;
+
         private readonly Dictionary<(int, int), EdgeUse> _edges = new Dictionary<(int, int), EdgeUse>();
 
         private MeshTopology(Vector3d[] vertices, int[] triangles)
@@ -65,38 +69,34 @@ namespace Guidewire.Core
             {
                 bad += vertex.IsFinite ? 0 : 1;
             }
+            int far = Array.FindIndex(vertices, vertex => Reach(vertex) > FarthestCoordinate);
             int wild = 0;
             foreach (int index in triangles)
             {
                 wild += index >= 0 && index < vertices.Length ? 0 : 1;
             }
-            if (bad > 0 || wild > 0 || triangles.Length == 0 || triangles.Length % 3 != 0)
+            if (bad > 0 || wild > 0 || far >= 0 || triangles.Length == 0 || triangles.Length % 3 != 0)
             {
                 throw new MeshException(
                     triangles.Length == 0 ? "the mesh has no triangles"
                     : bad > 0 ? bad + " vertices have a coordinate that is not finite"
+                    : far >= 0 ? string.Format(
+                        CultureInfo.InvariantCulture, "vertex {0} of {1} is at {2}: coordinates go up to 1e9 units",
+                        far + 1, vertices.Length, vertices[far])
                     : wild + " corners name a vertex that does not exist (there are " + vertices.Length + ")");
             }
         }
 
+        private static double Reach(in Vector3d vertex)
+        {
+            return Math.Max(Math.Abs(vertex.X), Math.Max(Math.Abs(vertex.Y), Math.Abs(vertex.Z)));
+        }
+
         private void Weld()
         {
-            var first = new Dictionary<Vector3d, int>(Vertices.Length);
-            var kept = new List<Vector3d>(Vertices.Length);
-            var index = new int[Vertices.Length];
-            for (int i = 0; i < Vertices.Length; i++)
-            {
-                // Adding 0 makes -0 a 0: the two are equal but differ in their bits.
-                Vector3d vertex = Vertices[i] + Vector3d.Zero;
-                if (!first.TryGetValue(vertex, out index[i]))
-                {
-                    index[i] = kept.Count;
-                    first.Add(vertex, kept.Count);
-                    kept.Add(vertex);
-                }
-            }
-            Report.WeldedVertices = Vertices.Length - kept.Count;
-            Vertices = kept.ToArray();
+            int[] index = VertexWeld.Join(Vertices, out Vector3d[] kept);
+            Report.WeldedVertices = Vertices.Length - kept.Length;
+            Vertices = kept;
             Triangles = Array.ConvertAll(Triangles, corner => index[corner]);
         }
 

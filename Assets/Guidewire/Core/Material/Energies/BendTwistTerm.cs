@@ -16,6 +16,24 @@ namespace Guidewire.Core
         /// where an end has no joint.</summary>
         public abstract Vector3d Couple(RodShape shape, int k);
 
+        /// <summary>The term of these n+1 joints under the supports' law.</summary>
+        public static BendTwistTerm Create(Joint[] joints, RodSupports supports)
+        {
+            if (supports.Bend == BendLaw.Darboux)
+            {
+                return new BendTwistEnergy<DarbouxLaw>(joints, supports.HasProximalJoint, supports.HasDistalJoint);
+            }
+            return new BendTwistEnergy<RotationVectorLaw>(joints, supports.HasProximalJoint, supports.HasDistalJoint);
+        }
+
+        /// <summary>How fast the turns of <see cref="Measure"/> grow, rad/s.</summary>
+        /// <param name="spins">Of the elements along their own axes, rad/s.</param>
+        /// <param name="proximal">Spin of the proximal frame along its own axes.</param>
+        /// <param name="distal">Spin of the distal one.</param>
+        /// <param name="rates">Receives n+1 rates; 0 where an end has no joint.</param>
+        public abstract void MeasureRates(RodShape shape, Vector3d[] spins, in Vector3d proximal, in Vector3d distal,
+            Vector3d[] rates);
+
         /// <summary>Couple of the proximal clamp on the rod, N m, along the world's axes; 0 without a clamp.</summary>
         public abstract Vector3d ProximalCouple(RodShape shape);
 

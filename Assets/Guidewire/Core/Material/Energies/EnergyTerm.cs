@@ -6,8 +6,8 @@ namespace Guidewire.Core
     /// <remarks>A term may couple x_i, theta_i, x_(i+1) and theta_i, theta_(i+1), which is what keeps the matrix block-
     /// tridiagonal: stretch, bending, weight, inertia; a sphere's contact touches one A block, an element's contact
     /// x_i and x_(i+1). Terms work on ranges, so that a long rod is assembled and eliminated while its blocks are in
-    /// the cache. What only some terms need has a neutral default here. A load without a potential (a couple that turns
-    /// with the tip) is entered by its work since <see cref="Anchor"/>.</remarks>
+    /// the cache. What only some terms need has a neutral default here. A load without a potential (a couple or a
+    /// force that turns with the tip) is entered by its work since <see cref="Anchor"/>.</remarks>
     internal abstract class EnergyTerm
     {
         /// <summary>Whether the value is a true energy, the same on every way to a shape.</summary>

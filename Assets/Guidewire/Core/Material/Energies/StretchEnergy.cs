@@ -14,10 +14,13 @@ namespace Guidewire.Core
         private readonly double[] _length;   // m
         private readonly double[] _shear;    // GA, N
         private readonly double[] _stretch;  // EA, N
+        private readonly Vector3d[]? _rest;  // p at rest, where it is not e3
 
         /// <summary>The energy of a rod with these elements.</summary>
-        public StretchEnergy(MaterialRod rod)
+        /// <param name="rest">p at which each element has no stress, or null for e3.</param>
+        public StretchEnergy(MaterialRod rod, Vector3d[]? rest = null)
         {
+            _rest = rest;
             _length = rod.Length;
             _shear = rod.ShearStiffness;
             _stretch = rod.StretchStiffness;
@@ -30,7 +33,8 @@ namespace Guidewire.Core
             for (int j = 0; j < _length.Length; j++)
             {
                 Vector3d n = Stress(shape, j, out Vector3d p);
-                sum += 0.5 * _length[j] * (n.X * p.X + n.Y * p.Y + n.Z * (p.Z - 1.0));
+                Vector3d strain = p - (_rest == null ? Vector3d.UnitZ : _rest[j]);
+                sum += 0.5 * _length[j] * (n.X * strain.X + n.Y * strain.Y + n.Z * strain.Z);
             }
             return sum;
         }
@@ -42,7 +46,8 @@ namespace Guidewire.Core
         {
             Vector3d d = (1.0 / _length[j]) * (shape.X[j + 1] - shape.X[j]);
             p = Quaterniond.Rotate(shape.Q[j].Conjugate, d);
-            return new Vector3d(_shear[j] * p.X, _shear[j] * p.Y, _stretch[j] * (p.Z - 1.0));
+            return _rest == null ? new Vector3d(_shear[j] * p.X, _shear[j] * p.Y, _stretch[j] * (p.Z - 1.0))
+                : StressFrom(_rest[j], p, j);
         }
 
         /// <inheritdoc/>
@@ -76,7 +81,8 @@ namespace Guidewire.Core
                 Vector3d d3 = q.Director3;
                 Vector3d d = (1.0 / l) * (shape.X[j + 1] - shape.X[j]);
                 Vector3d p = new Vector3d(Vector3d.Dot(d1, d), Vector3d.Dot(d2, d), Vector3d.Dot(d3, d));
-                Vector3d n = new Vector3d(shear * p.X, shear * p.Y, _stretch[j] * (p.Z - 1.0));
+                Vector3d n = _rest == null ? new Vector3d(shear * p.X, shear * p.Y, _stretch[j] * (p.Z - 1.0))
+                    : StressFrom(_rest[j], p, j);
                 Vector3d force = n.X * d1 + n.Y * d2 + n.Z * d3;
                 AddForce(ref gradient[j], ref gradient[j + 1], force, n, p, l);
 
@@ -107,6 +113,11 @@ namespace Guidewire.Core
                 block.B11 -= first.X; block.B12 -= first.Y; block.B13 -= first.Z;
                 block.B21 -= second.X; block.B22 -= second.Y; block.B23 -= second.Z;
 
+                if (_rest != null)
+                {
+                    AddShearedRest(ref block, d1, d2, d3, shear * _rest[j]);
+                }
+
                 // (theta, theta): l (GA (|p|^2 1 - p p^T) + (EA - GA) r r^T + sym(n p^T) - (n . p) 1), r = (-p2, p1,
                 // 0).
                 double diagonal = l * (shear * p.LengthSquared - Vector3d.Dot(n, p));
@@ -120,6 +131,27 @@ namespace Guidewire.Core
                 block.C31 += lh * (n.X * p.Z + n.Z * p.X) - ls * p.X * p.Z;
                 block.C32 += lh * (n.Y * p.Z + n.Z * p.Y) - ls * p.Y * p.Z;
             }
+        }
+
+        private Vector3d StressFrom(in Vector3d rest, in Vector3d p, int j)
+        {
+            return new Vector3d(_shear[j] * (p.X - rest.X), _shear[j] * (p.Y - rest.Y), _stretch[j] * (p.Z - rest.Z));
+        }
+
+        /// <summary>What (x+, theta) = R M has more where an element is sheared at rest, s = GA p_rest: a third column
+        /// s2 d1 - s1 d2, and -s2 d3 and s1 d3 in the first and second.</summary>
+        private static void AddShearedRest(ref RodBlock block, in Vector3d d1, in Vector3d d2, in Vector3d d3,
+            in Vector3d s)
+        {
+            Vector3d first = -s.Y * d3;
+            Vector3d second = s.X * d3;
+            Vector3d third = s.Y * d1 - s.X * d2;
+            block.E11 += first.X; block.E21 += first.Y; block.E31 += first.Z;
+            block.E12 += second.X; block.E22 += second.Y; block.E32 += second.Z;
+            block.E13 += third.X; block.E23 += third.Y; block.E33 += third.Z;
+            block.B11 -= first.X; block.B12 -= first.Y; block.B13 -= first.Z;
+            block.B21 -= second.X; block.B22 -= second.Y; block.B23 -= second.Z;
+            block.B31 -= third.X; block.B32 -= third.Y; block.B33 -= third.Z;
         }
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -14,24 +14,11 @@ namespace Guidewire.Core
         /// <summary>m along the axes of the last element, N m.</summary>
         public Vector3d Moment { get; set; }
 
-        /// <summary>Sets the couple of one that acts at the wire's end, along the axes there.</summary>
-        /// <remarks>From the middle of the last element to the end the wire turns by half the element's curvature,
-        /// rest + B^-1 m, which is as constant as m: along the element's axes the couple is exp(l/2 curvature) m.
-        /// Without this turn it would point wrong by an angle of first order in l, unless it bends or twists only
-        /// (n = 30, m = 2 EI/L and a force 2 EI/L^2: 0.26 % of L at the tip).</remarks>
-        /// <param name="rod">The wire.</param>
-        /// <param name="moment">Along the axes of the wire's end, N m.</param>
-        public void ActAtEnd(MaterialRod rod, in Vector3d moment)
-        {
-            int last = rod.ElementCount - 1;
-            JointSide end = rod.EndOf(last);
-            Vector3d curvature = end.RestCurvature
-                + new Vector3d(moment.X / end.Bend1, moment.Y / end.Bend2, moment.Z / end.Twist);
-            Moment = Quaterniond.Rotate(RotationVector.Exp(0.5 * rod.Length[last] * curvature), moment);
-        }
+        /// <summary>Whether the couple changes in time, so that it is one also where it is 0 now.</summary>
+        public bool Varies { get; set; }
 
         /// <summary>True of no couple.</summary>
-        public override bool HasPotential => Moment == Vector3d.Zero;
+        public override bool HasPotential => Moment == Vector3d.Zero && !Varies;
 
         /// <inheritdoc/>
         public override void Anchor(RodShape shape)
@@ -42,7 +29,7 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override double Value(RodShape shape)
         {
-            if (HasPotential)
+            if (Moment == Vector3d.Zero)
             {
                 return 0.0;
             }

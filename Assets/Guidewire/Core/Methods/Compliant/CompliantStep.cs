@@ -75,7 +75,7 @@ namespace Guidewire.Core
             _velocities = scene.Velocities;
             _spins = scene.Spins;
             _timeStep = method.TimeStep;
-            _remainingVelocity = Math.Pow(1.0 - method.Damping, 1.0 / method.Substeps);
+            _remainingVelocity = Math.Exp(-scene.Rod.MassDamping * method.TimeStep / method.Substeps);
             _substeps = method.Substeps;
             _sweeps = method.ConstraintSolverSteps;
             _directions = new DirectionError(scene, _inertia, _stretch, _bendTwist);
@@ -114,7 +114,7 @@ namespace Guidewire.Core
                 Divergence += "; raise substeps or constraintSolverSteps";
                 return;
             }
-            Failure = _scene.Joints.FindTurned(_shape, _time);
+            Failure = _scene.Joints.FindLost(_shape, _time);
             SteadyState = _rest.FindRest(_time);
             PredictionError = Vector3d.Distance(_predictedTip, _shape.X[_shape.ElementCount]) / _scene.Metres;
             _scene.Write(state, _shape, _velocities, _spins);
@@ -124,6 +124,7 @@ namespace Guidewire.Core
         public override StressRecord? Stress()
         {
             _stress ??= new StressRecord(_scene.Rod, _scene.Supports);
+            _terms.SetTime(_scene.Schedule, _time);
             _stress.Take(_terms, _shape, _inertia.KineticEnergy(_velocities, _spins));
             return _stress;
         }

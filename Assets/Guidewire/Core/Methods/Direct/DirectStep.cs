@@ -6,6 +6,9 @@ namespace Guidewire.Core
     /// minimisation over the whole rod.</summary>
     internal sealed class DirectStep : TimeStepper
     {
+        // A step in which a disturbance would grow by much (a thrust beyond buckling) may end in any shape.
+        private const string Shorter = "; in a motion a shorter timeStep, or a timeStepError, may do";
+
         private readonly MaterialScene _scene;
         private readonly RodDynamics _dynamics;
         private readonly MaterialDrive _drive;
@@ -13,7 +16,6 @@ namespace Guidewire.Core
         private readonly SolverReport _report;
         private StressRecord? _stress;
         private long _startFactorisations;  // of the rest shape
-        private readonly double _remainingVelocity;  // share that the wire keeps a step
         private readonly HeldEnds _ends;
         private readonly EnergyWatch _energy;
         private readonly RestWatch _rest;
@@ -28,7 +30,6 @@ namespace Guidewire.Core
             _dynamics = dynamics;
             _drive = drive;
             _timeStep = method.TimeStep;
-            _remainingVelocity = 1.0 - method.Damping;
             _report = report;
             _startFactorisations = report.Factorisations;
             Contacts = record;
@@ -48,10 +49,6 @@ namespace Guidewire.Core
         {
             int last = state.ElementCount;
             _drive.Prepare(_dynamics.Shape, _dynamics.Time);
-            if (_remainingVelocity != 1.0)
-            {
-                Damp();
-            }
             Vector3d free = _dynamics.Shape.X[last] + _timeStep * _dynamics.Velocities[last]
                 + (_timeStep * _timeStep) * _scene.Schedule.Gravity;
             string? failure = _dynamics.Step(_timeStep);
@@ -59,7 +56,7 @@ namespace Guidewire.Core
             {
                 Failure = "the step to t = " + _dynamics.Time.ToString("G6",
                     System.Globalization.CultureInfo.InvariantCulture) + " s has no solution: "
-                    + (_scene.Joints.FindTurned(_dynamics.Shape, _dynamics.Time) ?? failure);
+                    + (_scene.Joints.FindTurned(_dynamics.Shape, _dynamics.Time) ?? failure) + Shorter;
                 return;
             }
             _ends.Count(_dynamics.Shape, _dynamics.ProximalTurn, _dynamics.DistalTurn, _timeStep);
@@ -69,7 +66,8 @@ namespace Guidewire.Core
                 Divergence += "; lower timeStep, or take another integrator";
                 return;
             }
-            Failure = _scene.Joints.FindTurned(_dynamics.Shape, _dynamics.Time);
+            string? lost = _scene.Joints.FindLost(_dynamics.Shape, _dynamics.Time);
+            Failure = lost == null ? null : lost + Shorter;
             SteadyState = _rest.FindRest(_dynamics.Time);
             PredictionError = Vector3d.Distance(free, _dynamics.Shape.X[last]) / _scene.Metres;
             if (Contacts != null)
@@ -84,6 +82,7 @@ namespace Guidewire.Core
         {
             _stress ??= new StressRecord(_scene.Rod, _scene.Supports);
             RodTerms terms = _dynamics.Terms;
+            terms.SetTime(_scene.Schedule, _dynamics.Time);
             _stress.Take(terms, _dynamics.Shape, terms.Mass.KineticEnergy(_dynamics.Velocities, _dynamics.Spins));
             return _stress;
         }
@@ -105,8 +104,8 @@ namespace Guidewire.Core
             _report.ProximalForce = _dynamics.ReactionAt(0);
             _report.DistalForce = _scene.Supports.HasDistalJoint ? _dynamics.ReactionAt(shape.ElementCount)
                 : Vector3d.Zero;
-            _report.ProximalMoment = _dynamics.Terms.Bending.ProximalCouple(shape);
-            _report.DistalMoment = _dynamics.Terms.Bending.DistalCouple(shape);
+            _report.ProximalMoment = _dynamics.ProximalCouple;
+            _report.DistalMoment = _dynamics.DistalCouple;
             return _report;
         }
 
@@ -137,19 +136,6 @@ namespace Guidewire.Core
         private void FollowEnds()
         {
             _ends.Follow(_dynamics.Shape, _dynamics.ProximalTurn, _dynamics.DistalTurn);
-        }
-
-        private void Damp()
-        {
-            for (int i = 0; i < _dynamics.Velocities.Length; i++)
-            {
-                _dynamics.Velocities[i] = _remainingVelocity * _dynamics.Velocities[i];
-            }
-            for (int j = 0; j < _dynamics.Spins.Length; j++)
-            {
-                _dynamics.Spins[j] = _remainingVelocity * _dynamics.Spins[j];
-            }
-            _dynamics.Restart();
         }
     }
 }

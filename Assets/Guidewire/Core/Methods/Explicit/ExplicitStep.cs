@@ -43,7 +43,7 @@ namespace Guidewire.Core
             _gradient = new RodVector[_shape.ElementCount + 2];
             _timeStep = method.TimeStep;
             _substeps = method.Substeps;
-            _remainingVelocity = Math.Pow(1.0 - method.Damping, 1.0 / _substeps);
+            _remainingVelocity = Math.Exp(-scene.Rod.MassDamping * _timeStep / _substeps);
             _ends = new HeldEnds(terms, scene.Schedule);
             _stable = StableTimeStep(scene.Rod, scene.Supports);
             double part = _timeStep / _substeps / _stable;
@@ -87,7 +87,7 @@ namespace Guidewire.Core
                 Divergence += Text(": a substep of {0:G4} s, in its rest shape stable below {1:G4} s; raise substeps");
                 return;
             }
-            Failure = _scene.Joints.FindTurned(_shape, _time);
+            Failure = _scene.Joints.FindLost(_shape, _time);
             SteadyState = _rest.FindRest(_time);
             PredictionError = Vector3d.Distance(free, _shape.X[last]) / _scene.Metres;
             if (Contacts != null)
@@ -101,6 +101,7 @@ namespace Guidewire.Core
         public override StressRecord? Stress()
         {
             _stress ??= new StressRecord(_scene.Rod, _scene.Supports);
+            _terms.SetTime(_scene.Schedule, _time);
             _stress.Take(_terms, _shape, _inertia.KineticEnergy(_velocities, _spins));
             return _stress;
         }
@@ -147,11 +148,12 @@ namespace Guidewire.Core
             for (int j = 0; j < n; j++)
             {
                 double l = rod.Length[j];
-                double rotary = rod.RotaryInertia[j];
+                double rotary = Math.Min(rod.RotaryInertia1[j], rod.RotaryInertia2[j]);
+                double polar = rod.RotaryInertia1[j] + rod.RotaryInertia2[j];
                 double before = j > 0 ? 2.0 : supports.HasProximalJoint ? 1.0 : 0.0;
                 double after = j < n - 1 ? 2.0 : supports.HasDistalJoint ? 1.0 : 0.0;
                 double bend = (before * Stiffer(joints[j]) + after * Stiffer(joints[j + 1])) / (rotary * l);
-                double twist = (before * joints[j].Twist + after * joints[j + 1].Twist) / (2.0 * rotary * l);
+                double twist = (before * joints[j].Twist + after * joints[j + 1].Twist) / (polar * l);
                 double chain = 4.0 / (l * l * LeastDensity(rod, j));
                 double shear = rod.ShearStiffness[j] * (1.0 / rotary + chain);
                 largest = Math.Max(largest, Math.Max(shear + bend, Math.Max(chain * rod.StretchStiffness[j], twist)));
@@ -208,9 +210,8 @@ namespace Guidewire.Core
                 {
                     Vector3d w = _spins[i];
                     Vector3d inverse = _inertia.InverseInertia[i];
-                    // I' = diag(1, 1, 2): w x I w over I is (w2 w3, -w1 w3, 0).
-                    _spins[i] = _remainingVelocity * w - h * new Vector3d(inverse.X * g.T1 + w.Y * w.Z,
-                        inverse.Y * g.T2 - w.X * w.Z, inverse.Z * g.T3);
+                    _spins[i] = _remainingVelocity * w - h * (new Vector3d(inverse.X * g.T1, inverse.Y * g.T2,
+                        inverse.Z * g.T3) + _terms.Mass.Precession(i, w));
                 }
             }
         }

@@ -6,10 +6,10 @@ namespace Guidewire.Core
     internal static class GainSetup
     {
         /// <summary>The wire at its start, sphere 0 displaced, and its stepper.</summary>
-        /// <exception cref="ArgumentException">A wire that starts outside the vessel.</exception>
+        /// <exception cref="ArgumentException">A wire that starts outside the vessel or is too thick.</exception>
         public static MethodStart Build(SimulationParameters parameters, Scene scene)
         {
-            string? problem = WireStart.FindProblem(scene);
+            string? problem = WireStart.FindProblem(parameters, scene);
             if (problem != null)
             {
                 throw new ArgumentException(problem);
@@ -24,8 +24,8 @@ namespace Guidewire.Core
             IConstraintSolver solver = CreateSolver(parameters, scene, state, out ContactRecord? contacts);
             if (contacts != null && parameters.Drive.Kind == Drive.Hold)
             {
-                contacts.DriveAsked = Math.Abs(parameters.Drive.Displacement);
-                contacts.DriveShortfall = Vector3d.Distance(state.Positions[0], asked);
+                contacts.AddDrive(Math.Abs(parameters.Drive.Displacement),
+                    Vector3d.Distance(state.Positions[0], asked));
             }
             MethodParameters method = parameters.Method;
             var step = new PositionBasedStep(method.TimeStep, prediction, orientationPrediction, drive, solver,
@@ -58,8 +58,8 @@ namespace Guidewire.Core
                 : new ContactSearch(scene.Walls, state.ElementCount, state.ElementLength, radius, reach,
                     contact.ElementContact == ElementContact.Barycentric);
             IContactResponse response = asPublished
-                ? (IContactResponse)new SeedContactResponse(state, walls, radius, reach, contact.CollisionStiffness)
-                : new ContactResponse(state, walls, radius, reach, contact.CollisionStiffness);
+                ? (IContactResponse)new SeedContactResponse(state, walls, reach, contact.CollisionStiffness)
+                : new ContactResponse(state, scene.Walls, radius, reach, contact.CollisionStiffness, iterations);
             var sweeps = new GaussSeidelSolver(iterations, scalar, fastest, response);
             record = new ContactRecord(state.SphereCount);
             return new ContactSolver(state, method.TimeStep, sweeps, search, response, record);

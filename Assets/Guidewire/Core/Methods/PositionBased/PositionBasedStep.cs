@@ -1,9 +1,12 @@
+using System.Globalization;
+
 namespace Guidewire.Core
 {
     /// <summary>One step of position-and-orientation-based dynamics (thesis 2.1.3): prediction, the drive's motion,
     /// constraint solver, velocity update.</summary>
     internal sealed class PositionBasedStep : TimeStepper
     {
+        private const int StepsThatAreStuck = 10;
         private readonly double _timeStep;
         private readonly IPositionPrediction _prediction;
         private readonly IOrientationPrediction _orientationPrediction;
@@ -31,6 +34,12 @@ namespace Guidewire.Core
 
         /// <inheritdoc/>
         public override ContactRecord? Contacts { get; }
+
+        /// <inheritdoc/>
+        public override string? AccuracyWarning => Contacts == null || Contacts.StuckSteps < StepsThatAreStuck
+            ? null
+            : "the drive is stuck: in the last " + Contacts.StuckSteps.ToString(CultureInfo.InvariantCulture)
+                + " steps the walls gave sphere 0 less than 1 % of its way";
 
         /// <summary>Sets what ends the run before its last step; without it nothing does.</summary>
         public void EndBy(GainWatch watch)

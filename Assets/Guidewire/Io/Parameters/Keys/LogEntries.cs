@@ -19,7 +19,7 @@ namespace Guidewire.Io
                 "whether each entry of the log also has \"stress\": curvature and twist (rad/m) and couple (N m) at the"
                 + " n + 1 joints, strain (shear, shear, stretch) and force (N) of the n elements, their angular"
                 + " velocities (rad/s, own axes), and kinetic, elastic and potential energy (J); forces and couples of"
-                + " the piece towards the tip on the other, along the world's axes",
+                + " the piece towards the tip on the other, along the world's axes, by strains alone (not their rates)",
                 p => p.LogStrains, (p, v) => p.LogStrains = v)
             {
                 Methods = Takers.Material,

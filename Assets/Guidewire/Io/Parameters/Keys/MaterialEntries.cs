@@ -50,10 +50,23 @@ namespace Guidewire.Io
                 "pieces of the wire with a material, a rest curvature or elements of their own, such as a soft, bent"
                 + " tip; an element across a border has the mean compliance, mass and rest curvature by length;"
                 + " stiffness and mass given directly count in place of those of material and radius, and rotary"
-                + " inertia is then massPerLength EI/EA with the mean of both EI",
+                + " inertia about each axis is then massPerLength EI/EA",
                 p => p.Simulation.Material.Sections, (p, v) => p.Simulation.Material.Sections = v)
             {
                 Methods = Takers.Material,
+            },
+            new NumberEntry("massDamping", "1/s", NumberRange.NotNegative,
+                "a of the force -a M v: a mode of circular frequency w has the damping ratio a/(2 w), at any timeStep",
+                p => p.Simulation.Material.MassDamping, (p, v) => p.Simulation.Material.MassDamping = v)
+            {
+                Methods = Takers.Material,
+            },
+            new NumberEntry("materialDamping", "s", NumberRange.NotNegative,
+                "b of the stress b K times the rate of strain (Kelvin-Voigt): damping ratio b w/2, at any timeStep",
+                p => p.Simulation.Material.MaterialDamping, (p, v) => p.Simulation.Material.MaterialDamping = v)
+            {
+                Methods = Takers.Only(Solver.Direct),
+                IsRefusedElsewhere = true,
             },
             new ChoiceEntry<ClampRule>("clampRule",
                 "weights of the joints at a clamp: order 4 under loads across the wire, order 2 (exact for an arc),"

@@ -75,8 +75,13 @@ namespace Guidewire.Io
                 Methods = Takers.Material,
             },
             new NumberEntry("damping", "", NumberRange.Between(0.0, 1.0),
-                "share of its velocity that a sphere loses a step",
-                p => p.Simulation.Method.Damping, (p, v) => p.Simulation.Method.Damping = v),
+                "share of its velocity that a sphere loses a step; a material has massDamping and materialDamping",
+                p => p.Simulation.Method.Damping, (p, v) => p.Simulation.Method.Damping = v)
+            {
+                Methods = Takers.Gains,
+                IsRefusedElsewhere = true,
+                Instead = "massDamping (1/s), which is damping over timeStep, or materialDamping (s)",
+            },
             new NumberEntry("deltaThreshold", "units", NumberRange.NotNegative,
                 "ends the run in a steady state: with gains, prediction errors below it; with a material, a wire that"
                 + " is no farther from its rest shape and swings no farther, whatever timeStep is; 0: never",

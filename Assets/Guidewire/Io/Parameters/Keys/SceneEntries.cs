@@ -89,9 +89,10 @@ namespace Guidewire.Io
                 Methods = Takers.Material,
             },
             new JsonEntry("loadTables", JTokenType.Object,
-                "null or {\"tipForce\": FILE, ..}, with any of gravity, tipForce, distributedForce, axialForce",
-                "CSV files of time (s) and a factor on that load, linear between the rows, the first and last value"
-                + " before and after them; a name counts from the parameter file's folder",
+                "null or {\"tipForce\": FILE, ..}, with any of gravity, tipForce, distributedForce, axialForce,"
+                + " tipMoment, tipFollowerForce",
+                "CSV files of time (s) and a factor (without unit) on that load, linear between the rows, the first and"
+                + " last value before and after them; a name counts from the parameter file's folder",
                 p => p.LoadTables, (p, v) => p.LoadTables = v)
             {
                 Methods = Takers.Material,
@@ -101,6 +102,15 @@ namespace Guidewire.Io
                 p => p.Simulation.Scene.TipForceReleaseTime, (p, v) => p.Simulation.Scene.TipForceReleaseTime = v)
             {
                 Methods = Takers.Material,
+            },
+            new VectorEntry("tipFollowerForce", "N", true,
+                "force on the last sphere along the axes of the wire's end, with which it turns: [0, 0, -1] is a thrust"
+                + " of 1 N along the tip's tangent; it has no potential, so a rest shape is where a wire with drag"
+                + " comes to rest",
+                p => p.Simulation.Scene.TipFollowerForce, (p, v) => p.Simulation.Scene.TipFollowerForce = v)
+            {
+                Methods = Takers.Material,
+                IsRefusedElsewhere = true,
             },
             new VectorEntry("tipMoment", "N m", true,
                 "couple at the wire's end along the axes there, with which it turns",
@@ -114,7 +124,8 @@ namespace Guidewire.Io
                 + " \"tube\", \"knots\", \"radius\", \"openStart\", \"openEnd\"} or {\"shape\": \"mesh\", \"file\","
                 + " \"metresPerUnit\", \"openRims\"}",
                 "the wall around the wire; a mesh file's name counts from the parameter"
-                + " file's folder, openRims names a point near the middle of each open rim",
+                + " file's folder, openRims names a point near the middle of each open rim; any may have a"
+                + " \"frictionCoefficient\" (0)",
                 p => p.Vessel, (p, v) => p.Vessel = v)
             {
                 Methods = Takers.Gains,
@@ -123,7 +134,8 @@ namespace Guidewire.Io
             new JsonEntry("obstacles", JTokenType.Array, "null or a list of {\"shape\": \"sphere\", \"centre\","
                 + " \"radius\"}, {\"shape\": \"capsule\", \"from\", \"to\", \"radius\"}, {\"shape\": \"box\","
                 + " \"centre\", \"halfSize\", \"rotation\"}, {\"shape\": \"hull\", \"points\", \"radius\"}",
-                "convex bodies in the wire's way (units, degrees)", p => p.Obstacles, (p, v) => p.Obstacles = v)
+                "convex bodies in the wire's way (units, degrees); each may have a \"frictionCoefficient\" (0)",
+                p => p.Obstacles, (p, v) => p.Obstacles = v)
             {
                 Methods = Takers.Gains,
                 IsRefusedElsewhere = true,

@@ -57,7 +57,7 @@ namespace Guidewire.Core.Tests
                 {
                     for (int w = 0; w < Walls.Length; w++)
                     {
-                        Assert.That(search.ClearanceOf(j), Is.LessThan(Distance(w, from[j], from[j + 1]) + 1e-9));
+                        Assert.That(search.ClearanceOf(w, j), Is.LessThan(Distance(w, from[j], from[j + 1]) + 1e-9));
                     }
                 }
             }

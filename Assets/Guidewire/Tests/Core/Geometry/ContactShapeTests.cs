@@ -118,7 +118,10 @@ namespace Guidewire.Core.Tests
                 Vector3d b1 = b0 + random.Number(0.0, 2.0) * random.Point();
                 double impact = shape.Sweep(a0, b0, a1, b1, Clearance, out SurfaceContact contact);
                 double until = Math.Min(1.0, impact);
-                double keep = Math.Min(Clearance, 0.5 * Smallest(shape, a0, b0)) - 1e-9;
+                double kept = ContactShape.Kept(Smallest(shape, a0, b0), Clearance) - 1e-9;
+                double onTheWay = Math.Min(kept, 0.5 * Clearance - 1e-9);
+                double atTheEnd = Smallest(shape, Vector3d.Lerp(a0, a1, until), Vector3d.Lerp(b0, b1, until));
+                Assert.That(atTheEnd, Is.GreaterThanOrEqualTo(kept), "case " + i + " at its end");
                 bool met = false;
                 for (int k = 0; k <= 40; k++)
                 {
@@ -126,7 +129,7 @@ namespace Guidewire.Core.Tests
                     double distance = Smallest(shape, Vector3d.Lerp(a0, a1, time), Vector3d.Lerp(b0, b1, time));
                     if (time <= until)
                     {
-                        Assert.That(distance, Is.GreaterThanOrEqualTo(keep), "case " + i + " at " + time);
+                        Assert.That(distance, Is.GreaterThanOrEqualTo(onTheWay), "case " + i + " at " + time);
                     }
                     met |= distance <= 0.0;
                 }
@@ -140,6 +143,38 @@ namespace Guidewire.Core.Tests
             }
             Assert.That(impacts, Is.GreaterThan(0));
             Assert.That(passes, Is.GreaterThan(0));
+        }
+
+        [Test]
+        public void Tube_OfManyPieces_IsAsDeepAsItsDeepestPiece()
+        {
+            // The pieces' terms one by one: h from the axis, z along it, and the best centre by the slope k.
+            var knots = new Vector3d[40];
+            var radii = new double[knots.Length];
+            var random = new RandomGeometry(37);
+            for (int i = 0; i < knots.Length; i++)
+            {
+                double turn = 0.4 * i;
+                knots[i] = new Vector3d(3.0 * Math.Cos(turn), 3.0 * Math.Sin(turn), 0.35 * i);
+                radii[i] = random.Number(0.4, 0.6);
+            }
+            var tube = new TubeShape(knots, radii, false, false);
+            for (int c = 0; c < RandomGeometry.Cases(2_000); c++)
+            {
+                Vector3d x = knots[random.Index(knots.Length)] + 1.5 * random.Point();
+                double deepest = double.NegativeInfinity;
+                for (int i = 0; i + 1 < knots.Length; i++)
+                {
+                    double length = Vector3d.Distance(knots[i], knots[i + 1]);
+                    Vector3d axis = (knots[i + 1] - knots[i]) / length;
+                    double z = Vector3d.Dot(x - knots[i], axis);
+                    double h = Vector3d.Cross(axis, x - knots[i]).Length;
+                    double k = (radii[i + 1] - radii[i]) / length;
+                    double y = Math.Min(length, Math.Max(0.0, z + k * h / Math.Sqrt(1.0 - k * k)));
+                    deepest = Math.Max(deepest, radii[i] + k * y - Math.Sqrt(h * h + (z - y) * (z - y)));
+                }
+                Assert.That(tube.Distance(x, out _), Is.EqualTo(deepest).Within(1e-12), "at " + x);
+            }
         }
 
         [Test]

@@ -69,13 +69,22 @@ namespace Guidewire.Core.Tests
         /// <summary>A tube of radius 1 along z from 0 to <paramref name="length"/>, open at both ends.</summary>
         public static TestMeshes Tube(int around, int rows, double length)
         {
+            return Tube(around, rows, length, z => 1.0);
+        }
+
+        /// <summary>A tube along z from 0 to <paramref name="length"/>, open at both ends, with a radius that depends
+        /// on z.</summary>
+        public static TestMeshes Tube(int around, int rows, double length, Func<double, double> radius)
+        {
             var mesh = new TestMeshes();
             for (int i = 0; i <= rows; i++)
             {
                 for (int k = 0; k < around; k++)
                 {
                     double phi = 2.0 * Math.PI * k / around;
-                    mesh._vertices.Add(new Vector3d(Math.Cos(phi), Math.Sin(phi), length * i / rows));
+                    double z = length * i / rows;
+                    double r = radius(z);
+                    mesh._vertices.Add(new Vector3d(r * Math.Cos(phi), r * Math.Sin(phi), z));
                 }
             }
             for (int i = 0; i < rows; i++)

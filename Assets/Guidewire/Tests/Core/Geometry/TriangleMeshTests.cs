@@ -40,6 +40,53 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void Mesh_OfLooseTriangles_IsWeldedWhereCornersDifferByRounding()
+        {
+            // The tolerance is 1e-8 of the longest side, 2 units; 1e-6 of it is a slit that stays one.
+            var random = new Random(1);
+            Vector3d[] corners = TestMeshes.Cube().Corners;
+            Assert.That(Loose(corners, 2e-9, random).Report.Vertices, Is.EqualTo(8));
+            Assert.That(() => Loose(corners, 2e-6, random),
+                Throws.TypeOf<MeshException>().With.Message.Contains("separate surfaces"));
+        }
+
+        [Test]
+        public void Mesh_WithCoordinatesBeyondAnyVessel_IsRefusedByVertexAndPlace()
+        {
+            TestMeshes far = TestMeshes.Cube();
+            far.Vertex(new Vector3d(1e300, 0.0, 0.0));
+            Refused("far", far, "vertex 9 of 9 is at (1E+300, 0, 0): coordinates go up to 1e9 units");
+        }
+
+        [Test]
+        public void Mesh_ThatGoesThroughItself_IsFoundWithThePlace()
+        {
+            Assert.That(new MeshShape(TestMeshes.Cube().Build()).CountSelfIntersections(out _), Is.EqualTo(0));
+            Assert.That(new MeshShape(TestMeshes.Ball(12, 0.3).Build()).CountSelfIntersections(out _), Is.EqualTo(0));
+
+            // Corner (-1, -1, -1) is pulled out through the face z = 1; only its edges can pierce that face.
+            Vector3d[] vertices = TestMeshes.Cube().Vertices;
+            vertices[0] = new Vector3d(0.4, 0.3, 3.0);
+            var spiked = new MeshShape(
+                TriangleMesh.Create(vertices, TestMeshes.Cube().Triangles, Array.Empty<Vector3d>()));
+            Assert.That(spiked.CountSelfIntersections(out Vector3d place), Is.GreaterThan(0));
+            Assert.That(place.Z, Is.EqualTo(1.0).Within(1e-12));
+            Assert.That(Math.Max(Math.Abs(place.X), Math.Abs(place.Y)), Is.LessThan(1.0));
+        }
+
+        private static TriangleMesh Loose(Vector3d[] corners, double shift, Random random)
+        {
+            var triangles = new int[corners.Length];
+            var moved = new Vector3d[corners.Length];
+            for (int i = 0; i < triangles.Length; i++)
+            {
+                triangles[i] = i;
+                moved[i] = corners[i] + (shift * (random.NextDouble() - 0.5)) * new Vector3d(1.0, -1.0, 1.0);
+            }
+            return TriangleMesh.Create(moved, triangles, Array.Empty<Vector3d>());
+        }
+
+        [Test]
         public void Mesh_WithSomeTrianglesTurned_IsTurnedBackAndCounted()
         {
             TestMeshes broken = TestMeshes.Cube();

@@ -68,6 +68,28 @@ namespace Guidewire.Core.Tests
                 Throws.TypeOf<ParameterException>().With.Message.Contains("none.obj: no such file"));
         }
 
+        [Test]
+        public void WhatIsNoPlainFile_IsRefusedBeforeItIsRead()
+        {
+            string folder = Path.Combine(_folder, "folder.obj");
+            Directory.CreateDirectory(folder);
+            RefusedFile(folder, ": is a folder, a mesh file is needed");
+            RefusedFile(_folder, ": is a folder, a mesh file is needed");
+            RefusedFile(Path.Combine(_folder, "none"), ": needs a name that ends in .obj or .stl");
+            string large = Path.Combine(_folder, "large.stl");
+            using (FileStream stream = File.Create(large))
+            {
+                stream.SetLength(((long)PlainFile.LargestMebibytes << 20) + 1);
+            }
+            RefusedFile(large, ": holds more than 256 MiB");
+        }
+
+        private static void RefusedFile(string file, string message)
+        {
+            Assert.That(() => MeshFile.Read(file, 1.0, Array.Empty<Vector3d>()),
+                Throws.TypeOf<ParameterException>().With.Message.Contains(file + message));
+        }
+
         private void Refused(string name, byte[] bytes, string message)
         {
             string file = Write(name, bytes);

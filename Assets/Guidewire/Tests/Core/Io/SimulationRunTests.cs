@@ -33,7 +33,7 @@ namespace Guidewire.Core.Tests
         {
             ParameterHandler handler = Load(("maxSimulationSteps", 7), ("constraintSolverSteps", 20),
                 ("displacementDirection", new JArray(1.0, 2.0, 3.0)));
-            new SimulationRun(handler, _folder, null).Execute();
+            new SimulationRun(handler, _folder, null).Execute(Existing.Replace);
             JObject log = Read("positions.json");
             Simulation again = Simulation.Create(handler.Values.Simulation);
             Assert.That(log.Count, Is.EqualTo(8));
@@ -62,7 +62,7 @@ namespace Guidewire.Core.Tests
             Thread.CurrentThread.CurrentCulture = commas;
             try
             {
-                new SimulationRun(Load(("maxSimulationSteps", 2)), _folder, null).Execute();
+                new SimulationRun(Load(("maxSimulationSteps", 2)), _folder, null).Execute(Existing.Replace);
             }
             finally
             {
@@ -75,7 +75,7 @@ namespace Guidewire.Core.Tests
         public void ThinnedLog_KeepsEveryKthStepAndTheLast()
         {
             new SimulationRun(Load(("maxSimulationSteps", 10), ("logEvery", 4), ("logSpheres", "last"),
-                ("logOrientations", true)), _folder, null).Execute();
+                ("logOrientations", true)), _folder, null).Execute(Existing.Replace);
             JObject log = Read("positions.json");
             Assert.That(((IDictionary<string, JToken?>)log).Keys, Is.EqualTo(new[] { "0", "4", "8", "10" }));
             Assert.That(((JObject)log["8"]!["sphere"]!).Count, Is.EqualTo(1));
@@ -85,7 +85,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void Summary_SaysWhatBecameOfTheRun()
         {
-            RunResult result = new SimulationRun(Load(("maxSimulationSteps", 5)), _folder, 2).Execute();
+            RunResult result = new SimulationRun(Load(("maxSimulationSteps", 5)), _folder, 2).Execute(Existing.Replace);
             JObject summary = Read("summary.json");
             Assert.That(result.Outcome, Is.EqualTo(Outcome.Finished));
             Assert.That((string?)summary["outcome"], Is.EqualTo("finished"));
@@ -104,9 +104,84 @@ namespace Guidewire.Core.Tests
             int asked = 0;
             var run = new SimulationRun(Load(("constraintSolverSteps", 1)), _folder, null)
                 { StopRequested = () => ++asked > 4 };
-            Assert.That(run.Execute().Outcome, Is.EqualTo(Outcome.Interrupted));
+            Assert.That(run.Execute(Existing.Replace).Outcome, Is.EqualTo(Outcome.Interrupted));
             Assert.That(Read("positions.json").Count, Is.EqualTo(5), "entries 0 to 4");
             Assert.That((string?)Read("summary.json")["outcome"], Is.EqualTo("interrupted"));
+        }
+
+        [Test]
+        public void EarlierResult_StandsIn_OnlyForTheSameParametersAndRepeat()
+        {
+            ParameterHandler handler = Load(("maxSimulationSteps", 3));
+            new SimulationRun(handler, _folder, null).Execute(Existing.Replace);
+            Assert.That(IsReused(handler, null), Is.True);
+            Assert.That(IsReused(handler, 0), Is.False, "timed and untimed");
+            Assert.That(IsReused(handler, 1), Is.False, "another repeat");
+            Assert.That(IsReused(Load(("maxSimulationSteps", 4)), 1), Is.False);
+        }
+
+        [Test]
+        public void TwoRunsIntoOneFolder_AreRefused()
+        {
+            RunResult? inner = null;
+            ParameterException? refused = null;
+            var run = new SimulationRun(Load(("maxSimulationSteps", 2)), _folder, null)
+            {
+                Progress = (simulation, elapsed) =>
+                {
+                    try
+                    {
+                        inner = new SimulationRun(Load(("maxSimulationSteps", 1)), _folder, null)
+                            .Execute(Existing.Replace);
+                    }
+                    catch (ParameterException error)
+                    {
+                        refused = error;
+                    }
+                },
+            };
+            run.Execute(Existing.Replace);
+            Assert.That(inner, Is.Null);
+            Assert.That(refused!.Message, Does.Contain("no other run is writing"));
+        }
+
+        [Test]
+        public void StepTimes_FindTheMedianWithinHalfAPercent()
+        {
+            var times = new StepTimes();
+            for (int k = 1; k <= 999; k++)
+            {
+                times.Add(0.01 * k);
+            }
+            Assert.That(times.Median(), Is.EqualTo(5.0).Within(0.5).Percent);
+            Assert.That(times.Average, Is.EqualTo(5.0).Within(1e-9));
+        }
+
+        [Test]
+        public void EarlierResult_IsKept_FromOtherParametersAndFromARunThatIsStopped()
+        {
+            ParameterHandler other = Load(("maxSimulationSteps", 9));
+            new SimulationRun(Load(("maxSimulationSteps", 3)), _folder, null).Execute(Existing.Keep);
+            Assert.That(() => new SimulationRun(other, _folder, null).Execute(Existing.Keep),
+                Throws.TypeOf<ParameterException>().With.Message.Contains("maxSimulationSteps is 3 there and 9 here"));
+            var stopped = new SimulationRun(other, _folder, null) { StopRequested = () => true };
+            RunResult result = stopped.Execute(Existing.Replace);
+            Assert.That((result.Outcome, result.KeptEarlier), Is.EqualTo((Outcome.Interrupted, true)));
+            Assert.That((int)Read("summary.json")["steps"]!, Is.EqualTo(3));
+            Assert.That(new SimulationRun(other, _folder, null).Execute(Existing.Replace).KeptEarlier, Is.False);
+            Assert.That((int)Read("summary.json")["steps"]!, Is.EqualTo(9));
+            Assert.That(Directory.GetFiles(_folder), Has.Length.EqualTo(3));
+        }
+
+        [Test]
+        public void RunThatFailed_DoesNotTakeTheEarlierOnesPlace()
+        {
+            new SimulationRun(Load(("maxSimulationSteps", 3)), _folder, null).Execute(Existing.Keep);
+            ParameterHandler hopeless = Load(("solver", "direct"), ("proximalEnd", "clamped"),
+                ("initialState", "equilibrium"), ("maxNewtonIterations", 1), ("tipForce", new JArray(0.0, 100.0, 0.0)));
+            RunResult result = new SimulationRun(hopeless, _folder, null).Execute(Existing.Replace);
+            Assert.That(result.Outcome, Is.EqualTo(Outcome.Failed));
+            Assert.That((string?)Read("summary.json")["outcome"], Is.EqualTo("finished"));
         }
 
         [Test]
@@ -122,49 +197,26 @@ namespace Guidewire.Core.Tests
         public void RunWithoutALog_HasTheSameResult_AndTakesAnEarlierLogAway()
         {
             ParameterHandler handler = Load(("maxSimulationSteps", 3));
-            new SimulationRun(handler, _folder, null).Execute();
+            new SimulationRun(handler, _folder, null).Execute(Existing.Replace);
             JObject logged = Read("summary.json");
-            new SimulationRun(handler, _folder, null) { KeepsLog = false }.Execute();
+            new SimulationRun(handler, _folder, null) { KeepsLog = false }.Execute(Existing.Replace);
             JObject summary = Read("summary.json");
             Assert.That(Directory.GetFiles(_folder), Has.Length.EqualTo(1), "the summary");
             Assert.That(summary["log"]!.Type, Is.EqualTo(JTokenType.Null));
             Assert.That(summary["predictionError"], Is.EqualTo(logged["predictionError"]));
+            Assert.That(new SimulationRun(handler, _folder, null).Execute(Existing.Keep).Reused, Is.True);
         }
 
-        [Test]
-        public void TwoRunsIntoOneFolder_AreRefused()
+        private bool IsReused(ParameterHandler handler, int? repeat)
         {
-            RunResult? inner = null;
-            ParameterException? refused = null;
-            var run = new SimulationRun(Load(("maxSimulationSteps", 2)), _folder, null)
+            try
             {
-                Progress = (simulation, elapsed) =>
-                {
-                    try
-                    {
-                        inner = new SimulationRun(Load(("maxSimulationSteps", 1)), _folder, null).Execute();
-                    }
-                    catch (ParameterException error)
-                    {
-                        refused = error;
-                    }
-                },
-            };
-            run.Execute();
-            Assert.That(inner, Is.Null);
-            Assert.That(refused!.Message, Does.Contain("no other run is writing"));
-        }
-
-        [Test]
-        public void StepTimes_FindTheMedianWithinHalfAPercent()
-        {
-            var times = new StepTimes();
-            for (int k = 1; k <= 999; k++)
-            {
-                times.Add(0.01 * k);
+                return new SimulationRun(handler, _folder, repeat).Execute(Existing.Keep).Reused;
             }
-            Assert.That(times.Median(), Is.EqualTo(5.0).Within(0.5).Percent);
-            Assert.That(times.Average, Is.EqualTo(5.0).Within(1e-9));
+            catch (ParameterException)
+            {
+                return false;    // another run is there
+            }
         }
 
         private JObject Read(string name)

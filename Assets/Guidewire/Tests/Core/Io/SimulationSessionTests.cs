@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.IO;
 using Guidewire.Io;
 using Newtonsoft.Json.Linq;
@@ -49,6 +50,65 @@ namespace Guidewire.Core.Tests
             session.Set("damping", 0.1);
             Assert.That(session.Parameters.Gains.StretchStiffness, Is.EqualTo(0.2), "the earlier change");
             Assert.That(session.Simulation.StepCount, Is.EqualTo(1));
+        }
+
+        [Test]
+        public void RestoredAndResetSession_TakesTheSameStepsUnderTheSameHand()
+        {
+            SimulationSession session = SimulationSession.Open(_file, Array.Empty<KeyValuePair<string, JToken>>(), null);
+            Assert.That(session.IsSteered, Is.True);
+            Vector3d[][] tips = new Vector3d[3][];
+            byte[] saved = session.Save();
+            for (int k = 0; k < 3; k++)
+            {
+                for (int step = 0; step < 20; step++)
+                {
+                    session.Step(0.3, 0.05);
+                }
+                tips[k] = (Vector3d[])session.Simulation.State.Positions.Clone();
+                if (k == 0)
+                {
+                    session.Reset();
+                }
+                else
+                {
+                    session.Restore(saved);
+                }
+            }
+            Assert.That(tips[1], Is.EqualTo(tips[0]));
+            Assert.That(tips[2], Is.EqualTo(tips[0]));
+        }
+
+        [Test]
+        public void Restore_Refuses_OtherParameters_AndWhatIsNotWhole_AndChangesNothing()
+        {
+            SimulationSession session = SimulationSession.Open(_file, Array.Empty<KeyValuePair<string, JToken>>(), true);
+            using SimulationSession other = Open("", true, "bendStiffness=0.3");
+            using SimulationSession driven = Open("", false);
+            byte[] saved = session.Save();
+            byte[] broken = session.Save();
+            broken[broken.Length - 1] ^= 1;
+            Simulation before = session.Simulation;
+            foreach (byte[] wrong in new[] { other.Save(), driven.Save(), broken, Array.Empty<byte>(), new byte[5000] })
+            {
+                Assert.Throws<ParameterException>(() => session.Restore(wrong));
+                Assert.That(session.Simulation, Is.SameAs(before));
+            }
+            session.Restore(saved);
+        }
+
+        [Test]
+        public void SessionOfAMaterial_IsDriven_AndStatesReactions()
+        {
+            var material = new[] { new KeyValuePair<string, JToken>("solver", "direct"),
+                new KeyValuePair<string, JToken>("proximalEnd", "clamped"),
+                new KeyValuePair<string, JToken>("gravity", new JArray(0.0, -9.81, 0.0)) };
+            SimulationSession session = SimulationSession.Open(null, material, null);
+            session.Step(0.0, 0.0);
+            Assert.That(session.IsSteered, Is.False);
+            Assert.That(session.Simulation.Contacts!.Reaction.Y, Is.GreaterThan(0.0));
+            Assert.That(() => SimulationSession.Open(null, material, true), Throws.TypeOf<ParameterException>()
+                .With.Message.Contains("direct is not steered by hand"));
         }
 
         [Test]

@@ -135,6 +135,50 @@ namespace Guidewire.Core.Tests
             Assert.That(through.Outcome, Is.Not.EqualTo(Outcome.Diverged), through.Reason);
         }
 
+        [TestCaseSource(nameof(Runs))]
+        public void RestoredRun_GivesTheSameBits_AsOftenAsItIsRestored(SimulationParameters parameters)
+        {
+            Simulation through = Simulation.Create(parameters);
+            byte[] start = through.Save();
+            Step(through, 23);
+            byte[] middle = through.Save();
+            AssertSameBits(Simulation.Restore(parameters, middle), through, "where it was saved");
+            Step(through, 17);
+            for (int k = 0; k < 2; k++)
+            {
+                Simulation restored = Simulation.Restore(parameters, middle);
+                Step(restored, 17);
+                AssertSameBits(restored, through, "from the middle");
+            }
+            Simulation again = Simulation.Restore(parameters, start);
+            Step(again, 40);
+            AssertSameBits(again, through, "from the start");
+        }
+
+        [Test]
+        public void RestoredRun_HasEnded_WhereTheSavedOneHad()
+        {
+            SimulationParameters parameters = Transversal();
+            parameters.Method.MaxSimulationSteps = 3;
+            Simulation run = Simulation.Create(parameters);
+            Step(run, 3);
+            Simulation restored = Simulation.Restore(parameters, run.Save());
+            restored.Step();
+            AssertSameBits(restored, run, "after its end");
+            Assert.That(restored.Outcome, Is.EqualTo(Outcome.Finished));
+        }
+
+        [Test]
+        public void Restore_Refuses_AnotherWire_AndBytesThatAreNotWhole()
+        {
+            byte[] saved = Simulation.Create(Transversal()).Save();
+            SimulationParameters longer = Transversal();
+            longer.Scene.NumberRodElements++;
+            Assert.Throws<ArgumentException>(() => Simulation.Restore(longer, saved));
+            Assert.Throws<ArgumentException>(() => Simulation.Restore(Transversal(), saved.AsSpan(0, 800)));
+            Assert.Throws<ArgumentException>(() => Simulation.Restore(Transversal(), default));
+        }
+
         private static void AssertSameBits(Simulation a, Simulation b, string when)
         {
             Assert.That(a.State.Positions, Is.EqualTo(b.State.Positions), when);

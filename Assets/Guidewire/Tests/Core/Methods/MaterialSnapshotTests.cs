@@ -19,8 +19,10 @@ namespace Guidewire.Core.Tests
             foreach (Integrator scheme in new[] { Integrator.Trbdf2, Integrator.Esdirk3, Integrator.Esdirk4 })
             {
                 yield return new TestCaseData(Solver.Direct, scheme, "cut steps");
+                yield return new TestCaseData(Solver.Direct, scheme, "damped cut steps");
             }
-            foreach (string scene in new[] { "ramp", "twist and push", "release", "free", "sliding", "couple" })
+            foreach (string scene in new[] { "ramp", "damped ramp", "twist and push", "release", "free", "sliding",
+                "couple" })
             {
                 foreach (Integrator scheme in new[] { Integrator.ImplicitEuler, Integrator.Bdf2, Integrator.Trbdf2,
                     Integrator.Esdirk3, Integrator.Esdirk4 })
@@ -172,9 +174,21 @@ namespace Guidewire.Core.Tests
                     parameters.Scene.DistalDisplacement = Displacement;
                     parameters.Scene.DistalRampTime = RampSteps * dt;
                     break;
+                case "damped ramp":
+                case "damped cut steps":
+                    parameters.Scene.Gravity = new Vector3d(0.0, -9.81, 0.0);
+                    parameters.Scene.DistalEnd = DistalEnd.Clamped;
+                    parameters.Scene.DistalRotation = 1.5;
+                    parameters.Scene.DistalDisplacement = Displacement;
+                    parameters.Scene.DistalRampTime = 20.3 * dt;
+                    parameters.Material.MassDamping = 0.02 / dt;
+                    parameters.Material.MaterialDamping = solver == Solver.Direct ? 0.3 * dt : 0.0;
+                    parameters.Method.TimeStepError = scene == "damped ramp" ? 0.0 : 1e-5;
+                    break;
                 case "twist and push":
                     parameters.Scene.Gravity = new Vector3d(0.0, -9.81, 0.0);
-                    parameters.Method.Damping = 0.01;
+                    parameters.Material.MassDamping = 0.01 / dt;
+                    parameters.Material.MaterialDamping = solver == Solver.Direct ? 0.1 * dt : 0.0;
                     parameters.Drive.Kind = Drive.Push;
                     parameters.Drive.DisplacementPerStep = 50.0 * dt;
                     parameters.Drive.TwistPerStep = 20.0 * dt;

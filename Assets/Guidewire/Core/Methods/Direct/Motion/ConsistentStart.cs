@@ -2,14 +2,16 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Rates at a moment from the forces there, M a = f and I w' = couple - w x I w: what an explicit first
-    /// stage has at the start and after a jump of a load or of a support.</summary>
-    /// <remarks>The consistent mass is tridiagonal and the same for all components of a; elements' spins decouple. A
+    /// <summary>Rates at a moment from the forces there, M v' = f and I w' = couple - w x I w - a I w, a of the damping
+    /// in proportion to mass: what an explicit first stage has at the start and after a jump of a load or of a
+    /// support.</summary>
+    /// <remarks>The consistent mass is tridiagonal and the same for all components of v'; elements' spins decouple. A
     /// held node's acceleration is its support's, 0, because supports move evenly between jumps. Where a support's
     /// velocity jumps, M dv = 0 on the free nodes gives what the mass that they share makes of it.</remarks>
     internal sealed class ConsistentStart
     {
         private readonly RodTerms _terms;
+        private readonly RodDamping? _damping;
         private readonly bool _holdsFirst;
         private readonly DistalEnd _distal;
         private readonly Vector3d _axis;
@@ -18,8 +20,10 @@ namespace Guidewire.Core
         private readonly Vector3d[] _change;
 
         /// <summary>For a rod under these terms.</summary>
-        public ConsistentStart(RodTerms terms)
+        /// <param name="damping">Of its nodes and strains, or null.</param>
+        public ConsistentStart(RodTerms terms, RodDamping? damping)
         {
+            _damping = damping;
             int n = terms.Mass.Coupling.Length;
             _terms = terms;
             _holdsFirst = terms.Supports.Proximal != ProximalEnd.Free;
@@ -45,26 +49,15 @@ namespace Guidewire.Core
             return _distal == DistalEnd.Free || Across(miss).Length <= distance;
         }
 
-        /// <summary>Gives held nodes these velocities, and no other node another one.</summary>
-        public void Hold(Vector3d[] velocities, in Vector3d proximal, in Vector3d distal)
-        {
-            int n = velocities.Length - 1;
-            if (_holdsFirst)
-            {
-                velocities[0] = proximal;
-            }
-            if (_distal != DistalEnd.Free)
-            {
-                velocities[n] += Across(distal - velocities[n]);
-            }
-        }
-
-        /// <summary>Sets v' and w' from the forces of all terms, whose time has been set.</summary>
+        /// <summary>Sets v' and w' from the forces of all terms, whose time has been set, and of the damping, which
+        /// acts by the rates of this moment.</summary>
         /// <returns>The largest of them: v' over L, or w', 1/s^2.</returns>
         public double SetRates(RodShape shape, Vector3d[] spins, Vector3d[] acceleration, Vector3d[] spinRate)
         {
             Array.Clear(_gradient, 0, _gradient.Length);
             _terms.AddGradient(shape, _gradient);
+            _damping?.AddGradient(shape, _gradient);
+            double damping = _terms.Rod.MassDamping;
             for (int i = 0; i < acceleration.Length; i++)
             {
                 RodVector g = _gradient[i];
@@ -82,22 +75,22 @@ namespace Guidewire.Core
             }
             for (int j = 0; j < spinRate.Length; j++)
             {
-                // I = rho I l diag(1, 1, 2): w x I w over rho I l is (w2 w3, -w1 w3, 0).
-                double inverse = 1.0 / _terms.Mass.Rotary[j];
+                Vector3d i = _terms.Mass.Rotary[j];
                 Vector3d w = spins[j];
-                spinRate[j] = new Vector3d(-inverse * _gradient[j].T1 - w.Y * w.Z,
-                    -inverse * _gradient[j].T2 + w.X * w.Z, -0.5 * inverse * _gradient[j].T3);
+                RodVector g = _gradient[j];
+                spinRate[j] = new Vector3d(-(1.0 / i.X) * g.T1, -(1.0 / i.Y) * g.T2, -(1.0 / i.Z) * g.T3)
+                    - _terms.Mass.Precession(j, w) - damping * w;
                 turn = Math.Max(turn, spinRate[j].LengthSquared);
             }
             return Math.Max(Math.Sqrt(shift) / _terms.Rod.TotalLength, Math.Sqrt(turn));
         }
 
-        /// <summary>A number that other forces or another mass would hardly give.</summary>
+        /// <summary>A number that other forces, another mass or another damping would hardly give.</summary>
         public double CheckSum(RodShape shape)
         {
             Array.Clear(_gradient, 0, _gradient.Length);
             _terms.AddGradient(shape, _gradient);
-            double sum = _terms.Mass.Total;
+            double sum = _terms.Mass.Total + _terms.Rod.MassDamping + _terms.Rod.MaterialDamping;
             for (int i = 0; i < _gradient.Length; i++)
             {
                 RodVector g = _gradient[i];

@@ -7,16 +7,17 @@ namespace Guidewire.Core
     /// and the rotary inertia of the elements. With it the stage's motion is the energy's minimum.</summary>
     /// <remarks>Nodes: a = (x - x~)/h^2 is the stage's acceleration, x~ = x^ + h v^. Elements: the turn since the
     /// step's start is phi = log(conj(q_start) q); w = J(phi) (phi - phi^)/h is the angular velocity along the
-    /// element's axes, and I (w - w^)/h + w x I w is its couple, I = rho I l diag(1, 1, 2). This couple has no
-    /// potential; it enters by its work since the anchor, with I/h^2 as second derivative, which leaves out terms of
-    /// order |phi| I/h^2.</remarks>
+    /// element's axes, and I (w - w^)/h + w x I w + a I w is its couple, I = l diag(rho I1, rho I2, rho (I1 + I2)), a
+    /// the damping of turns in proportion to mass. This couple has no potential; it enters by its work since the
+    /// anchor, with (1 + a h) I/h^2 as second derivative, which leaves out terms of order |phi| I/h^2.</remarks>
     internal sealed class InertiaEnergy : EnergyTerm
     {
         private const double SurelyFirst = 4.0;  // radians squared: below it the shortest rotation vector is meant
 
         private readonly double[] _diagonal;  // of the mass matrix, kg, n+1
         private readonly double[] _coupling;  // between nodes i and i+1, kg, n
-        private readonly double[] _rotary;    // rho I l, kg m^2, n
+        private readonly Vector3d[] _rotary;  // I, kg m^2, n
+        private readonly RodMass _mass;
         private readonly Quaterniond[] _anchor;
         private readonly Vector3d[] _anchorCouple;
         private readonly Vector3d[] _countedTurn;  // phi with its full turns, in the shape that was last looked at
@@ -27,6 +28,7 @@ namespace Guidewire.Core
             _diagonal = mass.Diagonal;
             _coupling = mass.Coupling;
             _rotary = mass.Rotary;
+            _mass = mass;
             int n = _rotary.Length;
             _anchor = new Quaterniond[n];
             _anchorCouple = new Vector3d[n];
@@ -39,6 +41,9 @@ namespace Guidewire.Core
 
         /// <summary>h, s: the diagonal coefficient of the scheme times the time step.</summary>
         public double StageLength { get; set; }
+
+        /// <summary>a, 1/s; that of the nodes is in <see cref="RodDamping"/>.</summary>
+        public double TurnDamping { get; set; }
 
         /// <summary>Orientations at the start of the step, from which phi counts.</summary>
         public Quaterniond[] Start { get; }
@@ -160,8 +165,9 @@ namespace Guidewire.Core
                     Vector3d e = shape.X[i + 1] - FreePositions[i + 1];
                     sum += perSquare * _coupling[i] * Vector3d.Dot(d, e);
                     Vector3d turn = RotationVector.Log(_anchor[i].Conjugate * shape.Q[i]);
-                    sum += Vector3d.Dot(_anchorCouple[i], turn)
-                        + 0.5 * perSquare * _rotary[i] * (turn.LengthSquared + turn.Z * turn.Z);
+                    Vector3d rotary = _rotary[i];
+                    sum += Vector3d.Dot(_anchorCouple[i], turn) + 0.5 * PerTurn * (rotary.X * turn.X * turn.X
+                        + rotary.Y * turn.Y * turn.Y + rotary.Z * turn.Z * turn.Z);
                 }
             }
             return sum;
@@ -212,16 +218,19 @@ namespace Guidewire.Core
                 b.D11 += coupling;
                 b.D22 += coupling;
                 b.D33 += coupling;
-                double rotary = perSquare * _rotary[i];
-                b.C11 += rotary;
-                b.C22 += rotary;
-                b.C33 += 2.0 * rotary;
+                Vector3d rotary = PerTurn * _rotary[i];
+                b.C11 += rotary.X;
+                b.C22 += rotary.Y;
+                b.C33 += rotary.Z;
             }
             if (end < to)
             {
                 AddMass(ref blocks[end], perSquare * _diagonal[end]);
             }
         }
+
+        // (1 + a h)/h^2.
+        private double PerTurn => 1.0 / (StageLength * StageLength) + TurnDamping / StageLength;
 
         private static void AddMass(ref RodBlock b, double mass)
         {
@@ -230,14 +239,15 @@ namespace Guidewire.Core
             b.A33 += mass;
         }
 
-        /// <summary>I (w - w^)/h + w x I w.</summary>
+        /// <summary>I (w - w^)/h + w x I w + a I w.</summary>
         [MethodImpl(Compiled.AtOnce)]
         private Vector3d Couple(in Quaterniond orientation, int j)
         {
             Vector3d w = Spin(Turn(orientation, j), j);
             Vector3d rate = (1.0 / StageLength) * (w - SpinHistory[j]);
-            double i = _rotary[j];
-            return new Vector3d(i * (rate.X + w.Y * w.Z), i * (rate.Y - w.X * w.Z), 2.0 * i * rate.Z);
+            Vector3d i = _rotary[j];
+            Vector3d change = rate + _mass.Precession(j, w) + TurnDamping * w;
+            return new Vector3d(i.X * change.X, i.Y * change.Y, i.Z * change.Z);
         }
     }
 }

@@ -25,6 +25,7 @@ namespace Guidewire.Core
         private readonly RodSchedule _schedule;
         private readonly RodStage _stage;
         private readonly InertiaEnergy _inertia;
+        private readonly RodDamping? _damping;
         private readonly ClampFrames _frames;
         private readonly RungeKuttaScheme? _scheme;  // null: BDF2
         private readonly RungeKuttaScheme _starter = RungeKuttaScheme.Start();
@@ -64,12 +65,13 @@ namespace Guidewire.Core
             Spins = new Vector3d[n];
             _stage = new RodStage(terms, schedule, shape, scheme, tolerance, mostIterations);
             _inertia = _stage.Inertia;
+            _damping = _stage.Damping;
             _frames = _stage.Frames;
             _rates = _stage.Rates;
             _length = terms.Rod.TotalLength;
             _startPositions = new Vector3d[n + 1];
             _last = scheme == null ? 0 : scheme.StageCount - 1;
-            _start = new ConsistentStart(terms);
+            _start = new ConsistentStart(terms, _damping);
             _saved = new StepStart(n);
             _history = new Bdf2History(scheme == null ? n : 0);
             Control = new StepControl(scheme == null ? 1 : scheme.EmbeddedOrder);
@@ -128,7 +130,8 @@ namespace Guidewire.Core
 
         /// <summary>Change of the momentum in the last step, N, as the scheme writes it: (P_new - P)/dt with stages,
         /// (3 P_new - 4 P + P_old)/(2 dt) for BDF2 after its first step. With the same scheme's weights it equals the
-        /// forces: <see cref="MeanReaction"/> + <see cref="MeanDistalReaction"/> + <see cref="MeanLoad"/>.</summary>
+        /// forces: <see cref="MeanReaction"/> + <see cref="MeanDistalReaction"/> + <see cref="MeanLoad"/>, and what
+        /// mass-proportional damping takes.</summary>
         public Vector3d MomentumRate { get; private set; }
 
         /// <summary>Force that the supports exert on node 0, N, the mean over the last step by the scheme's weights
@@ -156,16 +159,14 @@ namespace Guidewire.Core
             return new Vector3d(g.X1, g.X2, g.X3);
         }
 
-        /// <summary>Velocities have been changed from outside: the next step begins anew. Held nodes keep the
-        /// velocities of their supports.</summary>
-        public void Restart()
-        {
-            _hasRates = false;
-            if (_startsExplicitly)
-            {
-                _start.Hold(Velocities, _proximalVelocity, _distalVelocity);
-            }
-        }
+        /// <summary>Couple of the proximal clamp on the rod as it is now, N m, along the world's axes; with that of the
+        /// damping by the rates of the last stage.</summary>
+        public Vector3d ProximalCouple => _terms.Bending.ProximalCouple(Shape)
+            + (_damping == null ? Vector3d.Zero : _damping.ProximalCouple(Shape));
+
+        /// <summary>The same of the distal clamp.</summary>
+        public Vector3d DistalCouple => _terms.Bending.DistalCouple(Shape)
+            + (_damping == null ? Vector3d.Zero : _damping.DistalCouple(Shape));
 
         /// <summary>One step.</summary>
         /// <param name="dt">s.</param>
@@ -219,6 +220,10 @@ namespace Guidewire.Core
             _rates.Exchange(snapshot);
             _history.Exchange(snapshot);
             _inertia.Exchange(snapshot);
+            if (_damping != null)
+            {
+                snapshot.Section("damping", _damping.Exchange);
+            }
             Solver.ExchangeTrust(snapshot);
             Control.ExchangeLength(snapshot);
             snapshot.Exchange(ref _hasPast);
@@ -332,6 +337,11 @@ namespace Guidewire.Core
             _distalVelocity = distal;
             _hasPast = false;
             _terms.SetTime(_schedule, after);
+            if (_damping != null)
+            {
+                BeginDamping(_damping, after);
+                _damping.TakeMoment(h);
+            }
             double move = _start.SetRates(Shape, Spins, _rates.Acceleration[0], _rates.SpinRate[0]);
             if (!isInPlace || !(h * h * move <= LargestStart))
             {
@@ -347,7 +357,7 @@ namespace Guidewire.Core
 
         private string? StepByRungeKutta(RungeKuttaScheme scheme, double time, double dt, double jump, double share)
         {
-            BeginStep(dt);
+            BeginStep(time, dt);
             _inertia.StageLength = scheme.Diagonal * dt;
             double[] final = scheme.Rows[scheme.StageCount - 1];
             int first = scheme.IsFirstExplicit ? 1 : 0;
@@ -359,6 +369,7 @@ namespace Guidewire.Core
             {
                 _rates.Prepare(_inertia, scheme.Rows[s], dt, _startPositions, Velocities, Spins,
                     _stage.VelocityHistory);
+                _damping?.BeginStage(scheme.Rows[s], dt);
                 StagePredictor predictor = _hasPast ? scheme.Predictors[s] : StagePredictor.Of(Math.Max(s - 1, 0));
                 int stage = s == scheme.StageCount - 1 ? _last : s;
                 string? failure = _stage.Solve(time + scheme.Times[s] * dt, jump, stage, _hasPast, predictor);
@@ -374,8 +385,9 @@ namespace Guidewire.Core
 
         private string? StepByBdf2(double dt)
         {
-            BeginStep(dt);
-            _history.Prepare(_inertia, _startPositions, Velocities, Spins, _stage.VelocityHistory, dt);
+            BeginStep(Time, dt);
+            double h = _history.Prepare(_inertia, _startPositions, Velocities, Spins, _stage.VelocityHistory, dt);
+            _damping?.BeginStage(_history.IsComplete, h);
             string? failure = _stage.Solve(Time + dt, double.PositiveInfinity, 0, _hasPast,
                 _hasPast ? StagePredictor.OneStage : StagePredictor.Of(0));
             if (failure == null)
@@ -389,14 +401,24 @@ namespace Guidewire.Core
             return failure;
         }
 
-        private void BeginStep(double dt)
+        private void BeginStep(double time, double dt)
         {
             Array.Copy(Shape.X, _startPositions, _startPositions.Length);
             _inertia.BeginStep(Shape, dt);
+            if (_damping != null)
+            {
+                BeginDamping(_damping, time + SameTime * dt);
+            }
             foreach (EnergyTerm term in _terms.All)
             {
                 term.BeginStep(Shape, dt);
             }
+        }
+
+        private void BeginDamping(RodDamping damping, double time)
+        {
+            damping.Begin(Shape, Velocities, Spins, new Vector3d(0.0, 0.0, _schedule.ProximalTwistRate),
+                new Vector3d(0.0, 0.0, _schedule.DistalTwistRateAt(time)));
         }
 
         private void TakeForces(double weight)

@@ -17,7 +17,7 @@ namespace Guidewire.Core
         private readonly Quaterniond[] _predicted;
         private readonly RodVector[] _loads;
         private readonly double _mass;
-        private readonly bool _isLoose;           // held nowhere
+        private readonly bool _isLoose;           // held nowhere, and nothing takes its momentum
 
         /// <summary>For a rod of this shape, which stages move from then on.</summary>
         /// <param name="scheme">A Runge-Kutta scheme, or null for BDF2.</param>
@@ -36,18 +36,25 @@ namespace Guidewire.Core
             _predicted = new Quaterniond[n];
             _loads = new RodVector[n + 2];
             _mass = terms.Mass.Total;
+            int stages = scheme == null ? 1 : scheme.StageCount;
+            double massDamping = terms.Rod.MassDamping;
             _isLoose = scheme != null && scheme.IsFirstExplicit && _supports.Proximal == ProximalEnd.Free
-                && _supports.Distal == DistalEnd.Free;
+                && _supports.Distal == DistalEnd.Free && massDamping == 0.0;
             VelocityHistory = new Vector3d[n + 1];
-            Inertia = new InertiaEnergy(terms.Mass);
-            Solver = new StageSolver(terms, Inertia)
+            Inertia = new InertiaEnergy(terms.Mass) { TurnDamping = massDamping };
+            if (massDamping > 0.0 || terms.Rod.MaterialDamping > 0.0)
+            {
+                Damping = new RodDamping(terms, stages);
+            }
+            Solver = new StageSolver(terms, Damping == null
+                ? new EnergyTerm[] { Inertia } : new EnergyTerm[] { Inertia, Damping })
             {
                 Tolerance = tolerance,
                 Balance = tolerance / (2.0 * (scheme == null ? 1.0 : scheme.WeightSum)),
                 MostIterations = mostIterations,
             };
             Frames = new ClampFrames(schedule, Solver);
-            Rates = new StageRates(scheme == null ? 1 : scheme.StageCount, n);
+            Rates = new StageRates(stages, n);
         }
 
         /// <summary>What the stages before leave of positions, orientations and spins, and the inertia.</summary>
@@ -55,6 +62,9 @@ namespace Guidewire.Core
 
         /// <summary>What the stages before leave of the velocities, m/s.</summary>
         public Vector3d[] VelocityHistory { get; }
+
+        /// <summary>What resists velocities and rates of strain, or null.</summary>
+        public RodDamping? Damping { get; }
 
         /// <summary>Solves the stages, and counts what was solved.</summary>
         public StageSolver Solver { get; }
@@ -98,7 +108,7 @@ namespace Guidewire.Core
             Vector3d end = _schedule.DistalPositionAt(time);
             _before.CopyFrom(_shape);
             RodStep.PlaceElements(_supports, _shape, _predicted, start, end);
-            double loads = _schedule.LoadAt(before, _mass);
+            double loads = _schedule.LoadAt(before, _mass) + _terms.Followers.Force.Force.Length;
             if (!Solver.Iterate(_shape, h, loads))
             {
                 failure = Search(h, loads, start, end);
@@ -112,6 +122,7 @@ namespace Guidewire.Core
                 Inertia.Balance(_shape, LoadSum());
             }
             Rates.Take(stage, _shape, Inertia, VelocityHistory, hasPast);
+            Damping?.EndStage(stage, _shape);
             if (TracksForces)
             {
                 RodVector[] gradient = Solver.Reactions(_shape);

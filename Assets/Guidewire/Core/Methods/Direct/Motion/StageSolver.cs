@@ -47,8 +47,8 @@ namespace Guidewire.Core
         private double _knownForce = double.PositiveInfinity;
         private int _stagesOnTrust;
 
-        /// <summary>A solver for a rod under its terms and its inertia.</summary>
-        public StageSolver(RodTerms terms, EnergyTerm inertia)
+        /// <summary>A solver for a rod under its terms, its inertia and what else a motion has.</summary>
+        public StageSolver(RodTerms terms, params EnergyTerm[] inertia)
         {
             MaterialRod rod = terms.Rod;
             _rod = rod;
@@ -57,7 +57,7 @@ namespace Guidewire.Core
             _terms = terms.With(inertia);
             _system = new BlockTridiagonal(rod, _supports);
             _search = new EquilibriumSolver(rod, _supports, _terms);
-            _creep = terms.HavePotential ? null : new DragFlow(rod, _supports, _terms, terms.Moment);
+            _creep = terms.HavePotential ? null : new DragFlow(rod, _supports, _terms, terms.Followers);
             _gradient = new RodVector[_system.VectorCount];
             _direction = new RodVector[_system.VectorCount];
             _totalLength = rod.TotalLength;

@@ -2,12 +2,13 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Finds where a rod comes to rest under a couple that turns with its tip: lets it creep, as in a viscous
-    /// liquid, M u' = -(what is out of balance).</summary>
-    /// <remarks>Under forces the creeping rod would go downhill in its energy and end in a minimum. A couple in space
-    /// has no potential, but the motion makes sense all the same, and a shape is a rest shape where it ends and to
-    /// which it comes back when disturbed. Each step is one of implicit Euler, linearised, over the time 1/d: the step
-    /// of (K + d M), cut to a stated turn. Large d creeps, d = 0 is Newton's method; d follows how far the steps go.
+    /// <summary>Finds where a rod comes to rest under a couple or a force that turns with its tip: lets it creep, as
+    /// in a viscous liquid, M u' = -(what is out of balance).</summary>
+    /// <remarks>Under dead forces the creeping rod would go downhill in its energy and end in a minimum. A couple in
+    /// space and a force that turns have no potential, but the motion makes sense all the same, and a shape is a rest
+    /// shape where it ends and to which it comes back when disturbed. Each step is one of implicit Euler, linearised,
+    /// over the time 1/d: the step of (K + d M), cut to a stated turn. Large d creeps, d = 0 is Newton's method; d
+    /// follows how far the steps go.
     /// A rod that never rests, but turns round and round, ends with that reason; and so does one that Newton's steps
     /// brought to an equilibrium which a disturbance would leave (<see cref="DragSpectrum"/>).</remarks>
     internal sealed class DragFlow
@@ -18,25 +19,27 @@ namespace Guidewire.Core
         private const double ShortStep = 0.1;   // below it, it falls
         private const double NearRest = 0.01;   // below it, it falls fast
 
-        private const string Flutter =
-            "; a couple that turns with the tip drives a slender wire for ever from about 3.6 EI/L on";
+        private const string Flutter = "; what turns with the tip drives a slender wire for ever, a couple from about"
+            + " 3.6 EI/L on, a thrust from about 20 EI/L^2";
 
         private readonly MaterialRod _rod;
         private readonly RodSupports _supports;
         private readonly EnergyTerm[] _terms;
         private readonly FollowerTangent _tangent;
+        private readonly string _keys;
         private readonly RodVector[] _step;
         private readonly RodShape _trial;
         private readonly double _totalLength;
         private readonly double _bendForce;  // EI/L^2 of the stiffest element, N
 
-        /// <summary>A solver for this rod; <paramref name="moment"/> is among the terms.</summary>
-        public DragFlow(MaterialRod rod, RodSupports supports, EnergyTerm[] terms, TipMoment moment)
+        /// <summary>A solver for this rod; <paramref name="followers"/> are among the terms.</summary>
+        public DragFlow(MaterialRod rod, RodSupports supports, EnergyTerm[] terms, TipFollowers followers)
         {
             _rod = rod;
             _supports = supports;
             _terms = terms;
-            _tangent = new FollowerTangent(rod, supports, terms, moment);
+            _tangent = new FollowerTangent(rod, supports, terms, followers);
+            _keys = followers.Keys;
             _step = new RodVector[_tangent.System.VectorCount];
             _trial = new RodShape(rod.ElementCount);
             _totalLength = rod.TotalLength;
@@ -58,7 +61,7 @@ namespace Guidewire.Core
             result.SmallestEigenvalue = new DragSpectrum(_tangent, _rod).SmallestRealPart(shape);
             result.Converged = result.SmallestEigenvalue > 0.0;
             result.Reason = result.Converged ? string.Empty
-                : "the equilibrium under tipMoment is not stable: a disturbance grows even in a wire with drag"
+                : "the equilibrium under " + _keys + " is not stable: a disturbance grows even in a wire with drag"
                 + Flutter;
             return result;
         }
@@ -79,7 +82,7 @@ namespace Guidewire.Core
                 result.LastStep = size;
                 if (!(size < double.MaxValue))
                 {
-                    result.Reason = "the step is not a finite number";
+                    result.Reason = "the step is not a finite number under " + _keys;
                     return result;
                 }
                 double scale = Math.Min(1.0, LargestTurn / Math.Max(size, relative));
@@ -94,7 +97,7 @@ namespace Guidewire.Core
                 }
                 drag *= size > LongStep ? 1.5 : size > ShortStep ? 1.0 : size > NearRest ? 0.7 : 0.2;
             }
-            result.Reason = "a wire with drag does not come to rest under tipMoment in "
+            result.Reason = "a wire with drag does not come to rest under " + _keys + " in "
                 + mostIterations.ToString(System.Globalization.CultureInfo.InvariantCulture) + " steps";
             return result;
         }

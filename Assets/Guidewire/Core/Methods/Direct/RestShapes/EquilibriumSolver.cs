@@ -71,14 +71,16 @@ namespace Guidewire.Core
                 result.LastStep = size;
                 if (!IsFinite(size))
                 {
-                    result.Reason = "the Newton step is not a finite number";
+                    result.Reason = "the Newton step is not a finite number; loads are too large for the stiffness"
+                            + " (youngsModulus, wireRadius)";
                     return result;
                 }
                 if (!convex && size < SaddleStep)
                 {
                     if (!LeaveSaddle(shape, shift))
                     {
-                        result.Reason = "at a saddle of the energy, no direction leads down";
+                        result.Reason = "at a saddle of the energy, no direction leads down; a small gravity or"
+                            + " tipForce across the wire does";
                         return result;
                     }
                     continue;
@@ -97,7 +99,7 @@ namespace Guidewire.Core
                 }
                 else if (!Search(shape, scale, size))
                 {
-                    result.Reason = "the line search found no lower energy";
+                    result.Reason = "the line search found no lower energy (solverTolerance)";
                     return result;
                 }
                 shape.CopyFrom(_trial);
@@ -113,7 +115,7 @@ namespace Guidewire.Core
                 }
             }
             result.Reason = "not converged after " + mostIterations.ToString(
-                System.Globalization.CultureInfo.InvariantCulture) + " Newton iterations";
+                System.Globalization.CultureInfo.InvariantCulture) + " Newton iterations (maxNewtonIterations)";
             return result;
         }
 
@@ -238,7 +240,8 @@ namespace Guidewire.Core
             }
             else
             {
-                result.Reason = "the energy is not convex at the shape found";
+                result.Reason = "the energy is not convex at the shape found: a rest shape that a disturbance"
+                    + " leaves; other loads, or another startShape";
             }
             return result;
         }

@@ -2,34 +2,39 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>The tangent K of a rod under a couple that turns with its tip, plus a drag: K + d M, factorised and
-    /// solved in O(n).</summary>
-    /// <remarks>K is the symmetric second derivative S of the terms (the couple's own is 0 where it is anchored) plus
-    /// the part that no energy carries, [m]/2 on the last element, put in exactly by three more solutions (Woodbury's
-    /// formula). M is the metric: l on turns, l/L^2 on shifts.</remarks>
+    /// <summary>The tangent K of a rod under a couple and a force that turn with its tip, plus a drag: K + d M,
+    /// factorised and solved in O(n).</summary>
+    /// <remarks>K is the symmetric second derivative S of the terms plus the part that no energy carries. That part
+    /// acts between the turn theta of the last element and the place x of the last node only: [m]/2 on (theta,
+    /// theta), N = R [f]/2 on (x, theta) and -N^T on (theta, x). It is put in exactly by Woodbury's formula: with G
+    /// the tip's answers to unit couples and forces of the symmetric system and Z the part, (1 + G Z)^-1 G in place
+    /// of G, at three more solutions for a couple and six for a force. M is the metric: l on turns, l/L^2 on
+    /// shifts.</remarks>
     internal sealed class FollowerTangent
     {
+        private const int Most = 6;
+
         private readonly EnergyTerm[] _terms;
-        private readonly TipMoment _moment;
+        private readonly TipFollowers _followers;
         private readonly BlockTridiagonal _system;
-        private readonly RodVector[][] _response = new RodVector[3][];
+        private readonly RodVector[][] _response = new RodVector[Most][];
         private readonly RodVector[] _gradient;
         private readonly int _tip;
+        private readonly double[] _part = new double[Most * Most];    // Z, by rows
+        private readonly double[] _matrix = new double[Most * Most];  // 1 + Z G, then its triangles
+        private readonly int[] _pivot = new int[Most];
+        private readonly double[] _load = new double[Most];
+        private int _size;                                            // 3 or 6
 
-        // Rows of (1 + Z G)^-1 Z, Z = [m]/2 and G the tip's turns under unit couples of the symmetric system.
-        private Vector3d _row1;
-        private Vector3d _row2;
-        private Vector3d _row3;
-
-        /// <summary>The tangent of this rod; <paramref name="moment"/> is among the terms.</summary>
-        public FollowerTangent(MaterialRod rod, RodSupports supports, EnergyTerm[] terms, TipMoment moment)
+        /// <summary>The tangent of this rod; <paramref name="followers"/> are among the terms.</summary>
+        public FollowerTangent(MaterialRod rod, RodSupports supports, EnergyTerm[] terms, TipFollowers followers)
         {
             _terms = terms;
-            _moment = moment;
+            _followers = followers;
             _system = new BlockTridiagonal(rod, supports);
             _gradient = new RodVector[_system.VectorCount];
             _tip = rod.ElementCount - 1;
-            for (int k = 0; k < 3; k++)
+            for (int k = 0; k < Most; k++)
             {
                 _response[k] = new RodVector[_system.VectorCount];
             }
@@ -47,7 +52,7 @@ namespace Guidewire.Core
             EnergySum.Anchor(_terms, shape);
             int negative = _system.Factorise(_terms, shape, _gradient, step, drag);
             _system.Back(step);
-            Prepare();
+            Prepare(shape);
             Complete(step);
             return negative;
         }
@@ -59,39 +64,144 @@ namespace Guidewire.Core
             Complete(y);
         }
 
-        private void Prepare()
+        private void Prepare(RodShape shape)
         {
-            for (int k = 0; k < 3; k++)
+            _size = _followers.Force.Force == Vector3d.Zero ? 3 : Most;
+            for (int k = 0; k < _size; k++)
             {
                 Array.Clear(_response[k], 0, _response[k].Length);
-                _response[k][_tip].T1 = k == 0 ? 1.0 : 0.0;
-                _response[k][_tip].T2 = k == 1 ? 1.0 : 0.0;
-                _response[k][_tip].T3 = k == 2 ? 1.0 : 0.0;
+                ref RodVector v = ref k < 3 ? ref _response[k][_tip] : ref _response[k][_tip + 1];
+                v.T1 = k == 0 ? 1.0 : 0.0;
+                v.T2 = k == 1 ? 1.0 : 0.0;
+                v.T3 = k == 2 ? 1.0 : 0.0;
+                v.X1 = k == 3 ? 1.0 : 0.0;
+                v.X2 = k == 4 ? 1.0 : 0.0;
+                v.X3 = k == 5 ? 1.0 : 0.0;
+                _system.Project(_response[k]);
                 _system.Solve(_response[k]);
             }
-            Vector3d half = 0.5 * _moment.Moment;
-            Vector3d c1 = Vector3d.UnitX + Vector3d.Cross(half, Turn(_response[0]));
-            Vector3d c2 = Vector3d.UnitY + Vector3d.Cross(half, Turn(_response[1]));
-            Vector3d c3 = Vector3d.UnitZ + Vector3d.Cross(half, Turn(_response[2]));
-            double determinant = Vector3d.Dot(c1, Vector3d.Cross(c2, c3));
-            // Rows of the inverse of (c1 c2 c3), each times Z = [half] from the right: r^T [half] = (r x half)^T.
-            _row1 = Vector3d.Cross(Vector3d.Cross(c2, c3), half) / determinant;
-            _row2 = Vector3d.Cross(Vector3d.Cross(c3, c1), half) / determinant;
-            _row3 = Vector3d.Cross(Vector3d.Cross(c1, c2), half) / determinant;
+            SetPart(shape);
+            for (int row = 0; row < _size; row++)
+            {
+                for (int column = 0; column < _size; column++)
+                {
+                    double sum = row == column ? 1.0 : 0.0;
+                    for (int k = 0; k < _size; k++)
+                    {
+                        sum += _part[row * Most + k] * OfTip(_response[column], k);
+                    }
+                    _matrix[row * Most + column] = sum;
+                }
+            }
+            Eliminate();
         }
 
-        /// <summary>Turns a solution of the symmetric system into one of the full tangent.</summary>
+        private void SetPart(RodShape shape)
+        {
+            Array.Clear(_part, 0, _part.Length);
+            Vector3d half = 0.5 * _followers.Moment.Moment;
+            SetColumn(0, 0, Vector3d.Cross(half, Vector3d.UnitX));
+            SetColumn(0, 1, Vector3d.Cross(half, Vector3d.UnitY));
+            SetColumn(0, 2, Vector3d.Cross(half, Vector3d.UnitZ));
+            if (_size == Most)
+            {
+                _followers.Force.HalfTangent(shape, out Vector3d first, out Vector3d second, out Vector3d third);
+                SetColumn(3, 0, first);
+                SetColumn(3, 1, second);
+                SetColumn(3, 2, third);
+                for (int row = 0; row < 3; row++)
+                {
+                    for (int column = 3; column < Most; column++)
+                    {
+                        _part[row * Most + column] = -_part[column * Most + row];
+                    }
+                }
+            }
+        }
+
+        private void SetColumn(int row, int column, in Vector3d value)
+        {
+            _part[row * Most + column] = value.X;
+            _part[(row + 1) * Most + column] = value.Y;
+            _part[(row + 2) * Most + column] = value.Z;
+        }
+
+        /// <summary>Turns a solution y of the symmetric system into one of the full tangent: y less the answers to
+        /// (1 + Z G)^-1 Z y.</summary>
         private void Complete(RodVector[] y)
         {
-            Vector3d tip = Turn(y);
-            RodVectors.AddScaled(y, -Vector3d.Dot(_row1, tip), _response[0]);
-            RodVectors.AddScaled(y, -Vector3d.Dot(_row2, tip), _response[1]);
-            RodVectors.AddScaled(y, -Vector3d.Dot(_row3, tip), _response[2]);
+            for (int row = 0; row < _size; row++)
+            {
+                _load[row] = 0.0;
+                for (int k = 0; k < _size; k++)
+                {
+                    _load[row] += _part[row * Most + k] * OfTip(y, k);
+                }
+            }
+            Substitute();
+            for (int k = 0; k < _size; k++)
+            {
+                RodVectors.AddScaled(y, -_load[k], _response[k]);
+            }
         }
 
-        private Vector3d Turn(RodVector[] y)
+        private double OfTip(RodVector[] y, int k)
         {
-            return new Vector3d(y[_tip].T1, y[_tip].T2, y[_tip].T3);
+            RodVector turn = y[_tip];
+            RodVector place = y[_tip + 1];
+            return k == 0 ? turn.T1 : k == 1 ? turn.T2 : k == 2 ? turn.T3 : k == 3 ? place.X1
+                : k == 4 ? place.X2 : place.X3;
+        }
+
+        // Gaussian elimination with exchange of rows, in place.
+        private void Eliminate()
+        {
+            for (int k = 0; k < _size; k++)
+            {
+                int pivot = k;
+                for (int row = k + 1; row < _size; row++)
+                {
+                    pivot = Math.Abs(_matrix[row * Most + k]) > Math.Abs(_matrix[pivot * Most + k]) ? row : pivot;
+                }
+                _pivot[k] = pivot;
+                for (int column = 0; column < _size; column++)
+                {
+                    (_matrix[k * Most + column], _matrix[pivot * Most + column]) =
+                        (_matrix[pivot * Most + column], _matrix[k * Most + column]);
+                }
+                for (int row = k + 1; row < _size; row++)
+                {
+                    double share = _matrix[row * Most + k] / _matrix[k * Most + k];
+                    _matrix[row * Most + k] = share;
+                    for (int column = k + 1; column < _size; column++)
+                    {
+                        _matrix[row * Most + column] -= share * _matrix[k * Most + column];
+                    }
+                }
+            }
+        }
+
+        private void Substitute()
+        {
+            for (int k = 0; k < _size; k++)
+            {
+                (_load[k], _load[_pivot[k]]) = (_load[_pivot[k]], _load[k]);
+            }
+            for (int k = 0; k < _size; k++)
+            {
+                for (int column = 0; column < k; column++)
+                {
+                    _load[k] -= _matrix[k * Most + column] * _load[column];
+                }
+            }
+            for (int k = _size - 1; k >= 0; k--)
+            {
+                for (int column = k + 1; column < _size; column++)
+                {
+                    _load[k] -= _matrix[k * Most + column] * _load[column];
+                }
+                _load[k] /= _matrix[k * Most + k];
+            }
         }
     }
 }

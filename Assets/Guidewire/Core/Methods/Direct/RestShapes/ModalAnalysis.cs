@@ -12,9 +12,11 @@ namespace Guidewire.Core
     {
         private const int MostIterations = 2000;
         private const double Settled = 1e-13;  // relative change of w^2 in an iteration
+        private const double Still = 1e-6;     // shift over L times the turn, of a mode of twist alone
 
         private readonly BlockTridiagonal _system;
         private readonly RodMass _mass;
+        private readonly double _length;       // L, m
         private readonly List<RodVector[]> _found = new List<RodVector[]>();
         private readonly List<RodVector[]> _foundTimesMass = new List<RodVector[]>();
 
@@ -22,6 +24,7 @@ namespace Guidewire.Core
         {
             _system = new BlockTridiagonal(scene.Rod, scene.Supports);
             _mass = terms.Mass;
+            _length = scene.Rod.TotalLength;
             Positions = Array.ConvertAll(scene.Shape.X, x => x / scene.Metres);
             Failure = failure;
             if (failure != null)
@@ -53,7 +56,8 @@ namespace Guidewire.Core
         /// <summary>Hz, ascending.</summary>
         public double[] Frequencies { get; } = Array.Empty<double>();
 
-        /// <summary>Of each mode the shift of the n+1 nodes, the largest of length 1.</summary>
+        /// <summary>Of each mode the shift of the n+1 nodes, the largest of length 1; 0 where a straight wire only
+        /// twists.</summary>
         public Vector3d[][] Shapes { get; } = Array.Empty<Vector3d[]>();
 
         /// <summary>The lowest modes of the wire of these parameters about its rest shape.</summary>
@@ -81,7 +85,7 @@ namespace Guidewire.Core
             var terms = new RodTerms(scene.Rod, scene.Supports, atRest.Scene);
             if (!terms.HavePotential)
             {
-                throw new ArgumentException("tipMoment needs to be 0: a couple that turns with the tip has no"
+                throw new ArgumentException(terms.Followers.Keys + " needs to be 0: what turns with the tip has no"
                     + " potential");
             }
             string? failure = new RestShape(scene, terms, 1e-10, 10 * atRest.Method.MaxNewtonIterations,
@@ -99,7 +103,11 @@ namespace Guidewire.Core
                 v[i].X1 = random.NextDouble();
                 v[i].X2 = random.NextDouble();
                 v[i].X3 = random.NextDouble();
+                v[i].T1 = random.NextDouble() / _length;
+                v[i].T2 = random.NextDouble() / _length;
+                v[i].T3 = random.NextDouble() / _length;
             }
+            _system.Project(v);
             double square = double.NaN;
             for (int k = 0; k < MostIterations; k++)
             {
@@ -141,9 +149,9 @@ namespace Guidewire.Core
                 {
                     AddX(ref result[i], _mass.Coupling[i], v[i + 1]);
                     AddX(ref result[i + 1], _mass.Coupling[i], v[i]);
-                    result[i].T1 = _mass.Rotary[i] * v[i].T1;
-                    result[i].T2 = _mass.Rotary[i] * v[i].T2;
-                    result[i].T3 = 2.0 * _mass.Rotary[i] * v[i].T3;
+                    result[i].T1 = _mass.Rotary[i].X * v[i].T1;
+                    result[i].T2 = _mass.Rotary[i].Y * v[i].T2;
+                    result[i].T3 = _mass.Rotary[i].Z * v[i].T3;
                 }
             }
             return result;
@@ -160,13 +168,15 @@ namespace Guidewire.Core
         {
             var shift = new Vector3d[Positions.Length];
             double largest = 0.0;
+            double turn = 0.0;
             for (int i = 0; i < shift.Length; i++)
             {
                 shift[i] = new Vector3d(mode[i].X1, mode[i].X2, mode[i].X3);
                 largest = Math.Max(largest, shift[i].Length);
+                turn = Math.Max(turn, new Vector3d(mode[i].T1, mode[i].T2, mode[i].T3).Length);
             }
-            // A mode of twist alone shifts nothing: it keeps what it has.
-            return Array.ConvertAll(shift, s => largest > 0.0 ? s / largest : s);
+            bool isTwist = largest <= Still * _length * turn;
+            return Array.ConvertAll(shift, s => isTwist ? Vector3d.Zero : s / largest);
         }
     }
 }

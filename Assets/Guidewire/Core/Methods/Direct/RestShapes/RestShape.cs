@@ -100,7 +100,7 @@ namespace Guidewire.Core
                 _report.EquilibriumResidual = result.Residual;
                 _report.SmallestEigenvalue = result.SmallestEigenvalue;
                 _report.Method = result.Method ?? string.Empty;
-                string? turned = _scene.Joints.FindTurned(shape, 0.0, (double)k / parts);
+                string? turned = _scene.Joints.FindLost(shape, 0.0, (double)k / parts);
                 if (turned != null || !result.Converged)
                 {
                     return "no rest shape: " + (turned ?? result.Reason);

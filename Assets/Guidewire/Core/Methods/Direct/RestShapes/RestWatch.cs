@@ -33,7 +33,7 @@ namespace Guidewire.Core
         private readonly double _bendForce;            // N
         private readonly double _time;                 // t, s
         private readonly BlockTridiagonal _system;
-        private readonly FollowerTangent? _tangent;    // where a couple at the tip has no potential
+        private readonly FollowerTangent? _tangent;    // where a load at the tip has no potential
         private readonly RodVector[] _gradient;
         private readonly RodVector[] _step;
         private readonly RodVector[] _motion;
@@ -59,7 +59,7 @@ namespace Guidewire.Core
             }
             _time = Math.Sqrt(terms.Mass.Total * _length * _length * _length / softest);
             _tangent = terms.HavePotential ? null
-                : new FollowerTangent(scene.Rod, scene.Supports, terms.All, terms.Moment);
+                : new FollowerTangent(scene.Rod, scene.Supports, terms.All, terms.Followers);
             _system = _tangent == null ? new BlockTridiagonal(scene.Rod, scene.Supports) : _tangent.System;
             _gradient = new RodVector[_system.VectorCount];
             _step = new RodVector[_system.VectorCount];
@@ -81,7 +81,7 @@ namespace Guidewire.Core
                 _nextLook = time;
                 return null;
             }
-            if (time < _nextLook || !_scene.Schedule.IsOver(time, _end))
+            if (time < _nextLook || !_scene.Schedule.IsOver(time, _end) || _terms.Followers.ChangeAfter(time))
             {
                 return null;
             }
@@ -121,7 +121,7 @@ namespace Guidewire.Core
             {
                 if (_tangent != null)
                 {
-                    // A couple without a potential says nothing of stability by the symmetric part alone.
+                    // A load without a potential says nothing of stability by the symmetric part alone.
                     _tangent.Factorise(_scene.Shape, _step, shift);
                     return true;
                 }
@@ -171,7 +171,7 @@ namespace Guidewire.Core
                 {
                     p += mass.Coupling[i] * _velocities[i + 1];
                     Vector3d w = _spins[i];
-                    spin = mass.Rotary[i] * new Vector3d(w.X, w.Y, 2.0 * w.Z);
+                    spin = new Vector3d(mass.Rotary[i].X * w.X, mass.Rotary[i].Y * w.Y, mass.Rotary[i].Z * w.Z);
                 }
                 _swing[i] = new RodVector { X1 = p.X, X2 = p.Y, X3 = p.Z, T1 = spin.X, T2 = spin.Y, T3 = spin.Z };
             }

@@ -2,10 +2,10 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>A material rod at rest: between its supports, under dead loads and a couple at the tip. Chooses the
-    /// way to the rest shape: minimisation where the loads have a potential (all but a couple in space), a
-    /// minimisation kept in the plane for a couple in a plane problem, else minimisation without the couple and then
-    /// creeping under it.</summary>
+    /// <summary>A material rod at rest: between its supports, under dead loads and what turns with the tip. Chooses
+    /// the way to the rest shape: minimisation where the loads have a potential (all but a force that turns with the
+    /// tip, and a couple in space), a minimisation kept in the plane for a couple in a plane problem, else
+    /// minimisation without what turns with the tip and then creeping under it.</summary>
     internal sealed class RodStatics
     {
         private const double PlaneTolerance = 1e-12;
@@ -34,7 +34,7 @@ namespace Guidewire.Core
                 method = "minimum of the energy";
                 result = new EquilibriumSolver(_rod, _supports, _terms.All).Solve(shape, tolerance, mostIterations);
             }
-            else if (FindPlane(shape, out Vector3d normal))
+            else if (_terms.Followers.Force.HasPotential && FindPlane(shape, out Vector3d normal))
             {
                 method = "minimum of the energy in the plane of the loads, kept to that plane";
                 PlaneGuide guide = new PlaneGuide(_rod, normal, shape.X[0]);
@@ -47,7 +47,9 @@ namespace Guidewire.Core
             }
             else
             {
-                method = "tipMoment has no potential in space: where a wire with drag comes to rest";
+                method = _terms.Followers.Force.HasPotential
+                    ? "tipMoment has no potential in space: where a wire with drag comes to rest"
+                    : "tipFollowerForce has no potential: where a wire with drag comes to rest";
                 result = Creep(shape, tolerance, mostIterations);
             }
             result.Method = method;
@@ -55,7 +57,7 @@ namespace Guidewire.Core
             return result;
         }
 
-        /// <summary>Minimises without the couple, then puts it on and creeps.</summary>
+        /// <summary>Minimises without what turns with the tip, then puts it on and creeps.</summary>
         private EquilibriumResult Creep(RodShape shape, double tolerance, int mostIterations)
         {
             EquilibriumResult first = new EquilibriumSolver(_rod, _supports, _terms.WithPotential()).Solve(
@@ -64,7 +66,7 @@ namespace Guidewire.Core
             {
                 return first;
             }
-            EquilibriumResult result = new DragFlow(_rod, _supports, _terms.All, _terms.Moment).Solve(
+            EquilibriumResult result = new DragFlow(_rod, _supports, _terms.All, _terms.Followers).Solve(
                 shape, tolerance, mostIterations);
             result.Iterations += first.Iterations;
             result.Factorisations += first.Factorisations;
@@ -73,7 +75,7 @@ namespace Guidewire.Core
 
         private bool IsStableInSpace(RodShape shape)
         {
-            var tangent = new FollowerTangent(_rod, _supports, _terms.All, _terms.Moment);
+            var tangent = new FollowerTangent(_rod, _supports, _terms.All, _terms.Followers);
             return new DragSpectrum(tangent, _rod).IsStable(shape);
         }
 
@@ -108,7 +110,7 @@ namespace Guidewire.Core
         private bool FindPlane(RodShape shape, out Vector3d normal)
         {
             int n = _rod.ElementCount;
-            normal = Vector3d.Normalize(Quaterniond.Rotate(shape.Q[n - 1], _terms.Moment.Moment));
+            normal = Vector3d.Normalize(Quaterniond.Rotate(shape.Q[n - 1], _terms.Followers.Moment.Moment));
             Vector3d start = shape.X[0];
             double length = _rod.TotalLength;
             bool flat = _supports.Distal == DistalEnd.Free

@@ -4,47 +4,50 @@ using System.Runtime.CompilerServices;
 namespace Guidewire.Core
 {
     /// <summary>Contact of spheres and of rod elements by the lever rule, with hard stops where the swept test met a
-    /// wall; see <see cref="SphereContactConstraint"/> and <see cref="ElementContactConstraint"/>.</summary>
+    /// wall; see <see cref="SphereContactConstraint"/> and <see cref="ElementContactConstraint"/>. Walls rub, see
+    /// <see cref="WallFriction"/>.</summary>
     internal sealed class ContactResponse : IContactResponse
     {
         private const int ContactsPerSphere = 8;
-        private readonly double _radius;
         private readonly double _reach;
         private readonly double _gain;
         private readonly double _stop;    // what a stop keeps between core line and wall, units
+        private readonly double[] _friction;    // mu, per wall
         private readonly SphereContactConstraint _spheres;
         private readonly ElementContactConstraint _elements;
         private readonly SphereContactConstraint _sphereStops;
         private readonly ElementContactConstraint _elementStops;
 
         /// <param name="state">The wire, with its final masses.</param>
-        /// <param name="wallCount">Walls of the scene.</param>
+        /// <param name="walls">Walls of the scene.</param>
         /// <param name="radius">r in units.</param>
         /// <param name="reach">r + margin in units: the distance that contacts keep.</param>
         /// <param name="gain">k_C in [0, 1], per iteration.</param>
-        public ContactResponse(RodState state, int wallCount, double radius, double reach, double gain)
+        /// <param name="iterations">m of a solve.</param>
+        public ContactResponse(RodState state, ContactShape[] walls, double radius, double reach, double gain,
+            int iterations)
         {
-            int capacity = ContactsPerSphere * wallCount * state.SphereCount;
-            _radius = radius;
+            int capacity = ContactsPerSphere * walls.Length * state.SphereCount;
+            _friction = Array.ConvertAll(walls, wall => wall.FrictionCoefficient);
             _reach = reach;
             _gain = gain;
             _stop = 2.0 * SweptSearch.ClearanceFor(radius);
-            _spheres = new SphereContactConstraint(state, capacity);
-            _elements = new ElementContactConstraint(state, capacity);
-            _sphereStops = new SphereContactConstraint(state, capacity);
-            _elementStops = new ElementContactConstraint(state, capacity);
+            _spheres = new SphereContactConstraint(state, capacity, iterations);
+            _elements = new ElementContactConstraint(state, capacity, iterations);
+            _sphereStops = new SphereContactConstraint(state, capacity, iterations);
+            _elementStops = new ElementContactConstraint(state, capacity, iterations);
         }
 
         /// <inheritdoc/>
         public int ContactCount => _spheres.Count + _elements.Count + _elementStops.Count + _sphereStops.Count;
 
         /// <inheritdoc/>
-        public void Start(IContactSearch found, Vector3d[] x)
+        public void Start(IContactSearch found, Vector3d[] from, Vector3d[] x)
         {
-            _spheres.Clear();
-            _elements.Clear();
-            _sphereStops.Clear();
-            _elementStops.Clear();
+            _spheres.Clear(from);
+            _elements.Clear(from);
+            _sphereStops.Clear(from);
+            _elementStops.Clear(from);
             Add(found.Contacts, _spheres, _elements, _reach, _gain);
             Stop(found.Impacts);
         }
@@ -60,6 +63,13 @@ namespace Guidewire.Core
         {
             _spheres.Sweep(x);
             _elements.Sweep(x);
+            _elementStops.Sweep(x);
+            _sphereStops.Sweep(x);
+        }
+
+        /// <inheritdoc/>
+        public void SweepStops(Vector3d[] x)
+        {
             _elementStops.Sweep(x);
             _sphereStops.Sweep(x);
         }
@@ -89,12 +99,6 @@ namespace Guidewire.Core
             _sphereStops.AddImpulses(impulses);
         }
 
-        /// <inheritdoc/>
-        public double Penetration(Vector3d[] x)
-        {
-            return Math.Max(_spheres.LargestGap(x), _elements.LargestGap(x)) - (_reach - _radius);
-        }
-
         // Where contact k of a sweep stands, and which it is there: spheres, or where that is null, elements.
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         private SphereContactConstraint? At(ref int k, out ElementContactConstraint? elements)
@@ -120,19 +124,20 @@ namespace Guidewire.Core
             return _sphereStops;
         }
 
-        private static void Add(StructList<WireContact> contacts, SphereContactConstraint spheres,
+        private void Add(StructList<WireContact> contacts, SphereContactConstraint spheres,
             ElementContactConstraint elements, double reach, double gain)
         {
             for (int k = 0; k < contacts.Count; k++)
             {
                 ref readonly WireContact contact = ref contacts[k];
+                double friction = _friction[contact.Wall];
                 if (contact.IsElement)
                 {
-                    elements.Add(contact.Index, contact.Nearest, reach, gain);
+                    elements.Add(contact.Index, contact.Nearest, reach, gain, friction);
                 }
                 else
                 {
-                    spheres.Add(contact.Index, contact.Nearest, reach, gain);
+                    spheres.Add(contact.Index, contact.Nearest, reach, gain, friction);
                 }
             }
         }

@@ -5,13 +5,17 @@ namespace Guidewire.Core
     /// <summary>Corrects a predicted state between walls (thesis 2.1.3, 3.1.2): collision detection, constraint solver
     /// with contacts, swept test.</summary>
     /// <remarks>A contact plane holds near the place where it was found. So a step whose drive moves farther than half
-    /// an element or a radius is done in parts, each with its own detection and solve; a part after which something
-    /// would have passed a wall is solved again against the places where it met it, then halved, and at the end
-    /// shortened. What the drive did not get is reported.</remarks>
+    /// an element or a radius is done in P parts, each with its own detection and solve. A part after which something
+    /// would have passed a wall is solved again against the places where it met it, twice; then it and those that
+    /// follow are halved, once; then it is pushed off those places without regard to the other constraints, and
+    /// shortened. What the drive did not get is reported. So a step takes no more than 2 P + 1 tries of three solves
+    /// each, however the wire lies.</remarks>
     internal sealed class ContactSolver : IConstraintSolver
     {
         private const int Resolves = 2;
-        private const double SmallestPart = 1.0 / 256.0;
+        private const int MostParts = 4096;     // of a step; a drive that asks for more gets no more
+        private const int Slides = 2;
+        private const int SweepsASlide = 8;
         private readonly double _timeStep;
         private readonly IConstraintSolver _solver;
         private readonly IContactSearch _search;
@@ -20,6 +24,7 @@ namespace Guidewire.Core
         private readonly SweptSearch _swept;
         private readonly ShortenedMotion _shortened;
         private readonly PassageCount _passages;
+        private readonly WireDepth _depth;
         private readonly double _longestPart;
         private readonly Vector3d[] _target;
         private readonly Vector3d[] _safe;
@@ -44,6 +49,7 @@ namespace Guidewire.Core
             _swept = new SweptSearch(search, state.SphereCount);
             _shortened = new ShortenedMotion(_swept, state.SphereCount);
             _passages = new PassageCount(search, state.ElementCount);
+            _depth = new WireDepth(search, state.ElementCount);
             _longestPart = search.GuardsSpheres
                 ? Math.Min(0.5 * state.ElementLength, search.Radius) : double.PositiveInfinity;
             _target = new Vector3d[state.SphereCount];
@@ -51,6 +57,7 @@ namespace Guidewire.Core
             _unshortened = new Vector3d[state.SphereCount];
             _targetTurn = new Quaterniond[state.ElementCount];
             _safeTurn = new Quaterniond[state.ElementCount];
+            _record.MaxPenetration = _depth.Deepest(state.Positions, 0.0);
         }
 
         /// <inheritdoc/>
@@ -79,32 +86,41 @@ namespace Guidewire.Core
 
         private void MoveInParts(RodState state)
         {
-            bool driven = state.InverseMasses[0] == 0.0;
-            double asked = driven ? Vector3d.Distance(_target[0], state.Positions[0]) : 0.0;
-            _record.DriveAsked += asked;
-            double part = 1.0 / Math.Max(1.0, Math.Ceiling(asked / _longestPart));
-            double left = 1.0;
-            while (left > 0.5 * SmallestPart)
+            Vector3d start = state.Positions[0];
+            Vector3d askedTo = _target[0];
+            double asked = state.InverseMasses[0] == 0.0 ? Vector3d.Distance(askedTo, start) : 0.0;
+            double most = MostParts * _longestPart;
+            if (asked > most)
             {
-                part = Math.Min(part, left);
-                if (TryPart(state, part, left - part <= 0.5 * SmallestPart, part <= SmallestPart))
+                _target[0] = Vector3d.Lerp(start, askedTo, most / asked);
+            }
+            int parts = (int)Math.Max(1.0, Math.Ceiling(Math.Min(asked, most) / _longestPart));
+            int left = 2 * parts;
+            int halves = 2;
+            while (left > 0)
+            {
+                int size = Math.Min(halves, left);
+                PredictPart(state, size / (2.0 * parts), size == left);
+                if (TryPart(state, size == 1))
                 {
-                    left -= part;
+                    left -= size;
+                    EndPart(state.PredictedPositions, left == 0);
+                    Array.Copy(state.PredictedOrientations, _safeTurn, _safeTurn.Length);
                 }
                 else
                 {
-                    part *= 0.5;
+                    halves = 1;
                 }
             }
+            _record.AddDrive(asked, asked > 0.0 ? Vector3d.Distance(askedTo, state.PredictedPositions[0]) : 0.0);
         }
 
-        private bool TryPart(RodState state, double part, bool isLast, bool shorten)
+        // False where it would have passed a wall and a smaller part may not.
+        private bool TryPart(RodState state, bool isSmallest)
         {
             Vector3d[] p = state.PredictedPositions;
-            PredictPart(state, part, isLast);
-            Vector3d driveTo = p[0];
             _search.Find(_safe, p);
-            _response.Start(_search, p);
+            _response.Start(_search, _safe, p);
             _solver.Solve(state);
             for (int round = 0; _swept.Find(_safe, p); round++)
             {
@@ -113,7 +129,7 @@ namespace Guidewire.Core
                     _response.Stop(_swept.Impacts);
                     _solver.Solve(state);
                 }
-                else if (!shorten)
+                else if (!isSmallest)
                 {
                     return false;
                 }
@@ -123,16 +139,18 @@ namespace Guidewire.Core
                     break;
                 }
             }
-            if (state.InverseMasses[0] == 0.0)
-            {
-                _record.DriveShortfall += Vector3d.Distance(driveTo, p[0]);
-            }
+            return true;
+        }
+
+        private void EndPart(Vector3d[] p, bool isLast)
+        {
             _passages.AddPart(_safe, p);
             _response.AddImpulses(_record.Impulses);
-            _record.MaxPenetration = Math.Max(_record.MaxPenetration, _response.Penetration(p));
+            if (isLast)
+            {
+                _record.MaxPenetration = _depth.Deepest(_safe, p, _record.MaxPenetration);
+            }
             Array.Copy(p, _safe, p.Length);
-            Array.Copy(state.PredictedOrientations, _safeTurn, _safeTurn.Length);
-            return true;
         }
 
         private void PredictPart(RodState state, double part, bool isLast)
@@ -150,9 +168,25 @@ namespace Guidewire.Core
             }
         }
 
-        // What the wall took of a sphere's motion is a push of the wall.
+        // Pushed off what it met, the wire may slide along it; what is held keeps to its way. What the wall took of a
+        // sphere's motion is a push of the wall.
         private void ShortenPart(RodState state, Vector3d[] p)
         {
+            bool isFree = false;
+            for (int slide = 0; slide < Slides && !isFree; slide++)
+            {
+                _response.Stop(_swept.Impacts);
+                ShortenHeld(state, p);
+                for (int sweep = 0; sweep < SweepsASlide; sweep++)
+                {
+                    _response.SweepStops(p);
+                }
+                isFree = !_swept.Find(_safe, p);
+            }
+            if (isFree)
+            {
+                return;
+            }
             Array.Copy(p, _unshortened, p.Length);
             _shortened.Shorten(_safe, p);
             for (int i = 0; i < p.Length; i++)
@@ -160,6 +194,17 @@ namespace Guidewire.Core
                 if (state.InverseMasses[i] > 0.0)
                 {
                     _record.Impulses[i] += (1.0 / state.InverseMasses[i]) * (p[i] - _unshortened[i]);
+                }
+            }
+        }
+
+        private void ShortenHeld(RodState state, Vector3d[] p)
+        {
+            for (int i = 0; i < p.Length; i++)
+            {
+                if (state.InverseMasses[i] == 0.0)
+                {
+                    _shortened.ShortenSphere(_safe, p, i);
                 }
             }
         }

@@ -1,4 +1,3 @@
-using System;
 using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
@@ -7,7 +6,8 @@ namespace Guidewire.Core
     /// a_{j+1} = s, contact point c and unit normal n: g = max(0, reach - (a_j p_j + a_{j+1} p_{j+1} - c).n),
     /// dp_i = gain w_i a_i g n/(w_j a_j^2 + w_{j+1} a_{j+1}^2), per iteration.</summary>
     /// <remarks>The point then moves by gain g n, and the two spheres share the push by the lever rule: a force F at s
-    /// is (1 - s) F and s F on them. It never attracts and never pulls sideways.</remarks>
+    /// is (1 - s) F and s F on them. It never attracts; along the wall it pulls by <see cref="WallFriction"/>
+    /// alone.</remarks>
     internal sealed class ElementContactConstraint
     {
         private readonly double[] _inverseMasses;
@@ -18,10 +18,13 @@ namespace Guidewire.Core
         private readonly double[] _offset;     // (c.n + reach), units
         private readonly double[] _gain;
         private readonly double[] _impulse;    // sum of gain g / denominator, mass unit * unit
+        private readonly WallFriction _friction;
+        private Vector3d[] _from;              // where the solve began, units
 
         /// <param name="state">The wire, with its final masses.</param>
         /// <param name="capacity">Contacts that fit; what comes on top is left out.</param>
-        public ElementContactConstraint(RodState state, int capacity)
+        /// <param name="iterations">m of a solve, for what walls rub.</param>
+        public ElementContactConstraint(RodState state, int capacity, int iterations = 1)
         {
             _inverseMasses = state.InverseMasses;
             _element = new int[capacity];
@@ -31,19 +34,22 @@ namespace Guidewire.Core
             _offset = new double[capacity];
             _gain = new double[capacity];
             _impulse = new double[capacity];
+            _friction = new WallFriction(capacity, iterations);
+            _from = state.Positions;
         }
 
         /// <summary>Contacts at present.</summary>
         public int Count { get; private set; }
 
-        /// <summary>Forgets all contacts.</summary>
-        public void Clear()
+        /// <summary>Forgets all contacts; those to come rub on what moves from these n + 1 positions.</summary>
+        public void Clear(Vector3d[] from)
         {
+            _from = from;
             Count = 0;
         }
 
         /// <summary>Adds the contact of an element.</summary>
-        public void Add(int element, in SurfaceContact contact, double reach, double gain)
+        public void Add(int element, in SurfaceContact contact, double reach, double gain, double friction = 0.0)
         {
             double s = contact.Position;
             double denominator = (1.0 - s) * (1.0 - s) * _inverseMasses[element] + s * s * _inverseMasses[element + 1];
@@ -58,6 +64,7 @@ namespace Guidewire.Core
             _offset[Count] = Vector3d.Dot(contact.Point, contact.Normal) + reach;
             _gain[Count] = gain;
             _impulse[Count] = 0.0;
+            _friction.Add(Count, friction);
             Count++;
         }
 
@@ -92,7 +99,24 @@ namespace Guidewire.Core
                 x[j] += (impulse * (1.0 - s) * _inverseMasses[j]) * n;
                 x[j + 1] += (impulse * s * _inverseMasses[j + 1]) * n;
             }
+            if (_friction.Rubs(k, _impulse[k]))
+            {
+                Rub(k, x);
+                return true;
+            }
             return gap > 0.0;
+        }
+
+        // A displacement t of the contact point is an impulse t/denominator, shared by the lever rule as its push is.
+        private void Rub(int k, Vector3d[] x)
+        {
+            int j = _element[k];
+            double s = _position[k];
+            Vector3d motion = (1.0 - s) * (x[j] - _from[j]) + s * (x[j + 1] - _from[j + 1]);
+            Vector3d impulse = (1.0 / _denominator[k])
+                * _friction.Correct(k, motion, _normal[k], _impulse[k] * _denominator[k]);
+            x[j] += ((1.0 - s) * _inverseMasses[j]) * impulse;
+            x[j + 1] += (s * _inverseMasses[j + 1]) * impulse;
         }
 
         /// <summary>Adds to each sphere the momentum over dt, in mass unit * unit, that its elements' contacts gave
@@ -103,20 +127,13 @@ namespace Guidewire.Core
             {
                 impulses[_element[k]] += (_impulse[k] * (1.0 - _position[k])) * _normal[k];
                 impulses[_element[k] + 1] += (_impulse[k] * _position[k]) * _normal[k];
+                if (_friction.Rubs(k, _impulse[k]))
+                {
+                    Vector3d impulse = (1.0 / _denominator[k]) * _friction.Taken(k);
+                    impulses[_element[k]] += (1.0 - _position[k]) * impulse;
+                    impulses[_element[k] + 1] += _position[k] * impulse;
+                }
             }
-        }
-
-        /// <summary>Largest reach - (x(s) - c).n over all contacts, units; negative when the wire is out of
-        /// reach.</summary>
-        public double LargestGap(Vector3d[] x)
-        {
-            double largest = double.NegativeInfinity;
-            for (int k = 0; k < Count; k++)
-            {
-                Vector3d point = Vector3d.Lerp(x[_element[k]], x[_element[k] + 1], _position[k]);
-                largest = Math.Max(largest, _offset[k] - Vector3d.Dot(point, _normal[k]));
-            }
-            return largest;
         }
     }
 }

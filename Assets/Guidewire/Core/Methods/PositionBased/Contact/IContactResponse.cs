@@ -6,8 +6,10 @@ namespace Guidewire.Core
     {
         /// <summary>Forgets all contacts and takes over those of a search.</summary>
         /// <param name="found">The search, after it has looked.</param>
+        /// <param name="from">Where the motion that it looked at begins, n + 1 positions in units, which stay as they
+        /// are until the next start.</param>
         /// <param name="x">Where it looked: the n + 1 predicted positions in units.</param>
-        void Start(IContactSearch found, Vector3d[] x);
+        void Start(IContactSearch found, Vector3d[] from, Vector3d[] x);
 
         /// <summary>Holds spheres and elements off the places where the swept test met a wall.</summary>
         void Stop(StructList<WireContact> impacts);
@@ -15,6 +17,9 @@ namespace Guidewire.Core
         /// <summary>Projects all contacts once.</summary>
         /// <param name="x">n + 1 positions in units, corrected in place.</param>
         void Sweep(Vector3d[] x);
+
+        /// <summary>Projects once what holds the wire off places that the swept test met, and nothing else.</summary>
+        void SweepStops(Vector3d[] x);
 
         /// <summary>Contacts at present, in the order of a sweep.</summary>
         int ContactCount { get; }
@@ -27,8 +32,5 @@ namespace Guidewire.Core
 
         /// <summary>Adds the momentum over dt, in mass unit * unit, that contacts gave each sphere.</summary>
         void AddImpulses(Vector3d[] impulses);
-
-        /// <summary>How far the wire's surface reaches into a wall, units; 0 or less where it does not.</summary>
-        double Penetration(Vector3d[] x);
     }
 }

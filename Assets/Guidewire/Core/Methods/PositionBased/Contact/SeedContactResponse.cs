@@ -8,18 +8,14 @@ namespace Guidewire.Core
     internal sealed class SeedContactResponse : IContactResponse
     {
         private const int ContactsPerSphere = 4;
-        private readonly double _radius;
         private readonly SeedContactConstraint _contacts;
-        private double _deepest;    // at the predicted state, units
 
         /// <param name="state">The wire, with its final masses.</param>
         /// <param name="wallCount">Walls of the scene.</param>
-        /// <param name="radius">r in units.</param>
         /// <param name="reach">r + margin in units.</param>
         /// <param name="gain">k_C, per iteration.</param>
-        public SeedContactResponse(RodState state, int wallCount, double radius, double reach, double gain)
+        public SeedContactResponse(RodState state, int wallCount, double reach, double gain)
         {
-            _radius = radius;
             _contacts = new SeedContactConstraint(
                 state, ContactsPerSphere * wallCount * state.SphereCount, reach, gain);
         }
@@ -28,10 +24,9 @@ namespace Guidewire.Core
         public int ContactCount => _contacts.Count;
 
         /// <inheritdoc/>
-        public void Start(IContactSearch found, Vector3d[] x)
+        public void Start(IContactSearch found, Vector3d[] from, Vector3d[] x)
         {
             _contacts.Clear();
-            _deepest = 0.0;
             for (int k = 0; k < found.Contacts.Count; k++)
             {
                 ref readonly WireContact contact = ref found.Contacts[k];
@@ -43,7 +38,6 @@ namespace Guidewire.Core
                 {
                     _contacts.AddSphere(contact.Index, contact.Nearest);
                 }
-                _deepest = Math.Max(_deepest, _radius - contact.Nearest.Distance);
             }
         }
 
@@ -51,6 +45,11 @@ namespace Guidewire.Core
         public void Stop(StructList<WireContact> impacts)
         {
             throw new InvalidOperationException("the published rule has no swept test");
+        }
+
+        /// <inheritdoc/>
+        public void SweepStops(Vector3d[] x)
+        {
         }
 
         /// <inheritdoc/>
@@ -77,12 +76,6 @@ namespace Guidewire.Core
         public void AddImpulses(Vector3d[] impulses)
         {
             _contacts.AddImpulses(impulses);
-        }
-
-        /// <inheritdoc/>
-        public double Penetration(Vector3d[] x)
-        {
-            return _deepest;
         }
     }
 }

@@ -2,16 +2,21 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Shortens a motion of the wire until it passes no wall, as the last resort: first that of the spheres
-    /// that would, then of all alike, at the end to nothing.</summary>
+    /// <summary>Shortens a motion of the wire until it passes no wall, as the last resort: that of the spheres that
+    /// would, and of their elements, at the end to nothing.</summary>
+    /// <remarks>First each is cut to nine tenths of what is free. A cut turns elements, which may then pass elsewhere;
+    /// so after <see cref="CutRounds"/> rounds the spheres of what still would are left where they are. Each round
+    /// leaves at least one more, and an element between two of them does not move. Only what a round changed is asked
+    /// again, so all of them together cost no more than a few swept searches of the whole wire.</remarks>
     internal sealed class ShortenedMotion
     {
-        private const int LocalRounds = 8;
-        private const int GlobalRounds = 20;
+        private const int CutRounds = 2;
         private const double SafePart = 0.9;
         private readonly SweptSearch _swept;
         private readonly double[] _share;
         private readonly Vector3d[] _whole;
+        private readonly bool[] _changed;    // since it was last asked
+        private readonly bool[] _isCut;
 
         /// <param name="swept">Tells what would pass a wall.</param>
         /// <param name="sphereCount">n + 1.</param>
@@ -20,6 +25,22 @@ namespace Guidewire.Core
             _swept = swept;
             _share = new double[sphereCount];
             _whole = new Vector3d[sphereCount];
+            _changed = new bool[sphereCount];
+            _isCut = new bool[sphereCount];
+        }
+
+        /// <summary>Takes the end of one sphere's motion back, in place, as far as the sphere itself asks for it.
+        /// </summary>
+        /// <param name="from">Where the n + 1 spheres are, clear of the walls; units.</param>
+        /// <param name="to">Where they would go.</param>
+        /// <param name="i">The sphere.</param>
+        public void ShortenSphere(Vector3d[] from, Vector3d[] to, int i)
+        {
+            double free = _swept.SphereImpact(from, to, i, out _);
+            if (free < ContactShape.NoImpact)
+            {
+                to[i] = Vector3d.Lerp(from[i], to[i], SafePart * free);
+            }
         }
 
         /// <summary>Takes the ends of the motion back, in place.</summary>
@@ -29,60 +50,47 @@ namespace Guidewire.Core
         {
             Array.Copy(to, _whole, to.Length);
             Array.Fill(_share, 1.0);
-            for (int round = 0; round < LocalRounds; round++)
+            Array.Fill(_changed, true);
+            for (int round = 0; Cut(from, to, round < CutRounds ? SafePart : 0.0); round++)
             {
-                if (!Cut(from, to))
+                for (int i = 0; i < to.Length; i++)
                 {
-                    return;
+                    _changed[i] = _isCut[i];
+                    to[i] = _isCut[i] ? Vector3d.Lerp(from[i], _whole[i], _share[i]) : to[i];
                 }
-                Apply(from, to);
             }
-            double least = 1.0;
-            foreach (double share in _share)
-            {
-                least = Math.Min(least, share);
-            }
-            for (int round = 0; round < GlobalRounds; round++)
-            {
-                Array.Fill(_share, least);
-                Apply(from, to);
-                if (!Cut(from, to))
-                {
-                    return;
-                }
-                least *= 0.5;
-            }
-            Array.Copy(from, to, to.Length);
         }
 
-        private bool Cut(Vector3d[] from, Vector3d[] to)
+        private bool Cut(Vector3d[] from, Vector3d[] to, double part)
         {
             bool any = false;
+            Array.Clear(_isCut, 0, _isCut.Length);
             for (int i = 0; i < to.Length; i++)
             {
-                double own = _swept.SphereImpact(from, to, i, out _);
-                if (own < ContactShape.NoImpact)
+                if (_changed[i])
                 {
-                    any = true;
-                    _share[i] *= SafePart * own;
+                    any |= CutBack(_swept.SphereImpact(from, to, i, out _), part, i, i);
                 }
-                double shared = i + 1 < to.Length ? _swept.ElementImpact(from, to, i, out _) : ContactShape.NoImpact;
-                if (shared < ContactShape.NoImpact)
+                if (i + 1 < to.Length && (_changed[i] || _changed[i + 1]))
                 {
-                    any = true;
-                    _share[i] *= SafePart * shared;
-                    _share[i + 1] *= SafePart * shared;
+                    any |= CutBack(_swept.ElementImpact(from, to, i, out _), part, i, i + 1);
                 }
             }
             return any;
         }
 
-        private void Apply(Vector3d[] from, Vector3d[] to)
+        private bool CutBack(double free, double part, int first, int last)
         {
-            for (int i = 0; i < to.Length; i++)
+            if (free >= ContactShape.NoImpact)
             {
-                to[i] = Vector3d.Lerp(from[i], _whole[i], _share[i]);
+                return false;
             }
+            for (int i = first; i <= last; i++)
+            {
+                _share[i] *= part * free;
+                _isCut[i] = true;
+            }
+            return true;
         }
     }
 }

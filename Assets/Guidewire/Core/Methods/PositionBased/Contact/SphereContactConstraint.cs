@@ -1,11 +1,10 @@
-using System;
 using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
     /// <summary>Keeps a sphere's centre p at a distance from a wall: with contact point c and unit normal n,
     /// g = max(0, reach - (p - c).n), dp = gain g n, per iteration (thesis 3.1.2 for a sphere, without its drag along
-    /// the wall). It never attracts and never pulls sideways.</summary>
+    /// the wall). It never attracts; along the wall it pulls by <see cref="WallFriction"/> alone.</summary>
     /// <remarks>reach is r + margin and the gain k_C in [0, 1], or a bare clearance with gain 1 where the swept test
     /// met the wall. A sphere of inverse mass 0 is not moved.</remarks>
     internal sealed class SphereContactConstraint
@@ -16,10 +15,13 @@ namespace Guidewire.Core
         private readonly double[] _offset;     // (c.n + reach), units
         private readonly double[] _gain;
         private readonly double[] _pushed;     // sum of gain g over the iterations, units
+        private readonly WallFriction _friction;
+        private Vector3d[] _from;              // where the solve began, units
 
         /// <param name="state">The wire, with its final masses.</param>
         /// <param name="capacity">Contacts that fit; what comes on top is left out.</param>
-        public SphereContactConstraint(RodState state, int capacity)
+        /// <param name="iterations">m of a solve, for what walls rub.</param>
+        public SphereContactConstraint(RodState state, int capacity, int iterations = 1)
         {
             _inverseMasses = state.InverseMasses;
             _sphere = new int[capacity];
@@ -27,19 +29,22 @@ namespace Guidewire.Core
             _offset = new double[capacity];
             _gain = new double[capacity];
             _pushed = new double[capacity];
+            _friction = new WallFriction(capacity, iterations);
+            _from = state.Positions;
         }
 
         /// <summary>Contacts at present.</summary>
         public int Count { get; private set; }
 
-        /// <summary>Forgets all contacts.</summary>
-        public void Clear()
+        /// <summary>Forgets all contacts; those to come rub on what moves from these n + 1 positions.</summary>
+        public void Clear(Vector3d[] from)
         {
+            _from = from;
             Count = 0;
         }
 
         /// <summary>Adds the contact of a sphere.</summary>
-        public void Add(int sphere, in SurfaceContact contact, double reach, double gain)
+        public void Add(int sphere, in SurfaceContact contact, double reach, double gain, double friction = 0.0)
         {
             if (Count == _sphere.Length || _inverseMasses[sphere] == 0.0)
             {
@@ -50,6 +55,7 @@ namespace Guidewire.Core
             _offset[Count] = Vector3d.Dot(contact.Point, contact.Normal) + reach;
             _gain[Count] = gain;
             _pushed[Count] = 0.0;
+            _friction.Add(Count, friction);
             Count++;
         }
 
@@ -82,6 +88,11 @@ namespace Guidewire.Core
                 _pushed[k] += push;
                 x[i] += push * n;
             }
+            if (_friction.Rubs(k, _pushed[k]))
+            {
+                x[i] += _friction.Correct(k, x[i] - _from[i], n, _pushed[k]);
+                return true;
+            }
             return gap > 0.0;
         }
 
@@ -92,19 +103,11 @@ namespace Guidewire.Core
             for (int k = 0; k < Count; k++)
             {
                 impulses[_sphere[k]] += (_pushed[k] / _inverseMasses[_sphere[k]]) * _normal[k];
+                if (_friction.Rubs(k, _pushed[k]))
+                {
+                    impulses[_sphere[k]] += (1.0 / _inverseMasses[_sphere[k]]) * _friction.Taken(k);
+                }
             }
-        }
-
-        /// <summary>Largest reach - (p - c).n over all contacts, units: how far the wire lies within its reach of the
-        /// wall; negative when nothing does.</summary>
-        public double LargestGap(Vector3d[] x)
-        {
-            double largest = double.NegativeInfinity;
-            for (int k = 0; k < Count; k++)
-            {
-                largest = Math.Max(largest, _offset[k] - Vector3d.Dot(x[_sphere[k]], _normal[k]));
-            }
-            return largest;
         }
     }
 }

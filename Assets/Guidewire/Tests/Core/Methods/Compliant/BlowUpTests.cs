@@ -50,6 +50,7 @@ namespace Guidewire.Core.Tests
 
         [TestCase(1)]
         [TestCase(3)]
+        [Category("Long")]
         public void TooFewSubsteps_EndDiverged_OrSayHowWrongTheyAre(int sweeps)
         {
             foreach (int substeps in new[] { 1, 4, 16, 64, 256 })

@@ -11,12 +11,14 @@ namespace Guidewire.Core.Tests
         private const double Settled = 14.0; // a critically damped motion is over after so many 1/omega: 15 exp(-14)
 
         [Test]
+        [Category("Long")]
         public void RunThatClaimsConvergence_EndsInTheRestShape()
         {
             Campaign(11, Rods.InFull ? 240 : 24, true, ErrorAtRest);
         }
 
         [Test]
+        [Category("Long")]
         public void RunThatClaimsConvergence_MovesAsImplicitEuler()
         {
             Campaign(12, Rods.InFull ? 240 : 24, false, ErrorInMotion);
@@ -82,7 +84,7 @@ namespace Guidewire.Core.Tests
             int substeps = (int)Math.Ceiling(step / substep);
             SimulationParameters parameters = Rods.Clamped(n, Solver.Xpbd, step,
                 (int)((damped ? Settled : 2.0 * Math.PI) / (omega * step)));
-            parameters.Method.Damping = damped ? 2.0 * omega * step : 0.0;
+            parameters.Material.MassDamping = damped ? 2.0 * omega : 0.0;
             parameters.Method.ConstraintSolverSteps = sweeps;
             parameters.Material.WireRadius = radius;
             parameters.Material.YoungsModulus = young;

@@ -12,6 +12,7 @@ namespace Guidewire.Core.Tests
 
         [TestCase(1)]
         [TestCase(4)]
+        [Category("Long")]
         public void Ring_LeavesItsPlane_AtTheTwistOfMichellAndZajac(int sweeps)
         {
             // Closed, straight when free, EI = GJ: 2 pi sqrt(3) EI/GJ.
@@ -22,6 +23,7 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        [Category("Long")]
         public void StraightWire_LeavesItsAxis_AtTheCoupleOfGreenhill()
         {
             // Between clamps: M L/EI = 8.9868, tan(M/2) = M/2. The ends do not come closer, so that beyond it the wire
@@ -79,7 +81,7 @@ namespace Guidewire.Core.Tests
             double sound = Rods.Length / n / Math.Sqrt(Rods.Young / Rods.Density);
             SimulationParameters parameters = Rods.Clamped(n, Solver.Xpbd, 4e-5, 2000);
             parameters.Method.ConstraintSolverSteps = sweeps;
-            parameters.Method.Damping = 3e-3;
+            parameters.Material.MassDamping = 3e-3 / parameters.Method.TimeStep;
             parameters.Material.WireRadius = Radius;
             parameters.Method.Substeps =
                 (int)Math.Ceiling(parameters.Method.TimeStep / (0.35 * Math.Sqrt(sweeps) * sound));

@@ -58,7 +58,7 @@ namespace Guidewire.Core.Tests
             rodTerms.Loads.Set(Vector3d.Zero, new Vector3d(0.0, -3.0 * Rods.BendForce, 0.0));
             EquilibriumResult result = new RodStatics(rodTerms).Solve(shape, 1e-12, 500);
             EnergyTerm[] terms = rodTerms.All;
-            var tangent = new FollowerTangent(rod, new RodSupports(), terms, rodTerms.Moment);
+            var tangent = new FollowerTangent(rod, new RodSupports(), terms, rodTerms.Followers);
             Assert.That(new DragSpectrum(tangent, rod).SmallestRealPart(shape),
                 Is.EqualTo(result.SmallestEigenvalue).Within(1e-5 * Rods.BendForce));
         }
@@ -74,7 +74,7 @@ namespace Guidewire.Core.Tests
             // A force across the couple's plane, too small to matter, makes it a problem in space.
             rodTerms.Loads.Set(Vector3d.Zero,
                 new Vector3d(1e-4 * Rods.BendForce, 0.0, pull * Rods.BendForce));
-            rodTerms.Moment.Moment = new Vector3d(couple * Rods.BendStiffness / Rods.Length, 0.0, 0.0);
+            rodTerms.Followers.Moment.Moment = new Vector3d(couple * Rods.BendStiffness / Rods.Length, 0.0, 0.0);
             EquilibriumResult result = new RodStatics(rodTerms).Solve(Rods.Straight(rod), 1e-9, 500);
             Assert.That(result.Converged, Is.EqualTo(rests), result.Reason);
             Assert.That(result.Converged ? "tipMoment" : result.Reason, Does.Contain("tipMoment"));
@@ -86,7 +86,7 @@ namespace Guidewire.Core.Tests
             // Another way to the same shape: 5 s of overdamped motion, each stage solved with its inertia. Damped less,
             // the wire would flutter: eigenvalues a + ib grow in a motion unless the damping exceeds b/sqrt(a).
             SimulationParameters parameters = CoupleInSpace(3.0);
-            parameters.Method.Damping = 0.5;
+            parameters.Material.MassDamping = 0.5 / parameters.Method.TimeStep;
             parameters.Method.MaxSimulationSteps = 1000;
             RodState moved = Wires.Run(parameters).State;
             parameters.Method.MaxSimulationSteps = 0;
@@ -143,7 +143,7 @@ namespace Guidewire.Core.Tests
             foreach (double angle in new[] { Math.PI, 2.0 * Math.PI })
             {
                 var rodTerms = new RodTerms(rod, new RodSupports());
-                rodTerms.Moment.Moment = new Vector3d(angle * Rods.BendStiffness / Rods.Length, 0.0, 0.0);
+                rodTerms.Followers.Moment.Moment = new Vector3d(angle * Rods.BendStiffness / Rods.Length, 0.0, 0.0);
                 EquilibriumResult result = new RodStatics(rodTerms).Solve(Rods.Straight(rod), 1e-9, 500);
                 Assert.That(result.Converged, Is.True);
                 Assert.That(result.Method!.Contains("would not stay"), Is.EqualTo(angle > 3.6), result.Method);

@@ -14,7 +14,8 @@ namespace Guidewire.Core.Tests
         private const double GradientTolerance = 1e-9;
         private const double HessianTolerance = 1e-8;
 
-        public static readonly string[] TermNames = { "stretch", "rotationVector", "darboux", "inertia", "plane" };
+        public static readonly string[] TermNames = { "stretch", "rotationVector", "darboux", "inertia", "plane",
+            "damping" };
 
         [Test]
         public void Gradient_IsTheDifferenceOfTheEnergy([ValueSource(nameof(TermNames))] string name,
@@ -137,7 +138,8 @@ namespace Guidewire.Core.Tests
                 rod.BendStiffness2[j] = j % 2 == 0 ? 0.5 : 0.9;
                 rod.TwistStiffness[j] = 0.3;
                 rod.LineDensity[j] = 1.1;
-                rod.RotaryInertia[j] = 0.4;
+                rod.RotaryInertia1[j] = 0.4;
+                rod.RotaryInertia2[j] = 0.4;
                 rod.RestCurvature[j] = new Vector3d(0.2, -0.4, 0.3);
             }
             var supports = new RodSupports { Distal = DistalEnd.Clamped, Clamp = ClampRule.HalfElement };
@@ -152,6 +154,14 @@ namespace Guidewire.Core.Tests
                     return new BendTwistEnergy<DarbouxLaw>(rod.Joints(supports), true, true);
                 case "plane":
                     return Plane(rod, shape);
+                case "damping":
+                    rod.MassDamping = 0.3;
+                    rod.MaterialDamping = 0.7;
+                    var damping = new RodDamping(new RodTerms(rod, supports), 1);
+                    damping.Begin(Rods.Random(rod, 0.5 * angle, 0.2, 6), new Vector3d[rod.ElementCount + 1],
+                        new Vector3d[rod.ElementCount], Vector3d.Zero, Vector3d.Zero);
+                    damping.BeginStage(new[] { 0.8 }, 1.0);
+                    return damping;
                 default:
                     var inertia = new InertiaEnergy(new RodMass(rod, MassRule.Consistent)) { StageLength = 0.8 };
                     inertia.BeginStep(shape, 1.0);

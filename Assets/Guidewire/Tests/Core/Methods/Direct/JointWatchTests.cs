@@ -39,6 +39,46 @@ namespace Guidewire.Core.Tests
             CheckCouple(Simulation.Create(Wound(proposed, turn)), turn);
         }
 
+        /// <summary>Twist of far more than a wire without a pull can hold straight: each time it has bent into a loop
+        /// it could pass through itself and lose two turns; rest without a word would be a straight wire without a
+        /// couple.</summary>
+        [TestCase(150.0)]
+        [TestCase(-60.0)]
+        public void WireThatPassesThroughItself_Fails(double turn)
+        {
+            SimulationParameters parameters = Wound(60, turn);
+            parameters.Scene.AxialForce = 0.0;
+            Simulation run = Simulation.Create(parameters);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Failed), run.Reason);
+            Assert.That(run.Reason, Does.Contain("passed through itself"));
+            Assert.That(run.Reason, Does.Contain("distalRotation"));
+        }
+
+        /// <summary>Bent, tilted and twisted by whole turns, a wire that points forward has the turn of its clamps
+        /// whatever its shape: Fuller's theorem, on a shape made for it.</summary>
+        [TestCase(0.0)]
+        [TestCase(11.0)]
+        [TestCase(-37.0)]
+        public void TurnFromClampToClamp_IsThatOfTheClamps_HoweverTheWireIsBent(double turn)
+        {
+            SimulationParameters parameters = Rods.Clamped(N, Solver.Direct, 1e-3, 1);
+            parameters.Scene.DistalEnd = DistalEnd.Clamped;
+            parameters.Scene.DistalRotation = turn;
+            var scene = new MaterialScene(parameters, new Scene(parameters));
+            RodShape shape = scene.Shape;
+            var watch = new LinkWatch(scene.Supports, scene.Schedule, shape);
+            var random = new System.Random(4);
+            for (int j = 0; j < N; j++)
+            {
+                Vector3d tilt = Wires.Any(random);
+                shape.Q[j] = RotationVector.Exp(0.8 * new Vector3d(tilt.X, tilt.Y, 0.0))
+                    * Quaterniond.FromAxisAngle(Vector3d.UnitZ, turn * (j + 0.5) / N);
+            }
+            scene.Schedule.TurnFrames(shape, 0.0, turn);
+            Assert.That(watch.FindLost(shape, turn), Is.Null);
+            Assert.That(watch.FindLost(shape, turn + 4.0 * Math.PI), Does.Contain("has lost 2:"));
+        }
+
         [TestCase(Solver.Direct, 1)]
         [TestCase(Solver.Xpbd, 200)]
         [TestCase(Solver.Explicit, 2000)]

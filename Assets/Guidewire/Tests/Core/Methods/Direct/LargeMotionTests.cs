@@ -10,6 +10,7 @@ namespace Guidewire.Core.Tests
         [TestCase(Solver.Direct, 1, 1e-9)]
         [TestCase(Solver.Xpbd, 10, 1e-4)]
         [TestCase(Solver.Explicit, 1000, 1e-6)]
+        [Category("Long")]
         public void SoftWire_HoldsItsStrain(Solver solver, int substeps, double tolerance)
         {
             // E = 1 MPa under 0.3 N: F/EA = 38.2 %. One sweep a substep lets the end swing by 2e-5. A pull turns the

@@ -65,7 +65,13 @@ namespace Guidewire.Core.Tests
         /// frequency.</summary>
         public RodVector[] First(out double omega)
         {
-            omega = Find(1, out double[] mode);
+            return Mode(1, out omega);
+        }
+
+        /// <summary>The mode of this number, from 1, in the same way.</summary>
+        public RodVector[] Mode(int number, out double omega)
+        {
+            omega = Find(number, out double[] mode);
             var whole = new double[_order];
             double tip = mode[mode.Length - 1];
             for (int i = 0; i < mode.Length; i++)

@@ -191,7 +191,8 @@ namespace Guidewire.Core.Tests
             rod.BendStiffness2[0] = 1.0;
             rod.TwistStiffness[0] = 1.0;
             rod.LineDensity[0] = 1.0;
-            rod.RotaryInertia[0] = 1.0;
+            rod.RotaryInertia1[0] = 1.0;
+            rod.RotaryInertia2[0] = 1.0;
             RodShape shape = Rods.Straight(rod);
             var supports = new RodSupports { Proximal = ProximalEnd.Free };
             RodDynamics motion = Start(rod, supports, new RodSchedule(), shape, Integrator.Esdirk3, 1e-13);

@@ -66,6 +66,7 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        [Category("Long")]
         public void ForceAndMomentInSpace_EndAtRestOrFail()
         {
             // The couple has no potential here, and a wire under a large one never rests: then the answer is a failure
@@ -113,7 +114,7 @@ namespace Guidewire.Core.Tests
             var supports = new RodSupports();
             var rodTerms = new RodTerms(rod, supports);
             rodTerms.Loads.Set(Vector3d.Zero, force);
-            rodTerms.Moment.Moment = moment;
+            rodTerms.Followers.Moment.Moment = moment;
             EquilibriumResult result = new RodStatics(rodTerms).Solve(shape, 1e-9, 500);
             if (!hasPotential && !result.Converged)
             {

@@ -115,7 +115,7 @@ namespace Guidewire.Core.Tests
             MaterialRod rod = Rods.Wire(N);
             var rodTerms = new RodTerms(rod,
                 new RodSupports { Bend = BendLaw.Darboux, Clamp = ClampRule.HalfElement });
-            rodTerms.Moment.Moment = new Vector3d(1.1 * Rods.BendStiffness * N / Rods.Length, 0.0, 0.0);
+            rodTerms.Followers.Moment.Moment = new Vector3d(1.1 * Rods.BendStiffness * N / Rods.Length, 0.0, 0.0);
             EquilibriumResult result = new RodStatics(rodTerms).Solve(Rods.Straight(rod), 1e-10, 300);
             Assert.That(result.Converged, Is.False);
             Assert.That(result.Reason, Is.Not.Empty);
@@ -161,7 +161,8 @@ namespace Guidewire.Core.Tests
                 rod.BendStiffness2[j] = 1e7 / 12.0;
                 rod.TwistStiffness[j] = 0.5e7 / 6.0;
                 rod.LineDensity[j] = 1.0;
-                rod.RotaryInertia[j] = 1.0;
+                rod.RotaryInertia1[j] = 1.0;
+                rod.RotaryInertia2[j] = 1.0;
                 rod.RestCurvature[j] = new Vector3d(-1.0 / R, 0.0, 0.0);
             }
             // The half-element clamp keeps the unloaded arc an arc.

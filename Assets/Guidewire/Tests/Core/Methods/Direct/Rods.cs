@@ -97,7 +97,7 @@ namespace Guidewire.Core.Tests
             RodShape shape = Straight(rod);
             var rodTerms = new RodTerms(rod, supports);
             rodTerms.Loads.Set(gravity, tipForce);
-            rodTerms.Moment.Moment = tipMoment;
+            rodTerms.Followers.Moment.Moment = tipMoment;
             EquilibriumResult result = new RodStatics(rodTerms).Solve(shape, 1e-10, 500);
             if (!result.Converged)
             {

@@ -155,8 +155,9 @@ namespace Guidewire.Core.Tests
             Assert.That(rod.BendStiffness2[5], Is.EqualTo(made.BendStiffness2[5]).Within(1e-12).Percent);
             Assert.That(rod.TwistStiffness[5], Is.EqualTo(made.TwistStiffness[5]).Within(1e-12).Percent);
             Assert.That(rod.LineDensity[5], Is.EqualTo(made.LineDensity[5]).Within(1e-12).Percent);
-            Assert.That(rod.RotaryInertia[5], Is.EqualTo(made.RotaryInertia[5]).Within(1e-12).Percent);
-            Assert.That(made.RotaryInertia[5], Is.EqualTo(Rods.Density * second).Within(1e-12).Percent);
+            Assert.That(rod.RotaryInertia1[5], Is.EqualTo(made.RotaryInertia1[5]).Within(1e-12).Percent);
+            Assert.That(rod.RotaryInertia2[5], Is.EqualTo(made.RotaryInertia2[5]).Within(1e-12).Percent);
+            Assert.That(made.RotaryInertia1[5], Is.EqualTo(Rods.Density * second).Within(1e-12).Percent);
         }
 
         /// <summary>A section over the end of a wire whose stiffness is given: a material of its own puts the given

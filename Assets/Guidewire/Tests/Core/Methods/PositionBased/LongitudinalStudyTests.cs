@@ -69,6 +69,7 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        [Category("Long")]
         public void BilateralOrder_ReachesTheSameRestState()
         {
             SimulationParameters parameters = Wires.Longitudinal(1500);

@@ -40,6 +40,7 @@ namespace Guidewire.Core.Tests
         private static SimulationParameters Scene(ElementContact rule, string walls)
         {
             var slope = new PlaneShape(new Vector3d(0.0, -0.7, 0.0), new Vector3d(0.0, 1.0, 0.01));
+            slope.FrictionCoefficient = rule == ElementContact.Seed ? 0.0 : 0.2;
             var side = new PlaneShape(new Vector3d(-7.1, 0.0, 0.0), new Vector3d(1.0, 0.1, -0.02));
             ContactShape[] shapes =
                 walls == "plane" ? new ContactShape[] { slope }
@@ -71,9 +72,8 @@ namespace Guidewire.Core.Tests
             double reach = radius + contact.CollisionMargin;
             bool asPublished = contact.ElementContact == ElementContact.Seed;
             IContactResponse response = asPublished
-                ? (IContactResponse)new SeedContactResponse(state, walls.Length, radius, reach,
-                    contact.CollisionStiffness)
-                : new ContactResponse(state, walls.Length, radius, reach, contact.CollisionStiffness);
+                ? (IContactResponse)new SeedContactResponse(state, walls.Length, reach, contact.CollisionStiffness)
+                : new ContactResponse(state, walls, radius, reach, contact.CollisionStiffness, Iterations);
             IContactSearch search = asPublished ? (IContactSearch)new SeedContactSearch(walls, Elements, radius)
                 : new ContactSearch(walls, Elements, Length / Elements, radius, reach,
                     contact.ElementContact == ElementContact.Barycentric);

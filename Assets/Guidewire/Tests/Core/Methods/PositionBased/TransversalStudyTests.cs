@@ -30,6 +30,7 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        [Category("Long")]
         public void VerletAndEuler_Agree_WithDampingToo()
         {
             foreach (double damping in new[] { 0.0, 0.01 })

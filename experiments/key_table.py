@@ -1,4 +1,5 @@
-"""The runner's own table of parameters, as `--keys` prints it: what each key allows and which methods take it."""
+"""The runner's own table of parameters, as `--keys` prints it and docs/parameters.md holds it: what each key allows
+and which methods take it."""
 
 from __future__ import annotations
 
@@ -11,7 +12,8 @@ from dataclasses import dataclass
 _ROW = re.compile(r"^\| `(?P<name>\w+)` \| (?P<allowed>.*) \| `.*` \| (?P<solvers>[^|]*) \| .* \|$")
 _KINDS = {
     "true or false": "switch", "one of": "word", "a number": "number", "a whole number": "whole",
-    "three numbers": "vector", "a text": "text", "a list": "list", "null, {": "object", "null or {": "object", "null or a list": "list",
+    "three numbers": "vector", "a text": "text", "a list": "list", "null, {": "object", "null or {": "object",
+    "null or a list": "list",
 }
 _WHOLE = re.compile(r"from (\d+) to (\d+)")
 _LOW = re.compile(r"(>=?) (\S+)")
@@ -32,6 +34,7 @@ class Key:
     low_is_allowed : whether `low` itself is.
     needs_length : whether a vector must differ from 0.
     may_be_null : whether null is allowed.
+    allowed : what is allowed, in words.
     """
 
     name: str
@@ -43,13 +46,28 @@ class Key:
     low_is_allowed: bool = True
     needs_length: bool = False
     may_be_null: bool = False
+    allowed: str = ""
+
+    def holds(self, number: float) -> bool:
+        """Whether a number lies in the range; one that is none does not."""
+        above = number >= self.low if self.low_is_allowed else number > self.low
+        return math.isfinite(number) and above and number <= self.high
 
 
 def read_key_table(command: Sequence[str]) -> dict[str, Key]:
     """Name to key, in the table's order, of the runner that `command` starts."""
     done = subprocess.run([*command, "--keys"], capture_output=True, text=True, check=True)
-    rows = [_ROW.match(line) for line in done.stdout.splitlines() if line.startswith("| `")]
-    assert rows and all(rows), "a row of the table is written in another way"
+    return parse_key_table(done.stdout)
+
+
+def parse_key_table(text: str) -> dict[str, Key]:
+    """Name to key, in the table's order.
+
+    Raises ValueError where a row of the table is written in another way.
+    """
+    rows = [_ROW.match(line) for line in text.splitlines() if line.startswith("| `")]
+    if not rows or not all(rows):
+        raise ValueError("a row of the table of keys is written in another way")
     solver = next(row for row in rows if row["name"] == "solver")
     methods = _words(solver["allowed"])
     keys = [_key(row, methods) for row in rows]
@@ -76,6 +94,7 @@ def _key(row: re.Match[str], methods: tuple[str, ...]) -> Key:
     return Key(
         row["name"], kind, taken, words=_words(allowed) if kind == "word" else (), low=low, high=high,
         low_is_allowed=low_is_allowed, needs_length="not all 0" in allowed, may_be_null=allowed.startswith("null"),
+        allowed=allowed,
     )
 
 

@@ -1,0 +1,214 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>How wide a vessel's lumen is along a way: the radius of the widest ball across the way at each place.
+    /// Lengths in units.</summary>
+    /// <remarks>In a tube of numbers that is the radius of its knots. In a mesh the way is walked ball by ball, each
+    /// centred across the way by a search whose last step is <see cref="Fineness"/> of the radius asked for, so that a
+    /// width is found to about 1 %; at a branch the walk goes on straight. Where the lumen is narrower than the wire
+    /// the walk keeps its direction, so that it never turns round at a closed end.</remarks>
+    internal sealed class LumenWidth
+    {
+        private const double Fineness = 0.005;
+        private const double StepOverWidth = 0.25;   // of one place of the walk to the next
+        private const double Ample = 4.0;            // radii, from which on nothing is centred
+        private const int MostPlaces = 4000;
+        private readonly ContactShape _wall;
+        private readonly double _radius;
+
+        /// <summary>The lumen of a vessel, for a wire of this radius.</summary>
+        public LumenWidth(ContactShape wall, double radius)
+        {
+            _wall = wall;
+            _radius = radius;
+        }
+
+        /// <summary>The widest ball at the wire's first narrow place, where that is narrower than the wire; else at its
+        /// tip.</summary>
+        public double Width { get; private set; } = double.PositiveInfinity;
+
+        /// <summary>Centre of that ball.</summary>
+        public Vector3d Place { get; private set; }
+
+        /// <summary>True where the lumen is narrower than the wire at the wire itself, or before it as far as it is
+        /// pushed. A lumen that ends there does not count: a wire stops at a vessel's end.</summary>
+        /// <param name="wire">The wire's spheres, in the lumen.</param>
+        /// <param name="way">How far it is pushed, tip first; infinite where nobody says.</param>
+        public bool IsTooNarrow(Vector3d[] wire, double way)
+        {
+            if (_wall is TubeShape tube)
+            {
+                return IsTooNarrow(tube, wire, way);
+            }
+            if (!(_wall is MeshShape))
+            {
+                return false;
+            }
+            int tip = wire.Length - 1;
+            for (int i = 0; i <= tip; i++)
+            {
+                Vector3d along = wire[Math.Min(i + 1, tip)] - wire[Math.Max(i - 1, 0)];
+                Measure(wire[i], Vector3d.Normalize(along), i < tip ? _radius : Ample * _radius);
+                if (Width < _radius * (1.0 - 2.0 * Fineness))
+                {
+                    return true;
+                }
+            }
+            return NarrowsAhead(Vector3d.Normalize(wire[tip] - wire[tip - 1]), way);
+        }
+
+        // From the ball at the tip on. What is narrower counts once the lumen has been as wide as the wire again, or
+        // has let the walk out of an open rim; at a closed end the balls shrink to nothing.
+        private bool NarrowsAhead(Vector3d along, double way)
+        {
+            double tipWidth = Width;
+            Vector3d tipPlace = Place;
+            double narrowest = double.PositiveInfinity;
+            Vector3d narrow = Place;
+            double gone = 0.0;
+            for (int k = 0; k < MostPlaces && gone < way && Width > Fineness * _radius; k++)
+            {
+                Vector3d before = Place;
+                Vector3d next = before + (StepOverWidth * Math.Min(Width, Ample * _radius)) * along;
+                bool isOut = !_wall.Contains(next);
+                if (!isOut)
+                {
+                    Measure(next, along, Ample * _radius);
+                    gone += Vector3d.Distance(before, Place);
+                    along = Width < _radius ? along
+                        : Vector3d.Normalize(along + 0.5 * Vector3d.Normalize(Place - before));
+                    if (Width < narrowest)
+                    {
+                        narrowest = Width;
+                        narrow = Place;
+                    }
+                }
+                if (narrowest < _radius * (1.0 - 2.0 * Fineness) && (isOut || Width >= _radius))
+                {
+                    Width = narrowest;
+                    Place = narrow;
+                    return true;
+                }
+                if (isOut)
+                {
+                    break;
+                }
+            }
+            Width = tipWidth;
+            Place = tipPlace;
+            return false;
+        }
+
+        // Climbs from x to the middle of the lumen across a direction, or to where the ball is large enough: eight ways
+        // by turns, the step halved where none leads up. No step leaves the ball, and so the lumen.
+        private void Measure(in Vector3d x, in Vector3d along, double enough)
+        {
+            Vector3d u = Vector3d.Perpendicular(along);
+            Vector3d v = Vector3d.Cross(along, u);
+            Place = x;
+            Width = DistanceAt(x);
+            double step = 0.5 * Width;
+            while (step > Fineness * _radius && Width < enough)
+            {
+                Vector3d start = Place;
+                double width = Width;
+                for (int k = 0; k < 8; k++)
+                {
+                    double angle = 0.25 * Math.PI * k;
+                    Vector3d other = start + step * (Math.Cos(angle) * u + Math.Sin(angle) * v);
+                    double distance = DistanceAt(other);
+                    if (distance > Width)
+                    {
+                        Width = distance;
+                        Place = other;
+                    }
+                }
+                step = Width > width ? Math.Max(step, 0.5 * width) : 0.5 * step;
+            }
+        }
+
+        private double DistanceAt(in Vector3d x)
+        {
+            int hint = -1;
+            _wall.Nearest(x, x, double.PositiveInfinity, ref hint, out SurfaceContact contact);
+            return contact.Distance;
+        }
+
+        private bool IsTooNarrow(TubeShape tube, Vector3d[] wire, double way)
+        {
+            double[] stations = Stations(tube);
+            double proximal = StationOf(tube, stations, wire[0], out double atProximal);
+            double tip = StationOf(tube, stations, wire[wire.Length - 1], out double atTip);
+            Take(atTip, wire[wire.Length - 1]);
+            if (atTip < _radius || atProximal < _radius)
+            {
+                Take(Math.Min(atTip, atProximal), atTip <= atProximal ? wire[wire.Length - 1] : wire[0]);
+                return true;
+            }
+            bool forward = tip >= proximal;
+            double from = forward ? proximal : tip - way;
+            double to = forward ? tip + way : proximal;
+            int last = tube.Knots.Length - 1;
+            for (int k = 0; k <= last; k++)
+            {
+                int i = forward ? k : last - k;
+                if (tube.Radii[i] < _radius && stations[i] > from && stations[i] < to && GoesOn(tube, i, forward))
+                {
+                    Take(tube.Radii[i], tube.Knots[i]);
+                    return true;
+                }
+            }
+            return false;
+        }
+
+        // Whether a lumen that is too narrow at a knot is wide enough behind it, or open.
+        private bool GoesOn(TubeShape tube, int knot, bool forward)
+        {
+            int end = forward ? tube.Knots.Length - 1 : 0;
+            bool isOpen = forward ? tube.LastKnot < end : tube.FirstKnot > end;
+            bool isWideAgain = false;
+            for (int i = knot; i != end; i += forward ? 1 : -1)
+            {
+                isWideAgain |= tube.Radii[i + (forward ? 1 : -1)] >= _radius;
+            }
+            return isOpen || isWideAgain;
+        }
+
+        private void Take(double width, in Vector3d place)
+        {
+            Width = width;
+            Place = place;
+        }
+
+        private static double[] Stations(TubeShape tube)
+        {
+            var stations = new double[tube.Knots.Length];
+            for (int i = 1; i < stations.Length; i++)
+            {
+                stations[i] = stations[i - 1] + Vector3d.Distance(tube.Knots[i - 1], tube.Knots[i]);
+            }
+            return stations;
+        }
+
+        // Arc length of the piece's centre that is nearest to a point by the tube's own distance, and the radius there.
+        private static double StationOf(TubeShape tube, double[] stations, in Vector3d x, out double radius)
+        {
+            double best = double.NegativeInfinity;
+            double station = 0.0;
+            radius = 0.0;
+            for (int i = 0; i + 1 < stations.Length; i++)
+            {
+                double value = tube.PieceDistance(i, x, out Vector3d centre, out _);
+                if (value > best)
+                {
+                    double share = Vector3d.Distance(tube.Knots[i], centre) / (stations[i + 1] - stations[i]);
+                    best = value;
+                    station = stations[i] + share * (stations[i + 1] - stations[i]);
+                    radius = tube.Radii[i] + share * (tube.Radii[i + 1] - tube.Radii[i]);
+                }
+            }
+            return station;
+        }
+    }
+}

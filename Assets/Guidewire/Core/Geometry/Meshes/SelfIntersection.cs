@@ -1,0 +1,79 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>Where a mesh's wall goes through itself: edges that pierce triangles with which they share no
+    /// vertex. What only touches, to <see cref="RelativeDepth"/>, does not count.</summary>
+    internal static class SelfIntersection
+    {
+        // How far both ends of an edge lie off a triangle's plane at least, over the mesh's size.
+        private const double RelativeDepth = 1e-9;
+
+        /// <summary>How many times an edge pierces a triangle, and where it does first.</summary>
+        public static int Count(MeshGeometry wall, out Vector3d place)
+        {
+            place = Vector3d.Zero;
+            double depth = RelativeDepth * Extents.Of(wall.Corners).LargestSide;
+            var near = new StructList<int>(64);
+            int count = 0;
+            for (int edge = 0; edge < wall.Corners.Length; edge++)
+            {
+                if (wall.EdgeOf(edge) != edge)
+                {
+                    continue;
+                }
+                wall.EndsOf(edge, out int from, out int to);
+                near.Clear();
+                wall.Tree.Within(wall.Corners[from], wall.Corners[to], depth, near);
+                for (int k = 0; k < near.Count; k++)
+                {
+                    if (!SharesVertex(wall, from, to, near[k])
+                        && Pierces(wall, wall.Corners[from], wall.Corners[to], near[k], depth, out Vector3d point))
+                    {
+                        place = count == 0 ? point : place;
+                        count++;
+                    }
+                }
+            }
+            return count;
+        }
+
+        private static bool SharesVertex(MeshGeometry wall, int from, int to, int triangle)
+        {
+            for (int k = 3 * triangle; k < 3 * triangle + 3; k++)
+            {
+                if (wall.VertexAt(k) == wall.VertexAt(from) || wall.VertexAt(k) == wall.VertexAt(to))
+                {
+                    return true;
+                }
+            }
+            return false;
+        }
+
+        private static bool Pierces(
+            MeshGeometry wall, in Vector3d a, in Vector3d b, int triangle, double depth, out Vector3d point)
+        {
+            Vector3d n = wall.FaceNormals[triangle];
+            Vector3d corner = wall.Corners[3 * triangle];
+            double above = Vector3d.Dot(n, a - corner);
+            double below = Vector3d.Dot(n, b - corner);
+            point = corner;
+            if (!(Math.Min(above, below) < -depth && Math.Max(above, below) > depth))
+            {
+                return false;
+            }
+            point = Vector3d.Lerp(a, b, above / (above - below));
+            double least = double.PositiveInfinity;
+            double largest = double.NegativeInfinity;
+            for (int k = 0; k < 3; k++)
+            {
+                Vector3d start = wall.Corners[3 * triangle + k];
+                Vector3d side = wall.Corners[3 * triangle + (k + 1) % 3] - start;
+                double inward = Vector3d.Dot(n, Vector3d.Cross(side, point - start)) / side.Length;
+                least = Math.Min(least, inward);
+                largest = Math.Max(largest, inward);
+            }
+            return least >= -depth || largest <= depth;
+        }
+    }
+}

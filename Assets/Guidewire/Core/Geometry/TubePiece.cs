@@ -1,0 +1,55 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>A straight piece of a tube: all spheres whose centre runs from one knot to the next while their radius
+    /// changes linearly. Lengths in units.</summary>
+    internal readonly struct TubePiece
+    {
+        /// <summary>First knot.</summary>
+        public readonly Vector3d From;
+
+        /// <summary>Last knot.</summary>
+        public readonly Vector3d To;
+
+        private readonly Vector3d _axis;      // unit vector
+        private readonly double _length;
+        private readonly double _radius;      // at the first knot
+        private readonly double _slope;       // k, of the radius
+        private readonly double _lean;        // k/sqrt(1 - k^2)
+
+        /// <summary>The piece between two knots that are farther apart than their radii differ.</summary>
+        public TubePiece(in Vector3d from, in Vector3d to, double fromRadius, double toRadius)
+        {
+            From = from;
+            To = to;
+            _length = Vector3d.Distance(from, to);
+            _axis = (to - from) / _length;
+            _radius = fromRadius;
+            _slope = (toRadius - fromRadius) / _length;
+            _lean = _slope / Math.Sqrt(1.0 - _slope * _slope);
+        }
+
+        /// <summary>max over y in [0, length] of R(y) - |x - c(y)|: how deep x lies in the piece's lumen, negative
+        /// outside. Concave, because the lumen is convex, and of slope 1 or less.</summary>
+        public double Distance(in Vector3d x)
+        {
+            return Distance(x, out _, out _);
+        }
+
+        /// <summary>The same with the centre that gives it, and where along the piece that centre would lie if the
+        /// piece had no ends: from 0 to 1 between its knots.</summary>
+        /// <remarks>With h the distance of x from the line, z its foot's arc length and k the slope of the radius,
+        /// |k| &lt; 1, the maximum of R0 + k y - sqrt(h^2 + (z - y)^2) lies at y = z + k h/sqrt(1 - k^2).</remarks>
+        public double Distance(in Vector3d x, out Vector3d centre, out double along)
+        {
+            Vector3d offset = x - From;
+            double z = Vector3d.Dot(offset, _axis);
+            double free = _slope == 0.0 ? z : z + _lean * (offset - z * _axis).Length;
+            along = free / _length;
+            double y = Math.Min(Math.Max(free, 0.0), _length);
+            centre = y >= _length ? To : From + y * _axis;
+            return _radius + _slope * y - Vector3d.Distance(x, centre);
+        }
+    }
+}

@@ -1,0 +1,87 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>Swept test of a segment in a tube. Along the segment the deepest pieces hand over to each other at some
+    /// places; between two of them, during a motion, the segment's points are a patch with four corners, and a piece
+    /// that holds the corners holds the patch, its lumen being convex.</summary>
+    /// <remarks>So a motion is free when the same pieces serve the segment in the same order before and after, and
+    /// their handovers keep the distance. Where others serve it the motion is halved, until the change of pieces lies
+    /// in a part that is too short to bring the segment to the wall: d has slope at most 1. What is left after
+    /// <see cref="MostLooks"/> looks counts as not free. Keeps scratch memory: one object serves one thread.</remarks>
+    internal sealed class TubeSweep
+    {
+        private const int MostLooks = 16;
+        private const double SafePart = 0.9;
+        private const double LeastShare = 1.0 / 16.0;
+        private const double ShortestTime = 1.0 / 128.0;
+        private readonly TubeShape _tube;
+        private TubeHandovers _before;
+        private TubeHandovers _after;
+
+        /// <summary>For a tube and the tree of its pieces.</summary>
+        public TubeSweep(TubeShape tube, TubeTree tree)
+        {
+            _tube = tube;
+            _before = new TubeHandovers(tree);
+            _after = new TubeHandovers(tree);
+        }
+
+        /// <summary>Largest fraction of the motion for which every point of the segment is proven to keep a distance of
+        /// <paramref name="keep"/>, <see cref="ContactShape.NoImpact"/> for all of it.</summary>
+        public double FreeUntil(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep)
+        {
+            bool isPoint = a0 == b0 && a1 == b1;
+            double time = 0.0;
+            double end = 1.0;         // up to it nothing is known to come too near
+            double step = 1.0;
+            if (!isPoint)
+            {
+                _before.Find(a0, b0, keep);
+            }
+            for (int looks = 0; looks < MostLooks && step >= ShortestTime; looks++)
+            {
+                double until = Math.Min(end, time + step);
+                Vector3d a = Vector3d.Lerp(a0, a1, until);
+                Vector3d b = Vector3d.Lerp(b0, b1, until);
+                double least = isPoint ? _tube.LeastDistance(Vector3d.Lerp(a0, a1, time), a) : FindAfter(a, b, keep);
+                if (least < keep)
+                {
+                    // How far it goes if the distance falls evenly.
+                    double before = isPoint ? _tube.Distance(Vector3d.Lerp(a0, a1, time), out _) : _before.Least;
+                    double share = SafePart * (before - keep) / (before - least);
+                    end = until;
+                    step = (end - time) * Math.Min(0.5, Math.Max(share, LeastShare));
+                }
+                else if (isPoint || IsFree(keep))
+                {
+                    if (until == 1.0)
+                    {
+                        return ContactShape.NoImpact;
+                    }
+                    time = until;
+                    step = Math.Min(2.0 * step, 0.5 * (end - time) + (end < 1.0 ? 0.0 : 1.0));
+                    (_before, _after) = (_after, _before);
+                }
+                else
+                {
+                    step *= 0.5;
+                }
+            }
+            return time;
+        }
+
+        private double FindAfter(in Vector3d a, in Vector3d b, double keep)
+        {
+            _after.Find(a, b, keep);
+            return Math.Min(_before.Least, _after.Least);
+        }
+
+        // From where _before was found to where _after was.
+        private bool IsFree(double keep)
+        {
+            double motion = Math.Max(Vector3d.Distance(_before.A, _after.A), Vector3d.Distance(_before.B, _after.B));
+            return 0.5 * (_before.Least + _after.Least - motion) >= keep || _before.LeadTo(_after, keep);
+        }
+    }
+}

@@ -1,0 +1,160 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>Finds the piece of a tube in which a point lies deepest: a binary tree over the pieces in the order of
+    /// the centreline, each node with the box around its knots and its largest radius.</summary>
+    /// <remarks>A piece gives a point no more than its largest radius less the point's distance from the box, so most
+    /// of a long tube is left out at one look. Nothing is allocated in a search.</remarks>
+    internal sealed class TubeTree
+    {
+        private const int MostSecants = 60;
+        private readonly TubePiece[] _pieces;
+        private readonly Vector3d[] _low;      // per node; the children of node i are 2 i + 1 and 2 i + 2
+        private readonly Vector3d[] _high;
+        private readonly double[] _widest;     // largest radius, units
+
+        /// <summary>The tree over the pieces between successive knots.</summary>
+        /// <param name="knots">At least 2, units.</param>
+        /// <param name="radii">One for each, units.</param>
+        /// <param name="resolution">Distances that differ by no more count as equal, units.</param>
+        public TubeTree(Vector3d[] knots, double[] radii, double resolution)
+        {
+            Resolution = resolution;
+            _pieces = new TubePiece[knots.Length - 1];
+            for (int i = 0; i < _pieces.Length; i++)
+            {
+                _pieces[i] = new TubePiece(knots[i], knots[i + 1], radii[i], radii[i + 1]);
+            }
+            int nodes = 1;
+            while (nodes < _pieces.Length)
+            {
+                nodes *= 2;
+            }
+            _low = new Vector3d[2 * nodes];
+            _high = new Vector3d[2 * nodes];
+            _widest = new double[2 * nodes];
+            Enclose(0, 0, _pieces.Length, knots, radii);
+        }
+
+        /// <summary>The pieces, along the centreline.</summary>
+        public TubePiece[] Pieces => _pieces;
+
+        /// <summary>Distances that differ by no more count as equal, units.</summary>
+        public double Resolution { get; }
+
+        /// <summary>The piece in which x lies deepest, and its term there.</summary>
+        /// <param name="x">Units.</param>
+        /// <param name="guess">A piece that is looked at first, such as that of a point nearby; it counts where others
+        /// are equal.</param>
+        /// <param name="distance">The piece's term at x, units.</param>
+        public int Deepest(in Vector3d x, int guess, out double distance)
+        {
+            int piece = guess;
+            distance = _pieces[guess].Distance(x);
+            Descend(0, 0, _pieces.Length, x, ref piece, ref distance);
+            return piece;
+        }
+
+        /// <summary>Where on segment a b, between two places, the terms of their pieces are equal; false position with
+        /// the weight of an end that stays halved (Illinois).</summary>
+        public double Crossing(in Vector3d a, in Vector3d b, in TubePlace from, in TubePlace to)
+        {
+            ref readonly TubePiece first = ref _pieces[from.Piece];
+            ref readonly TubePiece last = ref _pieces[to.Piece];
+            double s0 = from.S;
+            double s1 = to.S;
+            double over0 = from.Distance - last.Distance(Vector3d.Lerp(a, b, s0));
+            double over1 = first.Distance(Vector3d.Lerp(a, b, s1)) - to.Distance;
+            if (!(over0 > 0.0) || !(over1 < 0.0))
+            {
+                // Equal at an end: two pieces hold what lies about their common knot alike.
+                return over0 > 0.0 ? s1 : s0;
+            }
+            double s = s0;
+            for (int k = 0; k < MostSecants; k++)
+            {
+                s = s0 + (s1 - s0) * (over0 / (over0 - over1));
+                Vector3d x = Vector3d.Lerp(a, b, s);
+                double over = first.Distance(x) - last.Distance(x);
+                if (Math.Abs(over) <= 0.1 * Resolution || !(s > s0 && s < s1))
+                {
+                    break;
+                }
+                if (over > 0.0)
+                {
+                    s0 = s;
+                    over0 = over;
+                    over1 *= 0.5;
+                }
+                else
+                {
+                    s1 = s;
+                    over1 = over;
+                    over0 *= 0.5;
+                }
+            }
+            return s;
+        }
+
+        private void Descend(int node, int first, int end, in Vector3d x, ref int piece, ref double distance)
+        {
+            if (end - first == 1)
+            {
+                double own = _pieces[first].Distance(x);
+                if (own > distance)
+                {
+                    distance = own;
+                    piece = first;
+                }
+                return;
+            }
+            int middle = (first + end) / 2;
+            double left = Bound(2 * node + 1, x);
+            double right = Bound(2 * node + 2, x);
+            bool leftFirst = left >= right;
+            if (leftFirst && left > distance)
+            {
+                Descend(2 * node + 1, first, middle, x, ref piece, ref distance);
+            }
+            if (right > distance)
+            {
+                Descend(2 * node + 2, middle, end, x, ref piece, ref distance);
+            }
+            if (!leftFirst && left > distance)
+            {
+                Descend(2 * node + 1, first, middle, x, ref piece, ref distance);
+            }
+        }
+
+        private double Bound(int node, in Vector3d x)
+        {
+            Vector3d low = _low[node] - x;
+            Vector3d high = x - _high[node];
+            double dx = Math.Max(0.0, Math.Max(low.X, high.X));
+            double dy = Math.Max(0.0, Math.Max(low.Y, high.Y));
+            double dz = Math.Max(0.0, Math.Max(low.Z, high.Z));
+            return _widest[node] - Math.Sqrt(dx * dx + dy * dy + dz * dz);
+        }
+
+        private void Enclose(int node, int first, int end, Vector3d[] knots, double[] radii)
+        {
+            Vector3d low = knots[first];
+            Vector3d high = low;
+            for (int i = first; i <= end; i++)
+            {
+                low = BvhNode.Min(low, knots[i]);
+                high = BvhNode.Max(high, knots[i]);
+                _widest[node] = Math.Max(_widest[node], radii[i]);
+            }
+            _low[node] = low;
+            _high[node] = high;
+            if (end - first > 1)
+            {
+                int middle = (first + end) / 2;
+                Enclose(2 * node + 1, first, middle, knots, radii);
+                Enclose(2 * node + 2, middle, end, knots, radii);
+            }
+        }
+    }
+}

@@ -1,0 +1,349 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>Damping of a material in an implicit stage: mass-proportional, force -a M v, and that of the material
+    /// (Kelvin-Voigt), stress b K times the rate of strain. With the couple -a I w of <see cref="InertiaEnergy"/> a
+    /// mode of circular frequency w has the damping ratio a/(2 w) + b w/2, whatever the time step.</summary>
+    /// <remarks>Positions and all strains y are integrated by the scheme's own formula: in a stage of length h,
+    /// y = y^ + h y' with y^ what earlier stages contributed. So y' = (y - y^)/h, and what resists it with coefficient
+    /// c has the energy c/(2 h) |y - y^|^2 in the stage: springs like those of the wire, b/h times as stiff and at rest
+    /// in y^. The rates of an explicit first stage follow from velocities and spins, whatever went before.</remarks>
+    internal sealed class RodDamping : EnergyTerm
+    {
+        private readonly double _ofMass;      // a, 1/s
+        private readonly double _ofMaterial;  // b, s
+        private readonly RodMass _mass;
+        private readonly MaterialRod _rod;
+        private readonly Joint[] _elastic;
+        private readonly Joint[] _joint;      // those of the elastic energy, times b/h
+        private readonly BendTwistTerm _bending;
+        private readonly StretchEnergy _stretch;
+        private readonly MaterialRod _dashpot;
+        private readonly Measures _now;
+        private readonly Measures _begun;     // at the step's start
+        private readonly Measures _before;    // at the start of the step before
+        private readonly Measures _history;   // y^
+        private readonly Measures[] _rate;    // y' by stage
+        private double _perStage;             // 1/h, 1/s; 0 before the first stage
+        private bool _hasBegun;
+        private bool _hasBefore;
+
+        /// <summary>The damping of a rod.</summary>
+        /// <param name="stages">Of the scheme.</param>
+        public RodDamping(RodTerms terms, int stages)
+        {
+            _rod = terms.Rod;
+            _mass = terms.Mass;
+            _ofMass = _rod.MassDamping;
+            _ofMaterial = _rod.MaterialDamping;
+            int n = _rod.ElementCount;
+            _elastic = _rod.Joints(terms.Supports);
+            _joint = new Joint[n + 1];
+            _bending = BendTwistTerm.Create(_joint, terms.Supports);
+            _dashpot = new MaterialRod(n);
+            Array.Copy(_rod.Length, _dashpot.Length, n);
+            _now = new Measures(n);
+            _begun = new Measures(n);
+            _before = new Measures(n);
+            _history = new Measures(n);
+            _rate = new Measures[stages];
+            for (int s = 0; s < stages; s++)
+            {
+                _rate[s] = new Measures(n);
+            }
+            _stretch = new StretchEnergy(_dashpot, _history.Chord);
+        }
+
+        /// <summary>A step begins in this shape; its rates are those of an explicit first stage.</summary>
+        /// <param name="velocities">Of the nodes, m/s.</param>
+        /// <param name="spins">Of the elements along their own axes, rad/s.</param>
+        /// <param name="proximal">Spin of the proximal frame along its own axes, rad/s.</param>
+        /// <param name="distal">Spin of the distal frame.</param>
+        public void Begin(RodShape shape, Vector3d[] velocities, Vector3d[] spins, in Vector3d proximal,
+            in Vector3d distal)
+        {
+            _hasBefore = _hasBegun;
+            _hasBegun = true;
+            _before.CopyFrom(_begun);
+            Measure(shape, _begun);
+            Measures first = _rate[0];
+            Array.Copy(velocities, first.Position, velocities.Length);
+            _bending.MeasureRates(shape, spins, proximal, distal, first.Joint);
+            for (int j = 0; j < spins.Length; j++)
+            {
+                // p = R^T (x+ - x)/l and R' = R [w], so p' = R^T (v+ - v)/l - w x p.
+                Vector3d change = (1.0 / _rod.Length[j]) * (velocities[j + 1] - velocities[j]);
+                first.Chord[j] = Quaterniond.Rotate(shape.Q[j].Conjugate, change)
+                    - Vector3d.Cross(spins[j], _begun.Chord[j]);
+            }
+        }
+
+        /// <summary>The damping acts by the rates at the step's start.</summary>
+        /// <param name="h">Any time that is not short beside the rates, s: y^ = y - h y'.</param>
+        public void TakeMoment(double h)
+        {
+            _history.CopyFrom(_begun);
+            _history.Add(-h, _rate[0]);
+            Stiffen(1.0 / h);
+        }
+
+        /// <summary>A stage of a Runge-Kutta scheme begins.</summary>
+        /// <param name="row">a_ik; its length is the stage's index plus 1.</param>
+        /// <param name="dt">The step, s.</param>
+        public void BeginStage(double[] row, double dt)
+        {
+            int stage = row.Length - 1;
+            _history.CopyFrom(_begun);
+            for (int k = 0; k < stage; k++)
+            {
+                _history.Add(dt * row[k], _rate[k]);
+            }
+            Stiffen(1.0 / (dt * row[stage]));
+        }
+
+        /// <summary>The one stage of a step of BDF2 begins: y^ = 4/3 y_0 - 1/3 y_-1, which is y_0 + h/2 y'_0 where y_-1
+        /// is not known.</summary>
+        /// <param name="isTwoStep">False for a first step, which is one of implicit Euler.</param>
+        /// <param name="h">The stage's length, s.</param>
+        public void BeginStage(bool isTwoStep, double h)
+        {
+            _history.CopyFrom(_begun);
+            if (isTwoStep && _hasBefore)
+            {
+                _history.Add(1.0 / 3.0, _begun);
+                _history.Add(-1.0 / 3.0, _before);
+            }
+            else if (isTwoStep)
+            {
+                _history.Add(0.5 * h, _rate[0]);
+            }
+            Stiffen(1.0 / h);
+        }
+
+        /// <summary>A stage has been solved in this shape.</summary>
+        public void EndStage(int stage, RodShape shape)
+        {
+            Measure(shape, _now);
+            _rate[stage].SetDifference(_perStage, _now, _history);
+        }
+
+        /// <summary>What the damping adds to the couple of the proximal clamp on the rod, N m, along the world's axes.
+        /// </summary>
+        public Vector3d ProximalCouple(RodShape shape)
+        {
+            return _bending.ProximalCouple(shape);
+        }
+
+        /// <summary>The same of the distal clamp.</summary>
+        public Vector3d DistalCouple(RodShape shape)
+        {
+            return _bending.DistalCouple(shape);
+        }
+
+        /// <inheritdoc/>
+        public override double Value(RodShape shape)
+        {
+            double sum = 0.0;
+            if (_ofMaterial > 0.0)
+            {
+                sum += _bending.Value(shape) + _stretch.Value(shape);
+            }
+            if (_ofMass > 0.0)
+            {
+                double scale = _ofMass * _perStage;
+                Vector3d next = shape.X[0] - _history.Position[0];
+                for (int i = 0; i < shape.X.Length; i++)
+                {
+                    Vector3d d = next;
+                    sum += 0.5 * scale * _mass.Diagonal[i] * d.LengthSquared;
+                    if (i < _mass.Coupling.Length)
+                    {
+                        next = shape.X[i + 1] - _history.Position[i + 1];
+                        sum += scale * _mass.Coupling[i] * Vector3d.Dot(d, next);
+                    }
+                }
+            }
+            return sum;
+        }
+
+        /// <summary>Adds the gradient of the whole rod.</summary>
+        public void AddGradient(RodShape shape, RodVector[] gradient)
+        {
+            var measured = default(GradientMeasures);
+            AddGradient(shape, gradient, 0, shape.X.Length, ref measured);
+        }
+
+        /// <inheritdoc/>
+        public override void AddGradient(RodShape shape, RodVector[] gradient, int from, int to,
+            ref GradientMeasures measured)
+        {
+            if (_ofMaterial > 0.0)
+            {
+                _bending.AddGradient(shape, gradient, from, to, ref measured);
+                _stretch.AddGradient(shape, gradient, from, to, ref measured);
+            }
+            if (_ofMass > 0.0)
+            {
+                AddDrag(shape, gradient, from, to);
+            }
+        }
+
+        /// <inheritdoc/>
+        public override void AddBlocks(RodShape shape, RodBlock[] blocks, RodVector[] gradient, int from, int to)
+        {
+            if (_ofMaterial > 0.0)
+            {
+                _bending.AddBlocks(shape, blocks, gradient, from, to);
+                _stretch.AddBlocks(shape, blocks, gradient, from, to);
+            }
+            if (_ofMass > 0.0)
+            {
+                AddDrag(shape, gradient, from, to);
+                double scale = _ofMass * _perStage;
+                for (int i = from; i < Math.Min(to, _mass.Diagonal.Length); i++)
+                {
+                    ref RodBlock b = ref blocks[i];
+                    b.A11 += scale * _mass.Diagonal[i];
+                    b.A22 += scale * _mass.Diagonal[i];
+                    b.A33 += scale * _mass.Diagonal[i];
+                    if (i < _mass.Coupling.Length)
+                    {
+                        b.D11 += scale * _mass.Coupling[i];
+                        b.D22 += scale * _mass.Coupling[i];
+                        b.D33 += scale * _mass.Coupling[i];
+                    }
+                }
+            }
+        }
+
+        /// <inheritdoc/>
+        public override void Exchange(Snapshot snapshot)
+        {
+            snapshot.Exchange(ref _hasBegun);
+            snapshot.Exchange(ref _perStage);
+            _begun.Exchange(snapshot);
+            _history.Exchange(snapshot);
+            if (!snapshot.IsWritten)
+            {
+                Stiffen(_perStage);
+            }
+        }
+
+        private void AddDrag(RodShape shape, RodVector[] gradient, int from, int to)
+        {
+            double scale = _ofMass * _perStage;
+            for (int i = from; i < Math.Min(to, _mass.Diagonal.Length); i++)
+            {
+                Vector3d d = scale * (shape.X[i] - _history.Position[i]);
+                Add(ref gradient[i], _mass.Diagonal[i] * d);
+                if (i < _mass.Coupling.Length)
+                {
+                    Add(ref gradient[i + 1], _mass.Coupling[i] * d);
+                    Add(ref gradient[i],
+                        (scale * _mass.Coupling[i]) * (shape.X[i + 1] - _history.Position[i + 1]));
+                }
+            }
+        }
+
+        private static void Add(ref RodVector to, in Vector3d force)
+        {
+            to.X1 += force.X;
+            to.X2 += force.Y;
+            to.X3 += force.Z;
+        }
+
+        /// <summary>Sets springs of b/h, at rest in y^.</summary>
+        private void Stiffen(double perStage)
+        {
+            _perStage = perStage;
+            double scale = _ofMaterial * perStage;
+            for (int k = 0; k < _joint.Length; k++)
+            {
+                _joint[k] = new Joint
+                {
+                    Bend1 = scale * _elastic[k].Bend1,
+                    Bend2 = scale * _elastic[k].Bend2,
+                    Twist = scale * _elastic[k].Twist,
+                    Rest = _history.Joint[k],
+                };
+            }
+            for (int j = 0; j < _dashpot.ElementCount; j++)
+            {
+                _dashpot.ShearStiffness[j] = scale * _rod.ShearStiffness[j];
+                _dashpot.StretchStiffness[j] = scale * _rod.StretchStiffness[j];
+            }
+        }
+
+        private void Measure(RodShape shape, Measures to)
+        {
+            _bending.Measure(shape, to.Joint);
+            Array.Copy(shape.X, to.Position, shape.X.Length);
+            for (int j = 0; j < _dashpot.ElementCount; j++)
+            {
+                _stretch.Stress(shape, j, out to.Chord[j]);
+            }
+        }
+
+        /// <summary>All that is resisted: y.</summary>
+        private sealed class Measures
+        {
+            public Measures(int n)
+            {
+                Joint = new Vector3d[n + 1];
+                Chord = new Vector3d[n];
+                Position = new Vector3d[n + 1];
+            }
+
+            public Vector3d[] Joint { get; }     // as the joints' law measures their turn
+
+            public Vector3d[] Chord { get; }     // p, over the element's length
+
+            public Vector3d[] Position { get; }  // m
+
+            public void CopyFrom(Measures other)
+            {
+                Array.Copy(other.Joint, Joint, Joint.Length);
+                Array.Copy(other.Chord, Chord, Chord.Length);
+                Array.Copy(other.Position, Position, Position.Length);
+            }
+
+            public void Add(double weight, Measures other)
+            {
+                Add(Joint, weight, other.Joint);
+                Add(Chord, weight, other.Chord);
+                Add(Position, weight, other.Position);
+            }
+
+            public void SetDifference(double scale, Measures a, Measures b)
+            {
+                Set(Joint, scale, a.Joint, b.Joint);
+                Set(Chord, scale, a.Chord, b.Chord);
+                Set(Position, scale, a.Position, b.Position);
+            }
+
+            public void Exchange(Snapshot snapshot)
+            {
+                snapshot.Exchange(Joint);
+                snapshot.Exchange(Chord);
+                snapshot.Exchange(Position);
+            }
+
+            private static void Add(Vector3d[] to, double weight, Vector3d[] what)
+            {
+                for (int i = 0; i < to.Length; i++)
+                {
+                    to[i] += weight * what[i];
+                }
+            }
+
+            private static void Set(Vector3d[] to, double scale, Vector3d[] a, Vector3d[] b)
+            {
+                for (int i = 0; i < to.Length; i++)
+                {
+                    to[i] = scale * (a[i] - b[i]);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,83 @@
+using System;
+using System.IO;
+using System.Text;
+
+namespace Guidewire.Io
+{
+    /// <summary>Reads a file that a parameter or an argument names, of <see cref="LargestMebibytes"/> at most: what has
+    /// no end, as a device, is refused in one line like what is not there.</summary>
+    internal static class PlainFile
+    {
+        /// <summary>Largest file that is read, MiB.</summary>
+        public const int LargestMebibytes = 256;
+
+        private const int Chunk = 1 << 20;
+
+        /// <summary>All bytes of a file.</summary>
+        /// <param name="file">Its name.</param>
+        /// <param name="needed">What a folder of that name is told to be instead, as a noun phrase.</param>
+        /// <exception cref="ParameterException">It cannot be read, is a folder, or is too large.</exception>
+        public static byte[] ReadBytes(string file, string needed)
+        {
+            if (Directory.Exists(file))
+            {
+                throw new ParameterException(file + ": is a folder, " + needed + " is needed");
+            }
+            try
+            {
+                using FileStream stream = File.OpenRead(file);
+                return ReadToEnd(stream, file);
+            }
+            catch (IOException error)
+            {
+                bool missing = error is FileNotFoundException || error is DirectoryNotFoundException;
+                throw new ParameterException(
+                    file + (missing ? ": no such file" : ": cannot be read: " + error.Message));
+            }
+            catch (Exception error) when (error is ArgumentException || error is NotSupportedException)
+            {
+                throw new ParameterException(file + ": cannot be read: " + error.Message);
+            }
+            catch (UnauthorizedAccessException)
+            {
+                throw new ParameterException(file + ": cannot be read: permission denied");
+            }
+        }
+
+        /// <summary>The text of a file, by its byte order mark or else as UTF-8.</summary>
+        /// <exception cref="ParameterException">As <see cref="ReadBytes"/>.</exception>
+        public static string ReadText(string file, string needed)
+        {
+            using var reader = new StreamReader(new MemoryStream(ReadBytes(file, needed)), Encoding.UTF8, true);
+            return reader.ReadToEnd();
+        }
+
+        // What a device or a pipe says of its length is not true, so the bytes themselves are counted.
+        private static byte[] ReadToEnd(Stream stream, string file)
+        {
+            long limit = (long)LargestMebibytes << 20;
+            if (stream.CanSeek && stream.Length > limit)
+            {
+                throw TooLarge(file);
+            }
+            using var content = new MemoryStream(stream.CanSeek ? (int)stream.Length : 0);
+            var chunk = new byte[Chunk];
+            int count;
+            while ((count = stream.Read(chunk, 0, chunk.Length)) > 0)
+            {
+                if (content.Length + count > limit)
+                {
+                    throw TooLarge(file);
+                }
+                content.Write(chunk, 0, count);
+            }
+            return content.ToArray();
+        }
+
+        private static ParameterException TooLarge(string file)
+        {
+            return new ParameterException(
+                file + ": holds more than " + LargestMebibytes + " MiB, which no file of a run may");
+        }
+    }
+}

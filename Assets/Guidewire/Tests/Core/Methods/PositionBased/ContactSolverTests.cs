@@ -1,0 +1,208 @@
+using System;
+using Guidewire.Core;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>How a step between walls is divided, what of the drive is left, and how deep the wire is said to
+    /// lie.</summary>
+    [TestFixture]
+    internal sealed class ContactSolverTests
+    {
+        private const int Elements = 6;
+        private const double Length = 60.0;
+        private const double Radius = 2.0;
+        private static readonly double[] Wide = { 20.0, 20.0 };
+
+        [Test]
+        public void Step_TakesNoMoreThanTwoTriesAPartAndOne_HoweverHardTheWireIsPressed(
+            [Values(0.5, 3.0, 40.0)] double asked)
+        {
+            // A solver that throws the wire at the wall each time: no part of it can be clear.
+            RodState state = Wire();
+            var thrown = new ThrowingSolver(new Vector3d(0.0, -50.0, 0.0));
+            ContactSolver solver = Between(state, thrown, out ContactRecord record);
+            double parts = Math.Ceiling(asked / Math.Min(Radius, 0.5 * Length / Elements));
+            for (int k = 0; k < 5; k++)
+            {
+                Predict(state, asked);
+                thrown.Solves = 0;
+                solver.Solve(state);
+                Assert.That(thrown.Solves, Is.LessThanOrEqualTo(3.0 * (2.0 * parts + 1.0)));
+                for (int i = 0; i <= Elements; i++)
+                {
+                    Assert.That(state.PredictedPositions[i].Y, Is.GreaterThan(0.0), "sphere " + i);
+                }
+                state.Advance();
+            }
+            Assert.That(record.DriveAsked, Is.EqualTo(5.0 * asked).Within(1e-12 * asked));
+        }
+
+        [Test]
+        public void Drive_OfMorePartsThanFiveHundred_GoesAllTheWay()
+        {
+            RodState state = Wire();
+            ContactSolver solver = Between(state, new ThrowingSolver(Vector3d.Zero), out ContactRecord record);
+            Vector3d from = state.Positions[0];
+            Predict(state, 1500.0);
+            solver.Solve(state);
+            double gone = Vector3d.Distance(from, state.PredictedPositions[0]);
+            Assert.That(gone, Is.EqualTo(1500.0).Within(1e-9));
+            Assert.That(record.DriveShortfall, Is.EqualTo(0.0).Within(1e-9));
+        }
+
+        [Test]
+        public void Drive_ThatAsksForMoreThanAStepCanDivide_IsGivenTheRestAsShortfall()
+        {
+            RodState state = Wire();
+            ContactSolver solver = Between(state, new ThrowingSolver(Vector3d.Zero), out ContactRecord record);
+            Vector3d from = state.Positions[0];
+            Predict(state, 1e9);
+            solver.Solve(state);
+            double gone = Vector3d.Distance(from, state.PredictedPositions[0]);
+            Assert.That(gone, Is.EqualTo(4096.0 * Radius).Within(1e-3));
+            Assert.That(gone + record.DriveShortfall, Is.EqualTo(1e9).Within(1e-3));
+        }
+
+        [Test]
+        public void Element_PressedAgainstAWall_Slides_AndLeaves()
+        {
+            // Pressed down for 200 parts it keeps its distance; drawn along it follows; lifted it goes.
+            var plane = new PlaneShape(Vector3d.Zero, Vector3d.UnitY);
+            const double Clearance = 1e-3;
+            var a = new Vector3d(0.0, 1.5 * Clearance, 0.0);
+            var b = new Vector3d(0.0, 1.5 * Clearance, 1.0);
+            foreach (ContactShape wall in new ContactShape[] { plane, FlatTube() })
+            {
+                Vector3d at = a;
+                Vector3d end = b;
+                for (int k = 0; k < 200; k++)
+                {
+                    Vector3d way = new Vector3d(0.0, -0.1, 0.0);
+                    double free = wall.Sweep(at, end, at + way, end + way, Clearance, out _);
+                    Assert.That(free, Is.LessThanOrEqualTo(1.0));
+                    at += free * way;
+                    end += free * way;
+                }
+                Assert.That(at.Y, Is.GreaterThan(0.99 * Clearance));
+                foreach (Vector3d way in new[] { 0.5 * Vector3d.UnitZ, 0.5 * Vector3d.UnitY })
+                {
+                    Assert.That(wall.Sweep(at, end, at + way, end + way, Clearance, out _),
+                        Is.EqualTo(ContactShape.NoImpact), "along " + way);
+                }
+            }
+        }
+
+        [Test]
+        public void MaxPenetration_IsThatOfTheDeepestSphereOrElement_TheDrivenOneToo(
+            [Values(ElementContact.Barycentric, ElementContact.None, ElementContact.Seed)] ElementContact rule)
+        {
+            Simulation simulation = Simulation.Create(new SimulationParameters
+            {
+                Scene =
+                {
+                    NumberRodElements = 8, GuidewireLength = 80.0, GuidewireOffset = 0.0,
+                    Walls = new ContactShape[]
+                    {
+                        new PlaneShape(-4.0 * Vector3d.UnitY, Vector3d.UnitY),
+                        ConvexObstacle.Sphere(new Vector3d(0.0, -3.0, 45.0), 0.5),
+                    },
+                },
+                Contact = { SphereRadius = 3.0, CollisionStiffness = 0.01, ElementContact = rule },
+                Drive =
+                {
+                    Kind = Drive.Displace, DisplacementDirection = new Vector3d(0.0, -1.0, 0.2),
+                    DisplacementPerStep = 0.7,
+                },
+                Method = { DeltaThreshold = 0.0, MaxSimulationSteps = 12, ConstraintSolverSteps = 20 },
+            });
+            double deepest = Depth(simulation);
+            while (simulation.Outcome == Outcome.Running)
+            {
+                simulation.Step();
+                deepest = Math.Max(deepest, Depth(simulation));
+            }
+            Assert.That(deepest, Is.GreaterThan(2.9), "the base reaches the wall");
+            Assert.That(simulation.Contacts!.MaxPenetration, Is.EqualTo(deepest).Within(1e-9));
+        }
+
+        // Of the plane y = -4 and the ball of radius 0.5 about (0, -3, 45), in closed form.
+        private static double Depth(Simulation simulation)
+        {
+            Vector3d[] x = simulation.State.Positions;
+            var centre = new Vector3d(0.0, -3.0, 45.0);
+            double least = double.PositiveInfinity;
+            for (int j = 0; j + 1 < x.Length; j++)
+            {
+                Vector3d u = x[j + 1] - x[j];
+                double s = Math.Min(1.0, Math.Max(0.0, Vector3d.Dot(centre - x[j], u) / u.LengthSquared));
+                double fromBall = Vector3d.Distance(centre, x[j] + s * u) - 0.5;
+                least = Math.Min(least, Math.Min(fromBall, Math.Min(x[j].Y, x[j + 1].Y) + 4.0));
+            }
+            return Math.Max(0.0, 3.0 - least);
+        }
+
+        // Its lowest line is y = 0.
+        private static TubeShape FlatTube()
+        {
+            var low = new Vector3d(0.0, 20.0, -50.0);
+            return new TubeShape(new[] { low, low + 100.0 * Vector3d.UnitZ }, Wide, true, true);
+        }
+
+        private static RodState Wire()
+        {
+            var state = new RodState(Elements, Length, 0.01, 0.0);
+            for (int i = 0; i <= Elements; i++)
+            {
+                state.Positions[i] = new Vector3d(0.0, 1.0, Length * i / Elements);
+            }
+            state.InverseMasses[0] = 0.0;
+            return state;
+        }
+
+        private static ContactSolver Between(RodState state, IConstraintSolver solver, out ContactRecord record)
+        {
+            var walls = new ContactShape[] { new PlaneShape(Vector3d.Zero, Vector3d.UnitY) };
+            var search = new ContactSearch(walls, Elements, Length / Elements, Radius, Radius, true);
+            var response = new ContactResponse(state, walls, Radius, Radius, 0.1, iterations: 1);
+            record = new ContactRecord(state.SphereCount);
+            return new ContactSolver(state, 0.01, solver, search, response, record);
+        }
+
+        // The base goes along z, and the rest follows.
+        private static void Predict(RodState state, double way)
+        {
+            for (int i = 0; i <= Elements; i++)
+            {
+                state.PredictedPositions[i] = state.Positions[i] + way * Vector3d.UnitZ;
+            }
+            Array.Copy(state.Orientations, state.PredictedOrientations, Elements);
+        }
+
+        // Moves every free sphere by the same, whatever stands in the way.
+        private sealed class ThrowingSolver : IConstraintSolver
+        {
+            private readonly Vector3d _by;
+
+            public ThrowingSolver(in Vector3d by)
+            {
+                _by = by;
+            }
+
+            public int Solves { get; set; }
+
+            public void Solve(RodState state)
+            {
+                Solves++;
+                for (int i = 1; i < state.SphereCount; i++)
+                {
+                    state.PredictedPositions[i] += _by;
+                }
+            }
+
+            public void Exchange(Snapshot snapshot)
+            {
+            }
+        }
+    }
+}

@@ -1,0 +1,153 @@
+"""What the log of a push between walls is held to, by a search of its own (`wall_search`): no passage, no frozen
+element, true figures in the summary."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from analysis.passages import SAMPLES, sample_wire
+from analysis.wall_search import ClosedForm, MeshSearch, closed_form
+
+FINE_SAMPLES = 40  # points an element, on the last entry of a log
+FROZEN_STEPS = 20
+SAME = 1e-9  # of the radius, or of the way asked for: what figures may differ by
+
+
+@dataclass(frozen=True)
+class Walls:
+    """The walls of a scene: the vessel's closed mesh, or None, and all others in closed form."""
+
+    mesh: MeshSearch | None
+    others: list[ClosedForm]
+
+    @classmethod
+    def of(cls, scene: dict[str, Any], triangles: np.ndarray, rotation: Callable) -> Walls:
+        """Of a parameter file; triangles (t, 3, 3) in units are those of its mesh at their place, if it has one."""
+        others = list(scene.get("obstacles") or [])
+        is_mesh = scene["vessel"]["shape"] == "mesh"
+        others += [] if is_mesh else [scene["vessel"]]
+        return cls(MeshSearch(triangles) if is_mesh else None, [closed_form(wall, rotation) for wall in others])
+
+    def beyond(self, points: np.ndarray) -> np.ndarray:
+        """Whether points (..., 3) are beyond each wall, shape (walls, ...)."""
+        flat = points.reshape(-1, 3)
+        answers = [wall.distance(flat) <= 0.0 for wall in self.others]
+        if self.mesh:
+            answers.append(~self.mesh.inside(flat))
+        return np.array(answers).reshape(-1, *points.shape[:-1])
+
+
+def judge(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray, walls: Walls) -> list[str]:
+    """The claims that a run breaks, one line each.
+
+    Parameters
+    ----------
+    scene, summary : the run's parameter file and summary.json.
+    positions : ndarray, shape (k, n + 1, 3)
+        Of all spheres after every step from 0 on, in units.
+    """
+    rubs = scene["vessel"].get("frictionCoefficient", 0.0) > 0.0  # friction may hold an element where it is
+    return [*_passages(scene["elementContact"], summary, positions, walls), *([] if rubs else _frozen(positions)),
+            *_drive(scene, summary, positions), *_penetration(scene, summary, positions, walls)]
+
+
+def _passages(rule: str, summary: dict[str, Any], positions: np.ndarray, walls: Walls) -> list[str]:
+    claims = []
+    samples = walls.beyond(sample_wire(positions))
+    spheres, n = samples[..., ::SAMPLES], positions.shape[1] - 1
+    count = int(np.count_nonzero(~samples[:, :-1] & samples[:, 1:]))
+    if summary["passages"] != count:
+        claims.append(f"passages = {summary['passages']}, true are {count}")
+    if rule != "seed" and spheres.any():
+        step, sphere = np.argwhere(spheres.any(axis=0))[0]
+        claims.append(f"sphere {sphere} is beyond a wall after step {step}")
+    if rule == "barycentric":
+        share = np.arange(FINE_SAMPLES)[:, None, None] / FINE_SAMPLES
+        last = positions[-1]
+        if walls.beyond((1.0 - share) * last[:-1] + share * last[1:]).any():
+            claims.append("a point of the wire ends beyond a wall")
+        crossings = _crossings(positions, walls)
+        if len(crossings):
+            claims.append(f"element {crossings[0] % n} crosses a wall after step {crossings[0] // n};"
+                          f" {len(crossings)} times in all")
+    return claims
+
+
+def _elements(positions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    return positions[:, :-1].reshape(-1, 3), positions[:, 1:].reshape(-1, 3)
+
+
+def _crossings(positions: np.ndarray, walls: Walls) -> np.ndarray:
+    """Elements, numbered through all entries, whose core line goes through a wall."""
+    a, b = _elements(positions)
+    through = walls.mesh.crosses(a, b) if walls.mesh else np.zeros(len(a), bool)
+    for wall in walls.others:
+        near = np.flatnonzero(wall.distance(a) + wall.distance(b) <= np.linalg.norm(b - a, axis=1))
+        for k in near:
+            through[k] = through[k] or wall.least_along(a[k:k + 1], b[k:k + 1], 0.0) < 0.0
+    return np.flatnonzero(through)
+
+
+def _frozen(positions: np.ndarray) -> list[str]:
+    """Elements whose spheres keep their bits over 20 steps in which the drive moves and a neighbouring sphere does."""
+    still = np.all(positions[1:] == positions[:-1], axis=2)  # (steps, n + 1)
+    steps, spheres = still.shape
+    for first in range(steps - FROZEN_STEPS + 1):
+        window = still[first:first + FROZEN_STEPS]
+        if window[:, 0].all():
+            continue
+        for j in range(spheres - 1):
+            beside = [i for i in (j - 1, j + 2) if 0 <= i < spheres]
+            if window[:, j].all() and window[:, j + 1].all() and not window[:, beside].all():
+                return [f"element {j} is frozen from step {first} to {first + FROZEN_STEPS}"]
+    return []
+
+
+def _drive(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray) -> list[str]:
+    asked = scene["displacementPerStep"] * (len(positions) - 1)
+    gone = np.linalg.norm(np.diff(positions[:, 0], axis=0), axis=1).sum()
+    claims = []
+    if abs(summary["driveAsked"] - asked) > SAME * asked:
+        claims.append(f"driveAsked = {summary['driveAsked']}, true is {asked}")
+    if abs(gone + summary["driveShortfall"] - asked) > SAME * asked:
+        claims.append(f"asked {asked}, gone {gone}, driveShortfall = {summary['driveShortfall']}")
+    return claims
+
+
+def _penetration(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray, walls: Walls) -> list[str]:
+    radius = scene["sphereRadius"]
+    a, b = _elements(positions)
+    least = radius
+    for wall in walls.others:
+        least = min(least, _least_other(wall, a, b, least, scene["elementContact"]))
+    if walls.mesh:
+        least = min(least, _least_mesh(walls.mesh, positions, least, scene["elementContact"]))
+    true = radius - least
+    if abs(summary["maxPenetration"] - true) > SAME * max(radius, true):
+        return [f"maxPenetration = {summary['maxPenetration']!r}, true is {float(true)!r}"]
+    return []
+
+
+def _least_other(wall: ClosedForm, a: np.ndarray, b: np.ndarray, known: float, rule: str) -> float:
+    """Least distance of a core line. With the published rule it may lie beyond the wall, at negative distances; with
+    the others one that crosses the wall has 0."""
+    if rule == "seed":
+        return wall.least_along(a, b, known)
+    clear = (wall.distance(a) > 0.0) | (wall.distance(b) > 0.0)
+    return min(known, max(0.0, wall.least_along(a[clear], b[clear], known)) if clear.any() else known)
+
+
+def _least_mesh(mesh: MeshSearch, positions: np.ndarray, known: float, rule: str) -> float:
+    a, b = _elements(positions)
+    if rule == "seed":
+        spheres = np.unique(positions.reshape(-1, 3), axis=0)
+        outside = spheres[~mesh.inside(spheres)]
+        if len(outside):
+            return min(known, -float(mesh.distance(outside).max()))
+    if mesh.crosses(a, b).any():
+        return min(known, 0.0)
+    return mesh.least_distance(a[::-1], b[::-1], known)

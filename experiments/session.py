@@ -1,0 +1,223 @@
+"""A run under the hand of a Python script: stepped, saved, restored, any number of them side by side.
+
+    with Session("params/insertion.json", bendStiffness=0.05) as session:
+        state = session.step(push=1.0, turn=0.1, steps=10)
+        state.positions[-1]   # the tip, units
+
+Each session has a runner process of its own, which simulates; here are only its answers. Arrays come with all their
+bits.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+import subprocess
+import sys
+import warnings
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+import numpy as np
+
+from experiments import building
+
+_SECONDS_TO_END = 10.0
+_ROWS = {
+    "positions": 3, "velocities": 3, "orientations": 4, "angularVelocities": 3, "contactForces": 3, "reaction": 3,
+    "strain": 3, "force": 3, "curvature": 3, "couple": 3,
+}
+
+
+class SessionError(Exception):
+    """A session cannot do what it was asked for. The message is one line."""
+
+
+@dataclass(frozen=True)
+class State:
+    """The wire at one moment; n rod elements, n + 1 spheres. All arrays are of float64 and the caller's own.
+
+    Attributes
+    ----------
+    step, time : steps done, and in-game time in s.
+    outcome, reason : how the run ended, as in summary.json, and why; None and "" while it goes on. Steps after the end
+        change nothing.
+    prediction_error : Delta_p of the last step, units; 0 with a material.
+    positions, velocities : (n+1, 3), units and units/s.
+    orientations : (n, 4), quaternions x, y, z, w of the rod elements.
+    angular_velocities : (n, 3), rad/s, in each element's own frame.
+    contact_forces : (n+1, 3), force of the walls on each sphere in the last step, mass unit * unit/s^2; 0 where there
+        are no walls.
+    reaction : (3,), force of the held first sphere on the wire in the last step; with a material of its support, N.
+        None where the method does not state it (xpbd, and gains without walls).
+    curvature, couple : (n+1, 3), of a material: rad/m about d1, d2 and d3 at each joint, and N m; else None.
+    strain, force : (n, 3), of a material: shear and stretch of each element, and force in it, N; else None.
+    """
+
+    step: int
+    time: float
+    outcome: str | None
+    reason: str
+    prediction_error: float
+    positions: np.ndarray
+    velocities: np.ndarray
+    orientations: np.ndarray
+    angular_velocities: np.ndarray
+    contact_forces: np.ndarray
+    reaction: np.ndarray | None
+    curvature: np.ndarray | None
+    couple: np.ndarray | None
+    strain: np.ndarray | None
+    force: np.ndarray | None
+
+
+class Session:
+    """A run that goes on step by step, as `step` says.
+
+    Parameters
+    ----------
+    file : parameter file, from the folder where the script runs; None: the defaults count.
+    hand : whether `push` and `turn` of `step` move the first sphere, in place of the file's drive. None: wherever the
+        solver can be steered.
+    overrides : parameters by key, laid over the file's: numbers, texts, lists, dicts, numpy arrays.
+
+    Attributes
+    ----------
+    state : the wire as it is now.
+    parameters : every effective value by key.
+    hand : whether a hand moves the first sphere.
+
+    Raises
+    ------
+    SessionError : the file, a key or a value cannot be used; one line says which and what is allowed.
+    experiments.prepare.PreparationError : the runner cannot be built.
+
+    Warns
+    -----
+    UserWarning : what is allowed and most likely not meant, such as a key of the file that the solver does not take.
+    """
+
+    def __init__(self, file: str | Path | None = None, hand: bool | None = None, **overrides: Any) -> None:
+        command = building.build(building.RUNNER, lambda line: print(line, file=sys.stderr, flush=True))
+        # A session of its own: Ctrl-C reaches the script, which then closes this.
+        self._process: subprocess.Popen[str] | None = subprocess.Popen(
+            [*command, "-lines"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, encoding="utf-8",
+            start_new_session=True)
+        self._state: State | None = None
+        try:
+            asked: dict[str, Any] = {"set": overrides, "hand": hand}
+            if file is not None:
+                asked["parameters"] = str(file)
+            answer = self._ask("open", **asked)
+        except BaseException:
+            self.close()
+            raise
+        self.parameters: Mapping[str, Any] = answer["effective"]
+        self.hand: bool = answer["hand"]
+        self._state = _read_state(answer)
+        for line in answer["warnings"]:
+            warnings.warn(line, stacklevel=2)
+
+    @property
+    def state(self) -> State:
+        """The wire as it is now."""
+        return self._state
+
+    def step(self, push: float = 0.0, turn: float = 0.0, steps: int = 1) -> State:
+        """Go on by some steps of `timeStep`, fewer where the run ends before.
+
+        Parameters
+        ----------
+        push : way of the first sphere along the first element in all of them, units; negative values pull.
+        turn : turn of the first element about its axis in all of them, rad.
+        steps : number of steps, from 1; push and turn are made in equal parts.
+        """
+        self._state = _read_state(self._ask("step", push=float(push), turn=float(turn), steps=int(steps)))
+        return self._state
+
+    def reset(self) -> State:
+        """Go back to the start."""
+        self._state = _read_state(self._ask("reset"))
+        return self._state
+
+    def save(self) -> bytes:
+        """All that the next steps depend on, for `restore` here or in another session of the same parameters."""
+        return base64.b64decode(self._ask("save")["snapshot"])
+
+    def restore(self, saved: bytes) -> State:
+        """Go on from what was saved: the same steps then give the same bits."""
+        self._state = _read_state(self._ask("restore", snapshot=base64.b64encode(saved).decode("ascii")))
+        return self._state
+
+    def close(self) -> None:
+        """End the runner. Nothing but `state` can be asked for afterwards."""
+        process, self._process = self._process, None
+        if process is None:
+            return
+        try:
+            process.stdin.close()
+            process.wait(timeout=_SECONDS_TO_END)
+        except (OSError, subprocess.TimeoutExpired):
+            process.kill()
+            process.wait()
+        process.stdout.close()
+
+    def __enter__(self) -> Session:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+                 ) -> None:
+        self.close()
+
+    def __del__(self) -> None:
+        if getattr(self, "_process", None) is not None:
+            self.close()
+
+    def _ask(self, what: str, **more: Any) -> dict[str, Any]:
+        if self._process is None:
+            raise SessionError("this session is closed")
+        line = json.dumps({"id": 0, "session": what, **more}, default=_plain)
+        try:
+            self._process.stdin.write(line + "\n")
+            self._process.stdin.flush()
+            answer = json.loads(self._process.stdout.readline() or "null")
+        except OSError:
+            answer = None
+        except BaseException:    # such as Ctrl-C while it works: its answer would be taken for the next one's
+            self._process.kill()
+            self.close()
+            raise
+        if answer is None:
+            self._process.kill()
+            code = self._process.wait()
+            self.close()
+            ended = f"killed by signal {-code}" if code < 0 else f"exit code {code}"
+            raise SessionError(f"the runner of this session ended ({ended})")
+        if answer["exitCode"] != 0:
+            raise SessionError(answer["message"].removeprefix("request: "))
+        return answer
+
+
+def _plain(value: Any) -> Any:
+    """What JSON has for a numpy array or number, and for a path."""
+    if isinstance(value, (np.ndarray, np.generic)):
+        return value.tolist()
+    if isinstance(value, Path):
+        return str(value)
+    raise TypeError(f"a parameter cannot be a {type(value).__name__}")
+
+
+def _read_state(answer: Mapping[str, Any]) -> State:
+    arrays = {name: np.frombuffer(base64.b64decode(answer[name]), dtype="<f8").reshape(-1, width).astype(float)
+              for name, width in _ROWS.items() if name in answer}
+    positions = arrays["positions"]
+    return State(
+        answer["step"], answer["time"], answer["outcome"], answer["message"], answer["predictionError"], positions,
+        arrays["velocities"], arrays["orientations"], arrays["angularVelocities"],
+        arrays.get("contactForces", np.zeros_like(positions)),
+        arrays["reaction"][0] if "reaction" in arrays else None,
+        arrays.get("curvature"), arrays.get("couple"), arrays.get("strain"), arrays.get("force"),
+    )

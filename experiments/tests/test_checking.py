@@ -1,0 +1,105 @@
+"""Arguments and files are checked before anything is built, and the check refuses nothing that the runner takes."""
+
+import os
+import subprocess
+
+import pytest
+
+from experiments import building, checking, commands
+from experiments.prepare import ROOT, PreparationError
+
+SCENE = str(ROOT / "params" / "default.json")
+LONG_NAME = "x" * 300
+
+
+class Built(Exception):
+    """Something was to be built."""
+
+
+@pytest.fixture
+def unbuilt(monkeypatch, tmp_path):
+    """A function that types a command where the compiler must not be started; returns the line that refused it."""
+    def build(*_):
+        raise Built
+
+    monkeypatch.setattr(building, "build", build)
+    monkeypatch.chdir(tmp_path)
+
+    def type_in(*words):
+        with pytest.raises(PreparationError) as refused:
+            commands.parse(words).action(commands.parse(words))
+        line = str(refused.value)
+        assert "\n" not in line and len(line) < 300
+        return line
+
+    return type_in
+
+
+@pytest.mark.parametrize("text, words", [
+    (None, ["No such file", "params/default.json"]), ("hello", ["not JSON", "line 1"]),
+    ('{"timeStep": 0.1,\n "damping": }', ["not JSON", "line 2, column 13"]), ("[1]", ["not a JSON object"]),
+    ('{"timestpe": 0.1}', ["'timestpe'", "did you mean 'timeStep'?"]),
+    ('{"timeStep": 0}', ["timeStep = 0", "a number > 0 (s)"]), ('{"timeStep": "1"}', ['timeStep = "1"']),
+    ('{"damping": 1.5}', ["<= 1"]), ('{"numberRodElements": 2.5}', ["2.5", "a whole number"]),
+    ('{"numberRodElements": true}', ["true"]), ('{"timeStep": 1' + "0" * 400 + "}", ["timeStep"]),
+    ("[" * 100_000, ["not JSON"]),
+])
+def test_a_bad_file_is_refused_before_a_build(unbuilt, tmp_path, text, words):
+    if text is not None:
+        (tmp_path / "scene.json").write_text(text)
+    line = unbuilt("run", "scene.json")
+    assert line.startswith("scene.json: ")
+    for word in words:
+        assert word in line
+
+
+@pytest.mark.parametrize("assignment, words", [
+    ("timestep=0.1", ["'timestep'", "'timeStep'"]), ("timeStep=fast", ["timeStep = fast", "> 0"]),
+    ("timeStep=-1", ["-1"]), ("timeStep=nan", ["nan"]), ("colour=red", ["'colour'", "docs/parameters.md"]),
+    ("maxSimulationSteps=0.5", ["a whole number"]),
+])
+def test_a_bad_assignment_is_refused_before_a_build(unbuilt, assignment, words):
+    line = unbuilt("run", SCENE, "--set", assignment)
+    assert line.startswith("command line: ")
+    for word in words:
+        assert word in line
+
+
+@pytest.mark.parametrize("out", ["/proc/guidewire", "/dev/null", "a-file", "a-file/below", LONG_NAME,
+                                 f"new/{LONG_NAME}"])
+@pytest.mark.parametrize("command", [["run", SCENE], ["sweep", "default"], ["figures", "4.5"], ["demo"],
+                                     ["modes", SCENE]], ids=lambda words: words[0])
+def test_a_folder_that_cannot_be_is_named_before_a_build(unbuilt, tmp_path, command, out):
+    (tmp_path / "a-file").write_text("kept")
+    line = unbuilt(*command, "--out", out)
+    assert line.startswith(f"out = {out[:60]}") and "cannot be written" in line
+    assert [path.name for path in tmp_path.iterdir()] == ["a-file"], "nothing is left"
+    assert (tmp_path / "a-file").read_text() == "kept"
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may write everywhere")
+def test_a_folder_of_another_user_is_named_before_a_build(unbuilt):
+    assert "Permission denied" in unbuilt("run", SCENE, "--out", "/root/guidewire")
+
+
+def test_an_empty_name_is_no_folder(capsys):
+    with pytest.raises(SystemExit) as end:
+        commands.parse(["run", SCENE, "--out", ""])
+    assert end.value.code == 2 and capsys.readouterr().err.count("\n") == 1
+
+
+@pytest.mark.parametrize("out", ["results/a/b", "."])
+def test_a_folder_that_can_be_is_let_pass_and_is_not_made(unbuilt, tmp_path, out):
+    arguments = commands.parse(["run", SCENE, "--out", out])
+    with pytest.raises(Built):
+        arguments.action(arguments)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_every_scene_of_the_repository_and_every_effective_value_is_let_pass(runner_command, tmp_path):
+    for scene in sorted((ROOT / "params").glob("*.json")):
+        checking.check_file(scene)
+        done = subprocess.run([*runner_command, "-parameters", str(scene), "-out", str(tmp_path / scene.stem),
+                               "-maxSimulationSteps", "0"], capture_output=True, text=True, check=True)
+        assert done.returncode == 0
+        checking.check_file(tmp_path / scene.stem / "parameters.json")

@@ -1,0 +1,85 @@
+"""Wires pressed on as hard as can be: none passes a wall, none freezes, and what is said of it is true."""
+
+import json
+import os
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from analysis.logs import read_log
+from analysis.passages import Wall, count_passages, inside
+from wall_distance import least_distance, placed, read_case, read_triangles
+
+CASES = Path(__file__).with_name("contact_cases")
+QUICK = (
+    "base_driven_into_a_branch", "drive_of_many_parts", "driven_sphere_alone", "four_elements_at_a_ridge",
+    "long_elements_among_obstacles", "plate_without_stiffness", "spheres_at_a_sharp_edge",
+    "twenty_elements_at_a_ridge",
+)
+SLOW = (
+    "fast_into_a_prism", "jammed_in_a_fine_mesh", "jammed_in_a_helix", "jammed_in_a_narrow_tube",
+    "long_elements_in_a_bent_tube", "thrown_at_a_fine_mesh", "tip_stopped_in_a_fine_mesh",
+)
+CHOSEN = QUICK + SLOW if os.environ.get("GUIDEWIRE_ALL") else QUICK
+ALONE = ("driven_sphere_alone", "spheres_at_a_sharp_edge")  # spheres without element contact
+FROZEN = 20  # steps in which a sphere keeps every bit while the wire moves
+DEPTH_TOLERANCE = 1e-9  # units; what both searches owe to rounding
+DRIVE_TOLERANCE = 1e-12  # of the way asked, a step
+
+
+def make(command, folder, name, **changes):
+    """A run of a case: (summary, positions (entries, n + 1, 3) in units)."""
+    arguments = [text for key, value in changes.items() for text in (f"-{key}", str(value))]
+    done = subprocess.run(
+        [*command, "-parameters", str(CASES / f"{name}.json"), "-out", str(folder), *arguments],
+        capture_output=True, text=True,
+    )
+    assert done.returncode == 0, done.stderr
+    return json.loads((folder / "summary.json").read_text()), read_log(folder, spheres="all").positions
+
+
+def test_every_case_is_named():
+    assert sorted(QUICK + SLOW) == sorted(path.stem for path in CASES.glob("*.json"))
+
+
+@pytest.mark.parametrize("name", CHOSEN)
+def test_figures_are_those_of_the_log(runner_command, tmp_path, name):
+    summary, positions = make(runner_command, tmp_path, name)
+    parameters, walls = read_case(CASES / f"{name}.json")
+    radius = parameters["sphereRadius"]
+    least, cuts = least_distance(walls, positions, radius)
+    assert summary["outcome"] == "finished"
+    assert summary["maxPenetration"] == pytest.approx(max(0.0, radius - least), abs=DEPTH_TOLERANCE)
+    way = np.linalg.norm(np.diff(positions[:, 0], axis=0), axis=1).sum()
+    asked = parameters["displacementPerStep"] * parameters["maxSimulationSteps"]
+    assert summary["driveAsked"] == pytest.approx(asked, rel=DRIVE_TOLERANCE * summary["steps"])
+    assert way + summary["driveShortfall"] == pytest.approx(asked, rel=DRIVE_TOLERANCE * summary["steps"])
+    if name not in ALONE:
+        assert cuts == 0
+        assert summary["passages"] == 0
+
+
+@pytest.mark.parametrize("name", ALONE)
+def test_spheres_alone_pass_no_wall_and_what_elements_do_is_counted(runner_command, tmp_path, name):
+    summary, positions = make(runner_command, tmp_path, name)
+    parameters, _ = read_case(CASES / f"{name}.json")
+    vertices, triangles = read_triangles(CASES / parameters["vessel"]["file"])
+    wall = Wall.of(placed(vertices, parameters), triangles)
+    assert inside(wall, positions)[:, ::10].all()
+    assert summary["passages"] == count_passages(wall, positions)
+
+
+@pytest.mark.parametrize("name", ("four_elements_at_a_ridge", "long_elements_among_obstacles"))
+def test_no_sphere_freezes_while_the_wire_moves(runner_command, tmp_path, name):
+    _, positions = make(runner_command, tmp_path, name, maxSimulationSteps=3 * FROZEN)
+    stays = np.all(np.diff(positions, axis=0) == 0.0, axis=-1)
+    for first in range(len(stays) - FROZEN + 1):
+        frozen = stays[first:first + FROZEN].all(axis=0)
+        assert frozen.all() or not frozen[1:].any()
+
+
+def test_a_drive_against_a_wall_is_said_to_be_stuck(runner_command, tmp_path):
+    summary, _ = make(runner_command, tmp_path, "driven_sphere_alone")
+    assert "but the drive is stuck" in summary["reason"]

@@ -1,0 +1,102 @@
+"""Wires pushed at random into vessels of twelve kinds: what each log says, found by a search of its own."""
+
+import os
+
+import numpy as np
+import pytest
+
+from analysis.push_claims import Walls, judge
+from analysis.wall_search import MeshSearch, closed_form
+from experiments import pushes
+from experiments.push_campaign import campaign
+
+FULL = os.environ.get("GUIDEWIRE_ALL") == "1"
+# In the fraction each kind with one rule or two, and each rule with six kinds.
+FRACTION = [1008 + 12 * rule + kind for rule in range(3) for kind in range(12) if (rule + kind) % 2 == 0]
+SEEDS = range(1000) if FULL else FRACTION
+
+
+def test_pushes_pass_no_wall_freeze_nowhere_and_say_what_is_true(runner_command, tmp_path):
+    broken = [f"{push.seed} {push.kind}: {push.claims}" for push in campaign(runner_command, SEEDS, tmp_path)
+              if push.claims]
+    assert not broken, "\n".join(broken)
+
+
+def test_a_seed_is_one_scene_and_seeds_have_all_kinds_and_rules(tmp_path):
+    drawn = [pushes.draw(seed, tmp_path) for seed in range(36)]
+    assert {(kind, scene["elementContact"]) for kind, scene in drawn} == {
+        (kind, rule) for kind in pushes.KINDS for rule in pushes.CONTACT_RULES}
+    assert drawn[:12] == [pushes.draw(seed, tmp_path) for seed in range(12)]
+    steps = [scene["displacementPerStep"] / scene["sphereRadius"] for _, scene in drawn]
+    assert 0.1 <= min(steps) < 0.5 and 10.0 < max(steps) <= 20.0
+    lengths = [scene["guidewireLength"] / scene["numberRodElements"] for _, scene in drawn]
+    assert 4.0 <= min(lengths) < 6.0 and 50.0 < max(lengths) <= 100.0
+
+
+# The search itself, against what is known without it.
+
+
+def _box_mesh(half):
+    corners = half * np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
+    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    return np.array([corners[list(face)] for a, b, c, d in quads for face in ((a, b, c), (a, c, d))])
+
+
+def test_the_search_knows_a_box_from_its_formula():
+    random = np.random.default_rng(3)
+    half = np.array([3.0, 2.0, 5.0])
+    mesh = MeshSearch(_box_mesh(half))
+    points = random.uniform(-6.0, 6.0, (2000, 3))
+    beyond = np.abs(points) - half
+    signed = np.linalg.norm(np.maximum(beyond, 0.0), axis=1) + np.minimum(beyond.max(axis=1), 0.0)
+    assert np.array_equal(mesh.inside(points), signed < 0.0)
+    assert mesh.distance(points) == pytest.approx(np.abs(signed), abs=1e-12)
+    box = {"shape": "box", "centre": [0, 0, 0], "halfSize": half.tolist(), "rotation": [0, 0, 0]}
+    wall = closed_form(box, pushes.rotation_of)
+    distance = wall.distance
+    assert distance(points) == pytest.approx(signed, abs=1e-12)
+    a, b = points[:1000], points[1000:]
+    share = np.linspace(0.0, 1.0, 2001)[:, None]
+    for p, q in zip(a[:60], b[:60]):
+        along = distance((1.0 - share) * p + share * q)
+        step = np.linalg.norm(q - p) / 2000
+        least = wall.least_along(p[None], q[None], np.inf)
+        assert along.min() - step <= least <= along.min() + 1e-12
+        crosses = mesh.crosses(p[None], q[None])[0]
+        assert crosses == (along.min() < 0.0 < along.max())
+        if not crosses:
+            unsigned = mesh.least_distance(p[None], q[None], 100.0)
+            assert np.abs(along).min() - step <= unsigned <= np.abs(along).min() + 1e-12
+
+
+def test_the_search_knows_a_tube_on_its_axis_and_beyond_its_open_end():
+    tube = {"shape": "tube", "knots": [[0, 0, 0], [0, 0, 50], [0, 20, 90]], "radius": [10, 8, 6]}
+    wall = closed_form(tube, pushes.rotation_of)
+    assert wall.distance(np.array([[0.0, 3.0, -70.0], [0.0, 0.0, 25.0]])) == pytest.approx(
+        [7.0, 9.0], abs=1e-12)
+
+
+def _judged(scene, summary, positions):
+    """The first words of what a claim is made of."""
+    walls = Walls.of(scene, _box_mesh(np.array([10.0, 10.0, 100.0])), pushes.rotation_of)
+    return [claim.split(" = ")[0] for claim in judge(scene, summary, positions, walls)]
+
+
+def test_the_judge_finds_what_was_made_wrong():
+    scene = {"vessel": {"shape": "mesh"}, "elementContact": "barycentric", "displacementPerStep": 0.5,
+             "sphereRadius": 2.0}
+    steps = 30
+    z = 10.0 * np.arange(4)[None] + 0.5 * np.arange(steps + 1)[:, None]
+    positions = np.stack([np.full_like(z, 9.0), np.zeros_like(z), z], axis=2)
+    summary = {"passages": 0, "maxPenetration": 1.0, "driveAsked": 0.5 * steps, "driveShortfall": 0.0}
+    assert _judged(scene, summary, positions) == []
+    assert _judged(scene, {**summary, "maxPenetration": 1.0 + 1e-8}, positions) == ["maxPenetration"]
+    assert _judged(scene, {**summary, "driveAsked": 0.5 * steps + 1e-7}, positions) == ["driveAsked"]
+    assert _judged(scene, {**summary, "passages": 1}, positions) == ["passages"]
+    frozen = positions.copy()
+    frozen[5:, 2:4] = frozen[5, 2:4]
+    assert _judged(scene, summary, frozen) == ["element 2 is frozen from step 5 to 25"]
+    across = positions.copy()
+    across[7, 1, 0] = 10.0 + 1e-7
+    claims = _judged(scene, {**summary, "maxPenetration": 2.0, "passages": 1}, across)
+    assert claims == ["sphere 1 is beyond a wall after step 7", "element 0 crosses a wall after step 7; 2 times in all"]

@@ -1,0 +1,41 @@
+"""The walls of a run as triangles, from the runner, which alone knows what its parameters mean."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from collections.abc import Callable
+
+import numpy as np
+
+from analysis.runs import PARAMETERS_NAME, Run
+from analysis.surfaces import Surface
+from experiments.prepare import PreparationError
+
+
+def read_walls(build_runner: Callable[[], list[str]], run: Run, middle: np.ndarray, reach: float) -> list[Surface]:
+    """The vessel, where the run has one, and its obstacles.
+
+    Parameters
+    ----------
+    build_runner : returns the command that starts the runner; not called where there are no walls.
+    run : the run.
+    middle : ndarray (3,), units, and
+    reach : units: of a wall without end what is so near.
+
+    Raises
+    ------
+    PreparationError : the runner cannot read the run's parameters, or a mesh that they name.
+    """
+    if not run.parameters.get("vessel") and not run.parameters.get("obstacles"):
+        return []
+    numbers = [repr(float(number)) for number in (*middle, reach)]
+    done = subprocess.run([*build_runner(), "--walls", str(run.folder / PARAMETERS_NAME), *numbers],
+                          capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise PreparationError(done.stderr.strip().removeprefix("guidewire: "))
+    walls = []
+    for wall in json.loads(done.stdout):
+        vertices = np.array(wall["vertices"], dtype=float)
+        walls.append(Surface(vertices, np.array(wall["triangles"], dtype=int), np.zeros(len(vertices))))
+    return walls
