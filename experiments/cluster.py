@@ -42,6 +42,7 @@ _TO_END = 60.0  # s, for a run that was interrupted
 _BETWEEN_LOOKS = 5.0  # s, for workers that came or went
 _WITHOUT_WORKERS = 60.0  # s, that a sweep waits for workers to come back
 
+_TRAVELLING = (load, runner, store, worker)  # the code that workers elsewhere get with the runs
 OnAnswer = Callable[[Job, Answer], None]
 
 
@@ -73,7 +74,7 @@ class Cluster:
         dask.config.set({"temporary-directory": self._scratch.name})
         self._works = (worker.make, worker.check)
         if address is not None:
-            for module in (load, runner, store, worker):
+            for module in _TRAVELLING:
                 cloudpickle.register_pickle_by_value(module)  # workers elsewhere have no such package
             # Copies: dask keeps what it has pickled once, which may have been for workers within this process.
             self._works = tuple(cloudpickle.loads(cloudpickle.dumps(work)) for work in self._works)
@@ -87,7 +88,7 @@ class Cluster:
                     )
                 self._client = Client(self._cluster or address, timeout=_TO_ANSWER)
         except (OSError, ValueError) as error:
-            self._scratch.cleanup()
+            self._forget()
             raise PreparationError(f"no scheduler answers at {address}: start one with 'dask-scheduler', "
                                    "and give the address that it prints") from error
         try:
@@ -114,7 +115,7 @@ class Cluster:
         self._client.close()
         if self._cluster is not None:
             self._cluster.close()
-        self._scratch.cleanup()
+        self._forget()
 
     @property
     def places(self) -> int:
@@ -178,6 +179,13 @@ class Cluster:
         return self._client.submit(
             self._works[0], self._plugin, tuple(command), [job.to_plain() for job in jobs], pure=False
         )
+
+    def _forget(self) -> None:
+        """Take back what was changed for all of dask."""
+        if self._address is not None:
+            for module in _TRAVELLING:
+                cloudpickle.unregister_pickle_by_value(module)
+        self._scratch.cleanup()
 
     def _gone(self) -> PreparationError:
         return PreparationError(f"the scheduler at {self._address} is gone; {_KEPT}")

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import base64
 import json
+import math
 import subprocess
 import sys
 import warnings
@@ -135,6 +136,9 @@ class Session:
         turn : turn of the first element about its axis in all of them, rad.
         steps : number of steps, from 1; push and turn are made in equal parts.
         """
+        for name, value in (("push", push), ("turn", turn)):
+            if not math.isfinite(value):
+                raise SessionError(f"{name} = {value} is not allowed: needs a finite number")
         self._state = _read_state(self._ask("step", push=float(push), turn=float(turn), steps=int(steps)))
         return self._state
 

@@ -162,7 +162,7 @@ def replay(check: Check, folder: Path) -> Finding:
 
 def read_cases(cases: Sequence[Case], folder: Path) -> dict[str, Run]:
     """Runs of these cases, by key."""
-    made = read_runs(folder)
+    made = read_runs(folder) if cases else {}
     missing = next((case.key for case in cases if case.key not in made), None)
     if missing is not None:
         raise LogError(f"{folder / TABLE}: has no run {missing}")

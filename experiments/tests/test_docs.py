@@ -1,15 +1,18 @@
 """What README.md and the pages of docs show is there and works, and what they say of files and keys is the runner's."""
 
 import csv
+import dataclasses
 import json
 import re
 import shlex
 import subprocess
+import sys
 
 import pytest
 
 from experiments.commands import parse
 from experiments.prepare import ROOT
+from experiments.session import State
 from experiments.sweep import Means, sweep
 from studies.study_file import KEYS
 from studies.table import Axis, Grid, Study
@@ -17,7 +20,7 @@ from studies.table import Axis, Grid, Study
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 RUNS = (ROOT / "docs" / "runs.md").read_text(encoding="utf-8")
 _FOLDERS = "Assets|analysis|docs|experiments|params|studies|unitycheck"
-_PLACEHOLDERS = {"STUDY": "default", "FILE": "params/default.json", "N": "2", "...": ""}
+_PLACEHOLDERS = {"T": "1", "STUDY": "default", "FILE": "params/default.json", "N": "2", "...": ""}
 
 
 def blocks(text, language):
@@ -96,6 +99,36 @@ def test_every_command_that_a_page_shows_can_be_typed(page):
 def test_every_parameter_file_that_a_page_shows_can_be_run(page, runner_command, tmp_path):
     for k, block in enumerate(blocks(page.read_text(encoding="utf-8"), "json")):
         run(runner_command, tmp_path / str(k), json.loads(block), maxSimulationSteps=0)
+
+
+def test_every_python_that_the_page_of_python_shows_runs(runner_command, tmp_path):
+    page = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
+    (tmp_path / "params").symlink_to(ROOT / "params")
+    run(runner_command, tmp_path / "results" / "insertion", ROOT / "params" / "insertion.json", maxSimulationSteps=20)
+    for k, block in enumerate(blocks(page, "python")):
+        (tmp_path / "script.py").write_text(block, encoding="utf-8")
+        done = subprocess.run([sys.executable, str(ROOT / "guidewire.py"), "python", "script.py"], cwd=tmp_path,
+                              capture_output=True, text=True, check=False)
+        assert done.returncode == 0 and done.stdout and not done.stderr, f"block {k}: {done.stderr}"
+
+
+def test_every_attribute_of_a_state_is_explained_and_no_other():
+    page = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
+    explained = table_keys(page.split("\n| of a state ")[1].split("\n\n")[0])
+    assert sorted(explained) == sorted(field.name for field in dataclasses.fields(State))
+
+
+def test_every_key_of_a_sessions_answers_is_explained(runner_command):
+    requests = [{"session": "open", "set": {"solver": "direct", "proximalEnd": "clamped"}}, {"session": "step"},
+                {"session": "save"}]
+    done = subprocess.run([*runner_command, "-lines"], input="".join(json.dumps(r) + "\n" for r in requests),
+                          capture_output=True, text=True, check=True)
+    told = section(RUNS, "## A run step by step")
+    for line in done.stdout.splitlines():
+        answer = json.loads(line)
+        assert answer["exitCode"] == 0, answer["message"]
+        for key in {*answer} - {"out", "reused"}:
+            assert f"`{key}`" in told, key
 
 
 def test_the_table_of_keys_is_the_runners_own(runner_command):

@@ -10,6 +10,8 @@ namespace Guidewire.Core.Tests
     [TestFixture]
     public sealed class SimulationSessionTests
     {
+        private static readonly KeyValuePair<string, JToken>[] Nothing = Array.Empty<KeyValuePair<string, JToken>>();
+
         private string _folder = "";
         private string _file = "";
 
@@ -55,7 +57,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void RestoredAndResetSession_TakesTheSameStepsUnderTheSameHand()
         {
-            SimulationSession session = SimulationSession.Open(_file, Array.Empty<KeyValuePair<string, JToken>>(), null);
+            SimulationSession session = SimulationSession.Open(_file, Nothing, null);
             Assert.That(session.IsSteered, Is.True);
             Vector3d[][] tips = new Vector3d[3][];
             byte[] saved = session.Save();
@@ -82,7 +84,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void Restore_Refuses_OtherParameters_AndWhatIsNotWhole_AndChangesNothing()
         {
-            SimulationSession session = SimulationSession.Open(_file, Array.Empty<KeyValuePair<string, JToken>>(), true);
+            SimulationSession session = SimulationSession.Open(_file, Nothing, true);
             using SimulationSession other = Open("", true, "bendStiffness=0.3");
             using SimulationSession driven = Open("", false);
             byte[] saved = session.Save();

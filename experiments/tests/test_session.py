@@ -1,0 +1,179 @@
+"""Sessions against runs and against each other, what they refuse, and scripts that the door starts."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from analysis.logs import read_log
+from experiments.prepare import ROOT
+from experiments.session import Session, SessionError
+
+WIRE = {"numberRodElements": 8, "constraintSolverSteps": 20, "deltaThreshold": 0, "displacement": 0}
+TUBE = {**WIRE, "guidewireOffset": -310, "sphereRadius": 4, "collisionStiffness": 0.1, "damping": 0.1,
+        "vessel": {"shape": "tube", "knots": [[0, 0, -330], [0, 0, 0], [0, 40, 60]], "radius": 10}}
+MATERIAL = {"solver": "direct", "proximalEnd": "clamped", "numberRodElements": 8, "gravity": [0, -9.81, 0],
+            "maxSimulationSteps": 5, "initialState": "equilibrium", "deltaThreshold": 0}
+MOTION = ("positions", "velocities", "orientations", "angular_velocities", "contact_forces")
+
+
+def assert_same_bits(a, b):
+    for name in MOTION:
+        np.testing.assert_array_equal(getattr(a, name), getattr(b, name), err_msg=name)
+    assert (a.step, a.time, a.outcome, a.prediction_error) == (b.step, b.time, b.outcome, b.prediction_error)
+
+
+@pytest.mark.parametrize("scene", [{**TUBE, "drive": "push", "displacementPerStep": 0.7}, MATERIAL],
+                         ids=["gains in a tube", "material"])
+def test_a_session_without_a_hand_takes_the_steps_of_a_run(runner_command, tmp_path, scene):
+    scene = {**scene, "maxSimulationSteps": 6, "logOrientations": True}
+    (tmp_path / "scene.json").write_text(json.dumps(scene))
+    subprocess.run([*runner_command, "-parameters", str(tmp_path / "scene.json"), "-out", str(tmp_path / "run")],
+                   check=True, capture_output=True)
+    log = read_log(tmp_path / "run", "all", velocities=True)
+    with Session(tmp_path / "scene.json", hand=False) as session:
+        states = [session.state, *(session.step() for _ in range(6))]
+    np.testing.assert_array_equal([state.positions for state in states], log.positions)
+    np.testing.assert_array_equal([state.velocities for state in states], log.velocities)
+    np.testing.assert_array_equal([state.time for state in states], log.time)
+    assert [state.outcome for state in states] == [None] * 6 + ["finished"]
+    assert states[-1].reason == "all 6 steps are done"
+
+
+def test_what_a_hand_asks_is_made_in_equal_parts_along_and_about_the_first_element():
+    with Session(**WIRE) as session:
+        assert session.hand and session.parameters["numberRodElements"] == 8
+        before = session.state
+        state = session.step(push=3.0, turn=0.6, steps=4)
+    assert state.step == 4
+    assert state.positions[0] - before.positions[0] == pytest.approx([0.0, 0.0, 3.0])
+    assert state.orientations[0] == pytest.approx([0.0, 0.0, np.sin(0.3), np.cos(0.3)])
+    assert state.positions.shape == (9, 3) and state.orientations.shape == (8, 4)
+    assert state.angular_velocities.shape == (8, 3) and not state.contact_forces.any()
+    assert (state.curvature, state.couple, state.strain, state.force) == (None, None, None, None)
+
+
+def test_sessions_side_by_side_save_restore_and_reset_to_the_same_bits():
+    with Session(**TUBE) as one, Session(**TUBE) as other:
+        start = one.state
+        one.step(push=40.0, steps=20)
+        saved = one.save()
+        middle = one.state
+        end = one.step(push=30.0, turn=1.0, steps=15)
+        assert end.contact_forces.any(), "the scene has contacts"
+        assert_same_bits(other.state, start)
+        assert_same_bits(other.restore(saved), middle)
+        assert_same_bits(other.step(push=30.0, turn=1.0, steps=15), end)
+        assert_same_bits(one.restore(saved), middle)
+        assert_same_bits(one.reset(), start)
+        one.step(push=40.0, steps=20)
+        assert_same_bits(one.step(push=30.0, turn=1.0, steps=15), end)
+
+
+def test_a_material_states_its_forces_and_is_carried_by_its_support():
+    with Session(**MATERIAL) as session:
+        assert not session.hand
+        state = session.step()
+        values = session.parameters
+    weight = 9.81 * values["density"] * np.pi * values["wireRadius"]**2 * 1e-3 * values["guidewireLength"]
+    assert state.reaction == pytest.approx([0.0, weight, 0.0], rel=1e-3, abs=1e-6 * weight)
+    assert state.force.shape == state.strain.shape == (8, 3)
+    assert state.curvature.shape == state.couple.shape == (9, 3)
+    # The couple at the clamp carries the weight of a wire that is nearly straight at its middle.
+    lever = 1e-3 * (state.positions[:, 2].mean() - state.positions[0, 2])
+    assert abs(state.couple[0, 0]) == pytest.approx(weight * lever, rel=0.02)
+
+
+def test_a_run_that_has_ended_stays_as_it_is_until_it_is_reset():
+    with Session(**WIRE, maxSimulationSteps=2) as session:
+        assert session.step(push=5.0, steps=5).step == 2
+        ended = session.state
+        assert_same_bits(session.step(push=5.0), ended)
+        assert session.reset().outcome is None
+
+
+@pytest.mark.parametrize("arguments, words", [
+    ({"timestep": 0.1}, ["'timestep'", "'timeStep'"]), ({"timeStep": -1}, ["timeStep = -1", "number > 0"]),
+    ({"file": "nowhere.json"}, ["nowhere.json"]), ({"solver": "direct", "hand": True}, ["direct", "not steered"]),
+    ({"gravity": np.array([1.0, 2.0])}, ["gravity = [1.0,2.0]", "three numbers"]),
+])
+def test_what_cannot_be_opened_is_one_line(arguments, words):
+    with pytest.raises(SessionError) as refused:
+        Session(**arguments)
+    line = str(refused.value)
+    assert "\n" not in line
+    for word in words:
+        assert word in line
+
+
+def test_what_cannot_be_done_is_one_line_and_the_session_goes_on():
+    with Session(**MATERIAL) as session, Session(**WIRE) as other:
+        before = session.state
+        for wrong, words in (
+            (lambda: session.step(push=1.0), "push and turn need a session that a hand steers"),
+            (lambda: session.step(steps=0), "steps = 0 is not allowed"),
+            (lambda: session.step(steps=10**12), "steps = 1000000000000 is not allowed"),
+            (lambda: session.step(turn=float("nan")), "turn = nan is not allowed"),
+            (lambda: session.restore(other.save()), "not saved by a session of these parameters"),
+            (lambda: session.restore(session.save()[:-8]), "not whole"),
+            (lambda: session.restore(b""), "not whole"),
+        ):
+            with pytest.raises(SessionError, match=words) as refused:
+                wrong()
+            assert "\n" not in str(refused.value)
+        assert_same_bits(session.restore(session.save()), before)
+    with pytest.raises(SessionError, match="closed"):
+        session.step()
+    assert_same_bits(session.state, before)
+
+
+def test_a_runner_that_dies_is_said_and_leaves_no_process():
+    with Session(**WIRE) as session:
+        process = session._process
+        process.send_signal(signal.SIGKILL)
+        with pytest.raises(SessionError, match="killed by signal 9"):
+            session.step()
+        assert process.poll() is not None
+    with Session(**WIRE) as session:
+        process = session._process
+    assert process.poll() == 0
+
+
+def test_a_key_of_a_file_that_is_passed_over_is_warned_of(tmp_path):
+    (tmp_path / "scene.json").write_text(json.dumps({**MATERIAL, "bendStiffness": 0.2}))
+    with pytest.warns(UserWarning, match="bendStiffness"):
+        Session(tmp_path / "scene.json").close()
+
+
+SCRIPT = """
+import sys
+from guidewire import Session, read_log, read_run
+with Session(numberRodElements=3, constraintSolverSteps=1) as session:
+    print(session.step(push=1.0).step, *sys.argv[1:])
+sys.exit(7)
+"""
+
+
+def test_a_script_anywhere_has_the_sessions_of_guidewire(runner_command, tmp_path):
+    (tmp_path / "script.py").write_text(SCRIPT)
+    done = subprocess.run([sys.executable, str(ROOT / "guidewire.py"), "python", "script.py", "-x", "--set", "1"],
+                          cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (7, "1 -x --set 1\n", "")
+
+
+def test_a_script_that_is_not_there_is_one_line(tmp_path):
+    done = subprocess.run([sys.executable, str(ROOT / "guidewire.py"), "python", "script.py"], cwd=tmp_path,
+                          capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (2, "guidewire: script.py: no such file: give a Python script\n")
+
+
+def test_the_module_lends_what_it_names_and_nothing_else():
+    check = ("import guidewire; from guidewire import *; print(*[name for name in guidewire.__all__ "
+             "if getattr(guidewire, name) is not globals()[name]]); guidewire.nothing")
+    done = subprocess.run([sys.executable, "-c", check], capture_output=True, text=True, check=False,
+                          env={**os.environ, "PYTHONPATH": str(ROOT)})
+    assert done.stdout == "\n" and "has no attribute 'nothing'" in done.stderr
