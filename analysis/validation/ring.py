@@ -15,7 +15,7 @@ from analysis.runs import Run
 from analysis.validation import scenes, twisted
 from analysis.validation.check import Check, Finding, Plan
 from analysis.validation.stability import (
-    GATE, MOVING, PUSH, SECTION, branches, limit, limit_line, motion, pushed, pushed_line,
+    GATE, MOVING, PUSH, SECTION, branches, limit, limit_line, motion, passed_through_itself, pushed, pushed_line,
 )
 from analysis.validation.states import State, last_state
 from analysis.validation.wire import BASE, STURDY, Wire
@@ -103,6 +103,8 @@ def _start(n: int) -> dict[str, Any]:
 
 def _left(wire: Wire, run: Run) -> float:
     """Root mean square distance of the nodes from their plane over L, or the share of twist lost where it is large."""
+    if passed_through_itself(run):
+        return math.inf
     if run.outcome == "failed":
         return math.nan
     if run.outcome == "diverged":

@@ -190,15 +190,25 @@ def branches(
 
 
 def _off_axis(wire: Wire, run: Run) -> float:
-    """Largest distance of a node from the z axis, over L."""
+    """Largest distance of a node from the z axis, over L; 1 where the rod left it so far that it passed through
+    itself."""
+    if passed_through_itself(run):
+        return 1.0
     if run.outcome == "failed":
         return math.nan
     return float(np.max(np.linalg.norm(last_state(run).positions[:, :2], axis=1))) / wire.length
 
 
+def passed_through_itself(run: Run) -> bool:
+    """Whether the run failed because the rod, out of its first shape, came back to it with fewer turns."""
+    return run.outcome == "failed" and "passed through itself" in (run.summary or {}).get("reason", "")
+
+
 def _lost_turn(run: Run) -> float:
     """Share of its turn that a rod has lost: one that leaves its shape may pass through itself and come back to it with
-    fewer turns, which only the torque shows."""
+    fewer turns, which the torque shows."""
+    if passed_through_itself(run):
+        return 1.0
     turn = run.number("distalRotation")
     torsion = 2.0 * run.number("shearModulus") * BASE.second_moment
     return abs(1.0 - float(solver_report(run, "distalMoment")[2]) * BASE.length / (torsion * turn))
