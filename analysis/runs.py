@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from analysis.logs import LogError, find_log
-from studies.keys import TABLE, Value, repeat_folder
+from studies.keys import TABLE, Value
 
 PARAMETERS_NAME = "parameters.json"
 SUMMARY_NAME = "summary.json"
+LOAD_NAME = "load.json"
 
 
 @dataclass(frozen=True)
@@ -34,6 +35,8 @@ class Run:
         for a run that is not timed).
     variant, values : str, mapping of str to number, bool or str
         From the same: name of the variant, empty where there is none, and the values of the axes by key.
+    repeat_folders : tuple of Path
+        Where its timed repeats stand, in their order, where they were asked for.
     """
 
     folder: Path
@@ -43,6 +46,7 @@ class Run:
     repeat: int | None = None
     variant: str = ""
     values: Mapping[str, Value] = field(default_factory=dict)
+    repeat_folders: tuple[Path, ...] = ()
 
     def value(self, key: str) -> Any:
         """The effective value of a parameter."""
@@ -64,6 +68,12 @@ class Run:
         if name not in self.summary:
             raise LogError(f"{self.folder / SUMMARY_NAME}: has no {name}")
         return self.summary[name]
+
+    @property
+    def others_busy(self) -> float | None:
+        """Processors that other programs kept busy beside a timed run, on average; None where nobody looked."""
+        file = self.folder / LOAD_NAME
+        return float(_read_object(file)["othersBusy"]) if file.is_file() else None
 
     @property
     def outcome(self) -> str:
@@ -146,25 +156,63 @@ def read_run(
 
 def read_repeats(run: Run, repeats: int) -> list[Run]:
     """The timed repeats of a run that has so many."""
-    return [read_run(run.folder / repeat_folder(k), run.key, k, run.variant, run.values) for k in range(1, repeats + 1)]
+    if len(run.repeat_folders) < repeats:
+        raise LogError(f"{run.key}: has {len(run.repeat_folders)} timed repeats, not {repeats}")
+    return [read_run(place, run.key, k, run.variant, run.values)
+            for k, place in enumerate(run.repeat_folders[:repeats], 1)]
+
+
+def read_runs(folder: Path) -> dict[str, Run]:
+    """Runs in a study's table that are not timed, by key, each with the folders of its timed repeats.
+
+    Raises
+    ------
+    LogError
+        The table, or a small file of a run, cannot be read.
+    """
+    runs: dict[str, Run] = {}
+    repeats: dict[str, dict[int, Path]] = {}
+    for row in _rows(folder):
+        if row.repeat is None:
+            runs[row.key] = read_run(row.place, row.key, None, row.variant, row.values)
+        else:
+            repeats.setdefault(row.key, {})[row.repeat] = row.place
+    return {key: replace(run, repeat_folders=tuple(place for _, place in sorted(repeats.get(key, {}).items())))
+            for key, run in runs.items()}
 
 
 def read_study(folder: Path) -> StudyRuns:
     """Reads study.json and every run of it that left a log."""
-    table = _read_object(folder / TABLE)
     runs, missing = [], []
-    for row in table.get("runs", []):
+    for row in _rows(folder):
         try:
-            key, place, about = row["key"], folder / row["folder"], (row["repeat"], row["variant"], row["values"])
-        except (KeyError, TypeError) as error:
-            raise LogError(f"{folder / TABLE}: a run lacks {error}") from error
-        try:
-            find_log(place)
+            find_log(row.place)
         except LogError:
-            missing.append(key)
+            missing.append(row.key)
         else:
-            runs.append(read_run(place, key, *about))
-    return StudyRuns(str(table.get("study", folder.name)), folder, tuple(runs), tuple(missing))
+            runs.append(read_run(row.place, row.key, row.repeat, row.variant, row.values))
+    name = _read_object(folder / TABLE).get("study", folder.name)
+    return StudyRuns(str(name), folder, tuple(runs), tuple(missing))
+
+
+@dataclass(frozen=True)
+class _Row:
+    """A line of a study's table, and where its run stands."""
+
+    key: str
+    variant: str
+    values: Mapping[str, Value]
+    repeat: int | None
+    place: Path
+
+
+def _rows(folder: Path) -> list[_Row]:
+    """The lines of a study's table."""
+    try:
+        return [_Row(row["key"], row["variant"], row["values"], row["repeat"], (folder / row["folder"]).resolve())
+                for row in _read_object(folder / TABLE).get("runs", [])]
+    except (KeyError, TypeError) as error:
+        raise LogError(f"{folder / TABLE}: a run lacks {error}") from error
 
 
 def _read_object(path: Path) -> Mapping[str, Any]:

@@ -57,6 +57,8 @@ class StudyRow:
         Average wall time of a step of each timed repeat, in ms.
     computation_time : Spread or None
         Wall time up to the steady state of each timed repeat, in s; None also without a steady state.
+    others_busy : float or None
+        Processors that other programs kept busy beside the repeat that they disturbed most; None where nobody looked.
     warning : str or None
         What the log's reader had to say.
     """
@@ -71,6 +73,7 @@ class StudyRow:
     total_error: float | None
     step_time: Spread | None
     computation_time: Spread | None
+    others_busy: float | None
     warning: str | None
 
     @property
@@ -148,6 +151,7 @@ def _measure(run: Run, repeats: Sequence[Run], value: float) -> StudyRow:
         total_error=_total_error(run, log),
         step_time=Spread.of([repeat.measured("averageStepTime") for repeat in repeats]),
         computation_time=None if steady is None else Spread.of([_elapsed(repeat, steady) for repeat in repeats]),
+        others_busy=max((busy for busy in (repeat.others_busy for repeat in repeats) if busy is not None), default=None),
         warning=log.warning,
     )
 

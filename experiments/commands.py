@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import difflib
 import json
 import math
 import os
@@ -13,21 +14,24 @@ import threading
 import traceback
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from experiments import building, checking
-from experiments.prepare import DRAWING, ROOT, TESTING, PreparationError
-from experiments.runner import INTERNAL_ERROR, INTERRUPTED, Answer
-from experiments.sweep import SweepResult, sweep
+from experiments.prepare import DRAWING, ROOT, SWEEPING, TESTING, PreparationError
+from experiments.runner import INTERNAL_ERROR, INTERRUPTED
+from experiments.sweep import FAILED, Bar, Means, SweepResult, sweep
 from studies.builtin import STUDIES
+from studies.keys import RESULTS
+from studies.study_file import LIMIT, StudyFileError, read_study_file
+from studies.table import Source, Study
 
 if TYPE_CHECKING:
     from experiments.gallery import Gallery  # itself imported only where its packages are there
-    from studies.table import Source
 
 BEYOND_A_GATE = 1  # all that was asked for is there, and a check is not passed
-FAILED = 5  # as of a run: something that was asked for is not there
+_RUNS = "runs"  # folder of all runs, in that of the results
 _RUNNER_WORDS = ("parameters", "out", "force", "repeat", "lines", "logFile")  # the runner's own arguments, like -KEY
 _DESCRIPTION = "Simulates guidewires as Cosserat rods, without Unity: runs, sweeps, figures, tests."
 
@@ -42,7 +46,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
 
     demo = commands.add_parser("demo", help="build, run the default scene, fit tau, draw Figures 4.1 to 4.4")
     demo.add_argument("--out", type=_path, default=Path("results/demo"), help="folder for the run and the pictures")
-    demo.set_defaults(action=_demo, packages=DRAWING)
+    demo.set_defaults(action=_demo, packages=DRAWING + SWEEPING)
 
     test = commands.add_parser("test", help="all tests; the last line says 'N passed, N failed'")
     test.add_argument("--all", action="store_true", help="random campaigns in full instead of a seeded fraction")
@@ -60,21 +64,21 @@ def parse(argv: list[str]) -> argparse.Namespace:
     run.set_defaults(action=_run, packages=())
 
     sweep = commands.add_parser("sweep", help="a study's runs; what is done already is not run again")
-    sweep.add_argument("study", metavar="STUDY", choices=list(STUDIES), help=", ".join(STUDIES))
-    sweep.add_argument("--jobs", type=_positive, default=os.cpu_count() or 1, metavar="N",
-                       help="untimed runs at once (one per processor); timed ones always run alone")
+    sweep.add_argument("study", metavar="STUDY", help=f"{', '.join(STUDIES)}; or a study of your own, a JSON file")
     sweep.add_argument("--out", type=_path, default=Path("results"), help="folder above the study's (results)")
+    sweep.add_argument("--logs", action="store_true", help="every run leaves its log, whatever the study's file says")
+    sweep.add_argument("--yes", action="store_true", help="make the runs, however many the study's file asks for")
+    _add_workers(sweep)
     _add_runner(sweep)
-    sweep.set_defaults(action=_sweep, packages=())
+    sweep.set_defaults(action=_sweep, packages=SWEEPING)
 
     figures = commands.add_parser("figures", help="the thesis's figures and ours, running what is missing; ends with "
                                                   "1 where a check is beyond its gate")
     figures.add_argument("ids", metavar="ID", nargs="*", help="such as 4.5; all where none is given")
-    figures.add_argument("--jobs", type=_positive, default=os.cpu_count() or 1, metavar="N",
-                         help="untimed runs at once")
     figures.add_argument("--out", type=_path, default=Path("results"),
                          help="folder above the studies' (results); the pictures stand in its 'figures'")
-    figures.set_defaults(action=_figures, packages=DRAWING)
+    _add_workers(figures)
+    figures.set_defaults(action=_figures, packages=DRAWING + SWEEPING)
 
     render = commands.add_parser("render", help="a picture or a film of a run, with its vessel and obstacles")
     render.add_argument("folder", type=Path, metavar="RUN", help="folder of a run")
@@ -189,11 +193,10 @@ def _demo(arguments: argparse.Namespace) -> int:
     from experiments import gallery
 
     checking.check_out(arguments.out)
-    command = _build_runner()
-    result = _make("default", [STUDIES["default"]], command, arguments.out, jobs=1)
-    if result.failures:
+    means = Means(_build_runner(), bar=_bar_of("default"))
+    if _make([(STUDIES["default"], arguments.out)], arguments.out, means).failures:
         return FAILED
-    study = result.folder / "default"
+    study = arguments.out / "default"
     ids = [name for name, spec in figures.FIGURES.items() if set(spec.studies) == {"default"}]
     drawn = gallery.draw(ids, {"default": study}, arguments.out)
     for line in gallery.describe_default_run(study):
@@ -222,10 +225,30 @@ def _run(arguments: argparse.Namespace) -> int:
 
 def _sweep(arguments: argparse.Namespace) -> int:
     checking.check_out(arguments.out)
-    command = _runner_of(arguments)
-    result = _make(arguments.study, [STUDIES[arguments.study]], command, arguments.out, arguments.jobs)
-    print(f"runs: {os.path.relpath(result.folder / arguments.study)}")
+    study = _study_of(arguments)
+    means = _means_of(arguments, _runner_of(arguments), study.name, study.file and study.file.parent)
+    result = _make([(study, arguments.out)], arguments.out, means)
+    print(f"{result.made} runs made, {result.found} there already: "
+          f"{os.path.relpath(arguments.out / study.name / RESULTS)}")
     return FAILED if result.failures else 0
+
+
+def _study_of(arguments: argparse.Namespace) -> Study:
+    """The study with this name, or in this file."""
+    if arguments.study in STUDIES:
+        return STUDIES[arguments.study]
+    path = Path(arguments.study)
+    if path.suffix != ".json" and not path.is_file():
+        near = difflib.get_close_matches(arguments.study, STUDIES, 1)
+        hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(STUDIES)}, or a JSON file"
+        raise PreparationError(f"there is no study '{arguments.study}': {hint}")
+    try:
+        study = read_study_file(path, None if arguments.yes else LIMIT)
+    except StudyFileError as error:
+        raise PreparationError(str(error)) from error
+    if study.name in (*STUDIES, _RUNS):
+        raise PreparationError(f"{path}: study = \"{study.name}\" is not allowed: another name, that one is ours")
+    return replace(study, logs=study.logs or arguments.logs)
 
 
 def _figures(arguments: argparse.Namespace) -> int:
@@ -238,14 +261,14 @@ def _figures(arguments: argparse.Namespace) -> int:
     ids = arguments.ids or list(known)
     studies = {name for figure in ids for name in known[figure].studies}
     checking.check_out(arguments.out)
-    command = _build_runner()
-    asked: dict[str, tuple[Sequence[Source], Path]] = {name: ([STUDIES[name]], arguments.out) for name in STUDIES}
-    asked |= {name: (checks, arguments.out / name) for name, checks in gallery.CHECKED.items()}
-    results = [_make(name, sources, command, out, arguments.jobs)
-               for name, (sources, out) in asked.items() if name in studies]
+    means = _means_of(arguments, _build_runner(), "figures")
+    asked: list[tuple[Source, Path]] = [(STUDIES[name], arguments.out) for name in STUDIES if name in studies]
+    asked += [(check, arguments.out / name) for name, checks in gallery.CHECKED.items() if name in studies
+              for check in checks]
+    result = _make(asked, arguments.out, means)
     folders = {name: (arguments.out / name).resolve() for name in studies}
     code = _tell(gallery.draw(ids, folders, arguments.out / "figures"))
-    return FAILED if any(result.failures for result in results) else code
+    return FAILED if result.failures else code
 
 
 def _tell(drawn: Gallery) -> int:
@@ -343,6 +366,13 @@ def _unity_check(arguments: argparse.Namespace) -> int:
     return _hand_to([sys.executable, "-m", "unitycheck", *options], cwd=ROOT)
 
 
+def _add_workers(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--jobs", type=_positive, default=os.cpu_count() or 1, metavar="N",
+                        help="untimed runs at once (one per processor); timed ones are made one at a time")
+    parser.add_argument("--cluster", metavar="ADDRESS",
+                        help="scheduler of dask, such as tcp://host:8786, whose workers make the runs")
+
+
 def _add_runner(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--runner", choices=("headless", "unity"), default="headless",
                         help="what makes the runs: the console program (default), or Unity in batch mode")
@@ -404,31 +434,30 @@ def _seconds_counted() -> Iterator[Callable[[str], None]]:
             finish()
 
 
-def _make(name: str, sources: Sequence[Source], command: list[str], out: Path, jobs: int) -> SweepResult:
+def _means_of(arguments: argparse.Namespace, command: list[str], name: str, folder: Path | None = None) -> Means:
+    """What makes runs, as the command line says."""
+    return Means(command, arguments.jobs, arguments.cluster, folder, _build_benchmarks, _bar_of(name))
+
+
+def _make(asked: Sequence[tuple[Source, Path]], out: Path, means: Means) -> SweepResult:
     """Make the runs that studies or checks ask for and say what failed."""
-    result = sweep(sources, command, out, jobs, _progress_of(name), _build_benchmarks)
-    if sys.stderr.isatty():
-        print(file=sys.stderr)
+    result = sweep(asked, out / _RUNS, means)
     for answer in result.failures:
         print(f"guidewire: {answer.name}: {answer.message}", file=sys.stderr)
     return result
 
 
-def _progress_of(name: str) -> Callable[[int, int, Answer], None]:
-    """One line of progress, several where stderr is no terminal."""
-    same_line = sys.stderr.isatty()
+def _bar_of(name: str) -> Callable[[int, int, int], Bar]:
+    """A bar for each round, with a rate and the time that is left; a line now and then where stderr is no terminal."""
+    def bar(number: int, total: int, found: int) -> Bar:
+        from tqdm import tqdm
 
-    def progress(done: int, total: int, answer: Answer) -> None:
-        if answer.outcome in ("converged", "finished"):
-            ended = answer.outcome + (", done already" if answer.reused else "")
-        else:
-            ended = f"{answer.outcome or 'failed'}: {answer.message}"
-        if same_line:
-            print(f"\r\x1b[K{name}: {done}/{total}  {answer.name}: {ended}", end="", file=sys.stderr, flush=True)
-        elif done == total or done % 10 == 0:
-            print(f"{name}: {done}/{total} runs", file=sys.stderr, flush=True)
+        return tqdm(
+            desc=name if number == 1 else f"{name}, round {number}", total=total, initial=found, unit="run",
+            mininterval=0.2 if sys.stderr.isatty() else 30.0, dynamic_ncols=True,
+        )
 
-    return progress
+    return bar
 
 
 def _hand_to(command: list[str], cwd: Path | None = None, environment: Mapping[str, str] | None = None) -> int:

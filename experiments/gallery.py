@@ -14,7 +14,7 @@ from analysis.figures import FIGURES, FigureSpec
 from analysis.figures.wording import number
 from analysis.logs import LogError, read_log
 from analysis.relaxation import RelaxationError
-from analysis.runs import read_run
+from analysis.runs import read_runs
 from analysis.tables import measure_relaxation
 from analysis.validation.chart import CHART
 from analysis.validation.check import Check, Finding, Result, replay
@@ -115,7 +115,7 @@ def _results(name: str, folders: Mapping[str, Path]) -> list[tuple[Check, Result
 
 def describe_default_run(study: Path) -> list[str]:
     """What the default study's run measured, one line each: relaxation time and period with the fit's error."""
-    run = read_run(study / "default")
+    run = read_runs(study)["default"]
     log = read_log(run.folder)
     relaxation = measure_relaxation(run, log.time, log.positions[:, 0])
     return [

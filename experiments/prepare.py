@@ -19,7 +19,8 @@ SYSTEM_PYTHON = Path("/usr/bin/python3")
 LOG = ROOT / "results" / "prepare.log"
 
 DRAWING = ("numpy", "scipy", "matplotlib")
-TESTING = DRAWING + ("pytest", "hypothesis")
+SWEEPING = ("distributed", "tqdm", "scipy")
+TESTING = DRAWING + SWEEPING + ("pytest", "hypothesis")
 
 _HANDED_OVER = "GUIDEWIRE_HANDED_OVER"
 _PIP_SECONDS = 900

@@ -1,25 +1,28 @@
-"""Lets the headless runner work: one run after another in each process, several processes at once.
+"""One runner process that takes one run after another.
 
-A runner started with `-lines` reads one JSON request a line and writes one JSON answer a line, so a sweep pays for
-no process start. A runner that dies takes one run with it, not the sweep: that run is answered here as failed, and
-the next request gets a new process.
+A runner started with `-lines` reads one JSON request a line and writes one JSON answer a line, so a sweep pays for no
+process start. A runner that dies takes one run with it: that run is answered here as failed, and the next request gets
+a new process. Started `-attached`, it ends by itself where we are gone.
 """
 
 from __future__ import annotations
 
 import json
-import queue
+import math
 import signal
 import subprocess
 import threading
-from collections.abc import Callable, Sequence
+import time
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+BAD_INPUT = 2
 INTERNAL_ERROR = 70
 INTERRUPTED = 130
 _SECONDS_TO_END = 20.0
+_BETWEEN_LOOKS = 0.25  # s, of the watch for late replies
 
 
 @dataclass(frozen=True)
@@ -28,27 +31,34 @@ class Request:
 
     Attributes
     ----------
-    name : what the answer is recognised by; unique among the requests of one call of `run_all`.
-    parameters : parameter file.
-    out : folder of the run.
+    name : what people call it; the answer repeats it.
+    parameters : parameter file; None: the defaults.
+    out : folder of the run; None where its parameters are only checked.
     overrides : parameter key to value, laid over the file.
     repeat : number of a timed repeat (from 1), or None for a run whose wall time does not matter.
+    log : whether it leaves positions.json.
     """
 
     name: str
-    parameters: Path
-    out: Path
+    parameters: Path | None
+    out: Path | None
     overrides: dict[str, Any] = field(default_factory=dict)
     repeat: int | None = None
+    log: bool = True
 
-    def to_line(self) -> str:
-        """The request as the runner reads it; a complete run of the same parameters is not run again."""
-        message: dict[str, Any] = {
-            "id": self.name, "parameters": str(self.parameters), "set": self.overrides, "out": str(self.out),
-            "reuse": True,
-        }
-        if self.repeat is not None:
-            message["repeat"] = self.repeat
+    def to_line(self, check: bool = False) -> str:
+        """The request as the runner reads it; `check` asks for no more than the address of the run."""
+        message: dict[str, Any] = {"id": self.name, "set": self.overrides}
+        if self.parameters is not None:
+            message["parameters"] = str(self.parameters)
+        if check:
+            message["check"] = True
+        else:
+            message["out"] = str(self.out)
+            if not self.log:
+                message["log"] = False
+            if self.repeat is not None:
+                message["repeat"] = self.repeat
         return json.dumps(message) + "\n"
 
 
@@ -60,46 +70,67 @@ class Answer:
     exit_code: int
     outcome: str | None
     message: str
-    reused: bool
+
+
+@dataclass(frozen=True)
+class Checked:
+    """A run that can be made.
+
+    Attributes
+    ----------
+    address : runs with the same address have the same results, wall times apart.
+    version : what would make it; part of the address.
+    """
+
+    address: str
+    version: str
 
 
 class Runner:
-    """One runner process in lines mode, started when first needed and again after it died."""
+    """One runner process in lines mode, started when first needed and again after it died.
 
-    def __init__(self, command: Sequence[str]) -> None:
-        self._command = [*command, "-lines"]
+    Parameters
+    ----------
+    command : what starts it, without `-lines`.
+    folder : where it stands, and from where it counts the files that requests name; None: where we stand.
+    """
+
+    def __init__(self, command: Sequence[str], folder: Path | None = None) -> None:
+        self._command = [*command, "-lines", "-attached"]
+        self._folder = folder
         self._process: subprocess.Popen[str] | None = None
-        self._interrupted = False
+        self._deadline = math.inf  # of the reply that is waited for, on the monotonic clock
+        self._too_late = False
 
-    def run(self, request: Request) -> Answer:
-        """Make one run and wait for its end. Never raises for what the runner does."""
-        used = self._process is not None
-        answer = self._ask(request)
-        if used and self._process is None and not self._interrupted:
-            # What killed a process that had worked before may be its past: the run gets a process of its own, once.
-            answer = self._ask(request)
-        return answer
+    @property
+    def process(self) -> int | None:
+        """Its process id, where it runs."""
+        return self._process.pid if self._process is not None and self._process.poll() is None else None
 
-    def _ask(self, request: Request) -> Answer:
+    def run(self, request: Request, seconds: float | None = None) -> Answer:
+        """Make one run and wait for its end, at most so long. Never raises for what the runner does."""
+        reply = self._ask(request, request.to_line(), seconds)
+        if isinstance(reply, Answer):
+            return reply
         try:
-            process = self._start()
-            process.stdin.write(request.to_line())
-            process.stdin.flush()
-            line = process.stdout.readline()
-        except OSError as error:
-            return self._died(request, str(error))
+            return Answer(request.name, int(reply["exitCode"]), reply["outcome"], str(reply["message"]))
+        except (KeyError, TypeError, ValueError):
+            return self._babbled(request, json.dumps(reply))
+
+    def check(self, request: Request) -> Checked | Answer:
+        """The address of a run, or why it cannot be made."""
+        reply = self._ask(request, request.to_line(check=True), _SECONDS_TO_END)
+        if isinstance(reply, Answer):
+            return reply
         try:
-            answer = json.loads(line)
-            return Answer(
-                request.name, int(answer["exitCode"]), answer["outcome"], str(answer["message"]),
-                bool(answer["reused"]),
-            )
-        except (ValueError, KeyError, TypeError):
-            return self._died(request, f"it wrote {line.strip()[:200]!r} instead of an answer" if line else "")
+            if reply["exitCode"] == 0:
+                return Checked(str(reply["address"]), str(reply["version"]))
+            return Answer(request.name, int(reply["exitCode"]), None, str(reply["message"]))
+        except (KeyError, TypeError, ValueError):
+            return self._babbled(request, json.dumps(reply))
 
     def interrupt(self) -> None:
         """Ask for a clean end of the run that is under way, as Ctrl-C does."""
-        self._interrupted = True
         if self._process is not None and self._process.poll() is None:
             self._process.send_signal(signal.SIGINT)
 
@@ -119,80 +150,56 @@ class Runner:
             process.wait()
         process.stdout.close()
 
+    def _ask(self, request: Request, line: str, seconds: float | None) -> dict[str, Any] | Answer:
+        """The runner's reply, or what became of a run that got none."""
+        try:
+            process = self._start()
+            self._deadline = math.inf if seconds is None else time.monotonic() + seconds
+            process.stdin.write(line)
+            process.stdin.flush()
+            reply = process.stdout.readline()
+        except OSError as error:
+            return self._died(request, str(error))
+        finally:
+            self._deadline = math.inf
+        if self._too_late:
+            return self._died(request, f"took longer than its time limit of {seconds:g} s")
+        try:
+            answer = json.loads(reply)
+        except ValueError:
+            answer = None
+        return answer if isinstance(answer, dict) else self._babbled(request, reply)
+
     def _start(self) -> subprocess.Popen[str]:
         if self._process is None or self._process.poll() is not None:
             self.close()
             # A session of its own: Ctrl-C on the terminal reaches only us, and we pass it on once.
             self._process = subprocess.Popen(
                 self._command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, encoding="utf-8",
-                start_new_session=True,
+                start_new_session=True, cwd=self._folder,
             )
+            self._too_late = False
+            threading.Thread(target=self._watch, args=(self._process,), daemon=True).start()
         return self._process
+
+    def _watch(self, process: subprocess.Popen[str]) -> None:
+        """Kill the process where a reply is late. A thread of its own, because reading a pipe has no time limit."""
+        while process is self._process and process.poll() is None:
+            if time.monotonic() > self._deadline:
+                self._too_late = True
+                process.kill()
+            time.sleep(_BETWEEN_LOOKS)
+
+    def _babbled(self, request: Request, line: str) -> Answer:
+        return self._died(request, f"it wrote {line.strip()[:200]!r} instead of an answer" if line else "")
 
     def _died(self, request: Request, why: str) -> Answer:
         process = self._process
         if process is None:
-            return Answer(request.name, INTERNAL_ERROR, None, f"the runner did not start: {why}", False)
+            return Answer(request.name, INTERNAL_ERROR, None, f"the runner did not start: {why}")
         if why:
             process.kill()
         code = process.wait()
         ended = f"killed by signal {-code}" if code < 0 else f"exit code {code}"
         self.close()
-        return Answer(request.name, INTERNAL_ERROR, None, f"the runner died during this run ({why or ended})", False)
-
-
-def run_all(
-    command: Sequence[str],
-    requests: Sequence[Request],
-    jobs: int,
-    on_answer: Callable[[Request, Answer], None],
-) -> None:
-    """Make all runs, at most `jobs` at once, each process taking the next request when it is free.
-
-    Parameters
-    ----------
-    command : the runner, as `building.build` returns it.
-    requests : the runs.
-    jobs : number of processes.
-    on_answer : called in the calling thread, once per request, in the order in which runs end.
-
-    Raises
-    ------
-    KeyboardInterrupt : after Ctrl-C, when every run under way has ended cleanly and been passed to `on_answer`.
-    """
-    waiting: queue.SimpleQueue[Request] = queue.SimpleQueue()
-    for request in requests:
-        waiting.put(request)
-    answers: queue.SimpleQueue[tuple[Request, Answer] | None] = queue.SimpleQueue()
-    runners = [Runner(command) for _ in range(max(1, min(jobs, len(requests))))]
-    stop = threading.Event()
-
-    def work(runner: Runner) -> None:
-        try:
-            while not stop.is_set():
-                request = waiting.get_nowait()
-                answers.put((request, runner.run(request)))
-        except queue.Empty:
-            pass
-        finally:
-            runner.close()
-            answers.put(None)
-
-    threads = [threading.Thread(target=work, args=(runner,), daemon=True) for runner in runners]
-    for thread in threads:
-        thread.start()
-    running, interrupted = len(threads), False
-    while running:
-        try:
-            ended = answers.get()
-            if ended is None:
-                running -= 1
-            else:
-                on_answer(*ended)
-        except KeyboardInterrupt:
-            interrupted = True
-            stop.set()
-            for runner in runners:
-                runner.interrupt()
-    if interrupted:
-        raise KeyboardInterrupt
+        return Answer(request.name, INTERNAL_ERROR, None, f"the runner died during this run ({why or ended})")

@@ -31,7 +31,6 @@ INTERNAL = 70
 INTERRUPTED = 130
 _SECONDS = 3600.0
 _TRACE = "unity.log"
-_REQUEST = "unity-request.json"
 _ALREADY_THERE = "already there: "  # what a run says that takes over an earlier one
 
 
@@ -54,12 +53,11 @@ class Unity:
 
 @dataclass(frozen=True)
 class Ending:
-    """What became of a run: exit code, the outcome's word or None, one line, and whether an earlier run stands in."""
+    """What became of a run: exit code, the outcome's word or None, one line."""
 
     code: int
     outcome: str | None
     message: str
-    reused: bool = False
 
 
 def find(given: str | None, seconds: float = _SECONDS) -> Unity:
@@ -127,7 +125,7 @@ def make_run(unity: Unity, own: list[str], out: Path) -> Ending:
     if outcome is not None and OUTCOMES.get(outcome) == code:
         if log.is_file():
             log.replace(out / _TRACE)
-        return Ending(code, outcome, said or outcome, reused=is_taken_over)
+        return Ending(code, outcome, said or outcome)
     if code in (2, INTERNAL) and said:
         return Ending(code, None, said)
     return Ending(INTERNAL, None, f"Unity ended with {code} and left no whole result that says so (log: {log})")
@@ -161,9 +159,10 @@ def _last_word(log: Path) -> str:
 
 
 def _digest(unity: Unity, request: dict[str, Any]) -> str:
+    """What a run depends on, as far as can be said without Unity: two texts that mean the same have two addresses."""
     parts = [unity.path.resolve(), unity.path.stat().st_mtime_ns,
-             Path(request["parameters"]).read_text(encoding="utf-8"),
-             json.dumps(request.get("set", {}), sort_keys=True), request.get("repeat")]
+             Path(request["parameters"]).read_text(encoding="utf-8") if "parameters" in request else "",
+             json.dumps(request.get("set", {}), sort_keys=True)]
     if unity.is_editor:
         sources = sorted((ROOT / "Assets/Guidewire").rglob("*.cs"))
         parts += [hashlib.sha256(source.read_bytes()).hexdigest() for source in sources]
@@ -172,40 +171,26 @@ def _digest(unity: Unity, request: dict[str, Any]) -> str:
 
 def answer(unity: Unity, line: str) -> dict[str, Any]:
     """The answer to one request line; never raises for what the request says."""
-    reply: dict[str, Any] = {"id": None, "exitCode": 2, "outcome": None, "message": "", "out": None, "reused": False}
+    reply: dict[str, Any] = {"id": None, "exitCode": 2, "outcome": None, "message": "", "out": None}
     try:
         request = json.loads(line)
         reply["id"] = request["id"]
+        if request.get("check"):
+            return {**reply, "exitCode": 0, "address": _digest(unity, request)[:32], "version": f"Unity {unity.path}"}
         out = Path(request["out"]).resolve()
         reply["out"] = str(out)
-        digest = _digest(unity, request)
         own = ["-parameters", str(Path(request["parameters"]).resolve()), "-out", str(out)]
         for key, value in request.get("set", {}).items():
             own += [f"-{key}", value if isinstance(value, str) else json.dumps(value)]
         if request.get("repeat") is not None:
             own += ["-repeat", str(request["repeat"])]
-        own.append("-force")    # a study's folder is its own: what is not reused is replaced
+        own.append("-force")    # the folder is this run's own: what is asked for again is replaced
     except (ValueError, KeyError, TypeError, AttributeError, OSError) as error:
         reply["message"] = f"the request cannot be read: {type(error).__name__}: {error}"
         return reply
-    ending = _earlier(out, digest) if request.get("reuse") else None
-    if ending is None:
-        ending = make_run(unity, own, out)
-        if ending.outcome in ("converged", "finished", "diverged"):
-            (out / _REQUEST).write_text(json.dumps({"digest": digest}) + "\n", encoding="utf-8")
-    reply.update(exitCode=ending.code, outcome=ending.outcome, message=ending.message, reused=ending.reused)
+    ending = make_run(unity, own, out)
+    reply.update(exitCode=ending.code, outcome=ending.outcome, message=ending.message)
     return reply
-
-
-def _earlier(out: Path, digest: str) -> Ending | None:
-    try:
-        known = json.loads((out / _REQUEST).read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        return None
-    outcome = _outcome(out / "summary.json")
-    if known != {"digest": digest} or outcome not in OUTCOMES:
-        return None
-    return Ending(OUTCOMES[outcome], outcome, "taken from an earlier run", reused=True)
 
 
 def _one_run(unity: Unity, own: list[str]) -> int:
@@ -235,7 +220,7 @@ def main(arguments: list[str] | None = None) -> int:
     except PreparationError as error:
         print(f"guidewire: {error}", file=sys.stderr)
         return 2
-    if own != ["-lines"]:
+    if own != ["-lines", "-attached"]:
         return _one_run(unity, own)
     try:
         for line in sys.stdin:

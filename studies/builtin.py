@@ -3,7 +3,7 @@
 The longitudinal studies of the thesis (Figures 4.5 to 4.9) start from its Table 4.1 and change one parameter each, and
 so do the transversal ones (Figures 4.10 to 4.14), where the first sphere is displaced across the wire instead, and the
 collision ones (Figures 4.15 to 4.18), where the wire stands before a wall; all their runs last for the same in-game
-time. The other studies are of contact, of drives and of twist.
+time. The other studies are of contact, of drives, of twist, and of where methods fail (studies/frontiers.py).
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from studies.frontiers import FRONTIERS
 from studies.keys import Value
 from studies.table import Axis, Grid, Study
 
@@ -148,5 +149,6 @@ STUDIES: dict[str, Study] = {
             {**_SHORT_WIRE, "drive": "push", "twistPerStep": 0.02, "logOrientations": True, "maxSimulationSteps": 400},
             {"straight": {"vessel": _lumen([_BEND[0], [0, 0, 400]])}, "bent": {"vessel": _lumen(_BEND)}},
         )),
+        *FRONTIERS,
     )
 }

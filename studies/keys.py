@@ -1,4 +1,4 @@
-"""Names of runs and of their folders, exact: from a name the values can be read back, so no two share one.
+"""Names of runs, exact: from a name the values can be read back, so no two share one.
 
 A run's name is its variant and its values, such as `seed,numberRodElements=30,timeStep=0.03333333333333333`. A number
 is written with as many digits as it takes to read the same number again, a whole number without a point and any other
@@ -15,10 +15,11 @@ from urllib.parse import quote
 
 Value = Union[int, float, bool, str]  # what an axis can take; anything else is a variant, which has a name
 
-TABLE = "study.json"  # beside the folders of the runs
-_LONGEST = 200  # bytes of a folder's name; file systems take 255
+TABLE = "study.json"  # in a study's folder: what was asked for
+RESULTS = "runs.csv"  # beside it: what came of it
+_LONGEST = 200  # bytes of a file's name; file systems take 255
 _WORD = re.compile(r"[A-Za-z][A-Za-z0-9-]*", re.ASCII)
-_FOLDER = re.compile(r"[A-Za-z0-9'][A-Za-z0-9 .,=+%'_~-]*(?<![ .])", re.ASCII)
+_FILE = re.compile(r"[A-Za-z0-9'][A-Za-z0-9 .,=+%'_~-]*(?<![ .])", re.ASCII)
 _NO_WORDS = ("true", "false")  # as texts they are written like other texts, between apostrophes
 
 
@@ -50,19 +51,14 @@ def run_key(variant: str, values: Mapping[str, Value]) -> str:
 
 
 def checked_key(key: str) -> str:
-    """The name itself, where it can be that of a folder.
+    """The name itself, where it can be that of a file.
 
     Raises
     ------
     ValueError : it cannot, on one of the file systems in use.
     """
-    if not _FOLDER.fullmatch(key) or key.lower() == TABLE:
+    if not _FILE.fullmatch(key):
         raise ValueError(f"{key!r} cannot name a run: letters, digits and .,=+%'_~- can, and spaces between them")
     if len(key) > _LONGEST:
         raise ValueError(f"{key!r} is too long to name a run: {len(key)} bytes, at most {_LONGEST}")
     return key
-
-
-def repeat_folder(repeat: int) -> str:
-    """Folder of a timed repeat (from 1), below that of its run."""
-    return f"repeat-{repeat}"

@@ -268,8 +268,11 @@ def _repeats(table: StudyTable) -> str:
     counts = sorted({spread.count for spread in spreads})
     counted = f"{counts[0]}" if len(counts) == 1 else f"{counts[0]} to {counts[-1]}"
     widest = max((spread.highest - spread.lowest) / spread.median for spread in spreads)
+    loads = [row.others_busy for row in table.rows if row.others_busy is not None]
+    beside = (f"while other programs kept at most {number(max(loads), 2)} processors busy" if loads
+              else "and nobody looked what other programs did beside them")
     return (
-        f"Wall times: median and range of {counted} runs with no other run beside them; the range of the step time is "
+        f"Wall times: median and range of {counted} runs, made one at a time, {beside}; the range of the step time is "
         f"at most {percent(widest)} of the median."
     )
 

@@ -173,10 +173,10 @@ def write_study(
         values = {} if key is None else {key: chain.parameters[key]}
         case = Case(run_key(variants[index] if variants else "", values), values)
         for repeat in (None, *range(1, repeats + 1)):
-            place = case.folder(repeat)
+            place = case.key if repeat is None else f"{case.key}-repeat-{repeat}"
             chain.write(folder / place, 2.0 if repeat is None else 1.0 + repeat)
             rows.append({"key": case.key, "variant": variants[index] if variants else "", "values": values,
                          "parameters": "params/default.json", "overrides": values, "folder": place,
-                         "repeat": repeat, "outcome": "converged", "exitCode": 0})
+                         "repeat": repeat})
     (folder / "study.json").write_text(json.dumps({"study": name, "runs": rows}))
     return folder

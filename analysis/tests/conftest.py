@@ -8,8 +8,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from analysis.figures import stability
+from analysis.stability import closed_form_along, limit_explicit
 from analysis.tests.chain import Chain, small, write_study
 from analysis.tests.waves import Wave
+from analysis.validation.wire import Wire
+from studies.bisection import FRONTIER
+from studies.frontiers import LENGTH
+from studies.keys import RESULTS
 
 
 @pytest.fixture(scope="session")
@@ -55,10 +61,33 @@ def studies(tmp_path_factory: pytest.TempPathFactory, default_study: Path) -> di
     for name, named in NAMED_WAVES.items():
         folders[name] = write_study(tmp_path_factory.mktemp(name), name, None, list(named.values()), repeats=0,
                                     variants=list(named))
+    folders |= write_maps(tmp_path_factory.mktemp("maps"))
     folders["twist"] = write_study(
         tmp_path_factory.mktemp("twist"), "twist", "constraintSolverSteps", list(TWISTED_WAVES.values()), repeats=0,
         variants=[lumen for lumen, _ in TWISTED_WAVES],
     )
+    return folders
+
+
+def write_maps(folder: Path) -> dict[str, Path]:
+    """Tables of frontiers a little above the limits in closed form, and of long steps of which one is lost."""
+    folders = {name: folder / name for name in stability.STUDIES}
+    for path in folders.values():
+        path.mkdir()
+    gains = {
+        "limit-stretch-across": lambda n: 2.0, "limit-stretch-along": closed_form_along, "limit-bend": lambda n: LENGTH / n,
+    }
+    for name, limit in gains.items():
+        rows = [f"verlet,{m},{n},gain,{limit(n)},{1.01 * limit(n)},diverged,holds below" for m in (20, 100)
+                for n in (20, 30)]
+        (folders[name] / FRONTIER).write_text("\n".join(
+            ["variant,constraintSolverSteps,numberRodElements,key,low,high,fails,note", *rows]) + "\n")
+    steps = [(n, limit_explicit(Wire(), n)) for n in (4, 8)]
+    (folders["limit-explicit"] / FRONTIER).write_text("\n".join(
+        ["variant,numberRodElements,wireRadius,key,low,high,fails,note",
+         *(f",{n},{Wire().radius},timeStep,{step},{1.002 * step},diverged,holds below" for n, step in steps)]) + "\n")
+    (folders["long-steps"] / RESULTS).write_text(
+        "variant,integrator,timeStep,outcome\nsags,bdf2,0.1,finished\nsags,esdirk4,0.1,diverged\n")
     return folders
 
 

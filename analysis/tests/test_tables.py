@@ -77,7 +77,7 @@ def test_killed_run_is_read_up_to_its_last_whole_step(tmp_path: Path, chain: Cha
     (run / "positions.json.partial").write_text(log.read_text()[:-5000])
     log.unlink()
     (run / "summary.json").unlink()
-    (run / "repeat-2" / "summary.json").unlink()
+    (folder / "timeStep=0.01-repeat-2" / "summary.json").unlink()
     row = read_table(folder, "timeStep").rows[0]
     assert row.run.outcome == "killed" and "cut short" in (row.warning or "") and 0 < row.steps < chain.steps
     assert row.steady_state_step is None  # killed within the 100 steps that it must hold still

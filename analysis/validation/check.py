@@ -22,10 +22,11 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from analysis.runs import Run, read_run
+from analysis.logs import LogError
+from analysis.runs import Run, read_runs
 from analysis.validation.scenes import SCENE
-from studies.keys import Value
-from studies.table import Case, Rounds
+from studies.keys import TABLE, Value
+from studies.table import RUN_SECONDS, Case, Rounds
 
 
 @dataclass(frozen=True)
@@ -107,6 +108,10 @@ class Check:
         Parameter file that its cases are laid over.
     results : tuple of str
         Outcomes that count as a result: a solver that gives up with a reason is one too.
+    logs : bool
+        Whether its runs leave logs.
+    seconds : float
+        How long a run may take.
     """
 
     name: str
@@ -115,6 +120,13 @@ class Check:
     plan: Callable[[], Plan] = field(repr=False)
     scene: str = SCENE
     results: tuple[str, ...] = ("converged", "finished", "diverged", "failed")
+    logs: bool = True
+    seconds: float = RUN_SECONDS
+
+    @property
+    def origin(self) -> str:
+        """Its name, where one of its runs cannot be made."""
+        return self.name
 
     def rounds(self, folder: Path) -> Rounds:
         """Yields the cases that the plan asks for, gives it their runs in `folder`, and returns what it found."""
@@ -150,10 +162,11 @@ def replay(check: Check, folder: Path) -> Finding:
 
 def read_cases(cases: Sequence[Case], folder: Path) -> dict[str, Run]:
     """Runs of these cases, by key."""
-    return {
-        case.key: read_run(folder / case.folder(), case.key, variant=case.variant, values=case.values)
-        for case in cases
-    }
+    made = read_runs(folder) if cases else {}
+    missing = next((case.key for case in cases if case.key not in made), None)
+    if missing is not None:
+        raise LogError(f"{folder / TABLE}: has no run {missing}")
+    return {case.key: made[case.key] for case in cases}
 
 
 def by_point(runs: Mapping[str, Run]) -> dict[tuple[Value, ...], Run]:

@@ -3,10 +3,12 @@
 `set` of a request steers it: {"die": code} ends the process before the answer, {"signal": number} kills it,
 {"dieLater": 1} ends it after the answer,
 {"babble": text} answers something that is no JSON, {"sleep": seconds} works for that long, {"exitCode": code}
-fails in the ordinary way. Everything it was asked stands in the file named by its first argument, one line each:
-process id, start and end of the run, request.
+fails in the ordinary way, {"lost": 1} leaves a summary that says that the log was lost; {"refused": text} is refused
+where it is checked. {"once": 1} lets all that happen the first time only. Everything it was asked stands in the file
+named by its first argument, one line each: process id, start and end of the run, request.
 """
 
+import hashlib
 import json
 import os
 import signal
@@ -23,14 +25,31 @@ def interrupt(_signal, _frame):
     raise Interrupted
 
 
+def check(request, answer):
+    """The answer to a request that is only checked."""
+    wish = {key: value for key, value in request["set"].items() if key not in ("logSpheres", "logOrientations")}
+    if "refused" in wish:
+        return {**answer, "exitCode": 2, "outcome": None, "message": wish["refused"]}
+    version = os.environ.get("FAKE_VERSION", "fake 1")
+    address = hashlib.sha256(json.dumps([version, wish], sort_keys=True).encode()).hexdigest()[:32]
+    return {**answer, "address": address, "version": version}
+
+
 def main(journal):
     signal.signal(signal.SIGINT, interrupt)
     for line in sys.stdin:
         started = time.monotonic()
         request = json.loads(line)
         wish = request["set"]
-        answer = {"id": request["id"], "exitCode": 0, "outcome": "converged", "message": "done",
-                  "out": request["out"], "reused": False}
+        answer = {"id": request["id"], "exitCode": 0, "outcome": "converged", "message": "done"}
+        if request.get("check"):
+            print(json.dumps(check(request, answer)), flush=True)
+            continue
+        out = Path(request["out"])
+        if "once" in wish and (out / "begun").exists():
+            wish = {}
+        out.mkdir(parents=True, exist_ok=True)
+        (out / "begun").touch()
         try:
             if "die" in wish:
                 os._exit(wish["die"])
@@ -39,11 +58,14 @@ def main(journal):
             time.sleep(wish.get("sleep", 0))
             if "exitCode" in wish:
                 answer.update(exitCode=wish["exitCode"], outcome=None, message="guidewire: bad key")
-            elif (Path(request["out"]) / "summary.json").exists():
-                answer["reused"] = True
             else:
-                Path(request["out"]).mkdir(parents=True)
-                (Path(request["out"]) / "summary.json").write_text("{}")
+                log = "positions.json" if request.get("log", True) else None
+                if log and "lost" in wish:
+                    log, answer = "positions.json.partial", {**answer, "outcome": "failed", "message": "disk is full"}
+                if log:
+                    (out / log).write_text("{}")
+                (out / "summary.json").write_text(json.dumps(
+                    {"outcome": answer["outcome"], "reason": "done", "steps": len(wish), "log": log, "complete": True}))
         except Interrupted:
             answer.update(exitCode=130, outcome="interrupted", message="interrupted")
         with open(journal, "a") as file:

@@ -1,5 +1,6 @@
 """What README.md and the pages of docs show is there and works, and what they say of files and keys is the runner's."""
 
+import csv
 import dataclasses
 import json
 import re
@@ -12,7 +13,8 @@ import pytest
 from experiments.commands import parse
 from experiments.prepare import ROOT
 from experiments.session import State
-from experiments.sweep import sweep
+from experiments.sweep import Means, sweep
+from studies.study_file import KEYS
 from studies.table import Axis, Grid, Study
 
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -169,9 +171,18 @@ def test_every_key_of_a_log_is_explained(runner_command, tmp_path):
 
 def test_every_key_of_a_studys_table_is_explained(fake, tmp_path):
     study = Study("small", "a small study", "params/default.json", Grid((Axis("sleep", (0.01,)),)))
-    sweep([study], fake.command, tmp_path, 1, lambda *_: None)
+    sweep([(study, tmp_path)], tmp_path / "runs", Means(fake.command))
     table = json.loads((tmp_path / "small" / "study.json").read_text())
-    assert {*table, *table["runs"][0]} == set(table_keys(section(RUNS, "## Folders of studies")))
+    explained = section(RUNS, "## Folders of studies")
+    assert {*table, *table["runs"][0]} == set(table_keys(section(explained, "### study.json")))
+    with open(tmp_path / "small" / "runs.csv", newline="") as file:
+        columns = set(next(csv.reader(file)))
+    summary = set(table_keys(section(RUNS, "## summary.json")))
+    assert columns - {*study.grid.axes[0].keys} - summary <= set(table_keys(section(explained, "### runs.csv")))
+
+
+def test_every_key_of_a_study_file_is_explained():
+    assert set(table_keys(section(RUNS, "## A study of your own"))) >= set(KEYS)
 
 
 def test_the_lines_that_are_shown_are_those_of_the_runner(runner_command, tmp_path):

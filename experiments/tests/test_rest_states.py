@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,7 +16,7 @@ from analysis.validation.scenes import SCENE, at_rest
 from analysis.validation.states import last_state, solver_report
 from analysis.validation.wire import BASE
 from experiments.prepare import ROOT
-from experiments.runner import Request, run_all
+from experiments.runner import Request, Runner
 from experiments.tests.chain_energy import ChainEnergy
 
 CASES = 50 if os.environ.get("GUIDEWIRE_ALL") == "1" else 4  # of each kind
@@ -69,8 +70,8 @@ def ends(runner_command: list[str], tmp_path_factory: pytest.TempPathFactory) ->
         }))
         for (kind, seed), load in loads.items()
     ]
-    answers = {}
-    run_all(runner_command, requests, 2, lambda request, answer: answers.__setitem__(request.name, answer))
+    with closing(Runner(runner_command)) as runner:
+        answers = {request.name: runner.run(request) for request in requests}
     return {(k, s): (load, answers[f"{k}-{s}"], folder / f"{k}-{s}") for (k, s), load in loads.items()}
 
 

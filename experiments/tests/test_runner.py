@@ -1,57 +1,51 @@
-"""What runner.py promises when the runner works, dies, babbles, or is interrupted."""
+"""What runner.py promises when the runner works, dies, babbles, takes too long, or loses us."""
 
 import os
 import signal
+import subprocess
 import sys
 import threading
 import time
+from contextlib import closing
 from pathlib import Path
 
 import pytest
 
 from experiments import runner
-from experiments.runner import Request, run_all
+from experiments.runner import Checked, Request, Runner
 
 
-def requests(tmp_path, *wishes, repeat=None):
+def requests(tmp_path, *wishes, **options):
     return [
-        Request(f"run-{i}", Path("scene.json"), tmp_path / f"run-{i}", wish, repeat) for i, wish in enumerate(wishes)
+        Request(f"run-{i}", Path("scene.json"), tmp_path / f"run-{i}", wish, **options) for i, wish in enumerate(wishes)
     ]
 
 
-def answers_of(command, wanted, jobs=1):
-    answers = {}
-    run_all(command, wanted, jobs, lambda request, answer: answers.__setitem__(request.name, answer))
-    return answers
+def answers_of(command, wanted, seconds=None):
+    with closing(Runner(command)) as one:
+        return [one.run(request, seconds) for request in wanted]
 
 
-def test_every_run_is_answered_once(fake, tmp_path):
-    answers = answers_of(fake.command, requests(tmp_path, *[{}] * 7), jobs=3)
-    assert sorted(answers) == [f"run-{i}" for i in range(7)]
-    assert {(a.exit_code, a.outcome, a.reused) for a in answers.values()} == {(0, "converged", False)}
-
-
-@pytest.mark.timed
-def test_runs_overlap_with_two_jobs_and_never_with_one(fake, tmp_path):
-    for jobs, overlapping in ((1, False), (2, True)):
-        fake.journal.unlink(missing_ok=True)
-        answers_of(fake.command, requests(tmp_path / str(jobs), *[{"sleep": 0.2}] * 4), jobs)
-        spans = sorted((start, end) for _, start, end, _ in fake.calls())
-        assert any(end > later for (_, end), (later, _) in zip(spans, spans[1:])) == overlapping
-
-
-def test_one_process_serves_many_runs(fake, tmp_path):
-    answers_of(fake.command, requests(tmp_path, *[{}] * 5))
+def test_one_process_makes_many_runs(fake, tmp_path):
+    answers = answers_of(fake.command, requests(tmp_path, *[{}] * 5))
+    assert [(a.name, a.exit_code, a.outcome) for a in answers] == [(f"run-{i}", 0, "converged") for i in range(5)]
     assert len({process for process, *_ in fake.calls()}) == 1
 
 
-def test_the_request_carries_parameters_overrides_repeat_and_reuse(fake, tmp_path):
-    answers_of(fake.command, requests(tmp_path, {"sleep": 0}, repeat=3))
-    (*_, request), = fake.calls()
-    assert request == {
-        "id": "run-0", "parameters": "scene.json", "set": {"sleep": 0}, "out": str(tmp_path / "run-0"),
-        "repeat": 3, "reuse": True,
-    }
+def test_the_request_carries_parameters_overrides_and_repeat_and_whether_it_logs(fake, tmp_path):
+    answers_of(fake.command, [*requests(tmp_path, {"sleep": 0}, repeat=3), *requests(tmp_path, {}, log=False)])
+    asked = [request for *_, request in fake.calls()]
+    same = {"id": "run-0", "parameters": "scene.json", "out": str(tmp_path / "run-0")}
+    assert asked == [{**same, "set": {"sleep": 0}, "repeat": 3}, {**same, "set": {}, "log": False}]
+
+
+def test_a_check_tells_the_address_and_runs_nothing(fake, tmp_path):
+    with closing(Runner(fake.command)) as one:
+        first, same, other = (one.check(request) for request in requests(tmp_path, {"a": 1}, {"a": 1}, {"a": 2}))
+        refused = one.check(Request("bad", None, None, {"refused": "unknown key"}))
+    assert isinstance(first, Checked) and first == same and first.address != other.address
+    assert (refused.exit_code, refused.outcome, refused.message) == (2, None, "unknown key")
+    assert not fake.journal.exists()
 
 
 @pytest.mark.parametrize("wish, word", [
@@ -63,54 +57,62 @@ def test_the_request_carries_parameters_overrides_repeat_and_reuse(fake, tmp_pat
 ])
 def test_a_runner_that_dies_takes_one_run_with_it_and_no_other(fake, tmp_path, wish, word):
     answers = answers_of(fake.command, requests(tmp_path, {}, wish, {}, wish, {}))
-    for name in ("run-1", "run-3"):
-        assert (answers[name].exit_code, answers[name].outcome) == (runner.INTERNAL_ERROR, None)
-        assert word in answers[name].message
-    assert [answers[f"run-{i}"].outcome for i in (0, 2, 4)] == ["converged"] * 3
+    for k in (1, 3):
+        assert (answers[k].exit_code, answers[k].outcome) == (runner.INTERNAL_ERROR, None)
+        assert word in answers[k].message
+    assert [answers[k].outcome for k in (0, 2, 4)] == ["converged"] * 3
 
 
-def test_a_runner_that_dies_between_two_runs_takes_none_with_it(fake, tmp_path):
-    answers = answers_of(fake.command, requests(tmp_path, *[{"dieLater": 1}] * 20))
-    assert [answer.outcome for answer in answers.values()] == ["converged"] * 20
+def test_a_run_over_its_time_limit_is_ended_and_the_next_one_is_made(fake, tmp_path):
+    started = time.monotonic()
+    late, next_one = answers_of(fake.command, requests(tmp_path, {"sleep": 60}, {}), seconds=1.0)
+    assert time.monotonic() - started < 20
+    assert (late.outcome, next_one.outcome) == (None, "converged")
+    assert "longer than its time limit of 1 s" in late.message
 
 
 def test_an_ordinary_failure_keeps_its_code_and_its_line(fake, tmp_path):
-    answer = answers_of(fake.command, requests(tmp_path, {"exitCode": 2}))["run-0"]
+    (answer,) = answers_of(fake.command, requests(tmp_path, {"exitCode": 2}))
     assert (answer.exit_code, answer.outcome, answer.message) == (2, None, "guidewire: bad key")
 
 
 def test_a_runner_that_cannot_be_started_fails_every_run(tmp_path):
     answers = answers_of([str(tmp_path / "nothing")], requests(tmp_path, {}, {}))
-    assert [answer.exit_code for answer in answers.values()] == [runner.INTERNAL_ERROR] * 2
-    assert "did not start" in answers["run-0"].message
+    assert [answer.exit_code for answer in answers] == [runner.INTERNAL_ERROR] * 2
+    assert "did not start" in answers[0].message
 
 
 def test_a_runner_that_ends_at_once_fails_every_run(tmp_path):
     answers = answers_of([sys.executable, "-c", "raise SystemExit(3)"], requests(tmp_path, {}, {}))
-    assert [answer.exit_code for answer in answers.values()] == [runner.INTERNAL_ERROR] * 2
-    assert "exit code 3" in answers["run-0"].message
+    assert [answer.exit_code for answer in answers] == [runner.INTERNAL_ERROR] * 2
+    assert "exit code 3" in answers[0].message
 
 
 @pytest.mark.timed
-def test_ctrl_c_ends_the_runs_under_way_and_starts_no_other(fake, tmp_path):
-    answers = {}
-    # A second after the start both runs are under way; they would last 60 s.
-    timer = threading.Timer(1.0, os.kill, (os.getpid(), signal.SIGINT))
-    started = time.monotonic()
-    timer.start()
-    with pytest.raises(KeyboardInterrupt):
-        run_all(
-            fake.command, requests(tmp_path, *[{"sleep": 60}] * 4), 2,
-            lambda request, answer: answers.__setitem__(request.name, answer),
-        )
+def test_an_interrupt_ends_the_run_under_way(fake, tmp_path):
+    with closing(Runner(fake.command)) as one:
+        threading.Timer(1.0, one.interrupt).start()
+        started = time.monotonic()
+        (request,) = requests(tmp_path, {"sleep": 60})
+        assert one.run(request).outcome == "interrupted"
     assert time.monotonic() - started < 30
-    assert {name: answer.outcome for name, answer in answers.items()} == {
-        "run-0": "interrupted", "run-1": "interrupted",
-    }
 
 
 def test_no_process_is_left_behind(fake, tmp_path):
-    answers_of(fake.command, requests(tmp_path, {}, {"die": 1}, {}), jobs=2)
+    answers_of(fake.command, requests(tmp_path, {}, {"die": 1}, {}))
     for process, *_ in fake.calls():
         with pytest.raises(ProcessLookupError):
             os.kill(process, 0)
+
+
+def test_the_real_runner_ends_its_run_where_whoever_started_it_is_gone(runner_command, tmp_path):
+    endless = '{"id": 1, "out": "%s", "set": {"deltaThreshold": 0, "maxSimulationSteps": 100000000}}' % tmp_path
+    attached = subprocess.Popen([*runner_command, "-lines", "-attached"], stdin=subprocess.PIPE, text=True,
+                                stdout=subprocess.PIPE)
+    attached.stdin.write(endless + "\n")
+    attached.stdin.flush()
+    while not (tmp_path / "positions.json.partial").exists():
+        assert attached.poll() is None
+        time.sleep(0.02)
+    answer, _ = attached.communicate(timeout=60)
+    assert '"outcome":"interrupted"' in answer

@@ -9,9 +9,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from studies.builtin import STUDIES
+from studies.frontiers import FRONTIERS
 from studies.keys import checked_key, run_key, value_text
 from studies.table import Axis, Case, Grid
 
+GRIDS = {name: study for name, study in STUDIES.items() if study not in FRONTIERS}
 VALUES = st.one_of(
     st.integers(-10**30, 10**30), st.floats(allow_nan=False, allow_infinity=False), st.booleans(),
     st.text(max_size=6), st.sampled_from(["1", "1.0", "true", "a,b=1", "'1'", "%31", "..", "", "\ud800"]),
@@ -24,16 +26,16 @@ def exact(value):
 
 
 @given(VALUES, VALUES)
-def test_two_values_never_share_a_folder(one, other):
-    folders = {Grid((Axis("key", (value,)),)).cases()[0].folder() for value in (one, other)}
-    assert len(folders) == (1 if exact(one) == exact(other) else 2)
+def test_two_values_never_share_a_name(one, other):
+    keys = {Grid((Axis("key", (value,)),)).cases()[0].key for value in (one, other)}
+    assert len(keys) == (1 if exact(one) == exact(other) else 2)
 
 
 @given(st.lists(VALUES, min_size=1, max_size=12, unique_by=exact),
        st.lists(VALUES, min_size=1, max_size=3, unique_by=exact))
-def test_no_two_runs_of_two_axes_share_a_folder(first, second):
-    folders = [case.folder() for case in Grid((Axis("a", tuple(first)), Axis("b", tuple(second)))).cases()]
-    assert len(set(folders)) == len(folders) == len(first) * len(second)
+def test_no_two_runs_of_two_axes_share_a_name(first, second):
+    keys = [case.key for case in Grid((Axis("a", tuple(first)), Axis("b", tuple(second)))).cases()]
+    assert len(set(keys)) == len(keys) == len(first) * len(second)
 
 
 @given(VALUES)
@@ -45,9 +47,9 @@ def test_a_value_can_be_read_back_from_its_text(value):
         assert exact(json.loads(text)) == exact(value)
 
 
-def test_values_that_six_digits_do_not_tell_apart_have_folders_of_their_own():
-    folders = [case.folder() for case in Grid((Axis("timeStep", (1 / 30, 0.033333334, 0.1, 1, 1.0)),)).cases()]
-    assert folders == [
+def test_values_that_six_digits_do_not_tell_apart_have_names_of_their_own():
+    keys = [case.key for case in Grid((Axis("timeStep", (1 / 30, 0.033333334, 0.1, 1, 1.0)),)).cases()]
+    assert keys == [
         "timeStep=0.03333333333333333", "timeStep=0.033333334", "timeStep=0.1", "timeStep=1", "timeStep=1.0"]
 
 
@@ -57,8 +59,8 @@ def test_what_has_no_exact_text_is_no_value_of_an_axis(value):
         Axis("key", (value,))
 
 
-@pytest.mark.parametrize("key", ["", ".", "..", "a/b", "a\\b", "a:b", "Study.json", "a.", "a ", "\n", "ü", "x" * 201])
-def test_a_name_that_cannot_be_a_folder_is_refused(key):
+@pytest.mark.parametrize("key", ["", ".", "..", "a/b", "a\\b", "a:b", "a.", "a ", "\n", "ü", "x" * 201])
+def test_a_name_that_cannot_be_a_files_is_refused(key):
     with pytest.raises(ValueError, match="to name a run|cannot name a run"):
         Case(key, {})
     assert checked_key("barycentric,s=0.1") == "barycentric,s=0.1"
@@ -75,7 +77,6 @@ def test_two_axes_are_every_combination_with_every_variant():
     ]
     last = grid.cases()[-1]
     assert (last.variant, last.values, last.repeats) == ("soft", {"totalMass": 2.0, "integrator": "verlet"}, 2)
-    assert last.folder() == last.key and last.folder(2) == f"{last.key}/repeat-2"
 
 
 def test_each_variant_takes_every_value_and_a_duration_sets_the_steps():
@@ -91,8 +92,7 @@ def test_each_variant_takes_every_value_and_a_duration_sets_the_steps():
 
 def test_variants_without_an_axis_are_runs_of_their_own_name_and_neither_is_one_run():
     named = Grid(variants={"a": {}, "b": {"displacement": 3}}).cases()
-    assert [(case.key, case.variant, case.values, case.folder()) for case in named] == [
-        ("a", "a", {}, "a"), ("b", "b", {}, "b")]
+    assert [(case.key, case.variant, case.values) for case in named] == [("a", "a", {}), ("b", "b", {})]
     assert [case.key for case in Grid().cases()] == ["default"] == [run_key("", {})]
 
 
@@ -112,7 +112,7 @@ def test_the_thesis_sweeps_are_the_thesis_ranges():
         "constraintSolverSteps": (100, 1000), "numberRodElements": (5, 60), "displacement": (1, 100),
         "timeStep": (1e-4, 1e-1), "totalMass": (1e-3, 1.0),
     }
-    swept = [study for study in STUDIES.values() if study.grid.axes and not study.grid.variants]
+    swept = [study for study in GRIDS.values() if study.grid.axes and not study.grid.variants]
     assert len(swept) == 14
     for study in swept:
         (axis,) = study.grid.axes
@@ -124,13 +124,12 @@ def test_every_thesis_sweep_holds_the_default_value():
         "constraintSolverSteps": 500, "numberRodElements": 30, "displacement": 10, "timeStep": 0.01,
         "totalMass": 0.01,
     }
-    for study in STUDIES.values():
+    for study in GRIDS.values():
         assert all(table_4_1[axis.key] in axis.values for axis in study.grid.axes)
 
 
-@pytest.mark.parametrize("study", STUDIES.values(), ids=STUDIES)
-def test_no_two_runs_share_a_folder(study):
-    folders = [case.folder(k) for case in study.grid.cases() for k in (None, *range(1, case.repeats + 1))]
-    points = math.prod(len(axis.values) for axis in study.grid.axes)
-    assert len({folder.lower() for folder in folders}) == len(folders)
-    assert len(folders) == max(1, len(study.grid.variants)) * points * (1 + study.grid.repeats)
+@pytest.mark.parametrize("study", GRIDS.values(), ids=GRIDS)
+def test_no_two_runs_share_a_name(study):
+    keys = [case.key for case in study.grid.cases()]
+    assert len({key.lower() for key in keys}) == len(keys)
+    assert len(keys) * (1 + study.grid.repeats) == study.grid.count

@@ -5,7 +5,7 @@ import dataclasses
 import pytest
 
 from analysis.tables import read_table
-from experiments.sweep import sweep
+from experiments.sweep import Means, sweep
 from studies.builtin import STUDIES
 from studies.table import Axis, Grid
 
@@ -24,9 +24,9 @@ TAU = {
 def test_tau_is_that_of_an_independent_program(runner_command, tmp_path, name):
     (axis,) = STUDIES[name].grid.axes
     study = dataclasses.replace(STUDIES[name], grid=Grid((Axis(axis.key, tuple(TAU[name])),)))
-    result = sweep([study], runner_command, tmp_path, 2, lambda *_: None)
+    result = sweep([(study, tmp_path)], tmp_path / "runs", Means(runner_command, 2))
     assert result.failures == []
-    table = read_table(result.folder / name, axis.key)
+    table = read_table(tmp_path / name, axis.key)
     assert {row.run.outcome for row in table.rows} == {"converged"}
     for row in table.rows:
         assert row.relaxation.time == pytest.approx(TAU[name][row.value], rel=0.01), row.value

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import stat
 import sys
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -74,7 +75,7 @@ def test_environment_names_a_program_that_is_none(monkeypatch: pytest.MonkeyPatc
 
 def test_finished(player: unity_runner.Unity, tmp_path: Path) -> None:
     reply = run(player, tmp_path, 0)
-    assert (reply["exitCode"], reply["outcome"], reply["reused"]) == (0, "finished", False)
+    assert (reply["exitCode"], reply["outcome"]) == (0, "finished")
     assert (tmp_path / "run" / "unity.log").is_file()
 
 
@@ -107,11 +108,11 @@ def test_hanging_unity_is_ended(tmp_path: Path) -> None:
     assert reply["exitCode"] == 70 and "did not end within 0.5 s" in str(reply["message"])
 
 
-def test_reuse(player: unity_runner.Unity, tmp_path: Path) -> None:
-    assert run(player, tmp_path, 0, reuse=True)["reused"] is False
-    assert run(player, tmp_path, 0, reuse=True)["reused"] is True
-    assert run(player, tmp_path, 0, reuse=True, repeat=1)["reused"] is False
-    assert run(player, tmp_path, 0)["reused"] is False
+def test_address_is_of_parameters_and_program(player: unity_runner.Unity, tmp_path: Path) -> None:
+    first, same, other = (run(player, tmp_path, wish, check=True) for wish in (0, 0, 1))
+    assert first == same and first["exitCode"] == 0 and len(str(first["address"])) == 32
+    assert other["address"] != first["address"] and other["version"] == first["version"]
+    assert not (tmp_path / "run").exists()
 
 
 def test_request_that_cannot_be_read(player: unity_runner.Unity) -> None:
@@ -119,12 +120,11 @@ def test_request_that_cannot_be_read(player: unity_runner.Unity) -> None:
     assert unity_runner.answer(player, '{"id": "a"}')["id"] == "a"
 
 
-def test_takes_the_headless_runners_place_in_a_sweep(player: unity_runner.Unity, tmp_path: Path) -> None:
-    requests = [runner.Request(f"r{k}", PARAMETERS, tmp_path / f"r{k}", {"displacement": k}) for k in (0, 4, 5)]
-    codes = {}
-    runner.run_all(unity_runner.adapter(player), requests, 2,
-                   lambda request, reply: codes.update({request.name: (reply.exit_code, reply.outcome)}))
-    assert codes == {"r0": (0, "finished"), "r4": (4, "diverged"), "r5": (70, None)}
+def test_takes_the_headless_runners_place(player: unity_runner.Unity, tmp_path: Path) -> None:
+    with closing(runner.Runner(unity_runner.adapter(player))) as place:
+        requests = [runner.Request(f"r{k}", PARAMETERS, tmp_path / f"r{k}", {"displacement": k}) for k in (0, 4, 5)]
+        replies = [place.run(request) for request in requests]
+    assert [(reply.exit_code, reply.outcome) for reply in replies] == [(0, "finished"), (4, "diverged"), (70, None)]
 
 
 def test_one_run(player: unity_runner.Unity, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -3,25 +3,33 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from analysis.runs import read_run
+from analysis.runs import read_runs
+from analysis.stability import limit_explicit
 from analysis.validation import scenes
 from analysis.validation.check import Check, Finding, Result, replay
 from analysis.validation.report import FAST, Report, as_csv, as_markdown
 from analysis.validation.wire import BASE, Wire
-from experiments.sweep import sweep
+from experiments.sweep import Means, SweepResult, sweep
 from studies.table import Case
+
+
+def make(checks: Sequence[Check], folder: Path, command: list[str], jobs: int = 1) -> SweepResult:
+    """Make the runs of checks into a folder."""
+    return sweep([(check, folder) for check in checks], folder / "runs", Means(command, jobs))
 
 
 @pytest.fixture(scope="module")
 def fast_report(tmp_path_factory: pytest.TempPathFactory, runner_command: list[str]) -> Report:
-    done = sweep(FAST, runner_command, tmp_path_factory.mktemp("validation"), 2, lambda *_: None)
+    folder = tmp_path_factory.mktemp("validation")
+    done = make(FAST, folder, runner_command, 2)
     assert done.failures == []
-    return Report({check: replay(check, done.folder) for check in FAST})
+    return Report({check: replay(check, folder) for check in FAST})
 
 
 @pytest.mark.parametrize("check", FAST, ids=lambda check: check.name)
@@ -53,38 +61,21 @@ def _adaptive():
 
 def test_later_cases_follow_from_earlier_runs(tmp_path: Path, runner_command: list[str]) -> None:
     check = Check("adaptive", "Test", "adaptive", _adaptive)
-    asked = []
-    done = sweep([check], runner_command, tmp_path, 1, lambda *_: asked.append(1))
-    assert len(asked) == 4 and done.failures == []
-    assert replay(check, done.folder).results[0].passed
+    done = make([check], tmp_path, runner_command)
+    assert done.made == 4 and done.failures == []
+    assert replay(check, tmp_path).results[0].passed
 
 
 def _wrong():
+    yield [Case("right", {"numberRodElements": 4})]
     yield [Case("wrong", {"numberRodElements": -1})]
     raise AssertionError("goes on after a run without a result")
 
 
 def test_check_whose_run_has_no_result_is_dropped_and_told(tmp_path: Path, runner_command: list[str]) -> None:
-    done = sweep([Check("wrong", "Test", "wrong", _wrong)], runner_command, tmp_path, 1, lambda *_: None)
+    done = make([Check("wrong", "Test", "wrong", _wrong)], tmp_path, runner_command)
     (failure,) = done.failures
     assert failure.exit_code == 2 and "numberRodElements" in failure.message
-
-
-def _highest_frequency(wire: Wire, n: int) -> float:
-    """Of small motions of a free chain with lumped masses, rad/s: across it, with elements that turn, and along it."""
-    length = wire.length / n
-    turning = np.full(n, wire.second_moment / wire.area)
-    mass = wire.line_density * length * np.array([0.5, *np.ones(n - 1), 0.5, *turning])
-    shear = np.zeros((n, 2 * n + 1))  # (y' - angle), of n+1 places and n angles
-    for j in range(n):
-        shear[j, [j, j + 1, n + 1 + j]] = -1.0 / length, 1.0 / length, -1.0
-    bend = np.diff(np.eye(2 * n + 1)[n + 1:], axis=0)
-    stiffness = wire.shearing * length * shear.T @ shear + wire.bending / length * bend.T @ bend
-    across = np.linalg.eigvalsh(stiffness / np.sqrt(np.outer(mass, mass)))[-1]
-    side = np.diff(np.eye(n + 1), axis=0)
-    along = np.linalg.eigvalsh(
-        wire.stretching / length * side.T @ side / np.sqrt(np.outer(mass[:n + 1], mass[:n + 1])))[-1]
-    return math.sqrt(max(across, along))
 
 
 ROUNDED = 1.0 + 1e-9
@@ -113,10 +104,10 @@ def test_stable_substep_that_a_run_states_is_that_of_the_linear_chain(
         stated.update((yield from scenes.stable_substeps(keys)))
         return Finding((), lambda figure: None, "")
 
-    done = sweep([Check("limits", "Test", "limits", plan)], runner_command, tmp_path, 1, lambda *_: None)
-    replay(Check("limits", "Test", "limits", plan), done.folder)
+    make([Check("limits", "Test", "limits", plan)], tmp_path, runner_command)
+    replay(Check("limits", "Test", "limits", plan), tmp_path)
     for name, (wire, n) in _WIRES.items():
-        limit = 2.0 / _highest_frequency(wire, n)
+        limit = limit_explicit(wire, n)
         assert limit / math.sqrt(_slack(wire, n)) <= stated[name] * ROUNDED, name
         assert stated[name] <= limit * ROUNDED, name
 
@@ -132,9 +123,8 @@ def test_a_motion_timed_in_turns_is_the_motion_of_its_run(tmp_path: Path, runner
         return Finding((), lambda figure: None, "")
 
     check = Check("cost", "Test", "cost", plan, "params/default.json")
-    done = sweep([check], runner_command, tmp_path, 1, lambda *_: None)
-    assert done.failures == []
-    timed, made = (read_run(done.folder / "cost" / name) for name in ("timed", "run"))
+    assert make([check], tmp_path, runner_command).failures == []
+    timed, made = (read_runs(tmp_path / "cost")[name] for name in ("timed", "run"))
     for name in ("outcome", "reason", "steps", "inGameTime", "parameterHash"):
         assert timed.summary[name] == made.summary[name], name
     for name in ("elementIterationsPerMillisecond", "wallTimePerSecond", "elementIterationTime"):

@@ -147,7 +147,7 @@ namespace Guidewire.Core
         /// <param name="saved">What <see cref="Save"/> gave.</param>
         /// <exception cref="ArgumentException">As <see cref="Create"/>; bytes that <see cref="Save"/> did not give for
         /// a run of these parameters.</exception>
-        public static Simulation Restore(SimulationParameters parameters, ReadOnlySpan<byte> saved)
+        public static Simulation Restore(SimulationParameters parameters, byte[] saved)
         {
             Snapshot snapshot = Snapshot.OfBytes(saved);
             try

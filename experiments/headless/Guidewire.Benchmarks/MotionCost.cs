@@ -30,7 +30,7 @@ namespace Guidewire.Benchmarks
         }
 
         /// <summary>Measures the motion that a request describes, to its maxSimulationSteps, and writes
-        /// parameters.json and summary.json into its folder; or takes over what the folder already holds.</summary>
+        /// parameters.json and summary.json into its folder.</summary>
         /// <exception cref="ParameterException">No folder is named, or there is nothing to time.</exception>
         public static RunResult Measure(RunRequest request, ParameterHandler handler)
         {
@@ -40,10 +40,6 @@ namespace Guidewire.Benchmarks
                 throw new ParameterException("request: a motion's cost needs a folder and at least one step");
             }
             string path = Path.Combine(request.Out!, RunSummary.FileName);
-            if (request.Reuse && Holds(path, handler))
-            {
-                return new RunResult(Outcome.Finished, "taken from an earlier run", true);
-            }
             Simulation motion = Simulation.Create(parameters);
             void Move()
             {
@@ -68,24 +64,10 @@ namespace Guidewire.Benchmarks
                 [Figure] = both.FirstBest / both.SecondBest * ElementIterations / milliseconds,
                 ["wallTimePerSecond"] = 1e-6 * both.First / milliseconds,
                 ["elementIterationTime"] = both.Second / ElementIterations,
-                ["core"] = Core,
                 ["parameterHash"] = handler.Hash,
                 ["complete"] = true,
             }.ToString(Formatting.Indented) + "\n");
             return new RunResult(motion.Outcome, motion.Reason, false);
-        }
-
-        private static string Core => typeof(Simulation).Module.ModuleVersionId.ToString("N");
-
-        private static bool Holds(string path, ParameterHandler handler)
-        {
-            if (!File.Exists(path))
-            {
-                return false;
-            }
-            JObject json = JsonText.ReadObject(path);
-            return json[Figure] != null && (string?)json["parameterHash"] == handler.Hash
-                && (string?)json["core"] == Core;
         }
     }
 }

@@ -17,10 +17,11 @@ namespace Guidewire.Cli
     {
         private const string Usage =
             "usage: Guidewire.Cli -parameters FILE -out DIR [-force] [-KEY VALUE]...\n"
-            + "       Guidewire.Cli -lines      one JSON request a line on standard input, one answer a line on"
+            + "       Guidewire.Cli -lines [-attached]      one JSON request a line on standard input, one answer a line on"
             + " standard output:\n"
             + "           {\"id\": TEXT, \"parameters\": FILE, \"set\": {KEY: VALUE}, \"out\": DIR, \"repeat\": K,"
-            + " \"reuse\": true}\n"
+            + " \"log\": true, \"check\": false}\n"
+            + "           -attached: where the input ends, the run under way ends too, as by Ctrl-C\n"
             + "       Guidewire.Cli --modes FILE K   the K lowest frequencies and shapes of a material, as JSON\n"
             + "       Guidewire.Cli --walls FILE X Y Z REACH   the walls' triangles in units, as JSON; of a wall without"
             + " end\n"
@@ -65,7 +66,7 @@ namespace Guidewire.Cli
                         return 0;
                     case "--lines":
                     case "-lines":
-                        return RequestLoop.Serve(Console.In, Console.Out, Simulate, () => StopRequested);
+                        return Serve(arguments);
                     default:
                         return RunOnce(arguments, command);
                 }
@@ -84,8 +85,28 @@ namespace Guidewire.Cli
 
         private static RunResult Simulate(RunRequest request, ParameterHandler handler)
         {
-            var run = new SimulationRun(handler, request.Out, request.Repeat) { StopRequested = () => StopRequested };
-            return run.Execute(request.Reuse ? Existing.Reuse : Existing.Replace);
+            var run = new SimulationRun(handler, request.Out, request.Repeat)
+            {
+                StopRequested = () => StopRequested,
+                KeepsLog = request.Log,
+            };
+            return run.Execute(Existing.Replace);
+        }
+
+        // Attached, the end of the input says that whoever started us is gone: nobody waits for the run under way, and
+        // its folder should be free for whoever starts it again.
+        private static int Serve(string[] arguments)
+        {
+            if (arguments.Length == 1)
+            {
+                return RequestLoop.Serve(Console.In, Console.Out, Simulate, () => StopRequested);
+            }
+            if (arguments.Length > 2 || arguments[1].TrimStart('-') != "attached")
+            {
+                throw new ParameterException(CommandLineHandler.Source + ": -lines takes -attached or nothing");
+            }
+            using var requests = new LinesAhead(Console.In, () => Volatile.Write(ref _stopRequested, 1));
+            return RequestLoop.Serve(requests, Console.Out, Simulate, () => StopRequested);
         }
 
         private static int PrintModes(string[] arguments)

@@ -42,7 +42,6 @@ namespace Guidewire.Cli
                 ["outcome"] = null,
                 ["message"] = "",
                 ["out"] = null,
-                ["reused"] = false,
             };
             string? folder = null;
             try
@@ -55,13 +54,19 @@ namespace Guidewire.Cli
                     return answer;
                 }
                 ParameterHandler handler = ParameterHandler.Load(request.ParameterFile, request.Overrides);
+                if (request.IsCheck)
+                {
+                    answer["exitCode"] = 0;
+                    answer["address"] = RunSummary.Address(handler);
+                    answer["version"] = RunSummary.Maker;
+                    return answer;
+                }
                 folder = string.IsNullOrEmpty(request.Out) ? handler.Values.LogFilePath : request.Out;
                 answer["out"] = folder;
                 RunResult result = execute(request, handler);
                 answer["exitCode"] = ExitCodes.Of(result.Outcome);
                 answer["outcome"] = result.Word;
-                answer["message"] = result.Reused ? "taken from an earlier run" : result.Reason;
-                answer["reused"] = result.Reused;
+                answer["message"] = result.Reason;
             }
             catch (ParameterException error)
             {

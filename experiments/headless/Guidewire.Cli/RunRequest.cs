@@ -12,7 +12,8 @@ namespace Guidewire.Cli
             ParameterFile = (string?)json["parameters"];
             Out = (string?)json["out"];
             Repeat = (int?)json["repeat"];
-            Reuse = (bool?)json["reuse"] ?? false;
+            IsCheck = (bool?)json["check"] ?? false;
+            Log = (bool?)json["log"] ?? true;
             Session = (string?)json["session"];
             Hand = (bool?)json["hand"];
             Steps = (int?)json["steps"] ?? 1;
@@ -34,8 +35,11 @@ namespace Guidewire.Cli
         /// <summary>Number of a timed repeat, or null.</summary>
         public int? Repeat { get; }
 
-        /// <summary>Whether a whole earlier result stands in.</summary>
-        public bool Reuse { get; }
+        /// <summary>Whether the parameters are only checked, and the run's address told.</summary>
+        public bool IsCheck { get; }
+
+        /// <summary>Whether the run leaves a log.</summary>
+        public bool Log { get; }
 
         /// <summary>What is to be done with a run that is stepped by requests, or null for a whole run.</summary>
         public string? Session { get; }
@@ -67,7 +71,8 @@ namespace Guidewire.Cli
             Check(json, "out", "a folder's path", JTokenType.String);
             Check(json, "repeat", "a whole number from 0", JTokenType.Integer);
             Check(json, "steps", "a whole number from 1", JTokenType.Integer);
-            Check(json, "reuse", "true or false", JTokenType.Boolean);
+            Check(json, "check", "true or false", JTokenType.Boolean);
+            Check(json, "log", "true or false", JTokenType.Boolean);
             Check(json, "set", "an object of parameters", JTokenType.Object);
             Check(json, "session", "a text", JTokenType.String);
             Check(json, "hand", "true or false", JTokenType.Boolean);

@@ -35,12 +35,12 @@ namespace Guidewire.Core
         }
 
         /// <summary>A snapshot to be read, of bytes that another one was made into.</summary>
-        public static Snapshot OfBytes(ReadOnlySpan<byte> bytes)
+        public static Snapshot OfBytes(byte[] bytes)
         {
             var bits = new long[bytes.Length / sizeof(long)];
             for (int i = 0; i < bits.Length; i++)
             {
-                bits[i] = BinaryPrimitives.ReadInt64LittleEndian(bytes.Slice(sizeof(long) * i));
+                bits[i] = BinaryPrimitives.ReadInt64LittleEndian(bytes.AsSpan(sizeof(long) * i));
             }
             return new Snapshot { _bits = bits, _count = bits.Length, IsWritten = false };
         }

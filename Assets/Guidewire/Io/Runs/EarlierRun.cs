@@ -13,10 +13,6 @@ namespace Guidewire.Io
         /// stays.</summary>
         Replace,
 
-        /// <summary>One of the same parameters, repeat and build stands in; another one is replaced, also by a run that
-        /// failed: whoever asked keeps a table of what became of each.</summary>
-        Reuse,
-
         /// <summary>One of the same parameters, repeat and build stands in; another one is not touched: the new run is
         /// refused.</summary>
         Keep,
@@ -55,8 +51,9 @@ namespace Guidewire.Io
             try
             {
                 JObject summary = JsonText.ReadObject(path);
+                var log = (string?)summary["log"];    // null: none was asked for
                 bool isWhole = (bool?)summary["complete"] == true
-                    && File.Exists(Path.Combine(folder, (string?)summary["log"] ?? ""));
+                    && (log == null || File.Exists(Path.Combine(folder, log)));
                 bool hasOutcome = Enum.TryParse((string?)summary["outcome"], true, out Outcome outcome);
                 bool isDone = outcome == Outcome.Converged || outcome == Outcome.Finished
                     || outcome == Outcome.Diverged;

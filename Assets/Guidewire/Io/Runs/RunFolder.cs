@@ -26,7 +26,7 @@ namespace Guidewire.Io
         private readonly ParameterHandler _handler;
         private readonly string _folder;
         private readonly int? _repeat;
-        private readonly DataLogger _logger;
+        private readonly DataLogger? _logger;    // null: no log was asked for
         private readonly StepTimes _times = new StepTimes();
         private readonly Stopwatch _clock = new Stopwatch();
         private readonly List<string> _notes = new List<string>();
@@ -34,7 +34,7 @@ namespace Guidewire.Io
         private int _lastLogged = -1;
         private bool _lost;
 
-        private RunFolder(ParameterHandler handler, string folder, int? repeat, DataLogger logger)
+        private RunFolder(ParameterHandler handler, string folder, int? repeat, DataLogger? logger)
         {
             _handler = handler;
             _folder = folder;
@@ -56,14 +56,16 @@ namespace Guidewire.Io
         /// <param name="handler">The parameters.</param>
         /// <param name="folder">The folder.</param>
         /// <param name="repeat">Number of a timed repeat, or null.</param>
+        /// <param name="keepsLog">Whether there are to be a positions.json and a parameters.json.</param>
         /// <exception cref="ParameterException">The folder cannot be written; nothing has been.</exception>
-        public static RunFolder Open(ParameterHandler handler, string folder, int? repeat)
+        public static RunFolder Open(ParameterHandler handler, string folder, int? repeat, bool keepsLog)
         {
             try
             {
                 Directory.CreateDirectory(folder);
                 string log = Path.Combine(folder, PositionsFile + AtomicFile.Partial);
-                return new RunFolder(handler, folder, repeat, DataLogger.Open(log, handler.Values));
+                return new RunFolder(handler, folder, repeat,
+                    keepsLog ? DataLogger.Open(log, handler.Values) : null);
             }
             catch (Exception error) when (error is IOException || error is UnauthorizedAccessException
                 || error is ArgumentException || error is NotSupportedException)
@@ -117,7 +119,7 @@ namespace Guidewire.Io
             {
                 if (!_lost)
                 {
-                    _logger.Close();
+                    _logger?.Close();
                     if (!LeaveEarlier(simulation))
                     {
                         Publish(simulation);
@@ -135,7 +137,8 @@ namespace Guidewire.Io
             }
             try
             {
-                string log = File.Exists(Path.Combine(_folder, PartialLog)) ? PartialLog : PositionsFile;
+                string? log = _logger == null ? null
+                    : File.Exists(Path.Combine(_folder, PartialLog)) ? PartialLog : PositionsFile;
                 AtomicFile.Write(Path.Combine(_folder, RunSummary.FileName), Summary(simulation, log));
             }
             catch (Exception error) when (IsDisk(error))
@@ -147,7 +150,7 @@ namespace Guidewire.Io
         /// <summary>Lets go of the log as it is.</summary>
         public void Dispose()
         {
-            _logger.Dispose();
+            _logger?.Dispose();
         }
 
         private static bool IsDisk(Exception error)
@@ -157,7 +160,7 @@ namespace Guidewire.Io
 
         private void Log(Simulation simulation)
         {
-            if (_lost)
+            if (_lost || _logger == null)
             {
                 return;
             }
@@ -197,6 +200,15 @@ namespace Guidewire.Io
             // does not count, so no mixture of two runs ever does.
             string parameters = Path.Combine(_folder, ParametersFile);
             string summary = Path.Combine(_folder, RunSummary.FileName);
+            if (_logger == null)
+            {
+                AtomicFile.Prepare(summary, Summary(simulation, null));
+                File.Delete(summary);    // an earlier run's, as the others
+                File.Delete(Path.Combine(_folder, PositionsFile));
+                File.Delete(parameters);
+                AtomicFile.Publish(summary);
+                return;
+            }
             AtomicFile.Prepare(parameters, _handler.ToJson().ToString(Formatting.Indented) + "\n");
             try
             {
@@ -213,7 +225,7 @@ namespace Guidewire.Io
             AtomicFile.Publish(summary);
         }
 
-        private string Summary(Simulation simulation, string log)
+        private string Summary(Simulation simulation, string? log)
         {
             return RunSummary.Text(simulation, _handler, _times, 1e-3 * _setUp, _clock.Elapsed.TotalSeconds, _repeat,
                 log, _notes);

@@ -1,6 +1,8 @@
 using System;
 using System.Collections.Generic;
 using System.Runtime.InteropServices;
+using System.Security.Cryptography;
+using System.Text;
 using Guidewire.Core;
 using Newtonsoft.Json;
 using Newtonsoft.Json.Linq;
@@ -24,10 +26,10 @@ namespace Guidewire.Io
         /// shape.</param>
         /// <param name="wallTime">Wall time since the start of the run in s, without that.</param>
         /// <param name="repeat">Number of a timed repeat, or null.</param>
-        /// <param name="log">Name of the log in the run's folder.</param>
+        /// <param name="log">Name of the log in the run's folder, or null where there is none.</param>
         /// <param name="notes">What other than the parameters made the run, one line each.</param>
         internal static string Text(Simulation simulation, ParameterHandler handler, StepTimes times, double setUpTime,
-            double wallTime, int? repeat, string log, IReadOnlyList<string> notes)
+            double wallTime, int? repeat, string? log, IReadOnlyList<string> notes)
         {
             var json = new JObject
             {
@@ -106,6 +108,19 @@ namespace Guidewire.Io
 
         /// <summary>The product's version.</summary>
         public static string Version => typeof(RunSummary).Assembly.GetName().Version?.ToString(3) ?? "0";
+
+        /// <summary>What makes runs: version, identity of the compiled simulation, runtime.</summary>
+        public static string Maker => "guidewire " + Version + ", core " + CoreBuild + ", "
+            + RuntimeInformation.FrameworkDescription;
+
+        /// <summary>What a run's results depend on, wall times apart, in 32 hex digits: its parameters but output
+        /// paths, and what makes it. Runs with the same address have the same results.</summary>
+        public static string Address(ParameterHandler handler)
+        {
+            using SHA256 sha = SHA256.Create();
+            byte[] digest = sha.ComputeHash(Encoding.UTF8.GetBytes(handler.Hash + "\n" + Maker));
+            return BitConverter.ToString(digest, 0, 16).Replace("-", "").ToLowerInvariant();
+        }
 
         /// <summary>The outcome's one word.</summary>
         internal static string Word(Outcome outcome)

@@ -40,6 +40,9 @@ namespace Guidewire.Io
         /// <summary>The folder of the results.</summary>
         public string Folder => _folder;
 
+        /// <summary>Whether the run leaves all three files (default), or summary.json only.</summary>
+        public bool KeepsLog { get; set; } = true;
+
         /// <summary>Runs to the end, or takes over what the folder already holds.</summary>
         /// <param name="existing">What becomes of a run that the folder holds.</param>
         /// <exception cref="ParameterException">The folder cannot be written, or holds a run that is to be kept;
@@ -51,7 +54,7 @@ namespace Guidewire.Io
             {
                 return new RunResult(earlier.Outcome, earlier.Reason, true);
             }
-            if (earlier != null && existing == Existing.Keep)
+            if (earlier != null)
             {
                 throw new ParameterException("out = " + _folder + " holds a complete run already ("
                     + earlier.Difference(_handler, _repeat)
@@ -60,9 +63,8 @@ namespace Guidewire.Io
             long before = Stopwatch.GetTimestamp();
             Simulation simulation = Simulation.Create(_handler.Values.Simulation);
             double setUp = (Stopwatch.GetTimestamp() - before) * RunFolder.ToMilliseconds;
-            using RunFolder results = RunFolder.Open(_handler, _folder, _repeat);
-            results.LeavesEarlierWhen = existing == Existing.Reuse ? new[] { Outcome.Interrupted }
-                : new[] { Outcome.Interrupted, Outcome.Failed };
+            using RunFolder results = RunFolder.Open(_handler, _folder, _repeat, KeepsLog);
+            results.LeavesEarlierWhen = new[] { Outcome.Interrupted, Outcome.Failed };
             results.Begin(simulation, setUp);
             if (_handler.Values.Simulation.Method.MaxSimulationSteps == 0 && simulation.Outcome == Outcome.Running)
             {

@@ -94,7 +94,7 @@ namespace Guidewire.Io
             double setUp = (Stopwatch.GetTimestamp() - before) * RunFolder.ToMilliseconds;
             if (logFolder.Length > 0)
             {
-                session._results = RunFolder.Open(handler, logFolder, null);
+                session._results = RunFolder.Open(handler, logFolder, null, keepsLog: true);
                 session._results.Begin(session.Simulation, setUp);
                 if (isSteered)
                 {
@@ -158,8 +158,9 @@ namespace Guidewire.Io
         public void Restore(byte[] saved)
         {
             int end = Array.IndexOf(saved, (byte)'\n', 0, Math.Min(saved.Length, LongestHead)) + 1;
-            var numbers = new ReadOnlySpan<byte>(saved, end, saved.Length - end);
-            if (Encoding.ASCII.GetString(saved, 0, end) != Head(numbers.ToArray()))
+            var numbers = new byte[saved.Length - end];
+            Array.Copy(saved, end, numbers, 0, numbers.Length);
+            if (Encoding.ASCII.GetString(saved, 0, end) != Head(numbers))
             {
                 throw new ParameterException("what is to be restored was not saved by a session of these parameters and"
                     + " this build, or is not whole");

@@ -164,33 +164,59 @@ namespace Guidewire.Core.Tests
             new SimulationRun(Load(("maxSimulationSteps", 3)), _folder, null).Execute(Existing.Keep);
             Assert.That(() => new SimulationRun(other, _folder, null).Execute(Existing.Keep),
                 Throws.TypeOf<ParameterException>().With.Message.Contains("maxSimulationSteps is 3 there and 9 here"));
-            foreach (Existing existing in new[] { Existing.Replace, Existing.Reuse })
-            {
-                var stopped = new SimulationRun(other, _folder, null) { StopRequested = () => true };
-                RunResult result = stopped.Execute(existing);
-                Assert.That((result.Outcome, result.KeptEarlier), Is.EqualTo((Outcome.Interrupted, true)));
-                Assert.That((int)Read("summary.json")["steps"]!, Is.EqualTo(3));
-            }
+            var stopped = new SimulationRun(other, _folder, null) { StopRequested = () => true };
+            RunResult result = stopped.Execute(Existing.Replace);
+            Assert.That((result.Outcome, result.KeptEarlier), Is.EqualTo((Outcome.Interrupted, true)));
+            Assert.That((int)Read("summary.json")["steps"]!, Is.EqualTo(3));
             Assert.That(new SimulationRun(other, _folder, null).Execute(Existing.Replace).KeptEarlier, Is.False);
             Assert.That((int)Read("summary.json")["steps"]!, Is.EqualTo(9));
             Assert.That(Directory.GetFiles(_folder), Has.Length.EqualTo(3));
         }
 
-        [TestCase(Existing.Replace, "finished")]
-        [TestCase(Existing.Reuse, "failed")]
-        public void RunThatFailed_TakesTheEarlierOnesPlace_OnlyInAStudy(Existing existing, string left)
+        [Test]
+        public void RunThatFailed_DoesNotTakeTheEarlierOnesPlace()
         {
             new SimulationRun(Load(("maxSimulationSteps", 3)), _folder, null).Execute(Existing.Keep);
             ParameterHandler hopeless = Load(("solver", "direct"), ("proximalEnd", "clamped"),
                 ("initialState", "equilibrium"), ("maxNewtonIterations", 1), ("tipForce", new JArray(0.0, 100.0, 0.0)));
-            RunResult result = new SimulationRun(hopeless, _folder, null).Execute(existing);
+            RunResult result = new SimulationRun(hopeless, _folder, null).Execute(Existing.Replace);
             Assert.That(result.Outcome, Is.EqualTo(Outcome.Failed));
-            Assert.That((string?)Read("summary.json")["outcome"], Is.EqualTo(left));
+            Assert.That((string?)Read("summary.json")["outcome"], Is.EqualTo("finished"));
+        }
+
+        [Test]
+        public void Address_TellsRunsApart_ByParametersButNotByPaths()
+        {
+            string address = RunSummary.Address(Load(("maxSimulationSteps", 3)));
+            Assert.That(address, Does.Match("^[0-9a-f]{32}$"));
+            Assert.That(RunSummary.Address(Load(("maxSimulationSteps", 3), ("logFilePath", "x"))), Is.EqualTo(address));
+            Assert.That(RunSummary.Address(Load(("maxSimulationSteps", 4))), Is.Not.EqualTo(address));
+        }
+
+        [Test]
+        public void RunWithoutALog_HasTheSameResult_AndTakesAnEarlierLogAway()
+        {
+            ParameterHandler handler = Load(("maxSimulationSteps", 3));
+            new SimulationRun(handler, _folder, null).Execute(Existing.Replace);
+            JObject logged = Read("summary.json");
+            new SimulationRun(handler, _folder, null) { KeepsLog = false }.Execute(Existing.Replace);
+            JObject summary = Read("summary.json");
+            Assert.That(Directory.GetFiles(_folder), Has.Length.EqualTo(1), "the summary");
+            Assert.That(summary["log"]!.Type, Is.EqualTo(JTokenType.Null));
+            Assert.That(summary["predictionError"], Is.EqualTo(logged["predictionError"]));
+            Assert.That(new SimulationRun(handler, _folder, null).Execute(Existing.Keep).Reused, Is.True);
         }
 
         private bool IsReused(ParameterHandler handler, int? repeat)
         {
-            return new SimulationRun(handler, _folder, repeat).Execute(Existing.Reuse).Reused;
+            try
+            {
+                return new SimulationRun(handler, _folder, repeat).Execute(Existing.Keep).Reused;
+            }
+            catch (ParameterException)
+            {
+                return false;    // another run is there
+            }
         }
 
         private JObject Read(string name)

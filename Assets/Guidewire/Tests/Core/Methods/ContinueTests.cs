@@ -175,8 +175,10 @@ namespace Guidewire.Core.Tests
             SimulationParameters longer = Transversal();
             longer.Scene.NumberRodElements++;
             Assert.Throws<ArgumentException>(() => Simulation.Restore(longer, saved));
-            Assert.Throws<ArgumentException>(() => Simulation.Restore(Transversal(), saved.AsSpan(0, 800)));
-            Assert.Throws<ArgumentException>(() => Simulation.Restore(Transversal(), default));
+            var half = new byte[800];
+            Array.Copy(saved, half, half.Length);
+            Assert.Throws<ArgumentException>(() => Simulation.Restore(Transversal(), half));
+            Assert.Throws<ArgumentException>(() => Simulation.Restore(Transversal(), new byte[0]));
         }
 
         private static void AssertSameBits(Simulation a, Simulation b, string when)

@@ -1,0 +1,180 @@
+"""Where methods fail: frontiers that bisections found, and the limits that theory has for them.
+
+**Gains.** While a wire is nearly straight, a sweep is linear in the distances u from rest, u -> S u, and so is a step
+with its prediction: u_{k+1} = S^m (2 u_k - u_{k-1}). With an eigenvalue s of S and a = s^m the roots of
+r^2 - 2 a r + a = 0 say how the motion grows from step to step; a wire holds where none is above 1. For many sweeps that
+asks for |s| < 1. A Gauss-Seidel sweep over equal links that takes back the part f of each error holds up to f = 2:
+2 for the stretch gain across the wire, 2 (1 + 2 wq l^2/w) along it, where the part 4 wq l^2 of the correction is lost,
+and l for the bend gain, of which 2/l acts. The link at the held sphere moves one sphere only and is softer than the
+others, which a wire of few long elements feels; `limit_along` and `limit_across` have the whole chain.
+
+**Explicit steps** hold up to 2/omega_max of the linear chain (`limit_explicit`).
+"""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from analysis.logs import LogError
+from analysis.validation.wire import Wire
+from studies.bisection import FRONTIER
+from studies.frontiers import BEND, LENGTH, MASS, STRETCH
+from studies.keys import RESULTS
+
+_GROWTH = 1e-3  # of a step, from which it counts: turns about the held sphere are neutral, and eigenvalues are rounded
+_HALVINGS = 40
+
+
+@dataclass(frozen=True)
+class Frontier:
+    """What a bisection found at one point of its grid.
+
+    Attributes
+    ----------
+    variant : str
+    values : mapping of str to float
+        Of the grid's axes, by key.
+    low, high : float
+        Neighbouring values of the parameter, one of which holds; not numbers where there is no frontier.
+    fails : str
+        Outcome of the run that does not hold.
+    """
+
+    variant: str
+    values: Mapping[str, float]
+    low: float
+    high: float
+    fails: str
+
+    @property
+    def middle(self) -> float:
+        """Between the two."""
+        return 0.5 * (self.low + self.high)
+
+
+def read_frontiers(folder: Path) -> list[Frontier]:
+    """What a bisection found.
+
+    Raises
+    ------
+    LogError
+        There is no such table, or it has other columns.
+    """
+    found = []
+    for row in _read(folder / FRONTIER):
+        try:
+            low, high = (float(row.pop(end) or math.nan) for end in ("low", "high"))
+            variant, fails, _, _ = (row.pop(name) for name in ("variant", "fails", "note", "key"))
+            found.append(Frontier(variant, {key: float(value) for key, value in row.items()}, low, high, fails))
+        except (KeyError, ValueError) as error:
+            raise LogError(f"{folder / FRONTIER}: not a table of frontiers ({error})") from error
+    return found
+
+
+def read_results(folder: Path) -> list[dict[str, str]]:
+    """The lines of a study's runs.csv."""
+    return _read(folder / RESULTS)
+
+
+def _read(path: Path) -> list[dict[str, str]]:
+    try:
+        with path.open(newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+    except OSError as error:
+        raise LogError(f"{path}: {error.strerror}") from error
+
+
+def closed_form_along(elements: int) -> float:
+    """2 (1 + 2 wq l^2/w), the largest stretch gain along a wire without ends."""
+    return 2.0 * (1.0 + 2.0 * (LENGTH / elements) ** 2 * MASS / (elements + 1))
+
+
+def limit_along(elements: int, sweeps: int) -> float:
+    """Largest stretch gain of a straight wire that is moved along itself."""
+    return _largest(lambda gain: _sweep_along(elements, gain), sweeps, 1.0, 100.0)
+
+
+def limit_across(elements: int, sweeps: int, bisected: str) -> float:
+    """Largest gain, "stretchStiffness" or "bendStiffness", of a wire that is moved a little across itself."""
+    if bisected == "stretchStiffness":
+        return _largest(lambda gain: _sweep_across(elements, gain, BEND), sweeps, 1.0, 100.0)
+    return _largest(lambda gain: _sweep_across(elements, STRETCH, gain), sweeps, 0.1, 1000.0)
+
+
+def _largest(sweep: Callable[[float], np.ndarray], sweeps: int, low: float, high: float) -> float:
+    """The gain at which steps begin to grow, between one that is small enough and one that is too large."""
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if _growth(sweep(middle), sweeps) < 1.0 + _GROWTH else (low, middle)
+    return low
+
+
+def _growth(sweep: np.ndarray, sweeps: int) -> float:
+    """Largest factor from one step to the next."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        a = np.linalg.eigvals(sweep).astype(complex) ** sweeps
+        root = np.sqrt(a * a - a)
+        growth = np.abs(np.concatenate([a + root, a - root]))
+    return float(np.max(growth)) if np.all(np.isfinite(growth)) else math.inf
+
+
+def _inverse_masses(elements: int) -> np.ndarray:
+    return np.array([0.0, *np.full(elements, (elements + 1) / MASS)])
+
+
+def _sweep_along(elements: int, gain: float) -> np.ndarray:
+    """S of the places of spheres 1 to n, shape (n, n)."""
+    l, w = LENGTH / elements, _inverse_masses(elements)
+    sweep = np.eye(elements + 1)
+    for j in range(elements):
+        share = gain / (w[j] + w[j + 1] + 4.0 * l * l)
+        stretch = sweep[j + 1] - sweep[j]
+        sweep[j] += w[j] * share * stretch
+        sweep[j + 1] -= w[j + 1] * share * stretch
+    return sweep[1:, 1:]
+
+
+def _sweep_across(elements: int, stretch_gain: float, bend_gain: float) -> np.ndarray:
+    """S of the places of spheres 1 to n, and the angles of elements 0 to n - 1, shape (2 n, 2 n)."""
+    l, w = LENGTH / elements, _inverse_masses(elements)
+    sweep = np.eye(2 * elements + 1)
+    places, angles = sweep[:elements + 1], sweep[elements + 1:]  # views: rows are what a value is made of
+    for j in range(elements):
+        share = stretch_gain / (w[j] + w[j + 1] + 4.0 * l * l)
+        error = (places[j + 1] - places[j]) / l - angles[j]
+        places[j] += w[j] * l * share * error
+        places[j + 1] -= w[j + 1] * l * share * error
+        angles[j] += 4.0 * l * l * share * error
+    for j in range(elements - 1):
+        turn = bend_gain / l * (angles[j + 1] - angles[j])
+        angles[j] += turn
+        angles[j + 1] -= turn
+    return sweep[1:, 1:]
+
+
+def limit_explicit(wire: Wire, elements: int) -> float:
+    """2/omega_max of a free straight chain with lumped masses, in s."""
+    return 2.0 / highest_frequency(wire, elements)
+
+
+def highest_frequency(wire: Wire, n: int) -> float:
+    """Of small motions of a free chain with lumped masses, rad/s: across it, with elements that turn, and along it."""
+    length = wire.length / n
+    turning = np.full(n, wire.second_moment / wire.area)
+    mass = wire.line_density * length * np.array([0.5, *np.ones(n - 1), 0.5, *turning])
+    shear = np.zeros((n, 2 * n + 1))  # (y' - angle), of n+1 places and n angles
+    for j in range(n):
+        shear[j, [j, j + 1, n + 1 + j]] = -1.0 / length, 1.0 / length, -1.0
+    bend = np.diff(np.eye(2 * n + 1)[n + 1:], axis=0)
+    stiffness = wire.shearing * length * shear.T @ shear + wire.bending / length * bend.T @ bend
+    across = np.linalg.eigvalsh(stiffness / np.sqrt(np.outer(mass, mass)))[-1]
+    side = np.diff(np.eye(n + 1), axis=0)
+    along = np.linalg.eigvalsh(
+        wire.stretching / length * side.T @ side / np.sqrt(np.outer(mass[:n + 1], mass[:n + 1])))[-1]
+    return math.sqrt(max(across, along))

@@ -1,0 +1,56 @@
+"""Where runs stand: `runs/` holds a folder for each address, and studies point there, so that two share what is the same.
+
+A run is whole where its summary is, and what the summary and whoever asks need beside it. A folder without that is what
+a killed or failed run left: it is made again, in the same place.
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+SUMMARY = "summary.json"
+LOG = "positions.json"
+LOAD = "load.json"  # of the machine beside a timed run
+_NOT_DONE = ("interrupted",)
+
+
+def folder_of(runs: Path, address: str, repeat: int | None = None, in_turns: bool = False) -> Path:
+    """Folder of a run; timed repeats and costs measured in turns have their own, so that none stands in for another.
+
+    Parameters
+    ----------
+    runs : folder of all runs.
+    address : as the runner tells it, hex digits.
+    repeat : number of the timed repeat.
+    in_turns : whether it is a cost measured in turns with sweeps.
+    """
+    name = address[2:] + ("-in-turns" if in_turns else f"-repeat-{repeat}" if repeat is not None else "")
+    return runs / address[:2] / name
+
+
+def read_whole(folder: Path, log: bool, timed: bool) -> dict[str, Any] | None:
+    """The summary of a whole run, with the load beside it where that was measured; None where the run is to be made.
+
+    Parameters
+    ----------
+    folder : of the run.
+    log : whether positions.json is needed.
+    timed : whether the load beside it is needed.
+    """
+    try:
+        summary = json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None
+    if not isinstance(summary, dict) or summary.get("complete") is not True or summary.get("outcome") in _NOT_DONE:
+        return None
+    named = summary.get("log")  # null without a log, another name where the disk was lost
+    if named not in (None, LOG) or (log and (named is None or not (folder / LOG).is_file())):
+        return None
+    if timed:
+        try:
+            summary |= json.loads((folder / LOAD).read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            return None
+    return summary

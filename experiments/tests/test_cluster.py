@@ -1,0 +1,143 @@
+"""A scheduler and its workers as processes of their own: results, lost workers, other versions; and a sweep that is
+killed and goes on."""
+
+import csv
+import json
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import pytest
+from distributed import LocalCluster
+
+from experiments.prepare import ROOT, PreparationError
+from experiments.sweep import WALL_TIMES, Means, sweep
+from studies.table import Axis, Grid, Study
+
+SCENE = {"maxSimulationSteps": 5, "constraintSolverSteps": 5}
+
+
+class Processes:
+    """A scheduler and three workers."""
+
+    def __init__(self, folder):
+        self._folder = folder
+        self._scheduler = self._start("dask_scheduler", "--port", "0", "--host", "127.0.0.1")
+        self.workers = [self._start("dask_worker", "--nthreads", "1", "--no-nanny", "--local-directory", str(folder))
+                        for _ in range(3)]
+
+    @property
+    def address(self):
+        """Of the scheduler, when it is up."""
+        return json.loads(wait_for(self._folder / "scheduler.json").read_text())["address"]
+
+    def _start(self, program, *options):
+        # Not where the repository stands: workers elsewhere do not see its packages either.
+        return subprocess.Popen(
+            [sys.executable, "-m", f"distributed.cli.{program}", "--no-dashboard", "--scheduler-file",
+             str(self._folder / "scheduler.json"), *options],
+            cwd=self._folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    def close(self):
+        for process in (*self.workers, self._scheduler):
+            process.kill()
+            process.wait()
+
+
+def wait_for(path, seconds=60.0):
+    end = time.monotonic() + seconds
+    while not path.exists():
+        assert time.monotonic() < end, path
+        time.sleep(0.02)
+    return path
+
+
+@pytest.fixture(scope="module")
+def processes(tmp_path_factory):
+    made = Processes(tmp_path_factory.mktemp("cluster"))
+    from distributed import Client
+
+    with Client(made.address) as client:
+        client.wait_for_workers(3, timeout=60)
+    yield made
+    made.close()
+
+
+def results_of(folder):
+    with open(folder / "runs.csv", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def study_of(name, *axes, logs=False, **options):
+    return Study(name, "a study", "params/default.json", Grid(axes, **options), logs=logs)
+
+
+def test_workers_elsewhere_make_the_same_results(processes, runner_command, tmp_path):
+    study = study_of("same", Axis("displacement", tuple(0.5 * k for k in range(1, 21))), common=SCENE)
+    tables = []
+    for name, address in (("here", None), ("there", processes.address)):
+        result = sweep([(study, tmp_path / name)], tmp_path / name / "runs", Means(runner_command, 2, address))
+        assert result.made == 20 and result.failures == []
+        tables.append([{k: v for k, v in row.items() if k not in WALL_TIMES}
+                       for row in results_of(tmp_path / name / "same")])
+    assert tables[0] == tables[1]
+
+
+def test_workers_of_another_version_are_one_line(processes, fake, tmp_path, monkeypatch):
+    monkeypatch.setenv("FAKE_VERSION", "fake 2")
+    with pytest.raises(PreparationError, match=r"^worker tcp.* has another version \(fake 1; here fake 2\)$"):
+        sweep([(study_of("one"), tmp_path)], tmp_path / "runs", Means(fake.command, 1, processes.address))
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_no_scheduler_at_the_address_and_one_without_workers_are_one_line(fake, tmp_path):
+    with pytest.raises(PreparationError, match="^no scheduler answers at tcp://127.0.0.1:9: start one"):
+        sweep([(study_of("one"), tmp_path)], tmp_path / "runs", Means(fake.command, 1, "tcp://127.0.0.1:9"))
+    with LocalCluster(n_workers=0, host="127.0.0.1", dashboard_address=None, processes=True) as empty:
+        with pytest.raises(PreparationError, match="has no worker: start one with 'dask-worker tcp://"):
+            sweep([(study_of("one"), tmp_path)], tmp_path / "runs", Means(fake.command, 1, empty.scheduler_address))
+
+
+@pytest.mark.timed
+def test_a_worker_that_is_killed_costs_no_run(processes, fake, tmp_path):
+    """The last of this file that needs three workers."""
+    study = study_of("killed", Axis("sleep", tuple(0.1 + 1e-4 * k for k in range(45))))
+
+    def kill():
+        wait_for(fake.journal)
+        while len(fake.calls()) < 10:
+            time.sleep(0.02)
+        processes.workers[0].kill()
+
+    threading.Thread(target=kill).start()
+    result = sweep([(study, tmp_path)], tmp_path / "runs", Means(fake.command, 1, processes.address))
+    assert processes.workers[0].poll() == -signal.SIGKILL
+    rows = results_of(tmp_path / "killed")
+    assert (result.made, result.failures) == (45, []) and {row["outcome"] for row in rows} == {"converged"}
+    assert len({row["key"] for row in rows}) == len({row["folder"] for row in rows}) == 45
+
+
+@pytest.mark.timed
+def test_a_sweep_that_is_killed_goes_on_where_it_was(runner_command, tmp_path):
+    axes = {"displacement": {"from": 1, "to": 100, "count": 400}}
+    (tmp_path / "study.json").write_text(json.dumps({
+        "study": "mine", "scene": os.path.relpath(ROOT / "params/default.json", tmp_path), "axes": axes,
+        "common": {"maxSimulationSteps": 100, "constraintSolverSteps": 50, "deltaThreshold": 0}}))
+    command = [sys.executable, str(ROOT / "guidewire.py"), "sweep", "study.json"]
+    killed = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    runs = tmp_path / "results" / "runs"
+    while len(first := list(runs.glob("*/*/summary.json"))) < 100:
+        assert killed.poll() is None
+        time.sleep(0.02)
+    killed.kill()
+    killed.wait()
+    before = {path: path.stat().st_mtime_ns for path in first}
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    rows = results_of(tmp_path / "results" / "mine")
+    assert len(rows) == len({row["folder"] for row in rows}) == 400 and {row["outcome"] for row in rows} == {"finished"}
+    assert {path: path.stat().st_mtime_ns for path in first} == before
+    assert len(list(runs.glob("*/*/summary.json"))) == 400 and not list(runs.glob("*/*/*.partial"))
