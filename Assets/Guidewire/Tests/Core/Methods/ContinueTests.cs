@@ -178,7 +178,7 @@ namespace Guidewire.Core.Tests
             var half = new byte[800];
             Array.Copy(saved, half, half.Length);
             Assert.Throws<ArgumentException>(() => Simulation.Restore(Transversal(), half));
-            Assert.Throws<ArgumentException>(() => Simulation.Restore(Transversal(), new byte[0]));
+            Assert.Throws<ArgumentException>(() => Simulation.Restore(Transversal(), Array.Empty<byte>()));
         }
 
         private static void AssertSameBits(Simulation a, Simulation b, string when)
