@@ -41,6 +41,11 @@ namespace Guidewire.Core
         /// <summary>Momenta over dt, dp/w, that walls gave each sphere in the present step, mass unit * unit.</summary>
         internal Vector3d[] Impulses => _impulses;
 
+        internal void SetTotal(in Vector3d total)
+        {
+            Total = total;
+        }
+
         internal void StartStep()
         {
             Array.Clear(_impulses, 0, _impulses.Length);

@@ -3,17 +3,10 @@ using System.Globalization;
 namespace Guidewire.Core
 {
     /// <summary>Where a wire may start: with every element in the lumen and none across a wall.</summary>
-    public static class WireStart
+    internal static class WireStart
     {
-        /// <summary>What is wrong with the start that the parameters describe, in one phrase, or null.</summary>
-        /// <exception cref="System.ArgumentException">There is no such start.</exception>
-        public static string? FindProblem(SimulationParameters parameters)
-        {
-            return parameters.Scene.Walls.Length == 0 ? null : FindProblem(new Scene(parameters));
-        }
-
         /// <summary>What is wrong with the start of a scene, in one phrase, or null.</summary>
-        internal static string? FindProblem(Scene scene)
+        public static string? FindProblem(Scene scene)
         {
             Vector3d[] x = scene.Shape.X;
             for (int j = 0; j < scene.Shape.ElementCount; j++)

@@ -46,5 +46,33 @@ namespace Guidewire.Core
         public abstract double Sweep(
             in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance,
             out SurfaceContact contact);
+
+        /// <summary>Distance of segment a b from the wall in units; it may be infinite beyond
+        /// <paramref name="range"/>, and too large by a little where the wall's ridges are not even.</summary>
+        internal virtual double QuickDistance(in Vector3d a, in Vector3d b, double range, ref int hint)
+        {
+            return Nearest(a, b, range, ref hint, out SurfaceContact contact) ? contact.Distance
+                : double.PositiveInfinity;
+        }
+
+        /// <summary>A fraction of the linear motion of segment a b from (a0, b0) to (a1, b1) on which it keeps a
+        /// distance, in units, or more: <see cref="NoImpact"/> for all of it, 0 where the start is nearer.</summary>
+        internal abstract double SweepKeeping(
+            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep);
+
+        /// <summary>Adds the ridges of the wall within <paramref name="range"/> of segment a b: where the wall bulges
+        /// into the free side, so that the inside of a segment can meet it before its ends do. None of a wall that
+        /// bulges nowhere.</summary>
+        internal virtual void FindRidges(
+            in Vector3d a, in Vector3d b, double range, StructList<WallRidge> ridges)
+        {
+        }
+
+        /// <summary>Radius in units of the largest ball that fits where the free side is narrowest, of all places
+        /// that are wider than a radius; infinite where the wall encloses nothing.</summary>
+        internal virtual double NarrowestRadius(double above)
+        {
+            return double.PositiveInfinity;
+        }
     }
 }

@@ -76,6 +76,15 @@ namespace Guidewire.Core
             return impact;
         }
 
+        /// <inheritdoc/>
+        internal override double SweepKeeping(
+            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep)
+        {
+            return Math.Min(
+                Crossing(Vector3d.Dot(a0 - _point, _normal), Vector3d.Dot(a1 - _point, _normal), keep),
+                Crossing(Vector3d.Dot(b0 - _point, _normal), Vector3d.Dot(b1 - _point, _normal), keep));
+        }
+
         private static double Crossing(double before, double after, double keep)
         {
             return after < keep ? Math.Max(0.0, (before - keep) / (before - after)) : NoImpact;

@@ -19,7 +19,11 @@ namespace Guidewire.Core
         private readonly Vector3d[] _knots;
         private readonly double[] _radii;
         private readonly double _resolution;
+        private readonly TubePiece[] _pieces;
+        private int _last;    // the piece that the last query met: where the next one begins to look
         private TubePlaces? _places;
+        private TubeRidges? _ridges;
+        private TubeSweep? _sweep;
 
         /// <summary>The tube through <paramref name="knots"/> (at least 2, units) with a radius at each (positive,
         /// units). It ends in half spheres; an open end goes on straight, with the radius of its last knot.</summary>
@@ -61,6 +65,11 @@ namespace Guidewire.Core
                 _radii[count + shift] = radii[count - 1];
             }
             _resolution = 1e-12 * (length + widest);
+            _pieces = new TubePiece[_knots.Length - 1];
+            for (int i = 0; i < _pieces.Length; i++)
+            {
+                _pieces[i] = new TubePiece(_knots[i], _knots[i + 1], _radii[i], _radii[i + 1]);
+            }
         }
 
         /// <summary>Knots of the centreline in units; an open end's last knot is far away.</summary>
@@ -73,18 +82,31 @@ namespace Guidewire.Core
         /// <remarks>On the centreline of a piece the normal has no direction and is 0.</remarks>
         public double Distance(in Vector3d x, out Vector3d normal)
         {
-            double best = double.NegativeInfinity;
-            Vector3d centre = x;
-            for (int i = 0; i + 1 < _knots.Length; i++)
+            double best = Largest(x, out _, out Vector3d centre);
+            normal = Vector3d.Normalize(centre - x);
+            return best;
+        }
+
+        /// <summary>d(x), the piece that gives it, of equals the first, and the centre.</summary>
+        internal double Largest(in Vector3d x, out int piece, out Vector3d centre)
+        {
+            piece = _last;
+            double best = PieceDistance(piece, x, out centre);
+            for (int i = 0; i < _pieces.Length; i++)
             {
+                if (i == piece || _pieces[i].IsBelow(x, best))
+                {
+                    continue;
+                }
                 double value = PieceDistance(i, x, out Vector3d c);
-                if (value > best)
+                if (value > best || (value == best && i < piece))
                 {
                     best = value;
                     centre = c;
+                    piece = i;
                 }
             }
-            normal = Vector3d.Normalize(centre - x);
+            _last = piece;
             return best;
         }
 
@@ -152,6 +174,41 @@ namespace Guidewire.Core
             return impact;
         }
 
+        /// <inheritdoc/>
+        internal override double SweepKeeping(
+            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep)
+        {
+            _sweep ??= new TubeSweep(_pieces);
+            return _sweep.Keeping(a0, b0, a1, b1, keep);
+        }
+
+        /// <summary>At the ends of the segment and where it crosses creases, in the planes of the knots.</summary>
+        internal override double QuickDistance(in Vector3d a, in Vector3d b, double range, ref int hint)
+        {
+            double nearest = Math.Min(Largest(a, out _, out _), Largest(b, out _, out _));
+            _ridges ??= new TubeRidges(this);
+            return Math.Min(nearest, _ridges.Nearest(a, b));
+        }
+
+        /// <summary>The creases at its knots; see <see cref="TubeRidges"/>.</summary>
+        internal override void FindRidges(
+            in Vector3d a, in Vector3d b, double range, StructList<WallRidge> ridges)
+        {
+            _ridges ??= new TubeRidges(this);
+            _ridges.Find(a, b, range, ridges);
+        }
+
+        /// <summary>That of the narrowest knot.</summary>
+        internal override double NarrowestRadius(double above)
+        {
+            double narrowest = double.PositiveInfinity;
+            foreach (double radius in _radii)
+            {
+                narrowest = radius > above ? Math.Min(narrowest, radius) : narrowest;
+            }
+            return narrowest;
+        }
+
         // Smallest d on s0..s1, given its values at both ends: with slope at most 1 it is nowhere below
         // (d0 + d1 - length)/2, and where one piece serves both ends it is nowhere below the smaller of the two.
         private void Between(
@@ -180,10 +237,9 @@ namespace Guidewire.Core
         private double HullClearance(in Vector3d a, in Vector3d b)
         {
             double best = double.NegativeInfinity;
-            for (int i = 0; i + 1 < _knots.Length; i++)
+            for (int i = 0; i < _pieces.Length; i++)
             {
-                double value = PieceDistance(i, a, out _);
-                if (value > best)
+                if (!_pieces[i].IsBelow(a, best) && PieceDistance(i, a, out _) is double value && value > best)
                 {
                     best = Math.Max(best, Math.Min(value, PieceDistance(i, b, out _)));
                 }
@@ -242,7 +298,8 @@ namespace Guidewire.Core
         private double LeavesPiece(
             int i, in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double time, double keep)
         {
-            if (!IsInPiece(i, Vector3d.Lerp(a0, a1, time), Vector3d.Lerp(b0, b1, time), keep))
+            Vector3d a = Vector3d.Lerp(a0, a1, time);
+            if (_pieces[i].IsBelow(a, keep) || !IsInPiece(i, a, Vector3d.Lerp(b0, b1, time), keep))
             {
                 return time;
             }
@@ -272,9 +329,7 @@ namespace Guidewire.Core
             return PieceDistance(i, a, out _) >= keep && PieceDistance(i, b, out _) >= keep;
         }
 
-        // max over u in [0, 1] of R(u) - |x - c(u)| for piece i, and the centre that gives it. With h the distance of
-        // x from the line, z its foot's arc length and k = (R1 - R0)/length the slope of the radius, |k| < 1, the
-        // maximum of R0 + k y - sqrt(h^2 + (z - y)^2) lies at y = z + k h/sqrt(1 - k^2).
+        // max over u in [0, 1] of R(u) - |x - c(u)| for piece i, and the centre that gives it.
         private double PieceDistance(int i, in Vector3d x, out Vector3d centre)
         {
             return PieceDistance(i, x, out centre, out _);
@@ -284,18 +339,7 @@ namespace Guidewire.Core
         /// lie if the piece had no ends: from 0 to 1 between its knots.</summary>
         internal double PieceDistance(int i, in Vector3d x, out Vector3d centre, out double along)
         {
-            Vector3d from = _knots[i];
-            Vector3d axis = _knots[i + 1] - from;
-            double length = axis.Length;
-            Vector3d offset = x - from;
-            double z = Vector3d.Dot(offset, axis) / length;
-            double h = Vector3d.Cross(axis, offset).Length / length;
-            double k = (_radii[i + 1] - _radii[i]) / length;
-            double free = z + k * h / Math.Sqrt(1.0 - k * k);
-            double y = Math.Min(Math.Max(free, 0.0), length);
-            along = free / length;
-            centre = from + (y / length) * axis;
-            return _radii[i] + k * y - Vector3d.Distance(x, centre);
+            return _pieces[i].Distance(x, out centre, out along);
         }
 
         private static string? Check(Vector3d[] knots, double[] radii)

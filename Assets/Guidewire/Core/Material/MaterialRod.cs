@@ -23,6 +23,7 @@ namespace Guidewire.Core
             LineDensity = new double[elementCount];
             RotaryInertia = new double[elementCount];
             RestCurvature = new Vector3d[elementCount];
+            Radius = new double[elementCount];
             _sides = new JointSide[]?[elementCount];
         }
 
@@ -55,6 +56,9 @@ namespace Guidewire.Core
 
         /// <summary>Curvature and twist at rest along the element's axes, rad/m.</summary>
         public Vector3d[] RestCurvature { get; }
+
+        /// <summary>Radius of the surface that touches walls, m; the largest along an element.</summary>
+        public double[] Radius { get; }
 
         /// <summary>L, m.</summary>
         public double TotalLength

@@ -23,6 +23,14 @@ namespace Guidewire.Core
         /// <param name="scene">What acts on it; loads that change in time come with <see cref="SetTime"/>.</param>
         /// <param name="others">Loads besides those of the scene.</param>
         public RodTerms(MaterialRod rod, RodSupports supports, SceneParameters scene, params EnergyTerm[] others)
+            : this(rod, supports, scene, null, others)
+        {
+        }
+
+        /// <summary>The terms of a rod in a scene with walls.</summary>
+        /// <param name="walls">What they add, or null.</param>
+        public RodTerms(MaterialRod rod, RodSupports supports, SceneParameters scene, WallTerms? walls,
+            EnergyTerm[] others)
         {
             Rod = rod;
             Supports = supports;
@@ -42,7 +50,9 @@ namespace Guidewire.Core
                 Loads,
                 Moment,
             }, others);
+            Walls = walls;
             All = Joined(_elastic, _loads);
+            All = walls == null ? All : Joined(All, walls.All);
             _endGradient = new RodVector[rod.ElementCount + 2];
         }
 
@@ -66,6 +76,9 @@ namespace Guidewire.Core
 
         /// <summary>The couple on the last element, along its own axes.</summary>
         public TipMoment Moment { get; }
+
+        /// <summary>Contact with walls; null in a scene without.</summary>
+        public WallTerms? Walls { get; }
 
         /// <summary>Every term.</summary>
         public EnergyTerm[] All { get; }

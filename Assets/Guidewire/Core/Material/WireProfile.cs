@@ -91,6 +91,7 @@ namespace Guidewire.Core
             private double _density;
             private double _rotary;
             private Vector3d _curvature;
+            private double _radius;   // the largest
 
             public void Add(in CrossSection piece, double weight)
             {
@@ -102,6 +103,7 @@ namespace Guidewire.Core
                 _density += weight * piece.LineDensity;
                 _rotary += weight * piece.RotaryInertia;
                 _curvature += weight * piece.RestCurvature;
+                _radius = Math.Max(_radius, piece.Radius);
             }
 
             public CrossSection Result()
@@ -116,6 +118,7 @@ namespace Guidewire.Core
                     LineDensity = _density,
                     RotaryInertia = _rotary,
                     RestCurvature = _curvature,
+                    Radius = _radius,
                 };
             }
         }

@@ -33,7 +33,13 @@ namespace Guidewire.Core
             }
             if (!method.MeetsWalls && parameters.Scene.Walls.Length > 0)
             {
-                return new ParameterConflict("vessel", "solver pbd: a wire with a material meets no walls");
+                return new ParameterConflict("vessel", "solver pbd or direct: the others meet no walls");
+            }
+            if (method.TakesMaterial && parameters.Scene.Walls.Length > 0
+                && parameters.Scene.InitialState == InitialState.Equilibrium)
+            {
+                return new ParameterConflict("initialState",
+                    "\"straight\" between walls: rest shapes are found without them");
             }
             if (!method.TakesSteering && parameters.Drive.Steering != null)
             {

@@ -15,6 +15,7 @@ namespace Guidewire.Core
         private readonly MeshGeometry _wall;
         private readonly MeshGeometry _closed;
         private MeshPlaces? _places;
+        private MeshRidges? _ridges;
 
         /// <summary>The wall at the place where its file has it.</summary>
         public MeshShape(TriangleMesh mesh)
@@ -73,6 +74,27 @@ namespace Guidewire.Core
         {
             _places ??= new MeshPlaces(_wall);
             _places.Find(a, b, range, places);
+        }
+
+        /// <inheritdoc/>
+        internal override double SweepKeeping(
+            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep)
+        {
+            return _wall.Tree.Sweep(a0, b0, a1, b1, keep, out _);
+        }
+
+        /// <summary>Edges that bulge into the lumen, and those of open rims; see <see cref="MeshRidges"/>.</summary>
+        internal override void FindRidges(
+            in Vector3d a, in Vector3d b, double range, StructList<WallRidge> ridges)
+        {
+            _ridges ??= new MeshRidges(_wall);
+            _ridges.Find(a, b, range, ridges);
+        }
+
+        /// <summary>Of the balls that touch the wall in the middle of a triangle and lie in the lumen.</summary>
+        internal override double NarrowestRadius(double above)
+        {
+            return MeshWidth.Narrowest(_wall, above);
         }
 
         /// <inheritdoc/>

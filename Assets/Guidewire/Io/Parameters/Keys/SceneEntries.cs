@@ -117,7 +117,7 @@ namespace Guidewire.Io
                 + " file's folder, openRims names a point near the middle of each open rim",
                 p => p.Vessel, (p, v) => p.Vessel = v)
             {
-                Methods = Takers.Gains,
+                Methods = Takers.Walls,
                 IsRefusedElsewhere = true,
             },
             new JsonEntry("obstacles", JTokenType.Array, "null or a list of {\"shape\": \"sphere\", \"centre\","
@@ -125,23 +125,23 @@ namespace Guidewire.Io
                 + " \"centre\", \"halfSize\", \"rotation\"}, {\"shape\": \"hull\", \"points\", \"radius\"}",
                 "convex bodies in the wire's way (units, degrees)", p => p.Obstacles, (p, v) => p.Obstacles = v)
             {
-                Methods = Takers.Gains,
+                Methods = Takers.Walls,
                 IsRefusedElsewhere = true,
             },
             new VectorEntry("position", "units", true, "where the vessel lies",
                 p => p.Position, (p, v) => p.Position = v)
             {
-                Methods = Takers.Gains,
+                Methods = Takers.Walls,
             },
             new VectorEntry("scale", "", false, "factors on the vessel's size",
                 p => p.Scale, (p, v) => p.Scale = v)
             {
-                Methods = Takers.Gains,
+                Methods = Takers.Walls,
             },
             new VectorEntry("rotation", "degrees", true, "the vessel's Euler angles, about z, then x, then y",
                 p => p.Rotation, (p, v) => p.Rotation = v)
             {
-                Methods = Takers.Gains,
+                Methods = Takers.Walls,
             },
         });
     }
