@@ -28,6 +28,7 @@ SUMMARY_KEYS = {
 MAY_BE_NULL = {
     "driveAsked", "repeat", "largestError", "timeStepError", "stableSubstep", "energy", "equilibriumResidual",
     "smallestEigenvalue", "proximalForce", "proximalMoment", "distalForce", "distalMoment",
+    "wallIterations", "halvedSteps", "contactDistance", "contactStiffness",
 }
 WALL_TIMES = ("computationTime", "setUpTime", "wallTime", "averageStepTime", "medianStepTime", "elapsedMilliseconds")
 

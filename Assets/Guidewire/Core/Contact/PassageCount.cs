@@ -45,7 +45,9 @@ namespace Guidewire.Core
                 }
                 for (int w = 0; w < _walls.Length; w++)
                 {
-                    if (_walls[w].Sweep(
+                    // What surely keeps off needs no exact time of impact.
+                    if (_walls[w].SweepKeeping(from[j], from[j + 1], to[j], to[j + 1], _clearance) < 1.0
+                        && _walls[w].Sweep(
                         from[j], from[j + 1], to[j], to[j + 1], _clearance, out _) < ContactShape.NoImpact)
                     {
                         MarkElement(w, from, to, j);

@@ -68,6 +68,9 @@ namespace Guidewire.Core
         {
         }
 
+        /// <summary>Whether the ridges are where a segment comes nearest between its ends, exactly.</summary>
+        internal virtual bool HasExactRidges => true;
+
         /// <summary>Radius in units of the largest ball that fits where the free side is narrowest, of all places
         /// that are wider than a radius; infinite where the wall encloses nothing.</summary>
         internal virtual double NarrowestRadius(double above)

@@ -198,6 +198,10 @@ namespace Guidewire.Core
             _ridges.Find(a, b, range, ridges);
         }
 
+        /// <summary>Of a tube that is even; where its radius changes a crease lies a little beside the plane of its
+        /// knot.</summary>
+        internal override bool HasExactRidges => Array.TrueForAll(_radii, radius => radius == _radii[0]);
+
         /// <summary>That of the narrowest knot.</summary>
         internal override double NarrowestRadius(double above)
         {

@@ -13,6 +13,7 @@ namespace Guidewire.Core
         private readonly TubePiece[] _pieces;
         private readonly int[] _near;
         private int _count;
+        private int _last;    // the piece that last held all corners: asked first
         private Vector3d _a;
         private Vector3d _b;
         private Vector3d _moveA;
@@ -34,6 +35,10 @@ namespace Guidewire.Core
             _moveA = a1 - a0;
             _moveB = b1 - b0;
             _keep = keep;
+            if (HoldsAll(_pieces[_last], a0, b0, a1, b1))
+            {
+                return ContactShape.NoImpact;
+            }
             FindNear(a1, b1);
             if (IsSafe(0.0, 1.0, 0.0, 1.0, 0))
             {
@@ -82,8 +87,9 @@ namespace Guidewire.Core
             for (int k = 0; k < _count; k++)
             {
                 ref readonly TubePiece piece = ref _pieces[_near[k]];
-                if (Holds(piece, c00) && Holds(piece, c11) && Holds(piece, c10) && Holds(piece, c01))
+                if (HoldsAll(piece, c00, c10, c01, c11))
                 {
+                    _last = _near[k];
                     return true;
                 }
             }
@@ -112,6 +118,11 @@ namespace Guidewire.Core
                 }
             }
             return false;
+        }
+
+        private bool HoldsAll(in TubePiece piece, in Vector3d a, in Vector3d b, in Vector3d c, in Vector3d d)
+        {
+            return Holds(piece, a) && Holds(piece, d) && Holds(piece, b) && Holds(piece, c);
         }
 
         private bool Holds(in TubePiece piece, in Vector3d x)

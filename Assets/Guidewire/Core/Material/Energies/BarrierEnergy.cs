@@ -17,6 +17,7 @@ namespace Guidewire.Core
     {
         private const double LeftOfGap = 0.05;    // that a step leaves at least
         private const double QuickShare = 0.9;    // of a gap that is only about right
+        private const double SureOfQuick = 0.9;   // of a quick distance there is surely room
 
         private readonly ContactShape[] _walls;
         private readonly double _units;           // per metre
@@ -28,6 +29,9 @@ namespace Guidewire.Core
         private readonly double[] _room;          // by wall and element: from the reference to the wall, units
         private readonly bool[] _isNear;          // the same: whether the barrier may act within the reach
         private readonly int[] _hint;
+        private readonly bool[] _isExact;         // by wall: whether ridges and nodes tell an element's gap
+        private readonly double[] _nodeGap;       // by wall and node, m, no more than the barrier's distance
+        private readonly double[] _ridgeGap;      // by wall and element, between its nodes
         private readonly Vector3d[] _gradient;    // of the shape at hand, by node, N
         private readonly Symmetric3[] _own;       // (x_i, x_i), N/m
         private readonly Symmetric3[] _coupling;  // (x_i, x_i+1)
@@ -58,13 +62,16 @@ namespace Guidewire.Core
                 _nodeRadius[j + 1] = rod.Radius[j];
             }
             _barrier = barrier;
-            _leastReach = 4.0 * barrier.Distance * _units;
+            _leastReach = Math.Max(4.0 * barrier.Distance, rod.Radius[n - 1]) * _units;
             _x = new Vector3d[n + 1];
             _reference = new Vector3d[n + 1];
             _room = new double[walls.Length * n];
             _isNear = new bool[walls.Length * n];
             _hint = new int[walls.Length * n];
             Array.Fill(_hint, -1);
+            _isExact = Array.ConvertAll(walls, wall => wall.HasExactRidges);
+            _nodeGap = new double[walls.Length * (n + 1)];
+            _ridgeGap = new double[walls.Length * n];
             _gradient = new Vector3d[n + 1];
             _own = new Symmetric3[n + 1];
             _coupling = new Symmetric3[n];
@@ -78,7 +85,7 @@ namespace Guidewire.Core
         public Barrier Barrier => _barrier;
 
         /// <summary>The wire is looked for walls anew after this way, m; by default 4 times the barrier's
-        /// distance.</summary>
+        /// distance or the wire's radius.</summary>
         public double Reach
         {
             get => _leastReach / _units;
@@ -197,25 +204,21 @@ namespace Guidewire.Core
         {
             int n = _elementRadius.Length;
             double radius = _units * _elementRadius[j];
-            double passed = Math.Max(Vector3d.Distance(_x[j], _reference[j]),
-                Vector3d.Distance(_x[j + 1], _reference[j + 1]));
-            if (motion < (1.0 - LeftOfGap) * (_room[w * n + j] - passed - radius))
+            double gap = Math.Min(Math.Min(_nodeGap[w * (n + 1) + j], _nodeGap[w * (n + 1) + j + 1]),
+                _ridgeGap[w * n + j]) * _units;
+            if (motion < QuickShare * gap && _isExact[w])
             {
                 return 1.0;
             }
-            double range = radius + motion / QuickShare;
             ref int hint = ref _hint[w * n + j];
-            double gap = _walls[w].QuickDistance(_x[j], _x[j + 1], range, ref hint) - radius;
-            if (motion < QuickShare * gap)
-            {
-                return 1.0;
-            }
             Vector3d a = _x[j] + moveA;
             Vector3d b = _x[j + 1] + moveB;
             double share = gap > 0.0
                 ? _walls[w].SweepKeeping(_x[j], _x[j + 1], a, b, radius + LeftOfGap * gap) : 0.0;
-            if (share == 0.0 && _walls[w].Nearest(_x[j], _x[j + 1], range, ref hint, out SurfaceContact contact))
+            if (share == 0.0)
             {
+                _walls[w].Nearest(
+                    _x[j], _x[j + 1], double.PositiveInfinity, ref hint, out SurfaceContact contact);
                 gap = contact.Distance - radius;
                 share = gap > 0.0
                     ? _walls[w].SweepKeeping(_x[j], _x[j + 1], a, b, radius + LeftOfGap * gap) : 0.0;
@@ -251,6 +254,8 @@ namespace Guidewire.Core
             {
                 FindNear(_leastReach);
             }
+            Array.Fill(_nodeGap, _barrier.Distance);
+            Array.Fill(_ridgeGap, _barrier.Distance);
             for (int w = 0; w < _walls.Length; w++)
             {
                 AddWall(w);
@@ -271,9 +276,10 @@ namespace Guidewire.Core
                     int k = w * n + j;
                     double range = _reach + _units * (Math.Max(_nodeRadius[j], _nodeRadius[j + 1])
                         + _barrier.Distance);
-                    _isNear[k] = _walls[w].Nearest(
-                        _x[j], _x[j + 1], range, ref _hint[k], out SurfaceContact contact);
-                    _room[k] = _isNear[k] ? Math.Abs(contact.Distance) : range;
+                    double distance = SureOfQuick * Math.Abs(
+                        _walls[w].QuickDistance(_x[j], _x[j + 1], range / SureOfQuick, ref _hint[k]));
+                    _isNear[k] = distance <= range;
+                    _room[k] = Math.Min(distance, range);
                 }
             }
         }
@@ -305,11 +311,13 @@ namespace Guidewire.Core
             Vector3d gradient = Vector3d.Zero;
             Symmetric3 second = default;
             bool mayBeNegative = false;
+            ref double nearest = ref _nodeGap[w * _x.Length + i];
             for (int k = 0; k < _places.Count; k++)
             {
                 ref WallPlace place = ref _places[k];
-                double value = _barrier.At(place.Contact.Distance / _units - radius, out double slope,
-                    out double curvature);
+                double gap = place.Contact.Distance / _units - radius;
+                nearest = Math.Min(nearest, gap);
+                double value = _barrier.At(gap, out double slope, out double curvature);
                 if (value == 0.0)
                 {
                     continue;
@@ -338,11 +346,14 @@ namespace Guidewire.Core
         {
             double radius = _elementRadius[j];
             _ridges.Clear();
+            ref double nearest = ref _ridgeGap[w * _elementRadius.Length + j];
             _walls[w].FindRidges(_x[j], _x[j + 1], _units * (radius + _barrier.Distance), _ridges);
             for (int k = 0; k < _ridges.Count; k++)
             {
                 ref WallRidge ridge = ref _ridges[k];
-                double value = _barrier.At(ridge.Distance / _units - radius, out double slope, out double curvature);
+                double gap = ridge.Distance / _units - radius;
+                nearest = Math.Min(nearest, gap);
+                double value = _barrier.At(gap, out double slope, out double curvature);
                 if (value == 0.0 || ridge.Weight == 0.0)
                 {
                     continue;

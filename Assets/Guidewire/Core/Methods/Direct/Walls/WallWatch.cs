@@ -6,6 +6,8 @@ namespace Guidewire.Core
     /// takes down the forces of contact.</summary>
     internal sealed class WallWatch : IContactSearch
     {
+        private const double Near = 1.02;      // in radii, where a distance is asked for exactly
+
         private readonly BarrierEnergy _barrier;
         private readonly double _units;        // per metre
         private readonly double[] _radius;     // of elements, units
@@ -103,8 +105,10 @@ namespace Guidewire.Core
             {
                 for (int j = 0; j < _radius.Length; j++)
                 {
-                    if (_clearance[j] < _radius[j] && Walls[w].Nearest(_from[j], _from[j + 1], _radius[j],
-                        ref _hint[w * _radius.Length + j], out SurfaceContact contact))
+                    ref int hint = ref _hint[w * _radius.Length + j];
+                    if (_clearance[j] < _radius[j]
+                        && Walls[w].QuickDistance(_from[j], _from[j + 1], _radius[j], ref hint) < Near * _radius[j]
+                        && Walls[w].Nearest(_from[j], _from[j + 1], _radius[j], ref hint, out SurfaceContact contact))
                     {
                         deepest = Math.Max(deepest, _radius[j] - contact.Distance);
                     }
