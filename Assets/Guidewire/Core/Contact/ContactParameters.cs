@@ -22,6 +22,10 @@ namespace Guidewire.Core
         /// <summary>Stiffness of the barrier, N/m; 0: by rule.</summary>
         public double ContactStiffness { get; set; }
 
+        /// <summary>Speed of slip below which friction on a wire with a material creeps in place of sticking,
+        /// m/s.</summary>
+        public double FrictionSpeed { get; set; } = 1e-3;
+
         /// <summary>The same values; lists and walls are shared.</summary>
         internal ContactParameters Copy()
         {

@@ -8,6 +8,10 @@ namespace Guidewire.Core
         /// <summary>Value of <see cref="Sweep"/> for a motion that meets no wall.</summary>
         public const double NoImpact = 2.0;
 
+        /// <summary>mu, Coulomb's coefficient of friction between the wire and this wall, 0 or more,
+        /// dimensionless.</summary>
+        public double FrictionCoefficient { get; set; }
+
         /// <summary>The place where segment a b comes nearest to the wall, if that is no farther than
         /// <paramref name="range"/>; a = b for a sphere's centre.</summary>
         /// <param name="a">First end of the segment.</param>
@@ -67,9 +71,6 @@ namespace Guidewire.Core
             in Vector3d a, in Vector3d b, double range, StructList<WallRidge> ridges)
         {
         }
-
-        /// <summary>Whether the ridges are where a segment comes nearest between its ends, exactly.</summary>
-        internal virtual bool HasExactRidges => true;
 
         /// <summary>Radius in units of the largest ball that fits where the free side is narrowest, of all places
         /// that are wider than a radius; infinite where the wall encloses nothing.</summary>

@@ -22,6 +22,7 @@ namespace Guidewire.Core
             Vector3d va = a1 - a0;
             Vector3d vb = b1 - b0;
             double time = 0.0;
+            double resolution = 0.0;
             for (int k = 0; k < MaxAdvances; k++)
             {
                 Vector3d a = a0 + time * va;
@@ -30,6 +31,10 @@ namespace Guidewire.Core
                 if (!(distance > 0.0))
                 {
                     return time;
+                }
+                if (k == 0)
+                {
+                    resolution = Math.Min(1e-3 * keep, 0.05 * (distance - keep));
                 }
                 Vector3d n = (Vector3d.Lerp(a, b, s) - c) / distance;
                 double advance = Math.Min(
@@ -40,8 +45,8 @@ namespace Guidewire.Core
                 }
 
                 // Both ends may keep their distance and still be on their way: then the plane has turned only a
-                // little and the remaining approach is below what the clearance resolves.
-                if (advance * Math.Max(va.Length, vb.Length) <= 1e-3 * keep && distance <= 1.01 * keep)
+                // little and the remaining approach is below what the clearance, or the way to it, resolves.
+                if (advance * Math.Max(va.Length, vb.Length) <= resolution && distance <= 1.01 * keep)
                 {
                     return time;
                 }

@@ -182,11 +182,11 @@ namespace Guidewire.Core
             return _sweep.Keeping(a0, b0, a1, b1, keep);
         }
 
-        /// <summary>At the ends of the segment and where it crosses creases, in the planes of the knots.</summary>
+        /// <summary>At the ends of the segment and where it crosses creases.</summary>
         internal override double QuickDistance(in Vector3d a, in Vector3d b, double range, ref int hint)
         {
             double nearest = Math.Min(Largest(a, out _, out _), Largest(b, out _, out _));
-            _ridges ??= new TubeRidges(this);
+            _ridges ??= new TubeRidges(this, _pieces);
             return Math.Min(nearest, _ridges.Nearest(a, b));
         }
 
@@ -194,13 +194,9 @@ namespace Guidewire.Core
         internal override void FindRidges(
             in Vector3d a, in Vector3d b, double range, StructList<WallRidge> ridges)
         {
-            _ridges ??= new TubeRidges(this);
+            _ridges ??= new TubeRidges(this, _pieces);
             _ridges.Find(a, b, range, ridges);
         }
-
-        /// <summary>Of a tube that is even; where its radius changes a crease lies a little beside the plane of its
-        /// knot.</summary>
-        internal override bool HasExactRidges => Array.TrueForAll(_radii, radius => radius == _radii[0]);
 
         /// <summary>That of the narrowest knot.</summary>
         internal override double NarrowestRadius(double above)

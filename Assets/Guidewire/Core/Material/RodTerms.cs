@@ -131,13 +131,19 @@ namespace Guidewire.Core
             return sum;
         }
 
+        /// <summary>Energy stored in the wire and in its contacts with walls, J.</summary>
+        public double StoredEnergy(RodShape shape)
+        {
+            return ElasticEnergy(shape) + (Walls == null ? 0.0 : Walls.Barrier.Value(shape));
+        }
+
         /// <summary>Energy stored in the wire less the work of the loads that have a potential, J.</summary>
         public double Potential(RodShape shape)
         {
             double sum = 0.0;
             foreach (EnergyTerm term in All)
             {
-                sum += term.HasPotential ? term.Value(shape) : 0.0;
+                sum += term.HasPotential && term.StoresEnergy ? term.Value(shape) : 0.0;
             }
             return sum;
         }

@@ -65,7 +65,9 @@ namespace Guidewire.Core
             Barrier barrier = BarrierRule.Of(scene.Rod, parameters.Contact, scene.Walls, scene.Metres, move);
             var contact = new BarrierEnergy(scene.Rod, scene.Walls, scene.Metres, barrier);
             contact.Reach = Math.Max(contact.Reach, 2.0 * move);
-            return new WallTerms(contact, new SupportSpring(scene.Rod), scene.Supports.HasSpring);
+            WallFriction? friction = Array.Exists(scene.Walls, wall => wall.FrictionCoefficient > 0.0)
+                ? new WallFriction(contact, scene.Rod.ElementCount, parameters.Contact.FrictionSpeed) : null;
+            return new WallTerms(contact, friction, new SupportSpring(scene.Rod), scene.Supports.HasSpring);
         }
 
         /// <summary>Implicit steps by the direct solver.</summary>

@@ -41,6 +41,15 @@ namespace Guidewire.Core
                 return new ParameterConflict("initialState",
                     "\"straight\" between walls: rest shapes are found without them");
             }
+            bool rubs = Array.Exists(parameters.Scene.Walls, wall => wall.FrictionCoefficient > 0.0);
+            if (rubs && !method.TakesMaterial)
+            {
+                return new ParameterConflict("vessel", "no frictionCoefficient, or solver direct: gains have none");
+            }
+            if (rubs && method.TakesMaterial && parameters.Method.Integrator != Integrator.ImplicitEuler)
+            {
+                return new ParameterConflict("integrator", "implicitEuler where a wall has a frictionCoefficient");
+            }
             if (!method.TakesSteering && parameters.Drive.Steering != null)
             {
                 return new ParameterConflict("solver", "pbd where a hand steers: it steers wires with gains only");

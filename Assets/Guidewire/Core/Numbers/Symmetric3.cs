@@ -72,6 +72,14 @@ namespace Guidewire.Core
                 w * c.Z * c.Z);
         }
 
+        /// <summary>A b.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public Vector3d Times(in Vector3d b)
+        {
+            return new Vector3d(_11 * b.X + _21 * b.Y + _31 * b.Z, _21 * b.X + _22 * b.Y + _32 * b.Z,
+                _31 * b.X + _32 * b.Y + _33 * b.Z);
+        }
+
         /// <summary>The nearest matrix without negative eigenvalues: those of this one are set to 0. By Jacobi's
         /// rotations.</summary>
         public Symmetric3 PositivePart()

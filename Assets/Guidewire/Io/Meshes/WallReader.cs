@@ -20,12 +20,17 @@ namespace Guidewire.Io
             if (values.Vessel != null)
             {
                 var fields = new JsonFields(vesselSource, "vessel", values.Vessel);
-                walls.Add(Vessel(fields, values, vesselSource));
+                ContactShape vessel = Vessel(fields, values, vesselSource);
+                vessel.FrictionCoefficient = Friction(fields);
+                walls.Add(vessel);
             }
             int count = 0;
             foreach (JToken item in values.Obstacles ?? new JArray())
             {
-                walls.Add(Obstacle(new JsonFields(obstacleSource, "obstacles[" + count++ + "]", item)));
+                var fields = new JsonFields(obstacleSource, "obstacles[" + count++ + "]", item);
+                ContactShape obstacle = Obstacle(fields);
+                obstacle.FrictionCoefficient = Friction(fields);
+                walls.Add(obstacle);
             }
             return walls.ToArray();
         }
@@ -38,13 +43,13 @@ namespace Guidewire.Io
                 switch (fields.Text("shape"))
                 {
                     case "plane":
-                        fields.Allow("shape", "point", "normal");
+                        fields.Allow("shape", "frictionCoefficient", "point", "normal");
                         return Plane(fields, scene, placement);
                     case "tube":
-                        fields.Allow("shape", "knots", "radius", "openStart", "openEnd");
+                        fields.Allow("shape", "frictionCoefficient", "knots", "radius", "openStart", "openEnd");
                         return Tube(fields, scene, placement);
                     case "mesh":
-                        fields.Allow("shape", "file", "metresPerUnit", "openRims");
+                        fields.Allow("shape", "frictionCoefficient", "file", "metresPerUnit", "openRims");
                         return Mesh(fields, scene, placement, source);
                     default:
                         throw fields.Wrong("shape", "one of \"plane\", \"tube\", \"mesh\"");
@@ -54,6 +59,12 @@ namespace Guidewire.Io
             {
                 throw fields.Refused(error.Message);
             }
+        }
+
+        private static double Friction(JsonFields fields)
+        {
+            double coefficient = fields.Number("frictionCoefficient", 0.0);
+            return coefficient >= 0.0 ? coefficient : throw fields.Wrong("frictionCoefficient", "a number >= 0");
         }
 
         private static PlaneShape Plane(JsonFields fields, RunParameters scene, in Placement placement)
@@ -114,19 +125,19 @@ namespace Guidewire.Io
                 switch (fields.Text("shape"))
                 {
                     case "sphere":
-                        fields.Allow("shape", "centre", "radius");
+                        fields.Allow("shape", "frictionCoefficient", "centre", "radius");
                         return ConvexObstacle.Sphere(fields.Vector("centre", null), fields.Number("radius", null));
                     case "capsule":
-                        fields.Allow("shape", "from", "to", "radius");
+                        fields.Allow("shape", "frictionCoefficient", "from", "to", "radius");
                         return ConvexObstacle.Capsule(
                             fields.Vector("from", null), fields.Vector("to", null), fields.Number("radius", null));
                     case "box":
-                        fields.Allow("shape", "centre", "halfSize", "rotation");
+                        fields.Allow("shape", "frictionCoefficient", "centre", "halfSize", "rotation");
                         return ConvexObstacle.Box(
                             fields.Vector("centre", null), fields.Vector("halfSize", null),
                             Placement.FromEulerDegrees(fields.Vector("rotation", Vector3d.Zero)));
                     case "hull":
-                        fields.Allow("shape", "points", "radius");
+                        fields.Allow("shape", "frictionCoefficient", "points", "radius");
                         return new ConvexObstacle(fields.Vectors("points"), fields.Number("radius", 0.0));
                     default:
                         throw fields.Wrong("shape", "one of \"sphere\", \"capsule\", \"box\", \"hull\"");

@@ -47,6 +47,10 @@ namespace Guidewire.Io
                 ["maxPenetration"] = simulation.Contacts?.MaxPenetration ?? 0.0,
                 ["driveAsked"] = simulation.Contacts?.DriveAsked,
                 ["driveShortfall"] = simulation.Contacts?.DriveShortfall ?? 0.0,
+                ["largestContactForce"] = Finite(simulation.Contacts?.LargestForce ?? 0.0),
+                ["largestWallForce"] = Finite(simulation.Contacts?.LargestTotal ?? 0.0),
+                ["wallForces"] = new JArray(Array.ConvertAll(
+                    simulation.Contacts?.WallForces ?? Array.Empty<Vector3d>(), force => Vector(force))),
                 ["timed"] = repeat.HasValue,
                 ["repeat"] = repeat,
                 ["warnings"] = new JArray(handler.Warnings),

@@ -29,7 +29,6 @@ namespace Guidewire.Core
         private readonly double[] _room;          // by wall and element: from the reference to the wall, units
         private readonly bool[] _isNear;          // the same: whether the barrier may act within the reach
         private readonly int[] _hint;
-        private readonly bool[] _isExact;         // by wall: whether ridges and nodes tell an element's gap
         private readonly double[] _nodeGap;       // by wall and node, m, no more than the barrier's distance
         private readonly double[] _ridgeGap;      // by wall and element, between its nodes
         private readonly Vector3d[] _gradient;    // of the shape at hand, by node, N
@@ -38,6 +37,7 @@ namespace Guidewire.Core
         private readonly Vector3d[] _resultant;   // of each wall on the wire, N
         private readonly StructList<WallPlace> _places = new StructList<WallPlace>(16);
         private readonly StructList<WallRidge> _ridges = new StructList<WallRidge>(16);
+        private readonly StructList<WallContact> _contacts = new StructList<WallContact>(64);
         private double _leastReach;               // units
         private double _reach;                    // since the wire was last looked for walls
         private bool _hasReference;
@@ -69,7 +69,6 @@ namespace Guidewire.Core
             _isNear = new bool[walls.Length * n];
             _hint = new int[walls.Length * n];
             Array.Fill(_hint, -1);
-            _isExact = Array.ConvertAll(walls, wall => wall.HasExactRidges);
             _nodeGap = new double[walls.Length * (n + 1)];
             _ridgeGap = new double[walls.Length * n];
             _gradient = new Vector3d[n + 1];
@@ -90,6 +89,19 @@ namespace Guidewire.Core
         {
             get => _leastReach / _units;
             set => _leastReach = value * _units;
+        }
+
+        /// <summary>Where walls push the wire in a shape, wall by wall and along the wire.</summary>
+        public StructList<WallContact> ContactsOf(RodShape shape)
+        {
+            Look(shape);
+            return _contacts;
+        }
+
+        /// <summary>Radius of element j, m.</summary>
+        public double RadiusOf(int j)
+        {
+            return _elementRadius[j];
         }
 
         /// <summary>Force of each wall on the wire, N, in the shape last looked at.</summary>
@@ -206,7 +218,7 @@ namespace Guidewire.Core
             double radius = _units * _elementRadius[j];
             double gap = Math.Min(Math.Min(_nodeGap[w * (n + 1) + j], _nodeGap[w * (n + 1) + j + 1]),
                 _ridgeGap[w * n + j]) * _units;
-            if (motion < QuickShare * gap && _isExact[w])
+            if (motion < QuickShare * gap)
             {
                 return 1.0;
             }
@@ -246,6 +258,7 @@ namespace Guidewire.Core
                 _gradient[i] = Vector3d.Zero;
                 _own[i] = default;
             }
+            _contacts.Clear();
             Array.Clear(_coupling, 0, _coupling.Length);
             Array.Clear(_resultant, 0, _resultant.Length);
             _isKnown = true;
@@ -337,6 +350,12 @@ namespace Guidewire.Core
                     return;
                 }
             }
+            if (gradient == Vector3d.Zero)
+            {
+                return;
+            }
+            bool isLast = i == _elementRadius.Length;
+            _contacts.Add(new WallContact(w, isLast ? i - 1 : i, isLast ? 1.0 : 0.0, -gradient));
             _gradient[i] += gradient;
             _resultant[w] -= gradient;
             _own[i] += mayBeNegative ? second.PositivePart() : second;
@@ -369,6 +388,7 @@ namespace Guidewire.Core
                 Vector3d force = (ridge.Weight * slope) * ridge.Normal;
                 Vector3d first = r * force + (value * _units) * ridge.WeightAlongA;
                 Vector3d second = s * force + (value * _units) * ridge.WeightAlongB;
+                _contacts.Add(new WallContact(w, j, s, -force));
                 _gradient[j] += first;
                 _gradient[j + 1] += second;
                 _resultant[w] -= first + second;

@@ -38,7 +38,7 @@ namespace Guidewire.Core
             WallTerms? walls = dynamics.Terms.Walls;
             if (walls != null)
             {
-                _watch = new WallWatch(scene.Rod, walls.Barrier, scene.Metres);
+                _watch = new WallWatch(scene.Rod, walls, scene.Metres);
                 _walls = new WallSteps(dynamics, scene.Schedule, _watch);
             }
             _ends = new HeldEnds(dynamics.Terms, scene.Schedule);

@@ -28,6 +28,12 @@ namespace Guidewire.Io
             {
                 Methods = Takers.Only(Solver.Direct),
             },
+            new NumberEntry("frictionSpeed", "m/s", NumberRange.Positive,
+                "speed of slip from which friction has its full force; below it contact creeps, it does not stick",
+                p => p.Simulation.Contact.FrictionSpeed, (p, v) => p.Simulation.Contact.FrictionSpeed = v)
+            {
+                Methods = Takers.Only(Solver.Direct),
+            },
             new NumberEntry("collisionMargin", "units", NumberRange.NotNegative, "distance kept beyond the radius",
                 p => p.Simulation.Contact.CollisionMargin, (p, v) => p.Simulation.Contact.CollisionMargin = v)
             {

@@ -114,7 +114,8 @@ namespace Guidewire.Io
                 + " \"tube\", \"knots\", \"radius\", \"openStart\", \"openEnd\"} or {\"shape\": \"mesh\", \"file\","
                 + " \"metresPerUnit\", \"openRims\"}",
                 "the wall around the wire; a mesh file's name counts from the parameter"
-                + " file's folder, openRims names a point near the middle of each open rim",
+                + " file's folder, openRims names a point near the middle of each open rim; any may have a"
+                + " \"frictionCoefficient\" (0)",
                 p => p.Vessel, (p, v) => p.Vessel = v)
             {
                 Methods = Takers.Walls,
@@ -123,7 +124,8 @@ namespace Guidewire.Io
             new JsonEntry("obstacles", JTokenType.Array, "null or a list of {\"shape\": \"sphere\", \"centre\","
                 + " \"radius\"}, {\"shape\": \"capsule\", \"from\", \"to\", \"radius\"}, {\"shape\": \"box\","
                 + " \"centre\", \"halfSize\", \"rotation\"}, {\"shape\": \"hull\", \"points\", \"radius\"}",
-                "convex bodies in the wire's way (units, degrees)", p => p.Obstacles, (p, v) => p.Obstacles = v)
+                "convex bodies in the wire's way (units, degrees); each may have a \"frictionCoefficient\" (0)",
+                p => p.Obstacles, (p, v) => p.Obstacles = v)
             {
                 Methods = Takers.Walls,
                 IsRefusedElsewhere = true,

@@ -6,6 +6,8 @@ namespace Guidewire.Core
     {
         private const double OfGaps = 0.5;  // of the way to the prediction that walls leave
 
+        private const int Relags = 1;       // of the pushes that friction goes with
+
         private readonly RodTerms _terms;
         private readonly RodSupports _supports;
         private readonly RodShape _predicted;
@@ -37,6 +39,7 @@ namespace Guidewire.Core
             double stageLength, double loads)
         {
             _terms.Walls!.Spring.Place = start;
+            _terms.Walls.Friction?.Lag(shape);
             PlaceEnd(shape, end);
             _predicted.CopyFrom(shape);
             RodStep.PlaceElements(_supports, _predicted, orientations, start, end);
@@ -47,7 +50,13 @@ namespace Guidewire.Core
                 return "the wire's surface is at a wall at the start of the step";
             }
             RodStep.ApplyStraight(shape, _direction, share < 1.0 ? OfGaps * share : 1.0, shape);
-            return Newton.Solve(shape, stageLength, loads);
+            string? failure = Newton.Solve(shape, stageLength, loads);
+            for (int k = 0; k < Relags && failure == null && _terms.Walls.Friction != null; k++)
+            {
+                _terms.Walls.Friction.Lag(shape);
+                failure = Newton.Solve(shape, stageLength, loads);
+            }
+            return failure;
         }
 
         // A held last node is where its support is.

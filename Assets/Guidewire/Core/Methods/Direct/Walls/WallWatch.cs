@@ -8,7 +8,9 @@ namespace Guidewire.Core
     {
         private const double Near = 1.02;      // in radii, where a distance is asked for exactly
 
+        private readonly WallTerms _walls;
         private readonly BarrierEnergy _barrier;
+        private readonly RodVector[] _gradient;
         private readonly double _units;        // per metre
         private readonly double[] _radius;     // of elements, units
         private readonly int[] _hint;
@@ -19,8 +21,10 @@ namespace Guidewire.Core
         private readonly double[] _clearance;  // of elements from all walls at least, where a part begins, units
 
         /// <summary>A watch on a rod between walls.</summary>
-        public WallWatch(MaterialRod rod, BarrierEnergy barrier, double metresPerUnit)
+        public WallWatch(MaterialRod rod, WallTerms walls, double metresPerUnit)
         {
+            BarrierEnergy barrier = walls.Barrier;
+            _walls = walls;
             int n = rod.ElementCount;
             _barrier = barrier;
             _units = 1.0 / metresPerUnit;
@@ -37,6 +41,7 @@ namespace Guidewire.Core
             _from = new Vector3d[n + 1];
             _to = new Vector3d[n + 1];
             _clearance = new double[n];
+            _gradient = new RodVector[n + 2];
             _passages = new PassageCount(this, n);
         }
 
@@ -127,12 +132,16 @@ namespace Guidewire.Core
         private void TakeForces(RodShape shape, ContactRecord record)
         {
             Vector3d total = Vector3d.Zero;
+            Array.Clear(_gradient, 0, _gradient.Length);
+            _walls.AddWallGradient(shape, _gradient);
             for (int i = 0; i < _from.Length; i++)
             {
-                record.Forces[i] = _barrier.ForceOn(shape, i);
+                RodVector g = _gradient[i];
+                record.Forces[i] = new Vector3d(-g.X1, -g.X2, -g.X3);
                 total += record.Forces[i];
             }
             record.SetTotal(total);
+            record.WallForces = _barrier.Resultants;
         }
 
         private void SetUnits(RodShape shape, Vector3d[] x)

@@ -40,6 +40,7 @@ namespace Guidewire.Core.Tests
                     Look();
                 }
             }
+            Array.ForEach(_parameters.Scene.Walls, wall => wall.FrictionCoefficient = 0.0);
         }
 
         public int Seed { get; }
@@ -81,6 +82,11 @@ namespace Guidewire.Core.Tests
             parameters.Scene.GuidewireOffset = -300.0;
             parameters.Scene.Gravity = random.Number(0.0, 9.81) * random.Direction();
             parameters.Scene.Walls = Walls(random, vessel, 1e3 * radius);
+            foreach (ContactShape wall in parameters.Scene.Walls)
+            {
+                // Shapes are shared by runs: each sets its own.
+                wall.FrictionCoefficient = random.Index(2) == 0 ? 0.0 : random.Number(0.0, 0.3);
+            }
             parameters.Material.YoungsModulus = Math.Pow(10.0, random.Number(9.0, 11.0));
             parameters.Material.ShearModulus = 0.38 * parameters.Material.YoungsModulus;
             parameters.Material.RestCurvature = random.Index(2) == 0 ? Vector3d.Zero

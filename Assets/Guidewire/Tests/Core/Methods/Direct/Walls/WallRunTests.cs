@@ -45,6 +45,9 @@ namespace Guidewire.Core.Tests
             double weight = 6450.0 * Math.PI * 0.16e-6 * 0.3 * 9.81;
             Assert.That(run.Contacts!.Total.Y, Is.EqualTo(weight).Within(1e-6 * weight));
             Assert.That(Math.Abs(run.Contacts.Total.X), Is.LessThan(1e-6 * weight));
+            Assert.That(Vector3d.Distance(run.Contacts.WallForces[0], run.Contacts.Total), Is.LessThan(1e-9 * weight));
+            Assert.That(run.Contacts.LargestTotal, Is.GreaterThanOrEqualTo(run.Contacts.Total.Length));
+            Assert.That(run.Contacts.LargestForce, Is.GreaterThan(weight / 31.0));
         }
 
         [TestCase(50.0, 0.01)]
