@@ -19,7 +19,8 @@ namespace Guidewire.Core
         private readonly Vector3d[] _knots;
         private readonly double[] _radii;
         private readonly bool[] _isCrease;        // by knot
-        private readonly double[] _slope;         // by piece, of the radius
+        private readonly Vector3d[] _across;      // by knot: normal of the plane that halves the bend
+        private readonly double[] _slack;         // by knot: the crease is no farther from that plane, units
 
         /// <summary>For this tube.</summary>
         public TubeRidges(TubeShape tube, TubePiece[] pieces)
@@ -28,17 +29,18 @@ namespace Guidewire.Core
             _knots = tube.Knots;
             _radii = tube.Radii;
             _isCrease = new bool[_knots.Length];
-            _slope = new double[pieces.Length];
-            for (int i = 0; i < pieces.Length; i++)
-            {
-                _slope[i] = (_radii[i + 1] - _radii[i]) / Vector3d.Distance(_knots[i], _knots[i + 1]);
-            }
+            _across = new Vector3d[_knots.Length];
+            _slack = new double[_knots.Length];
             for (int k = 1; k + 1 < _knots.Length; k++)
             {
                 Vector3d before = _knots[k] - _knots[k - 1];
                 Vector3d after = _knots[k + 1] - _knots[k];
                 double turn = Math.Atan2(Vector3d.Cross(before, after).Length, Vector3d.Dot(before, after));
-                _isCrease[k] = turn + Math.Asin(_slope[k]) - Math.Asin(_slope[k - 1]) > LeastAngle;
+                double narrows = (_radii[k] - _radii[k - 1]) / before.Length;
+                double widens = (_radii[k + 1] - _radii[k]) / after.Length;
+                _isCrease[k] = turn + Math.Asin(widens) - Math.Asin(narrows) > LeastAngle;
+                _across[k] = Vector3d.Normalize(Vector3d.Normalize(before) + Vector3d.Normalize(after));
+                _slack[k] = 2.0 * _radii[k] * (Math.Abs(narrows) + Math.Abs(widens) + 1e-9);
             }
         }
 
@@ -50,7 +52,7 @@ namespace Guidewire.Core
             double size = Vector3d.Distance(a, b);
             for (int k = 1; k + 1 < _knots.Length; k++)
             {
-                if (MayCross(k, a, size) && Cross(k, a, b, out Crossing crossing))
+                if (MayCross(k, a, b, size) && Cross(k, a, b, out Crossing crossing))
                 {
                     nearest = Math.Min(nearest, crossing.Distance);
                 }
@@ -64,7 +66,7 @@ namespace Guidewire.Core
             double size = Vector3d.Distance(a, b);
             for (int k = 1; k + 1 < _knots.Length; k++)
             {
-                if (!MayCross(k, a, size) || !Cross(k, a, b, out Crossing c) || c.Distance > range)
+                if (!MayCross(k, a, b, size) || !Cross(k, a, b, out Crossing c) || c.Distance > range)
                 {
                     continue;
                 }
@@ -93,11 +95,15 @@ namespace Guidewire.Core
             }
         }
 
-        // No crossing is farther from the knot than the wall's radius there, nor from a than b is.
-        private bool MayCross(int k, in Vector3d a, double size)
+        // No crossing is farther from the knot than the wall's radius there, nor from a than b is; and it goes from
+        // one side of the knot's plane to the other, but for the slack.
+        private bool MayCross(int k, in Vector3d a, in Vector3d b, double size)
         {
             double reach = 1.5 * _radii[k] + size;
-            return _isCrease[k] && (a - _knots[k]).LengthSquared <= reach * reach;
+            Vector3d offset = a - _knots[k];
+            return _isCrease[k] && offset.LengthSquared <= reach * reach
+                && Vector3d.Dot(_across[k], offset) <= _slack[k]
+                && Vector3d.Dot(_across[k], b - _knots[k]) >= -_slack[k];
         }
 
         // Where f1 - f2 goes from positive to negative along the segment, by Newton's method between bounds.
@@ -144,10 +150,8 @@ namespace Guidewire.Core
         // Near the crossing: in the plane that halves the bend.
         private double PlaneCrossing(int k, in Vector3d a, in Vector3d b)
         {
-            Vector3d across = Vector3d.Normalize(_knots[k] - _knots[k - 1])
-                + Vector3d.Normalize(_knots[k + 1] - _knots[k]);
-            double atA = Vector3d.Dot(across, a - _knots[k]);
-            double atB = Vector3d.Dot(across, b - _knots[k]);
+            double atA = Vector3d.Dot(_across[k], a - _knots[k]);
+            double atB = Vector3d.Dot(_across[k], b - _knots[k]);
             return atA < 0.0 && atB > 0.0 ? atA / (atA - atB) : 0.5;
         }
 
