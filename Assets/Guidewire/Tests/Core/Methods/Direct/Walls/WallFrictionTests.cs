@@ -118,6 +118,49 @@ namespace Guidewire.Core.Tests
             Assert.That(pulled / free, Is.EqualTo(Math.Exp(mu * angle)).Within(0.05 * Math.Exp(mu * angle)));
         }
 
+        [TestCase(0.0)]
+        [TestCase(1.0)]
+        [TestCase(2.0)]
+        public void TurnedWire_NeedsLessAxialForce_ByTheDirectionOfItsSlip(double turning)
+        {
+            // A wire lies in a horizontal tube; its surface slips by v along the tube and by turning v around. Friction
+            // lifts it along the wall by an angle phi with N = W cos(phi), mu N sin(beta) = W sin(phi),
+            // tan(beta) = turning; the force along the tube is mu N cos(beta).
+            const double mu = 0.3;
+            const double speed = 20.0;   // mm/s
+            const double radius = 0.4;   // mm
+            SimulationParameters parameters = WallScenes.Wire(30, 1e-3 * radius);
+            parameters.Scene.GuidewireOffset = 0.0;
+            parameters.Scene.Gravity = new Vector3d(0.0, -9.81, 0.0);
+            var knots = new[] { new Vector3d(0.0, 0.59, -50.0), new Vector3d(0.0, 0.59, 400.0) };
+            parameters.Scene.Walls = new ContactShape[]
+            {
+                new TubeShape(knots, new[] { 1.0, 1.0 }, true, true) { FrictionCoefficient = mu },
+            };
+            // Node 0 is held where the wall just begins to push.
+            parameters.Contact.ContactDistance = 1e-5;
+            parameters.Method.TimeStep = 2e-3;
+            parameters.Method.MaxSimulationSteps = 500;
+            parameters.Drive.Kind = Drive.Displace;
+            parameters.Drive.DisplacementPerStep = speed * parameters.Method.TimeStep;
+            parameters.Drive.TwistPerStep = turning * speed / radius * parameters.Method.TimeStep;
+            Simulation run = Simulation.Create(parameters);
+            double sum = 0.0;
+            double carried = 0.0;   // W, what the clamp leaves of the weight to the wall
+            while (run.Outcome == Outcome.Running)
+            {
+                run.Step();
+                sum += run.StepCount > 250 ? run.Report()!.ProximalForce!.Value.Z / 250.0 : 0.0;
+                carried += run.StepCount > 250 ? run.Contacts!.Total.Y / 250.0 : 0.0;
+            }
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            double weight = 6450.0 * Math.PI * 0.16e-6 * 0.3 * 9.81;
+            double beta = Math.Atan(turning);
+            Assert.That(carried, Is.EqualTo(weight).Within(0.1 * weight));
+            double expected = mu * carried * Math.Cos(Math.Atan(mu * Math.Sin(beta))) * Math.Cos(beta);
+            Assert.That(sum, Is.EqualTo(expected).Within(0.05 * expected));
+        }
+
         // Force at the base, N, of a wire that is pulled out of a bend against a force along its tip.
         private static double Pull(double mu, double angle, double bend, double load)
         {
