@@ -163,6 +163,9 @@ VALUES: dict[str, st.SearchStrategy] = {
     "materialDamping": st.one_of(st.just(0), log_uniform(1e-7, 1.0)),
     "sphereRadius": log_uniform(0.01, 20.0), "collisionMargin": st.floats(0.0, 5.0),
     "collisionStiffness": st.floats(0.0, 1.0),
+    "contactDistance": st.one_of(st.just(0), log_uniform(1e-6, 1e-2)),
+    "frictionSpeed": log_uniform(1e-6, 1.0),
+    "contactStiffness": st.one_of(st.just(0), log_uniform(1.0, 1e8)),
     "logEvery": whole(1, 20), "logFilePath": st.sampled_from(["", "elsewhere", "Gefäß 1"]),
 }
 # Those that have to fit the rest of the scene.
@@ -257,6 +260,8 @@ def reconcile(scene: dict) -> dict:
     if scene.get("startShape") == "helix":
         scene["startTurns"] = max(-limit, min(limit, scene.get("startTurns", 1.0)))
     is_clamped = scene.get("proximalEnd") == "clamped" and scene.get("drive") != "force"
+    if scene.get("initialState") == "equilibrium":
+        scene = {name: value for name, value in scene.items() if name not in ("vessel", "obstacles")}
     if scene.get("initialState") == "equilibrium" and not is_clamped and scene.get("distalEnd", "free") == "free":
         scene["distalEnd"] = "clamped"
     return scene

@@ -75,6 +75,21 @@ namespace Guidewire.Core
             return simulation;
         }
 
+        /// <summary>What is wrong with the start that the parameters describe between their walls, in one phrase, or
+        /// null.</summary>
+        /// <exception cref="ArgumentException">There is no such start.</exception>
+        public static string? FindProblemOfStart(SimulationParameters parameters)
+        {
+            if (parameters.Scene.Walls.Length == 0)
+            {
+                return null;
+            }
+            var scene = new Scene(parameters);
+            return MethodTable.Of(parameters.Method.Solver).TakesMaterial
+                ? MaterialStart.FindProblem(new MaterialScene(parameters, scene))
+                : WireStart.FindProblem(parameters, scene);
+        }
+
         /// <summary>What the solver says of itself, for a run with a material; null with gains.</summary>
         public SolverReport? Report()
         {

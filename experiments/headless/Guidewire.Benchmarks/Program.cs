@@ -26,6 +26,11 @@ namespace Guidewire.Benchmarks
 
         private static int Main(string[] arguments)
         {
+            if (arguments.Contains("--arch"))
+            {
+                PrintArch();
+                return 0;
+            }
             if (arguments.Contains("-lines"))
             {
                 return RequestLoop.Serve(Console.In, Console.Out, MotionCost.Measure, () => false);
@@ -53,6 +58,7 @@ namespace Guidewire.Benchmarks
                 LaneBenchmark.Print();
                 PrintNewton();
                 PrintCantilever();
+                PrintArch();
             }
             return rows.All(row => row.Measured) ? 0 : 1;
         }
@@ -97,6 +103,24 @@ namespace Guidewire.Benchmarks
                 + " each); {3:0.0000} s per simulated second",
                 1e-3 * both.First / milliseconds, both.Ratio * sweeps / milliseconds, both.Second / sweeps,
                 1e-6 * both.First / milliseconds));
+        }
+
+        /// <summary>A push between walls, at three speeds.</summary>
+        private static void PrintArch()
+        {
+            double sweeps = MotionCost.ElementIterations;
+            foreach (double speed in new[] { 50.0, 200.0, 1000.0 })
+            {
+                var push = new ArchPush(speed);
+                double iterations = push.Run();
+                var both = new Interleaved(() => push.Run(), MotionCost.Sweep().Step);
+                double milliseconds = 1e3 * push.Duration;
+                Console.WriteLine(string.Format(CultureInfo.InvariantCulture,
+                    "push into an arch at {0} mm/s (n = 60, 10 ms): {1:0.0} Newton iterations a step, {2:0.00} us per"
+                    + " simulated ms = {3:0} element-iterations, in turns (of {4:0.0} ns each); {5:0.0000} s per"
+                    + " simulated second", speed, iterations, 1e-3 * both.First / milliseconds,
+                    both.Ratio * sweeps / milliseconds, both.Second / sweeps, 1e-6 * both.First / milliseconds));
+            }
         }
 
         private static void Repeat(int times, Action work)

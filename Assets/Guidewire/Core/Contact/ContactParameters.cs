@@ -15,6 +15,17 @@ namespace Guidewire.Core
         /// <summary>What touches a wall besides the spheres.</summary>
         public ElementContact ElementContact { get; set; } = ElementContact.Barycentric;
 
+        /// <summary>g0, the gap below which walls push a wire with a material, m; 0: by rule
+        /// (<see cref="BarrierRule"/>).</summary>
+        public double ContactDistance { get; set; }
+
+        /// <summary>Stiffness of the barrier, N/m; 0: by rule.</summary>
+        public double ContactStiffness { get; set; }
+
+        /// <summary>Speed of slip below which friction on a wire with a material creeps in place of sticking,
+        /// m/s.</summary>
+        public double FrictionSpeed { get; set; } = 1e-3;
+
         /// <summary>The same values; lists and walls are shared.</summary>
         internal ContactParameters Copy()
         {

@@ -46,6 +46,27 @@ namespace Guidewire.Core
         /// <summary>Momenta over dt, dp/w, that walls gave each sphere in the present step, mass unit * unit.</summary>
         internal Vector3d[] Impulses => _impulses;
 
+        /// <summary>The largest force of the walls on one sphere after any step of the run, as
+        /// <see cref="Forces"/>.</summary>
+        public double LargestForce { get; private set; }
+
+        /// <summary>The largest sum of them.</summary>
+        public double LargestTotal { get; private set; }
+
+        /// <summary>Force of each wall on the wire along its normals in the last step, N, in the order of the scene;
+        /// empty with gains.</summary>
+        public Vector3d[] WallForces { get; internal set; } = Array.Empty<Vector3d>();
+
+        internal void SetTotal(in Vector3d total)
+        {
+            Total = total;
+            LargestTotal = Math.Max(LargestTotal, total.Length);
+            foreach (Vector3d force in Forces)
+            {
+                LargestForce = Math.Max(LargestForce, force.Length);
+            }
+        }
+
         internal void StartStep()
         {
             Array.Clear(_impulses, 0, _impulses.Length);
@@ -59,6 +80,8 @@ namespace Guidewire.Core
             DriveAsked = snapshot.Exchange(DriveAsked);
             StuckSteps = snapshot.Exchange(StuckSteps);
             Total = snapshot.Exchange(Total);
+            LargestForce = snapshot.Exchange(LargestForce);
+            LargestTotal = snapshot.Exchange(LargestTotal);
             Reaction = snapshot.Exchange(Reaction);
             snapshot.Exchange(Forces);
         }
@@ -90,7 +113,7 @@ namespace Guidewire.Core
                     given += (rate / w) * (state.PredictedPositions[i] - predicted[i]) - Forces[i];
                 }
             }
-            Total = total;
+            SetTotal(total);
             Reaction = state.InverseMasses[0] == 0.0 ? given : Vector3d.Zero;
         }
     }

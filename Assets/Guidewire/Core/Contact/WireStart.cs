@@ -28,7 +28,8 @@ namespace Guidewire.Core
                 return null;
             }
             double length = parameters.Scene.GuidewireLength;
-            double radius = parameters.Contact.SphereRadius;
+            double radius = MethodTable.Of(parameters.Method.Solver).TakesMaterial
+                ? parameters.Material.WireRadius / parameters.Scene.MetresPerUnit : parameters.Contact.SphereRadius;
             Vector3d[] wire = new Scene(parameters).Shape.X;
             foreach (ContactShape wall in parameters.Scene.Walls)
             {

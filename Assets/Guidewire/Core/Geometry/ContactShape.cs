@@ -11,6 +11,7 @@ namespace Guidewire.Core
         public const double NoImpact = 2.0;
 
         private const double SlidingLoss = 1e-7;
+        private const double Resolved = 1e-3;
 
         /// <summary>mu, Coulomb's coefficient of friction between the wire and this wall, 0 or more,
         /// dimensionless.</summary>
@@ -62,7 +63,7 @@ namespace Guidewire.Core
             double start = Nearest(a0, b0, 2.0 * clearance, ref hint, out SurfaceContact before)
                 ? Math.Abs(before.Distance) : 2.0 * clearance;
             double kept = Kept(start, clearance);
-            double impact = FreeUntil(a0, b0, a1, b1, kept, hint);
+            double impact = FreeUntil(a0, b0, a1, b1, kept, Resolved * kept, hint);
             if (impact == NoImpact)
             {
                 return NoImpact;
@@ -72,7 +73,7 @@ namespace Guidewire.Core
             if (floor < kept && !Nearest(a1, b1, kept, ref hint, out _))
             {
                 // It ends clear of the wall.
-                double free = FreeUntil(a0, b0, a1, b1, floor, near);
+                double free = FreeUntil(a0, b0, a1, b1, floor, Resolved * floor, near);
                 impact = Math.Max(impact, LastKept(a0, b0, a1, b1, free, kept, ref hint));
                 if (impact == NoImpact)
                 {
@@ -103,10 +104,11 @@ namespace Guidewire.Core
         }
 
         /// <summary>Largest fraction of the motion for which it is proven that every point of the segment keeps a
-        /// distance of at least <paramref name="keep"/>, <see cref="NoImpact"/> for all of it. The hint, where the
-        /// nearest place was at the start or -1, changes the time that it takes.</summary>
-        private protected abstract double FreeUntil(
-            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep, int hint);
+        /// distance of at least <paramref name="keep"/>, <see cref="NoImpact"/> for all of it. An approach of less than
+        /// the resolution, units, is none. The hint, where the nearest place was at the start or -1, changes the time
+        /// that it takes.</summary>
+        private protected abstract double FreeUntil(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
+            double keep, double resolution, int hint);
 
         // The time itself where the distance is kept then, or 0.
         private double LastKept(
@@ -115,6 +117,38 @@ namespace Guidewire.Core
             bool isKept = time == NoImpact || !Nearest(
                 Vector3d.Lerp(a0, a1, time), Vector3d.Lerp(b0, b1, time), kept, ref hint, out _);
             return isKept ? time : 0.0;
+        }
+
+        /// <summary>Distance of segment a b from the wall in units; it may be infinite beyond
+        /// <paramref name="range"/>, and too large by a little where the wall's ridges are not even.</summary>
+        internal virtual double QuickDistance(in Vector3d a, in Vector3d b, double range, ref int hint)
+        {
+            return Nearest(a, b, range, ref hint, out SurfaceContact contact) ? contact.Distance
+                : double.PositiveInfinity;
+        }
+
+        /// <summary>A fraction of the linear motion of segment a b from (a0, b0) to (a1, b1) on which it keeps a
+        /// distance, in units, or more: <see cref="NoImpact"/> for all of it, 0 where the start is nearer. An approach
+        /// of less than <paramref name="resolution"/>, units, is none.</summary>
+        internal virtual double FreeShare(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
+            double resolution)
+        {
+            return FreeUntil(a0, b0, a1, b1, keep, resolution, -1);
+        }
+
+        /// <summary>Adds the ridges of the wall within <paramref name="range"/> of segment a b: where the wall bulges
+        /// into the free side, so that the inside of a segment can meet it before its ends do. None of a wall that
+        /// bulges nowhere.</summary>
+        internal virtual void FindRidges(
+            in Vector3d a, in Vector3d b, double range, StructList<WallRidge> ridges)
+        {
+        }
+
+        /// <summary>Radius in units of the largest ball that fits where the free side is narrowest, of all places
+        /// that are wider than a radius; infinite where the wall encloses nothing.</summary>
+        internal virtual double NarrowestRadius(double above)
+        {
+            return double.PositiveInfinity;
         }
     }
 }

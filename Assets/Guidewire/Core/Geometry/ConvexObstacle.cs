@@ -119,10 +119,22 @@ namespace Guidewire.Core
             return _gjk.Distance(point, point, _points, out _, out _, out _) > _radius;
         }
 
-        private protected override double FreeUntil(
-            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep, int hint)
+        private protected override double FreeUntil(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
+            double keep, double resolution, int hint)
         {
-            return SweptTest.Impact(new Body(this), a0, b0, a1, b1, keep);
+            return SweptTest.Impact(new Body(this), a0, b0, a1, b1, keep, resolution);
+        }
+
+        /// <summary>The whole body: its distance from a segment is convex.</summary>
+        internal override void FindRidges(
+            in Vector3d a, in Vector3d b, double range, StructList<WallRidge> ridges)
+        {
+            int hint = -1;
+            if (Nearest(a, b, range, ref hint, out SurfaceContact contact))
+            {
+                ridges.Add(new WallRidge(
+                    contact.Position, contact.Distance, contact.Normal, 1.0, Vector3d.Zero, Vector3d.Zero));
+            }
         }
 
         private readonly struct Body : IConvexBody

@@ -55,8 +55,8 @@ namespace Guidewire.Core
             return Vector3d.Dot(point - _point, _normal) > 0.0;
         }
 
-        private protected override double FreeUntil(
-            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep, int hint)
+        private protected override double FreeUntil(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
+            double keep, double resolution, int hint)
         {
             double da0 = Vector3d.Dot(a0 - _point, _normal);
             double db0 = Vector3d.Dot(b0 - _point, _normal);

@@ -14,11 +14,11 @@ namespace Guidewire.Core
 
         /// <summary>Fraction of the motion during which the distance stays at least <paramref name="keep"/>,
         /// <see cref="ContactShape.NoImpact"/> for all of it. It must be more at the start. Where the advances run out
-        /// before the answer is known, the time that is proven safe is returned. Nobody asks what comes after
-        /// <paramref name="limit"/>.</summary>
+        /// before the answer is known, the time that is proven safe is returned. An approach of less than
+        /// <paramref name="resolution"/> is none, and nobody asks what comes after <paramref name="limit"/>.</summary>
         public static double Impact<TBody>(
             in TBody body, in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
-            double limit = 1.0)
+            double resolution, double limit = 1.0)
             where TBody : struct, IConvexBody
         {
             Vector3d va = a1 - a0;
@@ -45,7 +45,7 @@ namespace Guidewire.Core
 
                 // Both ends may keep their distance and still be on their way: then the plane has turned only a
                 // little and the remaining approach is below what the clearance resolves.
-                if (advance * Math.Max(va.Length, vb.Length) <= 1e-3 * keep && distance <= 1.01 * keep)
+                if (advance * Math.Max(va.Length, vb.Length) <= resolution && distance <= 1.01 * keep)
                 {
                     return time;
                 }

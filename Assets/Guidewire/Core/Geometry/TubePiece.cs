@@ -17,6 +17,8 @@ namespace Guidewire.Core
         private readonly double _radius;      // at the first knot
         private readonly double _slope;       // k, of the radius
         private readonly double _lean;        // k/sqrt(1 - k^2)
+        private readonly Vector3d _middle;
+        private readonly double _extent;      // no point of it is farther from the middle
 
         /// <summary>The piece between two knots that are farther apart than their radii differ.</summary>
         public TubePiece(in Vector3d from, in Vector3d to, double fromRadius, double toRadius)
@@ -28,6 +30,15 @@ namespace Guidewire.Core
             _radius = fromRadius;
             _slope = (toRadius - fromRadius) / _length;
             _lean = _slope / Math.Sqrt(1.0 - _slope * _slope);
+            _middle = Vector3d.Lerp(from, to, 0.5);
+            _extent = (0.5 * _length + Math.Max(fromRadius, toRadius)) * (1.0 + 1e-12);
+        }
+
+        /// <summary>True where the distance at x is surely less than this; cheaper than the distance.</summary>
+        public bool IsBelow(in Vector3d x, double distance)
+        {
+            double reach = _extent - distance;
+            return reach < 0.0 || (x - _middle).LengthSquared > reach * reach;
         }
 
         /// <summary>max over y in [0, length] of R(y) - |x - c(y)|: how deep x lies in the piece's lumen, negative

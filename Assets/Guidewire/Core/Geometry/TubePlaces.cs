@@ -41,6 +41,11 @@ namespace Guidewire.Core
             _a = a;
             _b = b;
             _length = Vector3d.Distance(a, b);
+            if (_length == 0.0)
+            {
+                Add(0.0, 1, range, places);
+                return;
+            }
             double da = _tube.Distance(a, out _);
             double db = _tube.Distance(b, out _);
             if (0.5 * (da + db - _length) > range)
@@ -102,18 +107,7 @@ namespace Guidewire.Core
 
         private int Largest(double s)
         {
-            Vector3d x = Vector3d.Lerp(_a, _b, s);
-            int largest = 0;
-            double best = double.NegativeInfinity;
-            for (int i = 0; i < _pieceCount; i++)
-            {
-                double value = _tube.PieceDistance(i, x, out _, out _);
-                if (value > best)
-                {
-                    best = value;
-                    largest = i;
-                }
-            }
+            _tube.Largest(Vector3d.Lerp(_a, _b, s), 0, out int largest);
             return largest;
         }
 
@@ -204,12 +198,12 @@ namespace Guidewire.Core
         private void Add(double s, int weight, double range, StructList<WallPlace> places)
         {
             Vector3d x = Vector3d.Lerp(_a, _b, s);
-            int piece = Largest(s);
-            double distance = _tube.PieceDistance(piece, x, out Vector3d centre, out double along);
+            double distance = _tube.Largest(x, 0, out int piece);
             if (distance > range)
             {
                 return;
             }
+            _tube.PieceDistance(piece, x, out Vector3d centre, out double along);
             double radius = Vector3d.Distance(centre, x);
             Vector3d normal = Vector3d.Normalize(centre - x);
             var contact = new SurfaceContact(s, x - distance * normal, normal, distance);

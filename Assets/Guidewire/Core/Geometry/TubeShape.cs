@@ -17,6 +17,8 @@ namespace Guidewire.Core
         private readonly TubeTree _tree;
         private readonly TubeSweep _sweep;
         private TubePlaces? _places;
+        private TubeRidges? _ridges;
+        private TubeKeeping? _keeping;
 
         /// <summary>The tube through <paramref name="knots"/> (at least 2, units) with a radius at each (positive,
         /// units). It ends in half spheres; an open end goes on straight, with the radius of its last knot.</summary>
@@ -132,8 +134,52 @@ namespace Guidewire.Core
             _places.Find(a, b, range, places);
         }
 
-        private protected override double FreeUntil(
-            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep, int hint)
+        /// <summary>At the ends of the segment and where it crosses creases.</summary>
+        internal override double QuickDistance(in Vector3d a, in Vector3d b, double range, ref int hint)
+        {
+            int guess = hint >= 0 && hint < _tree.Pieces.Length ? hint : 0;
+            hint = _tree.Deepest(a, guess, out double atA);
+            _tree.Deepest(b, hint, out double atB);
+            return Math.Min(Math.Min(atA, atB), Ridges.Nearest(a, b));
+        }
+
+        /// <summary>The creases at its knots; see <see cref="TubeRidges"/>.</summary>
+        internal override void FindRidges(
+            in Vector3d a, in Vector3d b, double range, StructList<WallRidge> ridges)
+        {
+            Ridges.Find(a, b, range, ridges);
+        }
+
+        /// <summary>That of the narrowest knot.</summary>
+        internal override double NarrowestRadius(double above)
+        {
+            double narrowest = double.PositiveInfinity;
+            foreach (double radius in _radii)
+            {
+                narrowest = radius > above ? Math.Min(narrowest, radius) : narrowest;
+            }
+            return narrowest;
+        }
+
+        /// <inheritdoc/>
+        internal override double FreeShare(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
+            double resolution)
+        {
+            _keeping ??= new TubeKeeping(_tree.Pieces);
+            return _keeping.Keeping(a0, b0, a1, b1, keep);
+        }
+
+        /// <summary>d(x), and the piece that gives it, which is looked for from a guess on.</summary>
+        internal double Largest(in Vector3d x, int guess, out int piece)
+        {
+            piece = _tree.Deepest(x, guess, out double distance);
+            return distance;
+        }
+
+        private TubeRidges Ridges => _ridges ??= new TubeRidges(this, _tree.Pieces);
+
+        private protected override double FreeUntil(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
+            double keep, double resolution, int hint)
         {
             return _sweep.FreeUntil(a0, b0, a1, b1, keep);
         }

@@ -32,6 +32,9 @@ namespace Guidewire.Core
         /// <summary>Curvature and twist at rest, rad/m.</summary>
         public Vector3d RestCurvature;
 
+        /// <summary>Radius of the surface, m.</summary>
+        public double Radius;
+
         /// <summary>What a joint sees of it.</summary>
         public JointSide Side => new JointSide
         {
@@ -49,7 +52,9 @@ namespace Guidewire.Core
         public static CrossSection Round(double radius, double youngsModulus, double shearModulus, double density)
         {
             double area = Math.PI * radius * radius;
-            return Of(area, 0.25 * area * radius * radius, youngsModulus, shearModulus, density);
+            CrossSection round = Of(area, 0.25 * area * radius * radius, youngsModulus, shearModulus, density);
+            round.Radius = radius;
+            return round;
         }
 
         /// <summary>A round tube: A = pi (r^2 - a^2), I = pi (r^4 - a^4)/4, J = 2 I.</summary>
@@ -87,6 +92,7 @@ namespace Guidewire.Core
             CrossSection here = inner == 0.0 ? Round(radius, young, shear, density)
                 : Tube(radius, inner, young, shear, density);
             here.ShearStiffness *= wire.ShearFactor ?? material.ShearFactor;
+            here.Radius = radius;
             here.RestCurvature = wire.RestCurvature ?? material.RestCurvature;
             here.TakeDirect(wire);
             return here;
@@ -143,6 +149,7 @@ namespace Guidewire.Core
             rod.RotaryInertia1[j] = RotaryInertia1;
             rod.RotaryInertia2[j] = RotaryInertia2;
             rod.RestCurvature[j] = RestCurvature;
+            rod.Radius[j] = Radius;
         }
     }
 }

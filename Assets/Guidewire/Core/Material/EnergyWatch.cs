@@ -85,7 +85,7 @@ namespace Guidewire.Core
         public void Start()
         {
             _before.CopyFrom(_shape);
-            _start = Motion() + _terms.ElasticEnergy(_shape);
+            _start = Motion() + _terms.StoredEnergy(_shape);
         }
 
         /// <summary>Writes or takes over the energies so far. A reader's wire is in place; where it is heavier or
@@ -93,7 +93,7 @@ namespace Guidewire.Core
         public void Exchange(Snapshot snapshot)
         {
             double ownMotion = Motion();
-            double ownElastic = _terms.ElasticEnergy(_shape);
+            double ownElastic = _terms.StoredEnergy(_shape);
             double motion = ownMotion;
             double elastic = ownElastic;
             snapshot.Exchange(ref motion);

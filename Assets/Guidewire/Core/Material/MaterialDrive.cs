@@ -7,10 +7,13 @@ namespace Guidewire.Core
         private readonly RodSchedule _schedule;
         private readonly IDriveDirection? _direction;
         private readonly double _speed;  // m/s
+        private readonly bool _followsSpring;
 
         /// <summary>The drive of this scene.</summary>
-        public MaterialDrive(SimulationParameters parameters, Scene scene)
+        /// <param name="followsSpring">Whether node 0 follows its place on a spring, which gives way a little.</param>
+        public MaterialDrive(SimulationParameters parameters, Scene scene, bool followsSpring)
         {
+            _followsSpring = followsSpring;
             _schedule = scene.Schedule;
             _direction = scene.Drive;
             _speed = scene.UnitLength * parameters.Drive.DisplacementPerStep / parameters.Method.TimeStep;
@@ -23,7 +26,7 @@ namespace Guidewire.Core
             {
                 return;
             }
-            _schedule.ProximalPosition = shape.X[0];
+            _schedule.ProximalPosition = _followsSpring ? _schedule.ProximalPositionAt(time) : shape.X[0];
             _schedule.ProximalTime = time;
             _schedule.ProximalVelocity = _speed * _direction.At(shape.X[0], shape.X[1]);
         }

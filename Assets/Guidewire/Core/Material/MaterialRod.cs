@@ -24,6 +24,7 @@ namespace Guidewire.Core
             RotaryInertia1 = new double[elementCount];
             RotaryInertia2 = new double[elementCount];
             RestCurvature = new Vector3d[elementCount];
+            Radius = new double[elementCount];
             _sides = new JointSide[]?[elementCount];
         }
 
@@ -65,6 +66,9 @@ namespace Guidewire.Core
 
         /// <summary>Damping in proportion to stiffness (Kelvin-Voigt), s.</summary>
         public double MaterialDamping { get; set; }
+
+        /// <summary>Radius of the surface that touches walls, m; the largest along an element.</summary>
+        public double[] Radius { get; }
 
         /// <summary>L, m.</summary>
         public double TotalLength

@@ -20,8 +20,9 @@ namespace Guidewire.Core
                 Mass = parameters.Material.MassRule,
                 Bend = parameters.Material.BendLaw,
             };
+            Supports.HasSpring = scene.Walls.Length > 0 && Supports.Proximal != ProximalEnd.Free;
             scene.Schedule.ProximalPosition += scene.Displacement;
-            Drive = new MaterialDrive(parameters, scene);
+            Drive = new MaterialDrive(parameters, scene, Supports.HasSpring);
             StartsStraight = parameters.Scene.Start == null && parameters.Scene.StartShape == StartShape.Straight;
             Joints = new JointWatch(this, parameters.Method.MaxSimulationSteps * parameters.Method.TimeStep);
             AlignTurns();
@@ -53,6 +54,9 @@ namespace Guidewire.Core
 
         /// <summary>Angular velocities at the start along the elements' axes, rad/s.</summary>
         public Vector3d[] Spins => _scene.Spins;
+
+        /// <summary>The vessel and what stands in it, in units.</summary>
+        public ContactShape[] Walls => _scene.Walls;
 
         /// <summary>What is prescribed.</summary>
         public RodSchedule Schedule => _scene.Schedule;

@@ -7,6 +7,10 @@ namespace Guidewire.Core
         /// <summary>The proximal end; default clamped.</summary>
         public ProximalEnd Proximal { get; set; } = ProximalEnd.Clamped;
 
+        /// <summary>Whether node 0 follows its place on a stiff spring (<see cref="SupportSpring"/>) in place of being
+        /// there exactly.</summary>
+        public bool HasSpring { get; set; }
+
         /// <summary>The distal end; default free.</summary>
         public DistalEnd Distal { get; set; } = DistalEnd.Free;
 

@@ -23,6 +23,14 @@ namespace Guidewire.Core
         /// <param name="scene">What acts on it; loads that change in time come with <see cref="SetTime"/>.</param>
         /// <param name="others">Loads besides those of the scene.</param>
         public RodTerms(MaterialRod rod, RodSupports supports, SceneParameters scene, params EnergyTerm[] others)
+            : this(rod, supports, scene, null, others)
+        {
+        }
+
+        /// <summary>The terms of a rod in a scene with walls.</summary>
+        /// <param name="walls">What they add, or null.</param>
+        public RodTerms(MaterialRod rod, RodSupports supports, SceneParameters scene, WallTerms? walls,
+            EnergyTerm[] others)
         {
             Rod = rod;
             Supports = supports;
@@ -42,7 +50,9 @@ namespace Guidewire.Core
                 Followers.Moment,
                 Followers.Force,
             }, others);
+            Walls = walls;
             All = Joined(_elastic, _loads);
+            All = walls == null ? All : Joined(All, walls.All);
             _endGradient = new RodVector[rod.ElementCount + 2];
         }
 
@@ -66,6 +76,9 @@ namespace Guidewire.Core
 
         /// <summary>Couple and force at the tip that turn with it.</summary>
         public TipFollowers Followers { get; }
+
+        /// <summary>Contact with walls; null in a scene without.</summary>
+        public WallTerms? Walls { get; }
 
         /// <summary>Every term.</summary>
         public EnergyTerm[] All { get; }
@@ -119,13 +132,19 @@ namespace Guidewire.Core
             return sum;
         }
 
+        /// <summary>Energy stored in the wire and in its contacts with walls, J.</summary>
+        public double StoredEnergy(RodShape shape)
+        {
+            return ElasticEnergy(shape) + (Walls == null ? 0.0 : Walls.Barrier.Value(shape));
+        }
+
         /// <summary>Energy stored in the wire less the work of the loads that have a potential, J.</summary>
         public double Potential(RodShape shape)
         {
             double sum = 0.0;
             foreach (EnergyTerm term in All)
             {
-                sum += term.HasPotential ? term.Value(shape) : 0.0;
+                sum += term.HasPotential && term.StoresEnergy ? term.Value(shape) : 0.0;
             }
             return sum;
         }

@@ -92,6 +92,7 @@ namespace Guidewire.Core
             private double _rotary1;
             private double _rotary2;
             private Vector3d _curvature;
+            private double _radius;   // the largest
 
             public void Add(in CrossSection piece, double weight)
             {
@@ -104,6 +105,7 @@ namespace Guidewire.Core
                 _rotary1 += weight * piece.RotaryInertia1;
                 _rotary2 += weight * piece.RotaryInertia2;
                 _curvature += weight * piece.RestCurvature;
+                _radius = Math.Max(_radius, piece.Radius);
             }
 
             public CrossSection Result()
@@ -119,6 +121,7 @@ namespace Guidewire.Core
                     RotaryInertia1 = _rotary1,
                     RotaryInertia2 = _rotary2,
                     RestCurvature = _curvature,
+                    Radius = _radius,
                 };
             }
         }

@@ -22,7 +22,8 @@ namespace Guidewire.Core
             var scene = new MaterialScene(parameters, prescribed);
             var state = new RodState(ElementLayout.Lengths(parameters, 1.0, out _), parameters.Gains.TotalMass,
                 parameters.Scene.GuidewireOffset);
-            var terms = new RodTerms(scene.Rod, scene.Supports, parameters.Scene);
+            WallTerms? walls = Walls(parameters, scene);
+            var terms = new RodTerms(scene.Rod, scene.Supports, parameters.Scene, walls, Array.Empty<EnergyTerm>());
             var report = new SolverReport();
             bool isAtRest = parameters.Scene.InitialState == InitialState.Equilibrium;
             string? failure = scene.Joints.FindTurnedAtRest();
@@ -31,7 +32,7 @@ namespace Guidewire.Core
                 failure = new RestShape(scene, terms, Math.Min(parameters.Method.SolverTolerance, 1e-9),
                     EquilibriumFactor * parameters.Method.MaxNewtonIterations, report).Find(scene.Shape);
             }
-            else if (scene.Supports.Proximal != ProximalEnd.Free)
+            else if (scene.Supports.Proximal != ProximalEnd.Free && walls == null)
             {
                 scene.Shape.X[0] = scene.Schedule.ProximalPosition;
             }
@@ -47,6 +48,26 @@ namespace Guidewire.Core
                 Failure = failure,
                 IsAtRest = isAtRest && failure == null,
             };
+        }
+
+        private static WallTerms? Walls(SimulationParameters parameters, MaterialScene scene)
+        {
+            if (scene.Walls.Length == 0)
+            {
+                return null;
+            }
+            string? outside = MaterialStart.FindProblem(scene);
+            if (outside != null)
+            {
+                throw new ArgumentException(outside);
+            }
+            double move = scene.Metres * Math.Abs(parameters.Drive.DisplacementPerStep);
+            Barrier barrier = BarrierRule.Of(scene.Rod, parameters.Contact, scene.Walls, scene.Metres, move);
+            var contact = new BarrierEnergy(scene.Rod, scene.Walls, scene.Metres, barrier);
+            contact.Reach = Math.Max(contact.Reach, 2.0 * move);
+            FrictionEnergy? friction = Array.Exists(scene.Walls, wall => wall.FrictionCoefficient > 0.0)
+                ? new FrictionEnergy(contact, scene.Rod.ElementCount, parameters.Contact.FrictionSpeed) : null;
+            return new WallTerms(contact, friction, new SupportSpring(scene.Rod), scene.Supports.HasSpring);
         }
 
         /// <summary>Implicit steps by the direct solver.</summary>
@@ -79,7 +100,8 @@ namespace Guidewire.Core
 
         private static ContactRecord? Reactions(SimulationParameters parameters, MaterialScene scene)
         {
-            return parameters.Method.StatesReactions ? new ContactRecord(scene.Shape.X.Length) : null;
+            return parameters.Method.StatesReactions || scene.Walls.Length > 0
+                ? new ContactRecord(scene.Shape.X.Length) : null;
         }
 
         /// <summary>The scheme of an integrator of the direct solver; null for BDF2.</summary>

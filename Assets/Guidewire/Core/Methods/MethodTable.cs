@@ -32,6 +32,7 @@ namespace Guidewire.Core
             {
                 Solver = Solver.Direct,
                 TakesMaterial = true,
+                MeetsWalls = true,
                 Slides = true,
                 TakesTipMoment = true,
                 TakesDarbouxLaw = true,
@@ -41,6 +42,7 @@ namespace Guidewire.Core
                     Integrator.Esdirk3, Integrator.ImplicitEuler, Integrator.Bdf2, Integrator.Trbdf2,
                     Integrator.Esdirk4,
                 },
+                IntegratorBetweenWalls = Integrator.ImplicitEuler,
                 SetDefaults = SetDirectDefaults,
                 Build = (p, scene) => MaterialSetup.Build(p, scene, MaterialSetup.Direct),
             },

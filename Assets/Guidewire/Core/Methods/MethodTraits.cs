@@ -35,6 +35,9 @@ namespace Guidewire.Core
         /// <summary>Its integrators, the default first; empty where it has one of its own.</summary>
         public IReadOnlyList<Integrator> Integrators { get; internal set; } = Array.Empty<Integrator>();
 
+        /// <summary>The default between walls, where it is another.</summary>
+        public Integrator? IntegratorBetweenWalls { get; internal set; }
+
         /// <summary>Sets the defaults that are not those of the thesis (table 4.1).</summary>
         internal Action<SimulationParameters> SetDefaults { get; set; } = _ => { };
 

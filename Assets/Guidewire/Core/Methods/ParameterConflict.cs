@@ -33,10 +33,20 @@ namespace Guidewire.Core
             }
             if (!method.MeetsWalls && parameters.Scene.Walls.Length > 0)
             {
-                return new ParameterConflict("vessel", "solver pbd: a wire with a material meets no walls");
+                return new ParameterConflict("vessel", "solver pbd or direct: the others meet no walls");
             }
-            if (parameters.Contact.ElementContact == ElementContact.Seed
-                && Array.Exists(parameters.Scene.Walls, wall => wall.FrictionCoefficient > 0.0))
+            if (method.TakesMaterial && parameters.Scene.Walls.Length > 0
+                && parameters.Scene.InitialState == InitialState.Equilibrium)
+            {
+                return new ParameterConflict("initialState",
+                    "\"straight\" between walls: rest shapes are found without them");
+            }
+            bool rubs = Array.Exists(parameters.Scene.Walls, wall => wall.FrictionCoefficient > 0.0);
+            if (rubs && method.TakesMaterial && parameters.Method.Integrator != Integrator.ImplicitEuler)
+            {
+                return new ParameterConflict("integrator", "implicitEuler where a wall has a frictionCoefficient");
+            }
+            if (rubs && !method.TakesMaterial && parameters.Contact.ElementContact == ElementContact.Seed)
             {
                 return new ParameterConflict("elementContact",
                     "\"barycentric\" or \"none\" where a wall has a frictionCoefficient");

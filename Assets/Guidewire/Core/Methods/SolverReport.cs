@@ -16,6 +16,18 @@ namespace Guidewire.Core
         /// <summary>Stages that needed the slower search for a minimum.</summary>
         public long Searches { get; internal set; }
 
+        /// <summary>Newton iterations of the stages between walls; NaN without walls.</summary>
+        public double WallIterations { get; internal set; } = double.NaN;
+
+        /// <summary>Parts of steps between walls that had no solution and were halved; NaN without walls.</summary>
+        public double HalvedSteps { get; internal set; } = double.NaN;
+
+        /// <summary>Gap below which walls push, m; NaN without walls.</summary>
+        public double ContactDistance { get; internal set; } = double.NaN;
+
+        /// <summary>Stiffness of a contact, N/m; NaN without walls.</summary>
+        public double ContactStiffness { get; internal set; } = double.NaN;
+
         /// <summary>Newton iterations that the rest shape took.</summary>
         public int EquilibriumIterations { get; internal set; }
 

@@ -5,6 +5,8 @@ namespace Guidewire.Core
     /// <summary>A symmetric 3x3 matrix by its lower triangle.</summary>
     internal readonly struct Symmetric3
     {
+        private const int JacobiSweeps = 5;
+
         private readonly double _11;
         private readonly double _21;
         private readonly double _22;
@@ -42,6 +44,85 @@ namespace Guidewire.Core
         {
             return new Symmetric3(a._11 + b._11, a._21 + b._21, a._22 + b._22, a._31 + b._31, a._32 + b._32,
                 a._33 + b._33);
+        }
+
+        /// <summary>Entry (1, 1).</summary>
+        public double A11 => _11;
+
+        /// <summary>Entry (2, 1).</summary>
+        public double A21 => _21;
+
+        /// <summary>Entry (2, 2).</summary>
+        public double A22 => _22;
+
+        /// <summary>Entry (3, 1).</summary>
+        public double A31 => _31;
+
+        /// <summary>Entry (3, 2).</summary>
+        public double A32 => _32;
+
+        /// <summary>Entry (3, 3).</summary>
+        public double A33 => _33;
+
+        /// <summary>w c c^T.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public static Symmetric3 Outer(double w, in Vector3d c)
+        {
+            return new Symmetric3(w * c.X * c.X, w * c.X * c.Y, w * c.Y * c.Y, w * c.X * c.Z, w * c.Y * c.Z,
+                w * c.Z * c.Z);
+        }
+
+        /// <summary>A b.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public Vector3d Times(in Vector3d b)
+        {
+            return new Vector3d(_11 * b.X + _21 * b.Y + _31 * b.Z, _21 * b.X + _22 * b.Y + _32 * b.Z,
+                _31 * b.X + _32 * b.Y + _33 * b.Z);
+        }
+
+        /// <summary>The nearest matrix without negative eigenvalues: those of this one are set to 0. By Jacobi's
+        /// rotations.</summary>
+        public Symmetric3 PositivePart()
+        {
+            Symmetric3 d = this;
+            Vector3d v1 = Vector3d.UnitX;
+            Vector3d v2 = Vector3d.UnitY;
+            Vector3d v3 = Vector3d.UnitZ;
+            for (int sweep = 0; sweep < JacobiSweeps; sweep++)
+            {
+                Rotation(d._11, d._22, d._21, out double c, out double s);
+                d = new Symmetric3(c * c * d._11 - 2.0 * s * c * d._21 + s * s * d._22, 0.0,
+                    s * s * d._11 + 2.0 * s * c * d._21 + c * c * d._22, c * d._31 - s * d._32,
+                    s * d._31 + c * d._32, d._33);
+                (v1, v2) = (c * v1 - s * v2, s * v1 + c * v2);
+                Rotation(d._11, d._33, d._31, out c, out s);
+                d = new Symmetric3(c * c * d._11 - 2.0 * s * c * d._31 + s * s * d._33, c * d._21 - s * d._32,
+                    d._22, 0.0, s * d._21 + c * d._32, s * s * d._11 + 2.0 * s * c * d._31 + c * c * d._33);
+                (v1, v3) = (c * v1 - s * v3, s * v1 + c * v3);
+                Rotation(d._22, d._33, d._32, out c, out s);
+                d = new Symmetric3(d._11, c * d._21 - s * d._31,
+                    c * c * d._22 - 2.0 * s * c * d._32 + s * s * d._33, s * d._21 + c * d._31, 0.0,
+                    s * s * d._22 + 2.0 * s * c * d._32 + c * c * d._33);
+                (v2, v3) = (c * v2 - s * v3, s * v2 + c * v3);
+            }
+            return Outer(System.Math.Max(0.0, d._11), v1) + Outer(System.Math.Max(0.0, d._22), v2)
+                + Outer(System.Math.Max(0.0, d._33), v3);
+        }
+
+        // The turn by which (p, q; q, r) becomes diagonal.
+        private static void Rotation(double p, double r, double q, out double c, out double s)
+        {
+            if (q == 0.0)
+            {
+                c = 1.0;
+                s = 0.0;
+                return;
+            }
+            double theta = 0.5 * (r - p) / q;
+            double t = (theta >= 0.0 ? 1.0 : -1.0)
+                / (System.Math.Abs(theta) + System.Math.Sqrt(theta * theta + 1.0));
+            c = 1.0 / System.Math.Sqrt(t * t + 1.0);
+            s = t * c;
         }
 
         /// <summary>The solution u of A u = b, by cofactors; A must not be singular.</summary>

@@ -10,8 +10,6 @@ namespace Guidewire.Io
     /// obstacles stand where their numbers say.</summary>
     internal static class WallReader
     {
-        private const double SceneMetresPerUnit = 1e-3;
-
         /// <summary>All walls of a scene.</summary>
         /// <param name="values">Its parameters; a mesh's file name is replaced by the one that was found.</param>
         /// <param name="vesselSource">The parameter file that names the vessel, or "command line".</param>
@@ -120,7 +118,7 @@ namespace Guidewire.Io
             {
                 throw fields.Refused("scale needs three factors other than 0");
             }
-            double metresPerUnit = fields.Number("metresPerUnit", SceneMetresPerUnit);
+            double metresPerUnit = fields.Number("metresPerUnit", scene.Simulation.Scene.MetresPerUnit);
             if (!(metresPerUnit > 0.0))
             {
                 throw fields.Wrong("metresPerUnit", "a number > 0 (m)");
@@ -131,7 +129,8 @@ namespace Guidewire.Io
                 throw fields.Wrong("file", "the name of an .obj or .stl file");
             }
             fields.Replace("file", file);
-            TriangleMesh mesh = MeshFile.Read(file, metresPerUnit / SceneMetresPerUnit, fields.NamedPoints("openRims"));
+            TriangleMesh mesh = MeshFile.Read(
+                file, metresPerUnit / scene.Simulation.Scene.MetresPerUnit, fields.NamedPoints("openRims"));
             return new MeshShape(mesh, placement);
         }
 

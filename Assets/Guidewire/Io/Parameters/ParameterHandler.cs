@@ -205,12 +205,17 @@ namespace Guidewire.Io
             string vessel = _given.TryGetValue("vessel", out var named) ? named.Source : "";
             string obstacles = _given.TryGetValue("obstacles", out var given) ? given.Source : "";
             simulation.Scene.Walls = WallReader.Read(Values, vessel, obstacles, _warnings);
+            if (simulation.Scene.Walls.Length > 0 && !_given.ContainsKey("integrator"))
+            {
+                simulation.Method.Integrator = MethodTable.Of(Method).IntegratorBetweenWalls
+                    ?? simulation.Method.Integrator;
+            }
             ParameterConflict? conflict = ParameterConflict.Find(simulation);
             if (conflict != null)
             {
                 throw Refused(conflict.Key, conflict.Needed);
             }
-            string? complaint = WireStart.FindProblem(simulation);
+            string? complaint = Simulation.FindProblemOfStart(simulation);
             if (complaint != null)
             {
                 throw new ParameterException((vessel.Length > 0 ? vessel : obstacles) + ": " + complaint);

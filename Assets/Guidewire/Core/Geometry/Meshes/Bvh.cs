@@ -190,7 +190,8 @@ namespace Guidewire.Core
         /// may be near, -1 for none.</summary>
         /// <remarks>Once something is met, only what the segment may come to before then is looked at.</remarks>
         public double Sweep(
-            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep, int hint)
+            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep, double resolution,
+            int hint)
         {
             var swept = new BvhNode();
             swept.EncloseSwept(a0, b0, a1, b1, keep);
@@ -199,7 +200,7 @@ namespace Guidewire.Core
             var search = new SegmentSearch(a0, b0, RoundedUp * (keep + motion));
             if (hint >= 0)
             {
-                SweepLeaf(_nodes[_leaf[hint]], a0, b0, a1, b1, keep, motion, ref search, ref impact);
+                SweepLeaf(_nodes[_leaf[hint]], a0, b0, a1, b1, keep, resolution, motion, ref search, ref impact);
             }
             Span<int> stack = stackalloc int[StackSize];
             int depth = 0;
@@ -217,14 +218,14 @@ namespace Guidewire.Core
                     stack[depth++] = node.First + 1;
                     continue;
                 }
-                SweepLeaf(node, a0, b0, a1, b1, keep, motion, ref search, ref impact);
+                SweepLeaf(node, a0, b0, a1, b1, keep, resolution, motion, ref search, ref impact);
             }
             return impact;
         }
 
         private void SweepLeaf(
             in BvhNode leaf, in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
-            double motion, ref SegmentSearch search, ref double impact)
+            double resolution, double motion, ref SegmentSearch search, ref double impact)
         {
             for (int k = leaf.First; k < leaf.First + leaf.Count; k++)
             {
@@ -240,7 +241,7 @@ namespace Guidewire.Core
                 }
                 double time = SweptTest.Impact(
                     new TriangleBody(v0, v1, v2), Vector3d.Lerp(a0, b0, from), Vector3d.Lerp(a0, b0, to),
-                    Vector3d.Lerp(a1, b1, from), Vector3d.Lerp(a1, b1, to), keep, limit);
+                    Vector3d.Lerp(a1, b1, from), Vector3d.Lerp(a1, b1, to), keep, resolution, limit);
                 if (time < impact)
                 {
                     impact = time;

@@ -15,6 +15,7 @@ namespace Guidewire.Core
         private readonly MeshGeometry _wall;
         private readonly MeshGeometry _closed;
         private MeshPlaces? _places;
+        private MeshRidges? _ridges;
 
         /// <summary>The wall at the place where its file has it.</summary>
         public MeshShape(TriangleMesh mesh)
@@ -89,6 +90,20 @@ namespace Guidewire.Core
             _places.Find(a, b, range, places);
         }
 
+        /// <summary>Edges that bulge into the lumen, and those of open rims; see <see cref="MeshRidges"/>.</summary>
+        internal override void FindRidges(
+            in Vector3d a, in Vector3d b, double range, StructList<WallRidge> ridges)
+        {
+            _ridges ??= new MeshRidges(_wall);
+            _ridges.Find(a, b, range, ridges);
+        }
+
+        /// <summary>Of the balls that touch the wall in the middle of a triangle and lie in the lumen.</summary>
+        internal override double NarrowestRadius(double above)
+        {
+            return MeshWidth.Narrowest(_wall, above);
+        }
+
         /// <inheritdoc/>
         public override bool Contains(in Vector3d point)
         {
@@ -97,10 +112,10 @@ namespace Guidewire.Core
             return _closed.ContactAt(point, 0.0, c, Math.Sqrt(squared), triangle, feature).Distance > 0.0;
         }
 
-        private protected override double FreeUntil(
-            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep, int hint)
+        private protected override double FreeUntil(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
+            double keep, double resolution, int hint)
         {
-            return _wall.Tree.Sweep(a0, b0, a1, b1, keep, hint);
+            return _wall.Tree.Sweep(a0, b0, a1, b1, keep, resolution, hint);
         }
     }
 }

@@ -13,6 +13,9 @@ namespace Guidewire.Core
         /// <summary>Whether the value is a true energy, the same on every way to a shape.</summary>
         public virtual bool HasPotential => true;
 
+        /// <summary>Whether the value is energy that rod and loads have; else only its slope counts, a force.</summary>
+        public virtual bool StoresEnergy => true;
+
         /// <summary>The energy in J of the whole rod in this shape.</summary>
         public abstract double Value(RodShape shape);
 

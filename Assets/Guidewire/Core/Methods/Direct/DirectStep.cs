@@ -19,6 +19,8 @@ namespace Guidewire.Core
         private readonly HeldEnds _ends;
         private readonly EnergyWatch _energy;
         private readonly RestWatch _rest;
+        private readonly WallSteps? _walls;
+        private readonly WallWatch? _watch;
 
         /// <summary>A step for this scene.</summary>
         /// <param name="dynamics">The motion, at its start.</param>
@@ -34,6 +36,12 @@ namespace Guidewire.Core
             _startFactorisations = report.Factorisations;
             Contacts = record;
             dynamics.TracksReactions = record != null;
+            WallTerms? walls = dynamics.Terms.Walls;
+            if (walls != null)
+            {
+                _watch = new WallWatch(scene.Rod, walls, scene.Metres);
+                _walls = new WallSteps(dynamics, scene.Schedule, _watch);
+            }
             _ends = new HeldEnds(dynamics.Terms, scene.Schedule);
             FollowEnds();
             _energy = new EnergyWatch(dynamics.Terms, new FreeInertia(dynamics.Terms.Mass, scene.Supports),
@@ -51,7 +59,8 @@ namespace Guidewire.Core
             _drive.Prepare(_dynamics.Shape, _dynamics.Time);
             Vector3d free = _dynamics.Shape.X[last] + _timeStep * _dynamics.Velocities[last]
                 + (_timeStep * _timeStep) * _scene.Schedule.Gravity;
-            string? failure = _dynamics.Step(_timeStep);
+            Vector3d place = _scene.Schedule.ProximalPositionAt(_dynamics.Time);
+            string? failure = _walls == null ? _dynamics.Step(_timeStep) : _walls.Step(_timeStep);
             if (failure != null)
             {
                 Failure = "the step to t = " + _dynamics.Time.ToString("G6",
@@ -72,7 +81,9 @@ namespace Guidewire.Core
             PredictionError = Vector3d.Distance(free, _dynamics.Shape.X[last]) / _scene.Metres;
             if (Contacts != null)
             {
-                Contacts.Reaction = _dynamics.MeanReaction;
+                Contacts.Reaction = _walls == null ? _dynamics.MeanReaction : _walls.MeanReaction;
+                _watch?.EndStep(_dynamics.Shape, Contacts);
+                CountDrive(place);
             }
             _scene.Write(state, _dynamics.Shape, _dynamics.Velocities, _dynamics.Spins);
         }
@@ -90,13 +101,22 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override SolverReport? Report()
         {
-            _report.Factorisations = _startFactorisations + _dynamics.Solver.Factorisations;
+            _report.Factorisations = _startFactorisations + _dynamics.Solver.Factorisations
+                + (_dynamics.WallSolver?.Factorisations ?? 0);
             _report.KeptSolutions = _dynamics.Solver.KeptSolutions;
             _report.Searches = _dynamics.Solver.Searches;
             if (_dynamics.HasErrorEstimate)
             {
                 _report.TimeStepError = _dynamics.Control.LargestError;
                 _report.StepsNotConverged = _dynamics.Control.StepsAbove;
+            }
+            if (_walls != null)
+            {
+                Barrier barrier = _dynamics.Terms.Walls!.Barrier.Barrier;
+                _report.WallIterations = _dynamics.WallSolver!.Iterations;
+                _report.HalvedSteps = _walls.Halvings;
+                _report.ContactDistance = barrier.Distance;
+                _report.ContactStiffness = barrier.Stiffness;
             }
             _report.InnerSteps = _dynamics.Control.Steps;
             _report.Energy = _dynamics.Energy;
@@ -128,9 +148,31 @@ namespace Guidewire.Core
             snapshot.Exchange(ref _startFactorisations);
             _report.Exchange(snapshot);
             _energy.Exchange(snapshot);
+            _walls?.Exchange(snapshot);
+            ExchangeRecord(snapshot);
             _ends.ExchangeWork(snapshot);
             _rest.Exchange(snapshot);
             _dynamics.ExchangeHistory(snapshot, _timeStep);
+        }
+
+        private void ExchangeRecord(Snapshot snapshot)
+        {
+            if (_walls != null)
+            {
+                Contacts!.Exchange(snapshot);
+            }
+        }
+
+        // What the drive asked of node 0 in the last step, and what of it is missing, units.
+        private void CountDrive(in Vector3d before)
+        {
+            if (_walls == null || !_dynamics.Terms.Walls!.HoldsStart)
+            {
+                return;
+            }
+            Vector3d asked = _scene.Schedule.ProximalPositionAt(_dynamics.Time);
+            Contacts!.DriveAsked += Vector3d.Distance(asked, before) / _scene.Metres;
+            Contacts.DriveShortfall = Vector3d.Distance(asked, _dynamics.Shape.X[0]) / _scene.Metres;
         }
 
         private void FollowEnds()

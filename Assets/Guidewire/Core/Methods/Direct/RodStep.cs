@@ -48,6 +48,26 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>The same with positions on straight lines, on which gaps to walls are bounded
+        /// (<see cref="BarrierEnergy"/>).</summary>
+        public static void ApplyStraight(RodShape shape, RodVector[] direction, double scale, RodShape to)
+        {
+            int n = shape.ElementCount;
+            to.ProximalFrame = shape.ProximalFrame;
+            to.DistalFrame = shape.DistalFrame;
+            for (int j = 0; j <= n; j++)
+            {
+                RodVector d = direction[j];
+                to.X[j] = shape.X[j] + new Vector3d(scale * d.X1, scale * d.X2, scale * d.X3);
+                if (j < n)
+                {
+                    Quaterniond q = shape.Q[j]
+                        * RotationVector.Exp(new Vector3d(scale * d.T1, scale * d.T2, scale * d.T3));
+                    to.Q[j] = (1.5 - 0.5 * q.LengthSquared) * q;
+                }
+            }
+        }
+
         /// <summary>Turns the elements of a shape and lays them end to end from node 0, each with the strain that it
         /// has along its own axes.</summary>
         /// <param name="orientations">The elements' new orientations.</param>

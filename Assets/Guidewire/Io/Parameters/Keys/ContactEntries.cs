@@ -14,6 +14,26 @@ namespace Guidewire.Io
             {
                 Methods = Takers.Gains,
             },
+            new NumberEntry("contactDistance", "m", NumberRange.NotNegative,
+                "gap between the wire's surface and a wall below which the wall pushes; 0: by rule, a tenth of the"
+                + " wire's radius or a twentieth of the drive's motion a step, at most half of the narrowest clearance",
+                p => p.Simulation.Contact.ContactDistance, (p, v) => p.Simulation.Contact.ContactDistance = v)
+            {
+                Methods = Takers.Only(Solver.Direct),
+            },
+            new NumberEntry("contactStiffness", "N/m", NumberRange.NotNegative,
+                "stiffness k of a contact, which pushes by 1.19 k contactDistance at half of that gap; 0: by rule,"
+                + " 10 EI/l^3 of the stiffest element",
+                p => p.Simulation.Contact.ContactStiffness, (p, v) => p.Simulation.Contact.ContactStiffness = v)
+            {
+                Methods = Takers.Only(Solver.Direct),
+            },
+            new NumberEntry("frictionSpeed", "m/s", NumberRange.Positive,
+                "speed of slip from which friction has its full force; below it contact creeps, it does not stick",
+                p => p.Simulation.Contact.FrictionSpeed, (p, v) => p.Simulation.Contact.FrictionSpeed = v)
+            {
+                Methods = Takers.Only(Solver.Direct),
+            },
             new NumberEntry("collisionMargin", "units", NumberRange.NotNegative, "distance kept beyond the radius",
                 p => p.Simulation.Contact.CollisionMargin, (p, v) => p.Simulation.Contact.CollisionMargin = v)
             {

@@ -128,7 +128,7 @@ namespace Guidewire.Io
                 + " \"frictionCoefficient\" (0)",
                 p => p.Vessel, (p, v) => p.Vessel = v)
             {
-                Methods = Takers.Gains,
+                Methods = Takers.Walls,
                 IsRefusedElsewhere = true,
             },
             new JsonEntry("obstacles", JTokenType.Array, "null or a list of {\"shape\": \"sphere\", \"centre\","
@@ -137,23 +137,23 @@ namespace Guidewire.Io
                 "convex bodies in the wire's way (units, degrees); each may have a \"frictionCoefficient\" (0)",
                 p => p.Obstacles, (p, v) => p.Obstacles = v)
             {
-                Methods = Takers.Gains,
+                Methods = Takers.Walls,
                 IsRefusedElsewhere = true,
             },
             new VectorEntry("position", "units", true, "where the vessel lies",
                 p => p.Position, (p, v) => p.Position = v)
             {
-                Methods = Takers.Gains,
+                Methods = Takers.Walls,
             },
             new VectorEntry("scale", "", false, "factors on the vessel's size",
                 p => p.Scale, (p, v) => p.Scale = v)
             {
-                Methods = Takers.Gains,
+                Methods = Takers.Walls,
             },
             new VectorEntry("rotation", "degrees", true, "the vessel's Euler angles, about z, then x, then y",
                 p => p.Rotation, (p, v) => p.Rotation = v)
             {
-                Methods = Takers.Gains,
+                Methods = Takers.Walls,
             },
         });
     }

@@ -15,9 +15,25 @@ namespace Guidewire.Io
         /// <summary>Those whose wire is a material.</summary>
         public static IReadOnlyList<Solver> Material { get; } = Where(gains: false, material: true);
 
+        /// <summary>Those that meet walls.</summary>
+        public static IReadOnlyList<Solver> Walls { get; } = WhereWalls();
+
         /// <summary>These.</summary>
         public static IReadOnlyList<Solver> Only(params Solver[] methods)
         {
+            return methods;
+        }
+
+        private static List<Solver> WhereWalls()
+        {
+            var methods = new List<Solver>();
+            foreach (MethodTraits method in MethodTable.All)
+            {
+                if (method.MeetsWalls)
+                {
+                    methods.Add(method.Solver);
+                }
+            }
             return methods;
         }
 

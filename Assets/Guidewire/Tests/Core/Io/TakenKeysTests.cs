@@ -79,7 +79,7 @@ namespace Guidewire.Core.Tests
             Assert.That(again.Warnings, Is.Empty);
         }
 
-        [TestCase("direct", "vessel", "{\"shape\": \"plane\", \"normal\": [0, 1, 0]}")]
+        [TestCase("explicit", "vessel", "{\"shape\": \"plane\", \"normal\": [0, 1, 0]}")]
         [TestCase("xpbd", "obstacles", "[{\"shape\": \"sphere\", \"centre\": [0, 9, 0], \"radius\": 1}]")]
         [TestCase("xpbd", "tipMoment", "[0.001, 0, 0]")]
         [TestCase("pbd", "tipMoment", "[0.001, 0, 0]")]
@@ -93,12 +93,12 @@ namespace Guidewire.Core.Tests
         [Test]
         public void NoWallAtAll_IsPassedOver()
         {
-            var file = new JObject { ["solver"] = "direct", ["vessel"] = null, ["tipMoment"] = new JArray(0, 0, 0) };
-            Assert.That(Load(file).Ignored, Is.EqualTo(new[] { "vessel" }), "direct takes a couple");
+            var file = new JObject { ["solver"] = "explicit", ["vessel"] = null, ["tipMoment"] = new JArray(0, 0, 0) };
+            Assert.That(Load(file).Ignored, Is.EqualTo(new[] { "vessel" }), "explicit takes a couple");
         }
 
         [Test]
-        public void Core_RefusesWallsForAMaterial_WhoeverBuildsIt([Values(Solver.Xpbd, Solver.Direct, Solver.Explicit)]
+        public void Core_RefusesWallsWhereTheMethodHasNone_WhoeverBuildsIt([Values(Solver.Xpbd, Solver.Explicit)]
             Solver method)
         {
             SimulationParameters parameters = SimulationParameters.DefaultsOf(method);

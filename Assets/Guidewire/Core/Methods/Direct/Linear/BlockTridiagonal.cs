@@ -33,7 +33,7 @@ namespace Guidewire.Core
             }
             _weight[_count - 1] = rod.Length[rod.ElementCount - 1];
             _perLengthSquared = 1.0 / (rod.TotalLength * rod.TotalLength);
-            _holdsStart = supports.Proximal != ProximalEnd.Free;
+            _holdsStart = supports.Proximal != ProximalEnd.Free && !supports.HasSpring;
             _distalEnd = supports.Distal;
             _slidingAxis = supports.SlidingAxis;
         }

@@ -24,6 +24,12 @@ namespace Guidewire.Core
         /// <summary>Whether there is a step before the one that began last.</summary>
         public bool IsComplete => _isComplete;
 
+        /// <summary>The next step is the first.</summary>
+        public void Forget()
+        {
+            _isComplete = false;
+        }
+
         /// <summary>A step has been done: what <see cref="Prepare"/> took is its start.</summary>
         public void Complete()
         {

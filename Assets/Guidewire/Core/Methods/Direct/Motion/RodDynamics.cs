@@ -38,6 +38,9 @@ namespace Guidewire.Core
         private readonly int _last;                   // index of the stage that ends a step
         private readonly double _length;
         private Vector3d _oldMomentum;
+        private StepStart? _retry;
+        private double _retryTime;
+        private double _lastStep;             // s
         private bool _hasStepped;
         private bool _hasRates;               // the last stage has the rates of the next step's start
         private bool _hasPast;                // stages of the step before are at hand, to predict from
@@ -114,6 +117,9 @@ namespace Guidewire.Core
         /// <summary>Counts of what was solved.</summary>
         public StageSolver Solver => _stage.Solver;
 
+        /// <summary>Solves where there are walls, and counts; null where there are none.</summary>
+        public BarrierNewton? WallSolver => _stage.WallSolver;
+
         /// <summary>How steps are cut, and what their errors were.</summary>
         public StepControl Control { get; }
 
@@ -156,7 +162,8 @@ namespace Guidewire.Core
         {
             _terms.SetTime(_schedule, Time);
             RodVector g = _hasStepped ? Solver.Reactions(Shape)[node] : Solver.StaticReactions(Shape)[node];
-            return new Vector3d(g.X1, g.X2, g.X3);
+            Vector3d held = node == 0 && _terms.Walls != null ? _terms.Walls.SupportForce(Shape) : Vector3d.Zero;
+            return held + new Vector3d(g.X1, g.X2, g.X3);
         }
 
         /// <summary>Couple of the proximal clamp on the rod as it is now, N m, along the world's axes; with that of the
@@ -168,12 +175,36 @@ namespace Guidewire.Core
         public Vector3d DistalCouple => _terms.Bending.DistalCouple(Shape)
             + (_damping == null ? Vector3d.Zero : _damping.DistalCouple(Shape));
 
+        /// <summary>Keeps where the rod is, to take the next step again.</summary>
+        public void Save()
+        {
+            _retry ??= new StepStart(Shape.ElementCount);
+            _retry.Save(Shape, Velocities, Spins, _frames);
+            _retryTime = Time;
+        }
+
+        /// <summary>Goes back to where the rod was saved; the next step predicts from nothing.</summary>
+        public void Restore()
+        {
+            _retry!.Restore(Shape, Velocities, Spins, _frames);
+            Time = _retryTime;
+            _hasRates = false;
+            _hasPast = false;
+            _rates.Clear();
+            _history.Forget();
+        }
+
         /// <summary>One step.</summary>
         /// <param name="dt">s.</param>
         /// <returns>Null, or why a stage has no solution; the shape is then not to be used.</returns>
         public string? Step(double dt)
         {
             _meanForces = default;
+            if (dt != _lastStep)
+            {
+                _history.Forget();
+                _lastStep = dt;
+            }
             Vector3d momentum = TracksReactions ? Momentum : Vector3d.Zero;
             bool isTwoStep = _scheme == null && _history.IsComplete;
             string? failure = _scheme == null ? StepByBdf2(dt) : StepBetweenJumps(_scheme, dt);
@@ -208,9 +239,13 @@ namespace Guidewire.Core
         {
             _terms.Exchange(snapshot);
             Solver.ExchangeCounts(snapshot);
+            WallSolver?.Exchange(snapshot);
             Control.ExchangeCounts(snapshot);
             string scheme = _scheme == null ? "BDF2" : _scheme.StageCount + " stages " + Text(_scheme.Diagonal);
-            snapshot.Section(scheme + " " + Text(dt), ExchangeStages);
+            if (snapshot.Section(scheme + " " + Text(dt), ExchangeStages))
+            {
+                _lastStep = dt;
+            }
         }
 
         private void ExchangeStages(Snapshot snapshot)

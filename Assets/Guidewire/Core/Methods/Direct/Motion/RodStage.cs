@@ -18,6 +18,7 @@ namespace Guidewire.Core
         private readonly RodVector[] _loads;
         private readonly double _mass;
         private readonly bool _isLoose;           // held nowhere, and nothing takes its momentum
+        private readonly WallStage? _walls;       // solves where there are walls
 
         /// <summary>For a rod of this shape, which stages move from then on.</summary>
         /// <param name="scheme">A Runge-Kutta scheme, or null for BDF2.</param>
@@ -38,21 +39,29 @@ namespace Guidewire.Core
             _mass = terms.Mass.Total;
             int stages = scheme == null ? 1 : scheme.StageCount;
             double massDamping = terms.Rod.MassDamping;
-            _isLoose = scheme != null && scheme.IsFirstExplicit && _supports.Proximal == ProximalEnd.Free
-                && _supports.Distal == DistalEnd.Free && massDamping == 0.0;
+            _isLoose = terms.Walls == null && massDamping == 0.0 && scheme != null && scheme.IsFirstExplicit
+                && _supports.Proximal == ProximalEnd.Free && _supports.Distal == DistalEnd.Free;
             VelocityHistory = new Vector3d[n + 1];
             Inertia = new InertiaEnergy(terms.Mass) { TurnDamping = massDamping };
             if (massDamping > 0.0 || terms.Rod.MaterialDamping > 0.0)
             {
                 Damping = new RodDamping(terms, stages);
             }
-            Solver = new StageSolver(terms, Damping == null
-                ? new EnergyTerm[] { Inertia } : new EnergyTerm[] { Inertia, Damping })
+            EnergyTerm[] moving = Damping == null
+                ? new EnergyTerm[] { Inertia } : new EnergyTerm[] { Inertia, Damping };
+            Solver = new StageSolver(terms, moving)
             {
                 Tolerance = tolerance,
                 Balance = tolerance / (2.0 * (scheme == null ? 1.0 : scheme.WeightSum)),
                 MostIterations = mostIterations,
             };
+            if (terms.Walls != null)
+            {
+                _walls = new WallStage(terms, moving);
+                _walls.Newton.Tolerance = tolerance;
+                _walls.Newton.Balance = Solver.Balance;
+                _walls.Newton.MostIterations = mostIterations;
+            }
             Frames = new ClampFrames(schedule, Solver);
             Rates = new StageRates(stages, n);
         }
@@ -68,6 +77,9 @@ namespace Guidewire.Core
 
         /// <summary>Solves the stages, and counts what was solved.</summary>
         public StageSolver Solver { get; }
+
+        /// <summary>Solves the stages where there are walls, and counts; null where there are none.</summary>
+        public BarrierNewton? WallSolver => _walls?.Newton;
 
         /// <summary>Frames of the clamps.</summary>
         public ClampFrames Frames { get; }
@@ -106,16 +118,12 @@ namespace Guidewire.Core
                 Array.Copy(_shape.Q, _predicted, _predicted.Length);
             }
             Vector3d end = _schedule.DistalPositionAt(time);
-            _before.CopyFrom(_shape);
-            RodStep.PlaceElements(_supports, _shape, _predicted, start, end);
             double loads = _schedule.LoadAt(before, _mass) + _terms.Followers.Force.Force.Length;
-            if (!Solver.Iterate(_shape, h, loads))
+            failure = _walls != null ? _walls.Solve(_shape, _predicted, start, end, h, loads)
+                : Solve(h, loads, start, end);
+            if (failure != null)
             {
-                failure = Search(h, loads, start, end);
-                if (failure != null)
-                {
-                    return failure;
-                }
+                return failure;
             }
             if (_isLoose)
             {
@@ -126,11 +134,12 @@ namespace Guidewire.Core
             if (TracksForces)
             {
                 RodVector[] gradient = Solver.Reactions(_shape);
+                Vector3d held = _terms.Walls == null ? Vector3d.Zero : _terms.Walls.SupportForce(_shape);
                 RodVector first = gradient[0];
                 RodVector last = gradient[_shape.ElementCount];
                 Forces = new StageForces
                 {
-                    Proximal = new Vector3d(first.X1, first.X2, first.X3),
+                    Proximal = held + new Vector3d(first.X1, first.X2, first.X3),
                     Distal = new Vector3d(last.X1, last.X2, last.X3),
                     Load = LoadSum(),
                 };
@@ -149,6 +158,14 @@ namespace Guidewire.Core
                 sum -= new Vector3d(g.X1, g.X2, g.X3);
             }
             return sum;
+        }
+
+        /// <summary>By the quick iteration from the prediction, or else by the slower search.</summary>
+        private string? Solve(double h, double loads, in Vector3d start, in Vector3d end)
+        {
+            _before.CopyFrom(_shape);
+            RodStep.PlaceElements(_supports, _shape, _predicted, start, end);
+            return Solver.Iterate(_shape, h, loads) ? null : Search(h, loads, start, end);
         }
 
         /// <summary>The slower search from the stage before, with what the iteration can still add to it.</summary>

@@ -1,0 +1,32 @@
+namespace Guidewire.Core
+{
+    /// <summary>Where a wall pushes the wire, and how hard: on element j at s, which is one of its nodes at 0 and
+    /// 1.</summary>
+    internal readonly struct WallContact
+    {
+        /// <summary>Its place in the list of walls.</summary>
+        public readonly int Wall;
+
+        /// <summary>j.</summary>
+        public readonly int Element;
+
+        /// <summary>s.</summary>
+        public readonly double Position;
+
+        /// <summary>Unit vector of the push.</summary>
+        public readonly Vector3d Normal;
+
+        /// <summary>N.</summary>
+        public readonly double Force;
+
+        /// <summary>A contact with these values.</summary>
+        public WallContact(int wall, int element, double position, in Vector3d push)
+        {
+            Wall = wall;
+            Element = element;
+            Position = position;
+            Force = push.Length;
+            Normal = Vector3d.Normalize(push);
+        }
+    }
+}

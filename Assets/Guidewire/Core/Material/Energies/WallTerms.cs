@@ -1,0 +1,59 @@
+using System.Collections.Generic;
+
+namespace Guidewire.Core
+{
+    /// <summary>What walls add to a wire's energy: their barriers, their friction, and the spring on which node 0 then
+    /// follows its support.</summary>
+    internal sealed class WallTerms
+    {
+        /// <summary>Those of a rod.</summary>
+        /// <param name="friction">Null where no wall rubs.</param>
+        /// <param name="holdsStart">Whether a support holds node 0.</param>
+        public WallTerms(BarrierEnergy barrier, FrictionEnergy? friction, SupportSpring spring, bool holdsStart)
+        {
+            Barrier = barrier;
+            Friction = friction;
+            Spring = spring;
+            HoldsStart = holdsStart;
+            var all = new List<EnergyTerm> { barrier };
+            if (friction != null)
+            {
+                all.Add(friction);
+            }
+            if (holdsStart)
+            {
+                all.Add(spring);
+            }
+            All = all.ToArray();
+        }
+
+        /// <summary>Contact.</summary>
+        public BarrierEnergy Barrier { get; }
+
+        /// <summary>Friction; null where no wall rubs.</summary>
+        public FrictionEnergy? Friction { get; }
+
+        /// <summary>The spring; of no effect where nothing holds node 0.</summary>
+        public SupportSpring Spring { get; }
+
+        /// <summary>Whether a support holds node 0.</summary>
+        public bool HoldsStart { get; }
+
+        /// <summary>The terms that act.</summary>
+        public EnergyTerm[] All { get; }
+
+        /// <summary>Force of the support on node 0, N.</summary>
+        public Vector3d SupportForce(RodShape shape)
+        {
+            return HoldsStart ? Spring.Force(shape) : Vector3d.Zero;
+        }
+
+        /// <summary>Adds minus the force of the walls on the wire.</summary>
+        public void AddWallGradient(RodShape shape, RodVector[] gradient)
+        {
+            var measured = default(GradientMeasures);
+            Barrier.AddGradient(shape, gradient, 0, shape.ElementCount + 1, ref measured);
+            Friction?.AddGradient(shape, gradient, 0, shape.ElementCount + 1, ref measured);
+        }
+    }
+}

@@ -1,0 +1,44 @@
+using System.Globalization;
+
+namespace Guidewire.Core
+{
+    /// <summary>Where a wire with a material may start between walls: with the surface of every element in the
+    /// free.</summary>
+    internal static class MaterialStart
+    {
+        /// <summary>What is wrong with the start of a scene, in one phrase, or null.</summary>
+        public static string? FindProblem(MaterialScene scene)
+        {
+            double units = 1.0 / scene.Metres;
+            for (int j = 0; j < scene.Rod.ElementCount; j++)
+            {
+                Vector3d a = units * scene.Shape.X[j];
+                Vector3d b = units * scene.Shape.X[j + 1];
+                double radius = units * scene.Rod.Radius[j];
+                foreach (ContactShape wall in scene.Walls)
+                {
+                    int hint = -1;
+                    wall.Nearest(a, b, double.PositiveInfinity, ref hint, out SurfaceContact contact);
+                    double distance = wall.Contains(a) && wall.Contains(b) ? contact.Distance
+                        : System.Math.Min(contact.Distance, 0.0);
+                    if (!(distance > radius))
+                    {
+                        return Text(j, a, b, radius, distance, wall);
+                    }
+                }
+            }
+            return null;
+        }
+
+        private static string Text(int j, in Vector3d a, in Vector3d b, double radius, double distance,
+            ContactShape wall)
+        {
+            double narrowest = wall.NarrowestRadius(0.0);
+            return string.Format(CultureInfo.InvariantCulture,
+                "the wire starts outside: rod element {0} from {1} to {2}, radius {3:G4} units, reaches {4:G4} units"
+                + " into the wall{5}", j, a, b, radius, radius - distance,
+                double.IsInfinity(narrowest) ? "" : string.Format(CultureInfo.InvariantCulture,
+                    "; the vessel's radius is {0:G4} units where it is narrowest", narrowest));
+        }
+    }
+}

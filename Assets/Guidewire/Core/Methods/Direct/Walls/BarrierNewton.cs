@@ -1,0 +1,182 @@
+using System;
+using System.Globalization;
+
+namespace Guidewire.Core
+{
+    /// <summary>Solves one implicit stage between walls: Newton's method on one energy, that of inertia, wire, loads
+    /// and barriers, from a shape whose gaps are all open to one whose forces balance.</summary>
+    /// <remarks>A step goes no farther than every gap allows on the straight way of the nodes, and is cut until the
+    /// energy falls by a part of what the slope promises; so no iterate is outside a wall. Where the second derivative
+    /// is not positive definite, a wire under thrust away from the solution, a multiple of the metric is added, kept
+    /// from one time to the next. A stage is solved when no piece of the rod, from its start to any node, is out of
+    /// balance by more than S, as in <see cref="StageSolver"/>; where the energy's own rounding hides the decrease the
+    /// balance decides alone.</remarks>
+    internal sealed class BarrierNewton
+    {
+        private const double LargestTurn = 1.0;          // rad an iteration
+        private const double LargestRelativeTurn = 0.7;  // rad an iteration, between neighbours
+        private const double SufficientDecrease = 1e-4;
+        private const double Rounding = 1e-13;           // of the energies' magnitudes
+        private const double LastPlace = 1.0 / (1L << 52);
+        private const double LeastShift = 1e-4;          // of EI/L^2
+        private const int MostCuts = 30;
+
+        private readonly MaterialRod _rod;
+        private readonly EnergyTerm[] _terms;
+        private readonly BlockTridiagonal _system;
+        private readonly RodVector[] _gradient;
+        private readonly RodVector[] _direction;
+        private readonly RodShape _trial;
+        private readonly double _totalLength;
+        private readonly double _mass;
+        private readonly double _bendForce;       // EI/L^2, N
+        private readonly double _axialSpring;     // EA/l and that of the support, N/m
+        private double _shift;
+
+        /// <summary>For a rod under its terms and those of its motion.</summary>
+        public BarrierNewton(RodTerms terms, EnergyTerm[] moving)
+        {
+            _rod = terms.Rod;
+            _terms = terms.With(moving);
+            _system = new BlockTridiagonal(_rod, terms.Supports);
+            _gradient = new RodVector[_system.VectorCount];
+            _direction = new RodVector[_system.VectorCount];
+            _trial = new RodShape(_rod.ElementCount);
+            _totalLength = _rod.TotalLength;
+            _mass = terms.Mass.Total;
+            _bendForce = _rod.BendForce;
+            for (int j = 0; j < _rod.ElementCount; j++)
+            {
+                _axialSpring = Math.Max(_axialSpring, _rod.StretchStiffness[j] / _rod.Length[j]);
+            }
+        }
+
+        /// <summary>Error that a stage's shape may have where forces are small: radians, or displacement over
+        /// L.</summary>
+        public double Tolerance { get; set; } = 1e-6;
+
+        /// <summary>Share of the largest force that a stage may leave unbalanced.</summary>
+        public double Balance { get; set; } = 1e-7;
+
+        /// <summary>Newton iterations of a stage.</summary>
+        public int MostIterations { get; set; } = 50;
+
+        /// <summary>Newton iterations so far.</summary>
+        public long Iterations { get; private set; }
+
+        /// <summary>Factorisations so far.</summary>
+        public long Factorisations { get; private set; }
+
+        /// <summary>Largest part of the motion that a step of this direction may take, 0 to 1.</summary>
+        public double ShareOf(RodShape shape, RodVector[] direction)
+        {
+            return EnergySum.LargestShare(_terms, shape, direction, 1.0);
+        }
+
+        /// <summary>Moves the shape to the stage's.</summary>
+        /// <param name="shape">In: its gaps are open. Out: the stage's.</param>
+        /// <param name="stageLength">h, s.</param>
+        /// <param name="loads">Sum of the loads' magnitudes, N.</param>
+        /// <returns>Null, or why it has not come to an end; the shape is then not to be used.</returns>
+        public string? Solve(RodShape shape, double stageLength, double loads)
+        {
+            double rounding = LastPlace * (shape.X[0].Length + _totalLength)
+                * (10.0 * _axialSpring + _mass / (stageLength * stageLength));
+            double left = double.PositiveInfinity;
+            for (int k = 0; k < MostIterations; k++)
+            {
+                GradientMeasures measures = _system.Gradient(_terms, shape, _gradient, _direction);
+                double before = left;
+                left = Math.Max(RodVectors.LargestPartialForce(_direction, out double couples),
+                    couples / _totalLength);
+                double allowed = Math.Min(Balance * Math.Max(measures.LargestForce, loads), Tolerance * _bendForce)
+                    + rounding;
+                if (left <= allowed)
+                {
+                    return null;
+                }
+                if (!(left <= double.MaxValue))
+                {
+                    return "a force is not a finite number";
+                }
+                Iterations++;
+                EnergySum.Anchor(_terms, shape);
+                FindDirection(shape);
+                double size = RodStep.Size(_direction, _rod.ElementCount, _totalLength, out double relative);
+                double scale = Math.Min(1.0, Math.Min(LargestTurn / size, LargestRelativeTurn / relative));
+                scale *= EnergySum.LargestShare(_terms, shape, _direction, scale);
+                bool isRounding = !Search(shape, ref scale, size, out bool isHidden);
+                if (isRounding)
+                {
+                    return "no lower energy along the Newton step, " + Text(left) + " N out of balance";
+                }
+                shape.CopyFrom(_trial);
+                // A full step that no longer lowers the force left has come to what rounding leaves.
+                if (isHidden && scale == 1.0 && left >= 0.5 * before && size <= Tolerance)
+                {
+                    return null;
+                }
+            }
+            return "Newton's method leaves " + Text(left) + " N out of balance after " + MostIterations
+                + " iterations";
+        }
+
+        /// <summary>Gradient of all terms.</summary>
+        public RodVector[] Reactions(RodShape shape)
+        {
+            _system.Gradient(_terms, shape, _gradient, _direction);
+            return _gradient;
+        }
+
+        /// <summary>Writes or takes over what the next stage depends on, and the counts.</summary>
+        public void Exchange(Snapshot snapshot)
+        {
+            snapshot.Exchange(ref _shift);
+            Iterations = snapshot.Exchange(Iterations);
+            Factorisations = snapshot.Exchange(Factorisations);
+        }
+
+        private void FindDirection(RodShape shape)
+        {
+            Factorisations++;
+            if (_system.Factorise(_terms, shape, _gradient, _direction, 0.0) > 0)
+            {
+                _shift = Math.Max(0.25 * _shift, LeastShift * _bendForce);
+                Factorisations++;
+                while (_system.Factorise(_terms, shape, _gradient, _direction, _shift) > 0
+                    && _shift <= double.MaxValue)
+                {
+                    _shift *= 4.0;
+                    Factorisations++;
+                }
+            }
+            _system.Back(_direction);
+        }
+
+        // Cuts the step until the energy falls enough; the accepted shape is left in the trial.
+        private bool Search(RodShape shape, ref double scale, double size, out bool isHidden)
+        {
+            double slope = RodVectors.Dot(_gradient, _direction);
+            double start = EnergySum.Value(_terms, shape, out double magnitude);
+            double rounding = Rounding * magnitude;
+            isHidden = -slope < 1e3 * rounding && size < 1e-2;
+            for (int cut = 0; cut < MostCuts; cut++)
+            {
+                RodStep.ApplyStraight(shape, _direction, scale, _trial);
+                double value = EnergySum.Value(_terms, _trial, out _);
+                if (value <= start + SufficientDecrease * scale * slope + rounding
+                    || (isHidden && value <= double.MaxValue))
+                {
+                    return true;
+                }
+                scale *= 0.5;
+            }
+            return false;
+        }
+
+        private static string Text(double value)
+        {
+            return value.ToString("G3", CultureInfo.InvariantCulture);
+        }
+    }
+}

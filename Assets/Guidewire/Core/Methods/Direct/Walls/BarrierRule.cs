@@ -1,0 +1,55 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>Distance and stiffness of the barrier where the parameters do not say, from wire, walls and
+    /// drive.</summary>
+    /// <remarks>The distance g0 is a tenth of the wire's radius, or a twentieth of what the drive moves in a step where
+    /// that is more: a wire that moves farther than 20 g0 in a step leaves its barriers behind. It is at most half of
+    /// the clearance where the walls are narrowest and still wider than the wire, because two barriers that overlap
+    /// would hold the wire back; and at least a hundredth of the radius. The stiffness is 10 EI/l^3 of the stiffest
+    /// element: below a tenth of EI/l^3 a wire that bends closes its gaps to nothing, above it nothing depends on
+    /// it.</remarks>
+    internal static class BarrierRule
+    {
+        /// <summary>Ways in g0 that the drive may move in one step.</summary>
+        public const double MostMove = 20.0;
+
+        private const double OfRadius = 0.1;
+        private const double LeastOfRadius = 0.01;
+        private const double OfClearance = 0.5;
+        private const double OverBendStiffness = 10.0;
+
+        /// <summary>The barrier of a rod between walls.</summary>
+        /// <param name="contact">What is not 0 there counts.</param>
+        /// <param name="walls">In units.</param>
+        /// <param name="metresPerUnit">m.</param>
+        /// <param name="move">Largest way of the drive in a step, m.</param>
+        public static Barrier Of(MaterialRod rod, ContactParameters contact, ContactShape[] walls,
+            double metresPerUnit, double move)
+        {
+            double thinnest = double.PositiveInfinity;
+            double thickest = 0.0;
+            double stiffness = 0.0;
+            for (int j = 0; j < rod.ElementCount; j++)
+            {
+                thinnest = Math.Min(thinnest, rod.Radius[j]);
+                thickest = Math.Max(thickest, rod.Radius[j]);
+                double bend = Math.Max(rod.BendStiffness1[j], rod.BendStiffness2[j]);
+                stiffness = Math.Max(stiffness, OverBendStiffness * bend / Math.Pow(rod.Length[j], 3.0));
+            }
+            double distance = contact.ContactDistance;
+            if (distance == 0.0)
+            {
+                distance = Math.Max(OfRadius * thinnest, move / MostMove);
+                foreach (ContactShape wall in walls)
+                {
+                    double clearance = metresPerUnit * wall.NarrowestRadius(thickest / metresPerUnit) - thickest;
+                    distance = Math.Min(distance, OfClearance * clearance);
+                }
+                distance = Math.Max(distance, LeastOfRadius * thinnest);
+            }
+            return new Barrier(distance, contact.ContactStiffness > 0.0 ? contact.ContactStiffness : stiffness);
+        }
+    }
+}

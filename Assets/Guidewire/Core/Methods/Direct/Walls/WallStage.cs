@@ -1,0 +1,88 @@
+namespace Guidewire.Core
+{
+    /// <summary>One implicit stage of a wire between walls: from where the wire is, as far towards the prediction as
+    /// the walls let it, to the minimum of the stage's energy.</summary>
+    internal sealed class WallStage
+    {
+        private const double OfGaps = 0.5;  // of the way to the prediction that walls leave
+
+        private const int Relags = 1;       // of the pushes that friction goes with
+
+        private readonly RodTerms _terms;
+        private readonly RodSupports _supports;
+        private readonly RodShape _predicted;
+        private readonly RodVector[] _direction;
+
+        /// <summary>For a rod under terms that hold walls.</summary>
+        public WallStage(RodTerms terms, EnergyTerm[] moving)
+        {
+            int n = terms.Rod.ElementCount;
+            _terms = terms;
+            _supports = terms.Supports;
+            _predicted = new RodShape(n);
+            _direction = new RodVector[n + 2];
+            Newton = new BarrierNewton(terms, moving);
+        }
+
+        /// <summary>Solves, and counts.</summary>
+        public BarrierNewton Newton { get; }
+
+        /// <summary>Solves a stage.</summary>
+        /// <param name="shape">In: where the wire was, its frames turned. Out: the stage's.</param>
+        /// <param name="orientations">The prediction of the elements' orientations.</param>
+        /// <param name="start">Where node 0 is to be, m.</param>
+        /// <param name="end">Where the last node is held, if it is.</param>
+        /// <param name="stageLength">h, s.</param>
+        /// <param name="loads">Sum of the loads' magnitudes, N.</param>
+        /// <returns>Null, or why it has no solution; the shape is then not to be used.</returns>
+        public string? Solve(RodShape shape, Quaterniond[] orientations, in Vector3d start, in Vector3d end,
+            double stageLength, double loads)
+        {
+            _terms.Walls!.Spring.Place = start;
+            _terms.Walls.Friction?.Lag(shape);
+            PlaceEnd(shape, end);
+            _predicted.CopyFrom(shape);
+            RodStep.PlaceElements(_supports, _predicted, orientations, start, end);
+            SetDirection(shape);
+            double share = Newton.ShareOf(shape, _direction);
+            if (!(share > 0.0))
+            {
+                return "the wire's surface is at a wall at the start of the step";
+            }
+            RodStep.ApplyStraight(shape, _direction, share < 1.0 ? OfGaps * share : 1.0, shape);
+            string? failure = Newton.Solve(shape, stageLength, loads);
+            for (int k = 0; k < Relags && failure == null && _terms.Walls.Friction != null; k++)
+            {
+                _terms.Walls.Friction.Lag(shape);
+                failure = Newton.Solve(shape, stageLength, loads);
+            }
+            return failure;
+        }
+
+        // A held last node is where its support is.
+        private void PlaceEnd(RodShape shape, in Vector3d end)
+        {
+            int n = shape.ElementCount;
+            if (_supports.Distal != DistalEnd.Free)
+            {
+                Vector3d miss = end - shape.X[n];
+                shape.X[n] += _supports.Distal == DistalEnd.Sliding
+                    ? miss - Vector3d.Dot(miss, _supports.SlidingAxis) * _supports.SlidingAxis : miss;
+            }
+        }
+
+        private void SetDirection(RodShape shape)
+        {
+            int n = shape.ElementCount;
+            for (int j = 0; j <= n; j++)
+            {
+                Vector3d move = _predicted.X[j] - shape.X[j];
+                Vector3d turn = j < n ? RotationVector.Log(shape.Q[j].Conjugate * _predicted.Q[j]) : Vector3d.Zero;
+                _direction[j] = new RodVector
+                {
+                    X1 = move.X, X2 = move.Y, X3 = move.Z, T1 = turn.X, T2 = turn.Y, T3 = turn.Z,
+                };
+            }
+        }
+    }
+}

@@ -1,0 +1,181 @@
+using System;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>The energy of contact against differences of its own value, near walls of every kind.</summary>
+    public sealed class BarrierEnergyTests
+    {
+        private const int N = 6;
+        private const double Radius = 0.05;      // m, with one unit 1 m
+        private const double Distance = 0.4;     // m
+
+        [Test]
+        public void Barrier_FallsToZeroWithItsSlope_AndHasItsDerivatives()
+        {
+            var barrier = new Barrier(0.3, 5.0);
+            Assert.That(barrier.At(0.3, out double slope, out double curvature), Is.EqualTo(0.0));
+            Assert.That(slope, Is.EqualTo(0.0));
+            Assert.That(barrier.At(0.2999, out slope, out curvature), Is.GreaterThan(0.0));
+            Assert.That(Math.Abs(slope), Is.LessThan(1e-5));
+            Assert.That(barrier.At(0.0, out _, out _), Is.EqualTo(double.PositiveInfinity));
+            Assert.That(barrier.At(-0.1, out _, out _), Is.EqualTo(double.PositiveInfinity));
+            foreach (double gap in new[] { 0.01, 0.1, 0.25 })
+            {
+                const double step = 1e-6;
+                double below = barrier.At(gap - step, out double slopeBelow, out _);
+                double above = barrier.At(gap + step, out double slopeAbove, out _);
+                barrier.At(gap, out slope, out curvature);
+                Assert.That(slope, Is.EqualTo((above - below) / (2.0 * step)).Within(1e-6 * Math.Abs(slope)));
+                Assert.That(curvature, Is.EqualTo((slopeAbove - slopeBelow) / (2.0 * step))
+                    .Within(1e-6 * curvature));
+            }
+            barrier.At(0.15, out slope, out _);
+            Assert.That(-slope, Is.EqualTo(5.0 * 0.3 * (Math.Log(2.0) + 0.5)).Within(1e-12), "half of the distance");
+        }
+
+        [Test]
+        public void Gradient_IsTheDifferenceOfTheEnergy([ValueSource(typeof(TestShapes), nameof(TestShapes.Names))]
+            string name)
+        {
+            int tried = 0;
+            for (int seed = 0; seed < 400 && tried < 20; seed++)
+            {
+                BarrierEnergy energy = Create(name, seed, out RodShape shape);
+                double value = energy.Value(shape);
+                if (!(value > 0.0) || !(value < 1e3))
+                {
+                    continue;
+                }
+                tried++;
+                var gradient = new RodVector[N + 2];
+                var measured = default(GradientMeasures);
+                energy.AddGradient(shape, gradient, 0, N + 1, ref measured);
+                double largest = measured.LargestForce;
+                for (int i = 0; i <= N; i++)
+                {
+                    var exact = new Vector3d(gradient[i].X1, gradient[i].X2, gradient[i].X3);
+                    Vector3d difference = new Vector3d(
+                        Difference(energy, shape, i, Vector3d.UnitX), Difference(energy, shape, i, Vector3d.UnitY),
+                        Difference(energy, shape, i, Vector3d.UnitZ));
+                    Assert.That(Vector3d.Distance(exact, difference), Is.LessThan(2e-5 * largest),
+                        name + ", seed " + seed + ", node " + i);
+                }
+            }
+            Assert.That(tried, Is.GreaterThanOrEqualTo(5), "too few wires touch the wall");
+        }
+
+        [TestCase("plane")]
+        [TestCase("tube")]
+        public void Blocks_OfAHollowWall_AreTheDifferencesOfTheGradient(string name)
+        {
+            int tried = 0;
+            for (int seed = 0; seed < 400 && tried < 10; seed++)
+            {
+                BarrierEnergy energy = Create(name, seed, out RodShape shape);
+                double value = energy.Value(shape);
+                if (!(value > 0.0) || !(value < 1e3))
+                {
+                    continue;
+                }
+                tried++;
+                var blocks = new RodBlock[N + 2];
+                energy.AddBlocks(shape, blocks, new RodVector[N + 2], 0, N + 1);
+                for (int i = 0; i <= N; i++)
+                {
+                    const double step = 1e-6;
+                    Vector3d above = ForceAt(energy, shape, i, step);
+                    Vector3d below = ForceAt(energy, shape, i, -step);
+                    Vector3d column = (-0.5 / step) * (above - below);
+                    Assert.That(Vector3d.Distance(column, new Vector3d(blocks[i].A11, blocks[i].A21, blocks[i].A31)),
+                        Is.LessThan(1e-5 * (1.0 + column.Length)), name + ", seed " + seed + ", node " + i);
+                }
+            }
+            Assert.That(tried, Is.GreaterThanOrEqualTo(5), "too few wires touch the wall");
+        }
+
+        [Test]
+        public void LargestShare_LeavesEveryGapOpen([ValueSource(typeof(TestShapes), nameof(TestShapes.Names))]
+            string name)
+        {
+            int cut = 0;
+            for (int seed = 0; seed < 400; seed++)
+            {
+                BarrierEnergy energy = Create(name, seed, out RodShape shape);
+                if (double.IsPositiveInfinity(energy.Value(shape)) || GapOf(energy.Walls[0], shape) <= 0.0)
+                {
+                    continue;
+                }
+                var random = new RandomGeometry(1000 + seed);
+                var direction = new RodVector[N + 2];
+                for (int i = 0; i <= N; i++)
+                {
+                    Vector3d d = random.Number(0.0, 2.0) * random.Point();
+                    direction[i] = new RodVector { X1 = d.X, X2 = d.Y, X3 = d.Z };
+                }
+                double share = energy.LargestShare(shape, direction, 1.0);
+                cut += share < 1.0 ? 1 : 0;
+                var moved = new RodShape(N);
+                for (int k = 0; k <= 50; k++)
+                {
+                    RodStep.ApplyStraight(shape, direction, share * k / 50.0, moved);
+                    Assert.That(GapOf(energy.Walls[0], moved), Is.GreaterThan(0.0), name + ", seed " + seed);
+                }
+            }
+            Assert.That(cut, Is.GreaterThanOrEqualTo(5), "too few steps are cut");
+        }
+
+        private static double GapOf(ContactShape wall, RodShape shape)
+        {
+            double gap = double.PositiveInfinity;
+            for (int j = 0; j < N; j++)
+            {
+                int hint = -1;
+                wall.Nearest(shape.X[j], shape.X[j + 1], double.PositiveInfinity, ref hint,
+                    out SurfaceContact contact);
+                gap = Math.Min(gap, contact.Distance - Radius);
+            }
+            return gap;
+        }
+
+        private static BarrierEnergy Create(string name, int seed, out RodShape shape)
+        {
+            var random = new RandomGeometry(seed);
+            MaterialRod rod = MaterialRod.Round(N, 1.2, Radius, 1e6, 1e6, 1e3);
+            shape = new RodShape(N);
+            Vector3d x = random.Point();
+            Vector3d step = 0.2 * random.Direction();
+            for (int i = 0; i <= N; i++)
+            {
+                shape.X[i] = x;
+                x += step + 0.05 * random.Point();
+            }
+            for (int j = 0; j < N; j++)
+            {
+                shape.Q[j] = Quaterniond.Identity;
+            }
+            return new BarrierEnergy(rod, new[] { TestShapes.Make(name) }, 1.0, new Barrier(Distance, 10.0));
+        }
+
+        private static double Difference(BarrierEnergy energy, RodShape shape, int i, in Vector3d along)
+        {
+            const double step = 1e-7;
+            Vector3d x = shape.X[i];
+            shape.X[i] = x + step * along;
+            double above = energy.Value(shape);
+            shape.X[i] = x - step * along;
+            double below = energy.Value(shape);
+            shape.X[i] = x;
+            return (above - below) / (2.0 * step);
+        }
+
+        private static Vector3d ForceAt(BarrierEnergy energy, RodShape shape, int i, double step)
+        {
+            Vector3d x = shape.X[i];
+            shape.X[i] = x + step * Vector3d.UnitX;
+            Vector3d force = energy.ForceOn(shape, i);
+            shape.X[i] = x;
+            return force;
+        }
+    }
+}

@@ -1,0 +1,286 @@
+using System;
+using System.Collections.Generic;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>Friction of a wire with a material on walls: its derivatives, and Coulomb's law against closed
+    /// forms.</summary>
+    public sealed class FrictionEnergyTests
+    {
+        private const int N = 4;
+        private const double Step = 1e-6;
+
+        [TestCase(1e-4)]
+        [TestCase(1.0)]
+        public void Force_IsTheSlopeOfItsEnergy(double threshold)
+        {
+            FrictionEnergy friction = Create(threshold, out RodShape shape);
+            var gradient = new RodVector[N + 2];
+            var measured = default(GradientMeasures);
+            friction.AddGradient(shape, gradient, 0, N + 1, ref measured);
+            double largest = 0.0;
+            double worst = 0.0;
+            for (int i = 0; i < 6 * N + 3; i++)
+            {
+                double difference = (friction.Value(Moved(shape, i, Step)) - friction.Value(Moved(shape, i, -Step)))
+                    / (2.0 * Step);
+                worst = Math.Max(worst, Math.Abs(difference - Entry(gradient, i)));
+                largest = Math.Max(largest, Math.Abs(difference));
+            }
+            Assert.That(largest, Is.GreaterThan(0.0));
+            Assert.That(worst, Is.LessThan(1e-6 * largest));
+        }
+
+        [Test]
+        public void Blocks_AreTheDifferencesOfTheGradient_WhileTurnsAreSmall()
+        {
+            // Second derivatives of the turn, of its own order, 1e-3, are left out.
+            FrictionEnergy friction = Create(0.05, out RodShape shape);
+            var blocks = new RodBlock[N + 2];
+            friction.AddBlocks(shape, blocks, new RodVector[N + 2], 0, N + 1);
+            double[,] exact = DenseMatrix.From(blocks, N + 1);
+            double largest = 0.0;
+            double worst = 0.0;
+            var measured = default(GradientMeasures);
+            for (int k = 0; k < 6 * N + 3; k++)
+            {
+                var above = new RodVector[N + 2];
+                var below = new RodVector[N + 2];
+                friction.AddGradient(Moved(shape, k, Step), above, 0, N + 1, ref measured);
+                friction.AddGradient(Moved(shape, k, -Step), below, 0, N + 1, ref measured);
+                for (int i = k; i < 6 * N + 3; i++)
+                {
+                    double difference = (Entry(above, i) - Entry(below, i)) / (2.0 * Step);
+                    worst = Math.Max(worst, Math.Abs(difference - exact[i, k]));
+                    largest = Math.Max(largest, Math.Abs(difference));
+                }
+            }
+            Assert.That(worst, Is.LessThan(5e-3 * largest));
+        }
+
+        // A stiff rod lies along a plane of slope angle: m g sin against mu m g cos.
+        [TestCase(0.3, 0.25)]
+        [TestCase(0.3, 0.35)]
+        public void RodOnAnIncline_CreepsBelowTheAngleOfFriction_AndAcceleratesAboveIt(double mu, double slope)
+        {
+            SimulationParameters parameters = WallScenes.Wire(10, 0.5e-3);
+            parameters.Scene.GuidewireLength = 50.0;
+            parameters.Scene.GuidewireOffset = 0.0;
+            parameters.Scene.ProximalEnd = ProximalEnd.Free;
+            double angle = Math.Atan(slope);
+            parameters.Scene.Gravity = 9.81 * new Vector3d(0.0, -Math.Cos(angle), Math.Sin(angle));
+            parameters.Scene.Walls = new ContactShape[]
+            {
+                new PlaneShape(new Vector3d(0.0, -0.54, 0.0), Vector3d.UnitY) { FrictionCoefficient = mu },
+            };
+            parameters.Contact.ContactDistance = 5e-5;
+            parameters.Method.TimeStep = 1e-3;
+            parameters.Method.MaxSimulationSteps = 400;
+            Simulation run = Simulation.Create(parameters);
+            for (int k = 0; k < 200; k++)
+            {
+                run.Step();
+            }
+            double speed = run.State.Velocities[5].Z;
+            while (run.Outcome == Outcome.Running)
+            {
+                run.Step();
+            }
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            double gain = run.State.Velocities[5].Z - speed;
+            double excess = 9810.0 * (Math.Sin(angle) - mu * Math.Cos(angle));
+            if (excess > 0.0)
+            {
+                Assert.That(gain, Is.EqualTo(0.2 * excess).Within(0.01 * 0.2 * excess));
+            }
+            else
+            {
+                // In balance at f'(v/v0) = tan(angle)/mu, below the threshold of 1 mm/s.
+                double share = 1.0 - Math.Sqrt(1.0 - slope / mu);
+                Assert.That(run.State.Velocities[5].Z, Is.EqualTo(share).Within(0.01 * share));
+            }
+        }
+
+        [TestCase(0.1, 90.0)]
+        [TestCase(0.3, 90.0)]
+        [TestCase(0.1, 180.0)]
+        public void PulledThroughABend_TheForceGrowsByTheCapstansLaw(double mu, double degrees)
+        {
+            // validation.md: a wire whose rest curvature is the bend's, pulled back against a load at its tip: it lies
+            // against the inner wall with the force per length of a limp one.
+            double angle = degrees * Math.PI / 180.0;
+            const double bend = 30.0;
+            const double load = 0.5;
+            double pulled = Pull(mu, angle, bend, load);
+            double free = Pull(0.0, angle, bend, load);
+            Assert.That(free, Is.EqualTo(load).Within(0.02 * load), "without friction");
+            Assert.That(pulled / free, Is.EqualTo(Math.Exp(mu * angle)).Within(0.05 * Math.Exp(mu * angle)));
+        }
+
+        [TestCase(0.0)]
+        [TestCase(1.0)]
+        [TestCase(2.0)]
+        public void TurnedWire_NeedsLessAxialForce_ByTheDirectionOfItsSlip(double turning)
+        {
+            // A wire lies in a horizontal tube; its surface slips by v along the tube and by turning v around. Friction
+            // lifts it along the wall by an angle phi with N = W cos(phi), mu N sin(beta) = W sin(phi),
+            // tan(beta) = turning; the force along the tube is mu N cos(beta).
+            const double mu = 0.3;
+            const double speed = 20.0;   // mm/s
+            const double radius = 0.4;   // mm
+            SimulationParameters parameters = WallScenes.Wire(30, 1e-3 * radius);
+            parameters.Scene.GuidewireOffset = 0.0;
+            parameters.Scene.Gravity = new Vector3d(0.0, -9.81, 0.0);
+            var knots = new[] { new Vector3d(0.0, 0.59, -50.0), new Vector3d(0.0, 0.59, 400.0) };
+            parameters.Scene.Walls = new ContactShape[]
+            {
+                new TubeShape(knots, new[] { 1.0, 1.0 }, true, true) { FrictionCoefficient = mu },
+            };
+            // Node 0 is held where the wall just begins to push.
+            parameters.Contact.ContactDistance = 1e-5;
+            parameters.Method.TimeStep = 2e-3;
+            parameters.Method.MaxSimulationSteps = 500;
+            parameters.Drive.Kind = Drive.Displace;
+            parameters.Drive.DisplacementPerStep = speed * parameters.Method.TimeStep;
+            parameters.Drive.TwistPerStep = turning * speed / radius * parameters.Method.TimeStep;
+            Simulation run = Simulation.Create(parameters);
+            double sum = 0.0;
+            double carried = 0.0;   // W, what the clamp leaves of the weight to the wall
+            while (run.Outcome == Outcome.Running)
+            {
+                run.Step();
+                sum += run.StepCount > 250 ? run.Report()!.ProximalForce!.Value.Z / 250.0 : 0.0;
+                carried += run.StepCount > 250 ? run.Contacts!.Total.Y / 250.0 : 0.0;
+            }
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            double weight = 6450.0 * Math.PI * 0.16e-6 * 0.3 * 9.81;
+            double beta = Math.Atan(turning);
+            Assert.That(carried, Is.EqualTo(weight).Within(0.1 * weight));
+            double expected = mu * carried * Math.Cos(Math.Atan(mu * Math.Sin(beta))) * Math.Cos(beta);
+            Assert.That(sum, Is.EqualTo(expected).Within(0.05 * expected));
+        }
+
+        // Force at the base, N, of a wire that is pulled out of a bend against a force along its tip.
+        private static double Pull(double mu, double angle, double bend, double load)
+        {
+            double straight = 40.0;
+            double length = 2.0 * straight + bend * angle;
+            SimulationParameters parameters = WallScenes.Wire((int)Math.Round(length / 2.0), 0.2e-3);
+            int n = parameters.Scene.NumberRodElements;
+            parameters.Scene.GuidewireLength = length;
+            parameters.Material.YoungsModulus = 5e9;
+            parameters.Material.ShearModulus = 2e9;
+            var positions = new Vector3d[n + 1];
+            var orientations = new Quaterniond[n];
+            var middle = new Vector3d[n + 1];
+            for (int i = 0; i <= n; i++)
+            {
+                positions[i] = At(length * i / n - straight, angle, bend, out double turn);
+                if (i > 0)
+                {
+                    double along = length * (i - 0.5) / n - straight;
+                    At(along, angle, bend, out turn);
+                    orientations[i - 1] = Quaterniond.FromAxisAngle(Vector3d.UnitX, -turn);
+                }
+            }
+            parameters.Scene.Start = new RodStart(positions, orientations, new Vector3d[n + 1], new Vector3d[n]);
+            var knots = new List<Vector3d> { At(-straight - 60.0, angle, bend, out _) };
+            for (int k = 0; k <= 90; k++)
+            {
+                knots.Add(At(bend * angle * k / 90.0, angle, bend, out _));
+            }
+            knots.Add(At(bend * angle + straight + 60.0, angle, bend, out double end));
+            parameters.Scene.Walls = new ContactShape[]
+            {
+                new TubeShape(knots.ToArray(), knots.ConvertAll(_ => 0.4).ToArray(), true, true)
+                {
+                    FrictionCoefficient = mu,
+                },
+            };
+            parameters.Scene.TipForce = load * new Vector3d(0.0, Math.Sin(end), Math.Cos(end));
+            parameters.Drive.Kind = Drive.Displace;
+            parameters.Drive.DisplacementPerStep = -0.05;
+            parameters.Method.TimeStep = 2e-3;
+            parameters.Method.MaxSimulationSteps = 200;
+            Simulation run = Simulation.Create(parameters);
+            double sum = 0.0;
+            int count = 0;
+            while (run.Outcome == Outcome.Running)
+            {
+                run.Step();
+                if (run.StepCount > 100)
+                {
+                    sum -= run.Report()!.ProximalForce!.Value.Z;
+                    count++;
+                }
+            }
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Assert.That(run.Contacts!.Passages, Is.EqualTo(0));
+            return sum / count;
+        }
+
+        // The centreline at an arc length from the bend's start, and how far it has turned from z towards y.
+        private static Vector3d At(double s, double angle, double bend, out double turn)
+        {
+            turn = Math.Min(Math.Max(s / bend, 0.0), angle);
+            Vector3d on = bend * new Vector3d(0.0, 1.0 - Math.Cos(turn), Math.Sin(turn));
+            double beyond = s < 0.0 ? s : Math.Max(0.0, s - bend * angle);
+            return on + beyond * new Vector3d(0.0, Math.Sin(turn), Math.Cos(turn));
+        }
+
+        private static FrictionEnergy Create(double threshold, out RodShape shape)
+        {
+            MaterialRod rod = MaterialRod.Round(N, 0.8, 0.05, 1e6, 1e6, 1e3);
+            shape = new RodShape(N);
+            for (int i = 0; i <= N; i++)
+            {
+                shape.X[i] = new Vector3d(0.01 * i, 0.06 + 0.002 * i, 0.2 * i);
+            }
+            for (int j = 0; j < N; j++)
+            {
+                shape.Q[j] = Quaterniond.FromAxisAngle(Vector3d.Normalize(new Vector3d(1.0, 2.0, 0.3 * j)), 0.4);
+            }
+            var wall = new PlaneShape(Vector3d.Zero, new Vector3d(0.1, 1.0, 0.05)) { FrictionCoefficient = 0.4 };
+            var ball = ConvexObstacle.Sphere(new Vector3d(0.25, 0.06, 0.3), 0.15);
+            ball.FrictionCoefficient = 0.2;
+            var barrier = new BarrierEnergy(rod, new ContactShape[] { wall, ball }, 1.0, new Barrier(0.1, 10.0));
+            var friction = new FrictionEnergy(barrier, N, threshold);
+            friction.BeginStep(shape, 0.1);
+            friction.Lag(shape);
+            shape = Moved(Rods.Copy(shape), 0, 0.0);
+            for (int i = 0; i <= N; i++)
+            {
+                shape.X[i] += new Vector3d(0.001 * i, 0.0005, -0.002);
+            }
+            for (int j = 0; j < N; j++)
+            {
+                shape.Q[j] = shape.Q[j] * RotationVector.Exp(new Vector3d(1e-3, -2e-3, 3e-3));
+            }
+            return friction;
+        }
+
+        private static RodShape Moved(RodShape shape, int unknown, double step)
+        {
+            RodShape moved = Rods.Copy(shape);
+            int i = unknown / 6;
+            int axis = unknown % 6;
+            Vector3d e = axis % 3 == 0 ? Vector3d.UnitX : axis % 3 == 1 ? Vector3d.UnitY : Vector3d.UnitZ;
+            if (axis < 3)
+            {
+                moved.X[i] += step * e;
+            }
+            else
+            {
+                moved.Q[i] = moved.Q[i] * RotationVector.Exp(step * e);
+            }
+            return moved;
+        }
+
+        private static double Entry(RodVector[] v, int unknown)
+        {
+            RodVector g = v[unknown / 6];
+            return new[] { g.X1, g.X2, g.X3, g.T1, g.T2, g.T3 }[unknown % 6];
+        }
+    }
+}

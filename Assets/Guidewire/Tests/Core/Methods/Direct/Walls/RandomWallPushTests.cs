@@ -1,0 +1,46 @@
+using System.Collections.Generic;
+using Guidewire.Core;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>Wires with a material pushed, pulled and turned hard in vessels of many kinds: none is ever outside,
+    /// and each run ends as asked or says why not.</summary>
+    [TestFixture]
+    internal sealed class RandomWallPushTests
+    {
+        [Test]
+        public void Wire_IsNeverOutside_AndEveryRunHasAnEnd()
+        {
+            int runs = RandomGeometry.Cases(80);
+            var worst = new List<string>();
+            var delivered = new List<double>();
+            int failed = 0;
+            int outside = 0;
+            for (int seed = 0; seed < runs; seed++)
+            {
+                var push = new RandomWallPush(seed);
+                bool isOutside = push.Contacts.Passages > 0 || push.PointsOutside > 0 || push.Deepest > 0.0
+                    || push.Contacts.MaxPenetration > 0.0 || !push.IsFinite;
+                bool hasEnd = push.Simulation.Outcome == Outcome.Finished
+                    || (push.Simulation.Outcome == Outcome.Failed && push.Simulation.Reason.Length > 0);
+                outside += isOutside || !hasEnd ? 1 : 0;
+                failed += push.Simulation.Outcome == Outcome.Failed ? 1 : 0;
+                delivered.Add(1.0 - push.Contacts.DriveShortfall / push.Contacts.DriveAsked);
+                if (isOutside || push.Simulation.Outcome != Outcome.Finished)
+                {
+                    worst.Add(push.ToString());
+                }
+            }
+            delivered.Sort();
+            TestContext.WriteLine(failed + " of " + runs + " failed; median push " + delivered[runs / 2]);
+            foreach (string line in worst)
+            {
+                TestContext.WriteLine(line);
+            }
+            Assert.That(outside, Is.EqualTo(0), "runs with a wire outside, or without an end");
+            Assert.That(failed, Is.LessThanOrEqualTo(0.05 * runs));
+            Assert.That(delivered[runs / 2], Is.GreaterThanOrEqualTo(0.95));
+        }
+    }
+}

@@ -1,0 +1,52 @@
+using System;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>A frictionless wire that was pushed 150 mm into the arch at 50 mm/s ends where its material takes it,
+    /// whatever the numbers of the method are.</summary>
+    public sealed class WallIndependenceTests
+    {
+        private const double Way = 150.0;    // mm
+        private const double Gap = 0.05;     // mm
+
+        [Test]
+        public void Tip_DoesNotDependOnTheElements()
+        {
+            Vector3d coarse = Tip(60, 0.01, Gap);
+            Vector3d middle = Tip(120, 0.01, Gap);
+            Vector3d fine = Tip(240, 0.01, Gap);
+            TestContext.WriteLine(Vector3d.Distance(coarse, middle) + " and " + Vector3d.Distance(middle, fine)
+                + " mm");
+            Assert.That(Vector3d.Distance(coarse, middle), Is.LessThan(0.04 * WallScenes.LumenRadius));
+            Assert.That(Vector3d.Distance(middle, fine), Is.LessThan(0.01 * WallScenes.LumenRadius));
+        }
+
+        [Test]
+        public void Tip_DoesNotDependOnTheTimeStep()
+        {
+            Vector3d coarse = Tip(60, 0.01, Gap);
+            Vector3d fine = Tip(60, 0.002, Gap);
+            TestContext.WriteLine(Vector3d.Distance(coarse, fine) + " mm");
+            Assert.That(Vector3d.Distance(coarse, fine), Is.LessThan(0.01 * WallScenes.LumenRadius));
+        }
+
+        [Test]
+        public void Tip_FloatsOffTheWallByTheContactDistance()
+        {
+            Vector3d coarse = Tip(60, 0.01, Gap);
+            Vector3d fine = Tip(60, 0.01, 0.5 * Gap);
+            TestContext.WriteLine(Vector3d.Distance(coarse, fine) + " mm");
+            Assert.That(Vector3d.Distance(coarse, fine), Is.LessThan(3.0 * Gap));
+        }
+
+        private static Vector3d Tip(int n, double timeStep, double gap)
+        {
+            SimulationParameters parameters = WallScenes.Arch(n, timeStep, 50.0, Way);
+            parameters.Contact.ContactDistance = 1e-3 * gap;
+            Simulation run = Wires.Run(parameters);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            return run.State.Positions[n];
+        }
+    }
+}

@@ -1,0 +1,145 @@
+using System;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>A wire with a material between walls, through <see cref="Simulation"/>.</summary>
+    public sealed class WallRunTests
+    {
+        [Test]
+        public void Cantilever_OnAPlane_PressesAsTheBoundaryValueProblemSays()
+        {
+            // validation.md: r = 0.3 mm over a plane 20 mm below its axis; the wire's surface lies r + gap above it, so
+            // the plane is lowered by both.
+            SimulationParameters parameters = WallScenes.OverPlane(30, 0.3e-3);
+            parameters.Contact.ContactDistance = 1e-5;
+            parameters.Scene.Walls = new ContactShape[]
+            {
+                new PlaneShape(new Vector3d(0.0, -20.3, 0.0), Vector3d.UnitY),
+            };
+            Simulation run = Wires.Run(parameters);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Converged), run.Reason);
+            Assert.That(run.Contacts!.Total.Y, Is.EqualTo(1.16164e-3).Within(0.01 * 1.16164e-3));
+            Assert.That(run.Contacts.Forces[30].Y, Is.EqualTo(run.Contacts.Total.Y).Within(1e-9), "at the tip alone");
+            Assert.That(run.Contacts.MaxPenetration, Is.EqualTo(0.0));
+        }
+
+        [Test]
+        public void Wire_LyingInATube_IsCarriedWhole()
+        {
+            SimulationParameters parameters = WallScenes.Wire(30, 0.4e-3);
+            parameters.Scene.GuidewireOffset = 0.0;
+            parameters.Scene.ProximalEnd = ProximalEnd.Free;
+            parameters.Scene.Gravity = new Vector3d(0.0, -9.81, 0.0);
+            var knots = new[] { new Vector3d(0.0, 0.0, -10.0), new Vector3d(0.0, 0.0, 310.0) };
+            parameters.Scene.Walls = new ContactShape[]
+            {
+                new TubeShape(knots, new[] { 1.0, 1.0 }, true, true),
+            };
+            parameters.Method.TimeStep = 5e-3;
+            parameters.Method.Damping = 0.2;
+            parameters.Method.SolverTolerance = 1e-9;
+            parameters.Method.MaxSimulationSteps = 400;
+            Simulation run = Wires.Run(parameters);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            double weight = 6450.0 * Math.PI * 0.16e-6 * 0.3 * 9.81;
+            Assert.That(run.Contacts!.Total.Y, Is.EqualTo(weight).Within(1e-6 * weight));
+            Assert.That(Math.Abs(run.Contacts.Total.X), Is.LessThan(1e-6 * weight));
+            Assert.That(Vector3d.Distance(run.Contacts.WallForces[0], run.Contacts.Total), Is.LessThan(1e-9 * weight));
+            Assert.That(run.Contacts.LargestTotal, Is.GreaterThanOrEqualTo(run.Contacts.Total.Length));
+            Assert.That(run.Contacts.LargestForce, Is.GreaterThan(weight / 31.0));
+        }
+
+        [TestCase(50.0, 0.01)]
+        [TestCase(200.0, 0.01)]
+        [TestCase(1000.0, 0.01)]
+        public void Push_IntoAnArch_StaysInside(double speed, double timeStep)
+        {
+            Simulation run = Wires.Run(WallScenes.Arch(60, timeStep, speed, 150.0));
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Assert.That(run.Contacts!.Passages, Is.EqualTo(0));
+            Assert.That(run.Contacts.MaxPenetration, Is.EqualTo(0.0));
+            Assert.That(run.Contacts.DriveAsked, Is.EqualTo(150.0).Within(1e-9));
+            Assert.That(run.Contacts.DriveShortfall, Is.LessThan(1e-3));
+            Vector3d tip = run.State.Positions[60];
+            Assert.That(tip.Y, Is.GreaterThan(57.0), "behind the arch");
+            Assert.That(tip.Z, Is.LessThan(-40.0));
+        }
+
+        [Test]
+        public void ElementsBetweenNodes_KeepOffTheInnerWall()
+        {
+            // 12 elements of 25 mm: their chords would cut 3 mm into the inner side of the bend.
+            Simulation run = Wires.Run(WallScenes.Arch(24, 0.01, 50.0, 100.0));
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Assert.That(run.Contacts!.MaxPenetration, Is.EqualTo(0.0));
+            Assert.That(run.State.Positions[24].Y, Is.GreaterThan(50.0));
+        }
+
+        [Test]
+        public void Run_ThatIsContinued_TakesTheSameSteps()
+        {
+            SimulationParameters parameters = WallScenes.Arch(30, 0.01, 50.0, 100.0);
+            parameters.Drive.TwistPerStep = 0.02;
+            Simulation whole = Simulation.Create(parameters);
+            Simulation part = Simulation.Create(parameters);
+            for (int k = 0; k < 150; k++)
+            {
+                whole.Step();
+                if (k == 100)
+                {
+                    part = part.Continue(parameters);
+                }
+                part.Step();
+            }
+            for (int i = 0; i <= 30; i++)
+            {
+                Assert.That(part.State.Positions[i], Is.EqualTo(whole.State.Positions[i]));
+                Assert.That(part.State.Velocities[i], Is.EqualTo(whole.State.Velocities[i]));
+            }
+            Assert.That(part.Contacts!.DriveAsked, Is.EqualTo(whole.Contacts!.DriveAsked));
+        }
+
+        [Test]
+        public void Steps_LeaveNoGarbage()
+        {
+            SimulationParameters parameters = WallScenes.Arch(60, 0.01, 50.0, 150.0);
+            parameters.Scene.Walls[0].FrictionCoefficient = 0.1;
+            Simulation run = Simulation.Create(parameters);
+            for (int k = 0; k < 200; k++)
+            {
+                run.Step();
+            }
+            long left = Garbage.LeftBy(() =>
+            {
+                for (int k = 0; k < 20; k++)
+                {
+                    run.Step();
+                }
+            });
+            Assert.That(run.Contacts!.Total.Length, Is.GreaterThan(0.0));
+            Assert.That(left, Is.EqualTo(0));
+        }
+
+        [Test]
+        public void StartOutside_IsRefusedByItsElement()
+        {
+            SimulationParameters parameters = WallScenes.Arch(30, 0.01, 50.0, 100.0);
+            parameters.Material.WireRadius = 3.2e-3;
+            ArgumentException? error = Assert.Throws<ArgumentException>(() => Simulation.Create(parameters));
+            Assert.That(error!.Message, Does.Contain("rod element 0"));
+            Assert.That(error.Message, Does.Contain("radius 3.2 units, reaches 0.2 units into the wall"));
+            Assert.That(error.Message, Does.Contain("the vessel's radius is 3 units where it is narrowest"));
+        }
+
+        [Test]
+        public void Speed_BeyondReason_EndsWithAReason()
+        {
+            SimulationParameters parameters = WallScenes.Arch(30, 0.01, 100_000.0, 3000.0);
+            Simulation run = Wires.Run(parameters);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Failed).Or.EqualTo(Outcome.Finished), run.Reason);
+            Assert.That(run.Reason, Is.Not.Empty);
+            Assert.That(run.Contacts!.Passages, Is.EqualTo(0));
+        }
+    }
+}

@@ -1,0 +1,75 @@
+using System;
+using System.Collections.Generic;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>Scenes in which a wire with a material meets walls.</summary>
+    internal static class WallScenes
+    {
+        /// <summary>Radius of the lumen of <see cref="Arch"/>, units.</summary>
+        public const double LumenRadius = 3.0;
+
+        private const double BendRadius = 30.0;   // units
+        private const int BendPieces = 40;
+
+        /// <summary>A straight sheath along z to z = 0, then half a circle in the y z plane, then straight back;
+        /// as a tube.</summary>
+        public static TubeShape ArchTube(int pieces)
+        {
+            var knots = new List<Vector3d> { new Vector3d(0.0, 0.0, -320.0) };
+            for (int k = 0; k <= pieces; k++)
+            {
+                double angle = Math.PI * k / pieces;
+                knots.Add(new Vector3d(0.0, BendRadius * (1.0 - Math.Cos(angle)), BendRadius * Math.Sin(angle)));
+            }
+            knots.Add(new Vector3d(0.0, 2.0 * BendRadius, -200.0));
+            return new TubeShape(knots.ToArray(), knots.ConvertAll(_ => LumenRadius).ToArray(), true, true);
+        }
+
+        /// <summary>A nitinol wire, r = 0.4 mm and 300 mm long, that is pushed from the sheath into the arch.</summary>
+        /// <param name="speed">mm/s.</param>
+        /// <param name="way">mm.</param>
+        public static SimulationParameters Arch(int n, double timeStep, double speed, double way)
+        {
+            var parameters = Wire(n, 0.4e-3);
+            parameters.Scene.GuidewireOffset = -300.0;
+            parameters.Scene.Walls = new ContactShape[] { ArchTube(BendPieces) };
+            parameters.Drive.Kind = Drive.Displace;
+            parameters.Drive.DisplacementPerStep = speed * timeStep;
+            parameters.Method.TimeStep = timeStep;
+            parameters.Method.MaxSimulationSteps = (int)Math.Round(way / (speed * timeStep));
+            return parameters;
+        }
+
+        /// <summary>A nitinol cantilever, 300 mm long, above a plane 20 mm below it.</summary>
+        public static SimulationParameters OverPlane(int n, double radius)
+        {
+            SimulationParameters parameters = Wire(n, radius);
+            parameters.Scene.GuidewireOffset = 0.0;
+            parameters.Scene.Gravity = new Vector3d(0.0, -9.81, 0.0);
+            parameters.Scene.Walls = new ContactShape[]
+            {
+                new PlaneShape(new Vector3d(0.0, -20.0, 0.0), Vector3d.UnitY),
+            };
+            parameters.Method.TimeStep = 5e-3;
+            parameters.Method.Damping = 0.05;
+            parameters.Method.DeltaThreshold = 1e-6;
+            parameters.Method.MaxSimulationSteps = 3000;
+            return parameters;
+        }
+
+        /// <summary>A wire of the base rod's material, clamped, in a scene to be set.</summary>
+        public static SimulationParameters Wire(int n, double radius)
+        {
+            var parameters = new SimulationParameters();
+            parameters.Method.Solver = Solver.Direct;
+            MethodTable.Of(Solver.Direct).SetDefaults(parameters);
+            parameters.Method.Integrator = Integrator.ImplicitEuler;
+            parameters.Method.DeltaThreshold = 0.0;
+            parameters.Scene.NumberRodElements = n;
+            parameters.Scene.ProximalEnd = ProximalEnd.Clamped;
+            parameters.Material.WireRadius = radius;
+            return parameters;
+        }
+    }
+}
