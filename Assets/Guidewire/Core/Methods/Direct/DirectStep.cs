@@ -137,9 +137,19 @@ namespace Guidewire.Core
             {
                 FollowEnds();
             }
-            if (!snapshot.Section("direct", ExchangeOwn))
+            if (!snapshot.Section(SectionKey, ExchangeOwn))
             {
                 _energy.Start();
+            }
+        }
+
+        // Between walls more is kept than without.
+        private string SectionKey
+        {
+            get
+            {
+                WallTerms? walls = _dynamics.Terms.Walls;
+                return walls == null ? "direct" : walls.HoldsStart ? "direct, walls" : "direct, walls, free";
             }
         }
 

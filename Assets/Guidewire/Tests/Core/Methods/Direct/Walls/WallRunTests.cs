@@ -101,6 +101,23 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void Run_GoesOnWithoutItsWalls_AndBetweenThemAgain()
+        {
+            SimulationParameters between = WallScenes.Arch(30, 0.01, 50.0, 100.0);
+            SimulationParameters without = between.Copy();
+            without.Scene.Walls = Array.Empty<ContactShape>();
+            Simulation run = Simulation.Create(between);
+            for (int k = 0; k < 40; k++)
+            {
+                run.Step();
+                run = k == 20 ? run.Continue(without) : k == 22 ? run.Continue(between) : run;
+            }
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Running), run.Reason);
+            Assert.That(run.StepCount, Is.EqualTo(40));
+            Assert.That(run.State.Positions[0].Z, Is.EqualTo(-280.0).Within(1e-3));
+        }
+
+        [Test]
         public void Steps_LeaveNoGarbage()
         {
             SimulationParameters parameters = WallScenes.Arch(60, 0.01, 50.0, 150.0);
