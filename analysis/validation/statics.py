@@ -182,7 +182,7 @@ def _plane_contact() -> Plan:
     gap = 1e-5  # m, the largest that the barrier leaves
     height = -1e3 * (_PLANE_DROP + wire.radius)  # of the plane: the axis comes to rest a radius above it
     case = Case("direct", {
-        **scenes.wire_parameters(wire), "gravity": [0.0, -_GRAVITY, 0.0], "timeStep": 5e-3, "damping": 0.05,
+        **scenes.wire_parameters(wire), "gravity": [0.0, -_GRAVITY, 0.0], "timeStep": 5e-3, "massDamping": 10.0,
         "integrator": "implicitEuler", "deltaThreshold": 1e-6, "maxSimulationSteps": 3000, "contactDistance": gap,
         "vessel": {"shape": "plane", "point": [0.0, height, 0.0], "normal": [0.0, 1.0, 0.0]},
     })

@@ -10,6 +10,7 @@ namespace Guidewire.Core.Tests
     internal sealed class RandomWallPushTests
     {
         [Test]
+        [Category("Long")]
         public void Wire_IsNeverOutside_AndEveryRunHasAnEnd()
         {
             int runs = RandomGeometry.Cases(80);

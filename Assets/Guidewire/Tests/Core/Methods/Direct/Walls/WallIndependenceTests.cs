@@ -11,6 +11,7 @@ namespace Guidewire.Core.Tests
         private const double Gap = 0.05;     // mm
 
         [Test]
+        [Category("Long")]
         public void Tip_DoesNotDependOnTheElements()
         {
             Vector3d coarse = Tip(60, 0.01, Gap);

@@ -37,7 +37,7 @@ namespace Guidewire.Core.Tests
                 new TubeShape(knots, new[] { 1.0, 1.0 }, true, true),
             };
             parameters.Method.TimeStep = 5e-3;
-            parameters.Method.Damping = 0.2;
+            parameters.Material.MassDamping = 40.0;    // 1/s
             parameters.Method.SolverTolerance = 1e-9;
             parameters.Method.MaxSimulationSteps = 400;
             Simulation run = Wires.Run(parameters);
@@ -77,6 +77,7 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        [Category("Long")]
         public void Run_ThatIsContinued_TakesTheSameSteps()
         {
             SimulationParameters parameters = WallScenes.Arch(30, 0.01, 50.0, 100.0);

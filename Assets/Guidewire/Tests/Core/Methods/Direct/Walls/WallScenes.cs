@@ -52,7 +52,7 @@ namespace Guidewire.Core.Tests
                 new PlaneShape(new Vector3d(0.0, -20.0, 0.0), Vector3d.UnitY),
             };
             parameters.Method.TimeStep = 5e-3;
-            parameters.Method.Damping = 0.05;
+            parameters.Material.MassDamping = 10.0;    // 1/s
             parameters.Method.DeltaThreshold = 1e-6;
             parameters.Method.MaxSimulationSteps = 3000;
             return parameters;
