@@ -29,14 +29,18 @@ _PACKAGES = {
 def friends(project: Project, asmdef: Asmdef) -> dict[str, tuple[str, int]]:
     """The assemblies that may see an assembly's internals, with the file and line that says so."""
     found: dict[str, tuple[str, int]] = {}
-    for path in project.assets(".cs"):
-        if "InternalsVisibleTo" in project.text(path) and owner(assemblies(project), path) is asmdef:
+    for path in project.derived("files that name friends", _naming_friends):
+        if owner(assemblies(project), path) is asmdef:
             items = tokens(project.text(path))
             for i in range(len(items) - 2):
                 if items[i].text in ("InternalsVisibleTo",
                                      "InternalsVisibleToAttribute") and items[i + 2].kind == "text":
                     found[items[i + 2].value] = (path, items[i].line)
     return found
+
+
+def _naming_friends(project: Project) -> list[str]:
+    return [path for path in project.assets(".cs") if "InternalsVisibleTo" in project.text(path)]
 
 
 @functools.lru_cache(maxsize=4096)

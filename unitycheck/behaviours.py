@@ -56,10 +56,13 @@ def descendants(project: Project, roots: set[str]) -> set[str]:
 
 def behaviours(project: Project) -> dict[str, list[Declaration]]:
     """The MonoBehaviours and ScriptableObjects of each file."""
-    known = descendants(project, ROOTS)
-    return {path: [declaration for declaration in declared
-                   if declaration.kind == "class" and set(declaration.bases) & known]
-            for path, declared in types(project).items()}
+    def make(project: Project) -> dict[str, list[Declaration]]:
+        known = descendants(project, ROOTS)
+        return {path: [declaration for declaration in declared
+                       if declaration.kind == "class" and not known.isdisjoint(declaration.bases)]
+                for path, declared in types(project).items()}
+
+    return project.derived("behaviours", make)
 
 
 def chain(project: Project, declaration: Declaration) -> Iterator[Declaration]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import re
 from typing import Any, Iterator
 
@@ -40,6 +41,12 @@ _CALLS = {"SetFloat": FLOATS, "GetFloat": FLOATS, "SetColor": COLOURS, "GetColor
           "PropertyToID": FLOATS | COLOURS | TEXTURES, "EnableKeyword": KEYWORDS, "DisableKeyword": KEYWORDS,
           "IsKeywordEnabled": KEYWORDS}
 _ASKS = re.compile("|".join((r"Shader\.", r"Keyword\(", *_CALLS)))
+
+
+@functools.lru_cache(maxsize=4096)
+def _asks(source: str) -> bool:
+    """Whether a source may hold one of the calls; quick."""
+    return _ASKS.search(source) is not None
 
 
 def check(project: Project) -> Iterator[Violation]:
@@ -118,7 +125,7 @@ def _standard(path: str, line: int, data: dict[str, Any]) -> Iterator[Violation]
 
 
 def _calls(path: str, source: str, own: set[str]) -> Iterator[Violation]:
-    if not _ASKS.search(source):
+    if not _asks(source):
         return
     items = tokens(source)
     for i in range(1, len(items) - 2):

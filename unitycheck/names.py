@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import re
 from typing import Iterator
 
@@ -20,11 +21,17 @@ _CALLS = {"LoadScene": "scene", "LoadSceneAsync": "scene", "FindWithTag": "tag",
 _ASKS = re.compile("|".join((*_CALLS, "Resources")))
 
 
+@functools.lru_cache(maxsize=4096)
+def _asks(source: str) -> bool:
+    """Whether a source may hold one of the calls; quick."""
+    return _ASKS.search(source) is not None
+
+
 def check(project: Project) -> Iterator[Violation]:
     """Rule name-unknown."""
     known = project.derived("names", _known)
     for path in project.assets(".cs"):
-        if _ASKS.search(project.text(path)):
+        if _asks(project.text(path)):
             items = tokens(project.text(path))
             for i in range(1, len(items) - 2):
                 kind = _CALLS.get(items[i].text)

@@ -133,7 +133,8 @@ class Project:
 
     def assets(self, *suffixes: str) -> list[str]:
         """Files that Unity imports whose names end in one of the suffixes."""
-        return [path for path in self.asset_files if path.endswith(suffixes)]
+        return self.derived(f"assets {suffixes}", lambda project: [
+            path for path in project.asset_files if path.endswith(suffixes)])
 
     def embedded_packages(self) -> list[str]:
         """The package.json of each folder under Packages."""

@@ -16,7 +16,7 @@ SCENE = ROOT / "params" / "insertion.json"
 MESH = ROOT / "params" / "meshes" / "arch.obj"
 RADIUS = 5.0  # units, the scene's
 FASTEST = 20.0  # radii a step
-RUNS = 60 if os.environ.get("GUIDEWIRE_ALL") else 4
+RUNS = 60 if os.environ.get("GUIDEWIRE_ALL") else 2
 
 
 def push(command, folder, seed, contact):
