@@ -101,13 +101,18 @@ def suites(program: str, full: bool) -> list[Suite]:
     not_timed = ["-m", "not timed"]
     return [
         _pytest_suite("analysis/tests", ["analysis/tests"], needs_build=False),
-        # Its tests of the compiler wait for the build: last, they hardly do.
-        _pytest_suite("unitycheck/tests", ["unitycheck/tests/test_mutations.py", "unitycheck/tests"], needs_build=False),
+        _pytest_suite("unitycheck/tests", _checker_tests(), needs_build=False),
         _pytest_suite(f"{tests}, the longest", [*not_timed, *longest]),
         _pytest_suite(f"{tests}, the rest", [*not_timed, tests, *(f"--ignore={path}" for path in longest)]),
         *(_dotnet_suite(program, name, full) for name in DOTNET_TESTS),
         _pytest_suite(f"{tests}, timed", ["-m", "timed", tests], alone=True),
     ]
+
+
+def _checker_tests() -> list[str]:
+    """Files of the checker's tests; that of the compiler waits for the build, so it comes last."""
+    files = sorted(path.relative_to(ROOT).as_posix() for path in (ROOT / "unitycheck" / "tests").glob("test_*.py"))
+    return sorted(files, key=lambda name: name.endswith("/test_compiler.py"))
 
 
 def run_suites(
