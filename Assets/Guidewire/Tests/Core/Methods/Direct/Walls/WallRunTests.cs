@@ -25,6 +25,29 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void WireThatIsPressedTogetherBetweenWalls_SaysByHowMuch()
+        {
+            // 12 mm against the end of a tube that lets it bend nowhere.
+            SimulationParameters parameters = WallScenes.Wire(30, 0.4e-3);
+            parameters.Scene.GuidewireOffset = 0.0;
+            parameters.Scene.Walls = new ContactShape[]
+            {
+                new TubeShape(new[] { new Vector3d(0.0, 0.0, -50.0), new Vector3d(0.0, 0.0, 300.0) },
+                    new[] { 0.5, 0.5 }, true, false),
+            };
+            parameters.Drive.Kind = Drive.Push;
+            parameters.Drive.DisplacementPerStep = 1.0;
+            parameters.Method.TimeStep = 0.01;
+            parameters.Method.MaxSimulationSteps = 12;
+            Simulation run = Wires.Run(parameters);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            double change = (run.State.Positions[30].Z - run.State.Positions[0].Z) / 300.0 - 1.0;
+            Assert.That(change, Is.LessThan(-0.02));
+            Assert.That(run.Reason, Does.EndWith(string.Format(System.Globalization.CultureInfo.InvariantCulture,
+                ", but the wire is {0:0.0} % shorter than at rest", -100.0 * change)));
+        }
+
+        [Test]
         public void Wire_LyingInATube_IsCarriedWhole()
         {
             SimulationParameters parameters = WallScenes.Wire(30, 0.4e-3);
