@@ -110,9 +110,9 @@ def suites(program: str, full: bool) -> list[Suite]:
 
 
 def _checker_tests() -> list[str]:
-    """Files of the checker's tests; that of the compiler waits for the build, so it comes last."""
+    """Files of the checker's tests; those that wait for the build, or ask the program that it makes, come last."""
     files = sorted(path.relative_to(ROOT).as_posix() for path in (ROOT / "unitycheck" / "tests").glob("test_*.py"))
-    return sorted(files, key=lambda name: name.endswith("/test_compiler.py"))
+    return sorted(files, key=lambda name: name.endswith(("/test_compiler.py", "/test_mutations.py")))
 
 
 def run_suites(
