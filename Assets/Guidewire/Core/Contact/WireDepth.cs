@@ -79,6 +79,10 @@ namespace Guidewire.Core
                 return known;
             }
             double distance = _search.GuardsSpheres ? _walls[w].SizeOf(contact.Distance) : contact.Distance;
+            if (distance < 0.0 && _radius - distance > known)
+            {
+                distance = _walls[w].LeastAlong(a, b, distance);
+            }
             return Math.Max(known, _radius - distance);
         }
     }

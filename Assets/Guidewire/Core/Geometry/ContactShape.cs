@@ -103,6 +103,14 @@ namespace Guidewire.Core
             return Math.Max(0.0, distance);
         }
 
+        /// <summary>Least signed distance of a point of segment a b, units, where <see cref="Nearest"/> found the
+        /// segment at a negative distance. The two differ where a segment's distance is the way out of the wall of all
+        /// of it.</summary>
+        internal virtual double LeastAlong(in Vector3d a, in Vector3d b, double distance)
+        {
+            return distance;
+        }
+
         /// <summary>Largest fraction of the motion for which it is proven that every point of the segment keeps a
         /// distance of at least <paramref name="keep"/>, <see cref="NoImpact"/> for all of it. An approach of less than
         /// the resolution, units, is none. The hint, where the nearest place was at the start or -1, changes the time

@@ -8,6 +8,8 @@ namespace Guidewire.Core
     public sealed class ConvexObstacle : ContactShape
     {
         private const double RelativeFlatness = 1e-9;
+        private const double GoldenShare = 0.38196601125010515;    // 2 less the golden ratio
+        private const int GoldenSections = 60;                     // to 3e-13 of the segment
         private readonly Vector3d[] _points;
         private readonly double _radius;
         private readonly Gjk _gjk = new Gjk();
@@ -123,6 +125,47 @@ namespace Guidewire.Core
             double keep, double resolution, int hint)
         {
             return SweptTest.Impact(new Body(this), a0, b0, a1, b1, keep, resolution);
+        }
+
+        /// <summary>That of the deepest point; the distance of a segment that cuts the body is the shortest way out of
+        /// it, which may be longer.</summary>
+        /// <remarks>A point's signed distance from a convex body is convex along a segment: golden sections.</remarks>
+        internal override double LeastAlong(in Vector3d a, in Vector3d b, double distance)
+        {
+            double from = 0.0;
+            double to = 1.0;
+            double lower = GoldenShare;
+            double upper = 1.0 - GoldenShare;
+            double atLower = DistanceOf(Vector3d.Lerp(a, b, lower));
+            double atUpper = DistanceOf(Vector3d.Lerp(a, b, upper));
+            double least = Math.Min(Math.Min(DistanceOf(a), DistanceOf(b)), Math.Min(atLower, atUpper));
+            for (int k = 0; k < GoldenSections; k++)
+            {
+                if (atLower < atUpper)
+                {
+                    to = upper;
+                    upper = lower;
+                    atUpper = atLower;
+                    lower = from + GoldenShare * (to - from);
+                    atLower = DistanceOf(Vector3d.Lerp(a, b, lower));
+                    least = Math.Min(least, atLower);
+                }
+                else
+                {
+                    from = lower;
+                    lower = upper;
+                    atLower = atUpper;
+                    upper = to - GoldenShare * (to - from);
+                    atUpper = DistanceOf(Vector3d.Lerp(a, b, upper));
+                    least = Math.Min(least, atUpper);
+                }
+            }
+            return least;
+        }
+
+        private double DistanceOf(in Vector3d point)
+        {
+            return _gjk.Distance(point, point, _points, out _, out _, out _) - _radius;
         }
 
         /// <summary>The whole body: its distance from a segment is convex.</summary>

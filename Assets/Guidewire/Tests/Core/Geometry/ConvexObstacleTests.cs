@@ -79,6 +79,56 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void DeepestPoint_OfASegmentInABox_IsThatOfItsSixPlanes()
+        {
+            // Within a box a point's signed distance is the largest of those from six planes, each linear along the
+            // segment: the least is at an end or where two of them are equal.
+            var random = new RandomGeometry(17);
+            double worst = 0.0;
+            int shorter = 0;
+            for (int i = 0; i < RandomGeometry.Cases(10_000); i++)
+            {
+                var half = new Vector3d(random.Number(0.1, 0.8), random.Number(0.1, 0.8), random.Number(0.1, 0.8));
+                Vector3d[] s = random.Segment(Vector3d.UnitX);
+                ConvexObstacle box = ConvexObstacle.Box(Vector3d.Zero, half, Quaterniond.Identity);
+                double wayOut = Nearest(box, s[0], s[1]).Distance;
+                if (!(wayOut < 0.0))
+                {
+                    continue;
+                }
+                double[] from = PlaneDistances(s[0], half);
+                double[] to = PlaneDistances(s[1], half);
+                double expected = Math.Min(Highest(from, to, 0.0), Highest(from, to, 1.0));
+                for (int k = 0; k < 36; k++)
+                {
+                    double above = from[k / 6] - from[k % 6];
+                    double share = above / (above - to[k / 6] + to[k % 6]);
+                    expected = share > 0.0 && share < 1.0
+                        ? Math.Min(expected, Highest(from, to, share)) : expected;
+                }
+                worst = Math.Max(worst, Math.Abs(box.LeastAlong(s[0], s[1], wayOut) - expected));
+                shorter += expected > wayOut + 1e-3 ? 1 : 0;
+            }
+            Assert.That(worst, Is.LessThan(Tolerance));
+            Assert.That(shorter, Is.GreaterThan(10), "cases in which the way out of the whole segment is longer");
+        }
+
+        private static double[] PlaneDistances(in Vector3d p, in Vector3d half)
+        {
+            return new[] { p.X - half.X, -p.X - half.X, p.Y - half.Y, -p.Y - half.Y, p.Z - half.Z, -p.Z - half.Z };
+        }
+
+        private static double Highest(double[] from, double[] to, double share)
+        {
+            double highest = double.NegativeInfinity;
+            for (int k = 0; k < from.Length; k++)
+            {
+                highest = Math.Max(highest, from[k] + share * (to[k] - from[k]));
+            }
+            return highest;
+        }
+
+        [Test]
         public void Hull_AgreesWithEnumeration_OnRandomTetrahedra()
         {
             var random = new RandomGeometry(14);
