@@ -10,6 +10,7 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     /// <summary>The rule by which numbers are written, against the bits and against .NET's own shortest text.</summary>
+    [Category("Target")]
     [TestFixture]
     public sealed class NumberTextTests
     {

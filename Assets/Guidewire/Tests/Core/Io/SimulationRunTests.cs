@@ -9,6 +9,7 @@ using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
 {
+    [Category("Target")]
     public sealed class SimulationRunTests
     {
         private string _folder = "";

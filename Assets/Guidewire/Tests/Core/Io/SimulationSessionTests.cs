@@ -7,6 +7,7 @@ using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
 {
+    [Category("Target")]
     [TestFixture]
     public sealed class SimulationSessionTests
     {

@@ -3,6 +3,7 @@ using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
 {
+    [Category("Target")]
     public sealed class BendTwistConstraintTests
     {
         private const double Length = 10.0;

@@ -4,6 +4,7 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     /// <summary>Wires with gains whose ends are clamped: sphere and frame are held, and nothing else changes.</summary>
+    [Category("Target")]
     public sealed class ClampedGainTests
     {
         [TestCase(SweepOrder.Naive, 8)]

@@ -6,6 +6,7 @@ namespace Guidewire.Core.Tests
 {
     /// <summary>How a step between walls is divided, what of the drive is left, and how deep the wire is said to
     /// lie.</summary>
+    [Category("Target")]
     [TestFixture]
     internal sealed class ContactSolverTests
     {

@@ -6,6 +6,7 @@ namespace Guidewire.Core.Tests
 {
     /// <summary>What contact does to a wire: pushes straight, by the lever rule, with the force that loads
     /// it.</summary>
+    [Category("Target")]
     [TestFixture]
     internal sealed class ContactTests
     {

@@ -4,6 +4,7 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     /// <summary>Thesis 4.1, the wire displaced along its own axis.</summary>
+    [Category("Target")]
     public sealed class LongitudinalStudyTests
     {
         private const double Rest = 180.0;    // z of the last sphere before the displacement: offset -120, L 300

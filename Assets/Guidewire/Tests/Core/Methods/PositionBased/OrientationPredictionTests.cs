@@ -4,6 +4,7 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     /// <summary>Euler's and Verlet's formula for orientations.</summary>
+    [Category("Target")]
     public sealed class OrientationPredictionTests
     {
         [TestCase(0.01)]

@@ -4,6 +4,7 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     /// <summary>Contacts among sweeps in lanes do what they do after each scalar sweep, bit for bit.</summary>
+    [Category("Target")]
     public sealed class PipelinedContactsTests
     {
         private const int Elements = 30;

@@ -4,6 +4,7 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     /// <summary>Sweeps in the lanes of a vector register give what the scalar sweeps give, bit for bit.</summary>
+    [Category("Target")]
     public sealed class PipelinedSweepsTests
     {
         private const int AllWires = 200;

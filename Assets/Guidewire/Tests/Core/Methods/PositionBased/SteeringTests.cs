@@ -3,6 +3,7 @@ using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
 {
+    [Category("Target")]
     [TestFixture]
     public sealed class SteeringTests
     {

@@ -3,6 +3,7 @@ using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
 {
+    [Category("Target")]
     public sealed class StretchConstraintTests
     {
         private static readonly int[] OneElement = { 0 };

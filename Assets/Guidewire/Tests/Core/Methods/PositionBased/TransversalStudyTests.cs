@@ -3,6 +3,7 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     /// <summary>Thesis 4.2, the wire displaced across its axis.</summary>
+    [Category("Target")]
     public sealed class TransversalStudyTests
     {
         [TestCase(Integrator.Verlet)]

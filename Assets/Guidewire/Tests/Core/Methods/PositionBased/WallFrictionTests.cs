@@ -6,6 +6,7 @@ namespace Guidewire.Core.Tests
 {
     /// <summary>Coulomb friction of walls: what it takes to push a wire, what a wire at rest holds, how a wire slides
     /// down a slope.</summary>
+    [Category("Target")]
     [TestFixture]
     internal sealed class WallFrictionTests
     {
