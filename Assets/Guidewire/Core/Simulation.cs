@@ -56,7 +56,7 @@ namespace Guidewire.Core
         /// not take, or a wire that starts outside the vessel.</exception>
         public static Simulation Create(SimulationParameters parameters)
         {
-            ParameterConflict? conflict = ParameterConflict.Find(parameters);
+            ParameterConflict? conflict = ParameterConflict.FindInScene(parameters);
             if (conflict != null)
             {
                 throw new ArgumentException(conflict.Key + " needs " + conflict.Needed);
@@ -101,6 +101,13 @@ namespace Guidewire.Core
         public StressRecord? Stress()
         {
             return _stepper.Stress();
+        }
+
+        /// <summary>What is read off at the hub and at the tip as they are now; null where the method does not compute
+        /// it. Each call writes the record anew.</summary>
+        public HubRecord? Hub()
+        {
+            return _stepper.Hub();
         }
 
         /// <summary>One step. Does nothing once the run has ended.</summary>

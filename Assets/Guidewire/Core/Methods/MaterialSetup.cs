@@ -67,7 +67,8 @@ namespace Guidewire.Core
             contact.Reach = Math.Max(contact.Reach, 2.0 * move);
             FrictionEnergy? friction = Array.Exists(scene.Walls, wall => wall.FrictionCoefficient > 0.0)
                 ? new FrictionEnergy(contact, scene.Rod.ElementCount, parameters.Contact.FrictionSpeed) : null;
-            return new WallTerms(contact, friction, new SupportSpring(scene.Rod), scene.Supports.HasSpring);
+            var spring = new SupportSpring(scene.Rod, parameters.Drive.HubForceLimit);
+            return new WallTerms(contact, friction, spring, scene.Supports.HasSpring);
         }
 
         /// <summary>Implicit steps by the direct solver.</summary>

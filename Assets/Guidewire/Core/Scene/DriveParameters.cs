@@ -20,6 +20,21 @@ namespace Guidewire.Core
         /// held.</summary>
         public double TwistPerStep { get; set; }
 
+        /// <summary>Speed of sphere 0 in m/s, with <see cref="Core.Drive.Displace"/> and <see
+        /// cref="Core.Drive.Push"/>: for a wire with a material in place of
+        /// <see cref="DisplacementPerStep"/>.</summary>
+        public double InsertionSpeed { get; set; }
+
+        /// <summary>Turning of the proximal clamp about its axis in rad/s, in place of <see
+        /// cref="TwistPerStep"/>.</summary>
+        public double RotationSpeed { get; set; }
+
+        /// <summary>Way and turn of the proximal clamp over time, in place of the speeds, or null.</summary>
+        public DriveTable? Table { get; set; }
+
+        /// <summary>The axial force in N at which the hub gives way to the wire; 0: it never does.</summary>
+        public double HubForceLimit { get; set; }
+
         /// <summary>Force on sphere 0 in mass unit * unit / s^2; with <see cref="Core.Drive.Force"/>.</summary>
         public Vector3d ExternalForce { get; set; }
 

@@ -49,6 +49,9 @@ namespace Guidewire.Io
         /// <summary>The files of loads over time as their key has them, or null.</summary>
         public JToken? LoadTables { get; set; }
 
+        /// <summary>The file with the hub's way and turn over time; empty for none.</summary>
+        public string DriveFile { get; set; } = "";
+
         /// <summary>Every k-th step is logged.</summary>
         public int LogEvery { get; set; } = 1;
 
@@ -60,6 +63,9 @@ namespace Guidewire.Io
 
         /// <summary>Whether strains, forces, couples, angular velocities and energies are logged too.</summary>
         public bool LogStrains { get; set; }
+
+        /// <summary>Whether what is read off at the hub is logged too.</summary>
+        public bool LogHub { get; set; }
 
         /// <summary>Whether contact forces are logged too.</summary>
         public bool LogContacts { get; set; }

@@ -18,6 +18,7 @@ namespace Guidewire.Core
         private readonly double _timeStep;
         private readonly SolverReport _report;
         private StressRecord? _stress;
+        private HubRecord? _hub;
         private long _startFactorisations;  // of the rest shape
         private readonly HeldEnds _ends;
         private readonly EnergyWatch _energy;
@@ -60,6 +61,11 @@ namespace Guidewire.Core
         {
             int last = state.ElementCount;
             _drive.Prepare(_dynamics.Shape, _dynamics.Time);
+            SupportSpring? spring = _dynamics.Terms.Walls?.Spring;
+            if (spring != null)
+            {
+                spring.Axis = _drive.Axis;
+            }
             Vector3d free = _dynamics.Shape.X[last] + _timeStep * _dynamics.Velocities[last]
                 + (_timeStep * _timeStep) * _scene.Schedule.Gravity;
             Vector3d place = _scene.Schedule.ProximalPositionAt(_dynamics.Time);
@@ -87,6 +93,10 @@ namespace Guidewire.Core
                 Contacts.Reaction = _walls == null ? _dynamics.MeanReaction : _walls.MeanReaction;
                 _watch?.EndStep(_dynamics.Shape, Contacts);
                 CountDrive(place);
+                if (spring != null)
+                {
+                    _drive.GiveWay(spring, _dynamics.Shape);
+                }
             }
             _scene.Write(state, _dynamics.Shape, _dynamics.Velocities, _dynamics.Spins);
         }
@@ -101,15 +111,32 @@ namespace Guidewire.Core
             return _stress;
         }
 
-        /// <summary>Between walls a drive can press a wire together as no wire of metal allows.</summary>
+        /// <inheritdoc/>
+        public override HubRecord? Hub()
+        {
+            RodTerms terms = _dynamics.Terms;
+            if (terms.Supports.Proximal == ProximalEnd.Free)
+            {
+                return null;
+            }
+            _hub ??= new HubRecord(_scene.Rod, _scene.Supports);
+            _hub.Take(terms, _dynamics.Shape, _drive, _dynamics.ReactionAt(0), _dynamics.ProximalCouple);
+            return _hub;
+        }
+
+        /// <summary>Between walls a drive can press a wire together as no wire of metal allows, and a hub that gives
+        /// way does less than it is asked.</summary>
         public override string? AccuracyWarning
         {
             get
             {
                 double change = LengthOverRest - 1.0;
-                return _walls == null || Math.Abs(change) <= OddStretch ? null : string.Format(
+                string? odd = _walls == null || Math.Abs(change) <= OddStretch ? null : string.Format(
                     CultureInfo.InvariantCulture, "the wire is {0:0.0} % {1} than at rest", 100.0 * Math.Abs(change),
                     change < 0.0 ? "shorter" : "longer");
+                string? slip = _drive.Slip == 0.0 ? null : string.Format(CultureInfo.InvariantCulture,
+                    "the hub gave way at hubForceLimit, by {0:G3} m in all", _drive.Slip);
+                return odd == null ? slip : slip == null ? odd : odd + ", and " + slip;
             }
         }
 
@@ -186,6 +213,7 @@ namespace Guidewire.Core
             snapshot.Exchange(ref _startFactorisations);
             _report.Exchange(snapshot);
             _energy.Exchange(snapshot);
+            _drive.Exchange(snapshot);
             _walls?.Exchange(snapshot);
             ExchangeRecord(snapshot);
             _ends.ExchangeWork(snapshot);
@@ -210,7 +238,7 @@ namespace Guidewire.Core
             }
             Vector3d asked = _scene.Schedule.ProximalPositionAt(_dynamics.Time);
             Contacts!.DriveAsked += Vector3d.Distance(asked, before) / _scene.Metres;
-            Contacts.DriveShortfall = Vector3d.Distance(asked, _dynamics.Shape.X[0]) / _scene.Metres;
+            Contacts.DriveShortfall = (_drive.Slip + Vector3d.Distance(asked, _dynamics.Shape.X[0])) / _scene.Metres;
         }
 
         private void FollowEnds()
