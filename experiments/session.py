@@ -48,6 +48,7 @@ class Hub:
     tip_position, tip_direction : (3,), units, and a unit vector.
     twist : of the wire from hub to tip, rad.
     largest_curvature : of any joint, 1/m.
+    length_in_body, spheres_in_body : what is out of the sheath, m and spheres; None without a sheath.
     """
 
     insertion: float
@@ -58,6 +59,8 @@ class Hub:
     tip_direction: np.ndarray
     twist: float
     largest_curvature: float
+    length_in_body: float | None
+    spheres_in_body: int | None
 
 
 @dataclass(frozen=True)
@@ -257,4 +260,5 @@ def _read_state(answer: Mapping[str, Any]) -> State:
 def _read_hub(hub: Mapping[str, Any] | None) -> Hub | None:
     return hub and Hub(
         hub["insertion"], hub["turn"], hub["force"], hub["torque"], np.array(hub["tipPosition"]),
-        np.array(hub["tipDirection"]), hub["twist"], hub["largestCurvature"])
+        np.array(hub["tipDirection"]), hub["twist"], hub["largestCurvature"],
+        hub["lengthInBody"], hub["spheresInBody"])

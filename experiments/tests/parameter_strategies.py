@@ -175,7 +175,7 @@ VALUES: dict[str, st.SearchStrategy] = {
 # Those that have to fit the rest of the scene.
 FITTED: dict[str, Callable[[Mapping[str, Any]], st.SearchStrategy]] = {
     "wireSections": wire_sections, "innerRadius": inner_radii, "loadTables": load_tables, "startFile": start_files,
-    "vessel": vessels, "obstacles": obstacles,
+    "vessel": vessels, "obstacles": obstacles, "sheath": lambda scene: st.just(None),  # needs a vessel that the wire starts in
 }
 # An explicit step is stable below some 1e-7 s.
 SMALL_STEPS = {"timeStep": log_uniform(1e-9, 1e-6)}

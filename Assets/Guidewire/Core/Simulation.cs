@@ -85,9 +85,13 @@ namespace Guidewire.Core
                 return null;
             }
             var scene = new Scene(parameters);
-            return MethodTable.Of(parameters.Method.Solver).TakesMaterial
-                ? MaterialStart.FindProblem(new MaterialScene(parameters, scene))
-                : WireStart.FindProblem(parameters, scene);
+            if (!MethodTable.Of(parameters.Method.Solver).TakesMaterial)
+            {
+                return WireStart.FindProblem(parameters, scene);
+            }
+            var material = new MaterialScene(parameters, scene);
+            return parameters.Scene.Sheath == null ? MaterialStart.FindProblem(material)
+                : SheathExit.FindProblem(parameters, material);
         }
 
         /// <summary>What the solver says of itself, for a run with a material; null with gains.</summary>

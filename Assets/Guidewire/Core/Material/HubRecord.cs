@@ -9,12 +9,18 @@ namespace Guidewire.Core
     public sealed class HubRecord
     {
         private readonly double[] _jointLength;  // m
+        private readonly double[] _station;      // of nodes from the first, m
         private readonly Vector3d[] _turns;      // of the joints, rad
 
         internal HubRecord(MaterialRod rod, RodSupports supports)
         {
             _jointLength = rod.JointLengths(supports);
             _turns = new Vector3d[rod.ElementCount + 1];
+            _station = new double[rod.ElementCount + 1];
+            for (int j = 0; j < rod.ElementCount; j++)
+            {
+                _station[j + 1] = _station[j] + rod.Length[j];
+            }
         }
 
         /// <summary>How far the hub has gone along its axis since the start, m.</summary>
@@ -38,8 +44,16 @@ namespace Guidewire.Core
         /// <summary>Largest curvature of any joint, 1/m.</summary>
         public double LargestCurvature { get; private set; }
 
+        /// <summary>Length of the wire that is out of its sheath, m; null without a sheath.</summary>
+        public double? LengthInBody { get; private set; }
+
+        /// <summary>Spheres that are out of the sheath; null without a sheath.</summary>
+        public int? SpheresInBody { get; private set; }
+
         /// <summary>Takes the wire as it is.</summary>
-        internal void Take(RodTerms terms, RodShape shape, MaterialDrive drive, in Vector3d force, in Vector3d couple)
+        /// <param name="ahead">How far the hub is ahead of the frame of joint 0, radians.</param>
+        internal void Take(RodTerms terms, RodShape shape, MaterialDrive drive, in Vector3d force, in Vector3d couple,
+            double ahead)
         {
             Vector3d axis = terms.Supports.HasProximalJoint ? shape.ProximalFrame.Director3 : shape.Q[0].Director3;
             Insertion = drive.Insertion;
@@ -48,15 +62,34 @@ namespace Guidewire.Core
             Torque = Vector3d.Dot(couple, axis);
             TipDirection = shape.Q[shape.ElementCount - 1].Director3;
             terms.Bending.Measure(shape, _turns);
-            Twist = 0.0;
+            Twist = -ahead;
             LargestCurvature = 0.0;
             for (int k = 0; k < _turns.Length; k++)
             {
                 Vector3d turn = _turns[k];
                 Twist += turn.Z;
                 double bend = Math.Sqrt(turn.X * turn.X + turn.Y * turn.Y);
-                LargestCurvature = Math.Max(LargestCurvature, bend / _jointLength[k]);
+                double share = terms.Sheath == null ? 1.0 : terms.Sheath.Share(shape, k);
+                LargestCurvature = Math.Max(LargestCurvature, bend / (share * _jointLength[k]));
             }
+            if (terms.Supports.Sheath is SheathWindow window)
+            {
+                TakeBody(window, shape);
+            }
+        }
+
+        // Up to the first node outside the wire is straight.
+        private void TakeBody(SheathWindow window, RodShape shape)
+        {
+            int n = shape.ElementCount;
+            int inside = 0;
+            while (inside <= n && window.Outside(shape.X[inside]) <= 0.0)
+            {
+                inside++;
+            }
+            SpheresInBody = n + 1 - inside;
+            LengthInBody = inside > n ? 0.0
+                : _station[n] - _station[inside] + window.Outside(shape.X[inside]);
         }
     }
 }

@@ -7,7 +7,7 @@ namespace Guidewire.Core
     internal sealed class MaterialDrive
     {
         private readonly RodSchedule _schedule;
-        private readonly IDriveDirection? _direction;
+        private IDriveDirection? _direction;
         private readonly double _speed;      // m/s
         private readonly double _timeStep;   // s
         private readonly double _metres;     // per unit
@@ -43,11 +43,23 @@ namespace Guidewire.Core
         /// <summary>How far the drive has turned the clamp since the start, rad.</summary>
         public double Turn { get; private set; }
 
+        /// <summary>The farthest that it may move node 0, m.</summary>
+        public double MostInsertion { get; set; } = double.PositiveInfinity;
+
+        /// <summary>The farthest back, m.</summary>
+        public double LeastInsertion { get; set; } = double.NegativeInfinity;
+
         /// <summary>The way of the drive in the present step, a unit vector; zero where nothing is driven.</summary>
         public Vector3d Axis { get; private set; }
 
         /// <summary>What of its way the hub has lost by giving way, m.</summary>
         public double Slip { get; private set; }
+
+        /// <summary>What moves node 0 moves it along this axis, of any length but 0.</summary>
+        public void GoAlong(in Vector3d axis)
+        {
+            _direction = _direction == null ? null : new FixedAxis(axis);
+        }
 
         /// <summary>Sets where node 0 is and how fast it goes and turns, from this time on.</summary>
         public void Prepare(RodShape shape, double time)
@@ -67,6 +79,12 @@ namespace Guidewire.Core
             }
             double speed = _hand != null ? _metres * _hand.Push / _timeStep
                 : _table != null ? Rate(_table.Insertion, time) : _speed;
+            double goes = Math.Min(Math.Max(Insertion + speed * _timeStep, LeastInsertion), MostInsertion) - Insertion;
+            if (Insertion + speed * _timeStep > MostInsertion || Insertion + speed * _timeStep < LeastInsertion)
+            {
+                Slip += Math.Abs(speed * _timeStep - goes);
+                speed = goes / _timeStep;
+            }
             Axis = _direction.At(shape.X[0], shape.X[1]);
             _schedule.ProximalPosition = _followsSpring ? _schedule.ProximalPositionAt(time) : shape.X[0];
             _schedule.ProximalTime = time;

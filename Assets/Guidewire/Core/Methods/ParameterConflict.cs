@@ -29,9 +29,27 @@ namespace Guidewire.Core
         /// <summary>The first conflict of parameters that are complete, or null.</summary>
         public static ParameterConflict? FindInScene(SimulationParameters parameters)
         {
-            return Find(parameters) ?? (parameters.Drive.HubForceLimit > 0.0 && parameters.Scene.Walls.Length == 0
+            bool hasWalls = parameters.Scene.Walls.Length > 0;
+            return Find(parameters) ?? (parameters.Drive.HubForceLimit > 0.0 && !hasWalls
                 ? new ParameterConflict("hubForceLimit", "a vessel or obstacles: without walls a hub holds the wire")
-                : null);
+                : parameters.Scene.Sheath != null ? OfSheath(parameters, hasWalls) : null);
+        }
+
+        private static ParameterConflict? OfSheath(SimulationParameters parameters, bool hasWalls)
+        {
+            SceneParameters scene = parameters.Scene;
+            bool isDriven = parameters.Drive.Steering != null || parameters.Drive.Kind == Drive.Displace
+                || parameters.Drive.Kind == Drive.Hold;
+            string? needed = !hasWalls ? "a vessel"
+                : !IsClamped(parameters) ? "proximalEnd \"clamped\""
+                : !isDriven ? "drive \"displace\" or \"hold\""
+                : scene.DistalEnd != DistalEnd.Free ? "distalEnd \"free\""
+                : scene.StartShape != StartShape.Straight ? "startShape \"straight\""
+                : parameters.Method.Integrator != Integrator.ImplicitEuler ? "integrator \"implicitEuler\""
+                : parameters.Material.BendLaw != BendLaw.RotationVector ? "bendLaw \"rotationVector\""
+                : parameters.Drive.Displacement != 0.0 && parameters.Drive.Kind == Drive.Hold ? "displacement 0"
+                : null;
+            return needed == null ? null : new ParameterConflict("sheath", needed);
         }
 
         private static ParameterConflict? OfMethod(SimulationParameters parameters, MethodTraits method)

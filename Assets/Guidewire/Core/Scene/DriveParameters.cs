@@ -42,6 +42,22 @@ namespace Guidewire.Core
         /// null.</summary>
         public Steering? Steering { get; set; }
 
+        /// <summary>The farthest that speeds or table move the hub within a time from the start, s; 0 where a hand
+        /// does. In m.</summary>
+        internal double LargestInsertion(double duration)
+        {
+            if (Steering != null || Table == null)
+            {
+                return Steering != null ? 0.0 : System.Math.Max(0.0, InsertionSpeed * duration);
+            }
+            double largest = 0.0;
+            foreach (double value in Table.Insertion.ValuesUntil(duration))
+            {
+                largest = System.Math.Max(largest, value - Table.Insertion.At(0.0));
+            }
+            return largest;
+        }
+
         /// <summary>The same values; lists and walls are shared.</summary>
         internal DriveParameters Copy()
         {

@@ -60,6 +60,10 @@ namespace Guidewire.Core
         /// hand.</summary>
         public double DriveEnd { get; set; } = double.NegativeInfinity;
 
+        /// <summary>Where the proximal frame is held while the hub turns, radians: of a wire in a sheath, whose
+        /// sheathed part is a spring between hub and frame. Null: the frame is the hub.</summary>
+        public double? HeldFrameTurn { get; set; }
+
         /// <summary>Place of the last node before its displacement, m.</summary>
         public Vector3d DistalPosition { get; set; }
 
@@ -108,6 +112,21 @@ namespace Guidewire.Core
         public double ProximalTurnAt(double time)
         {
             return _twistOrigin + ProximalTwistRate * (time - _twistOriginTime);
+        }
+
+        /// <summary>Turn of the frame to which the first element is clamped at this time, radians.</summary>
+        public double FrameTurnAt(double time)
+        {
+            return HeldFrameTurn ?? ProximalTurnAt(time);
+        }
+
+        /// <summary>Its turning, rad/s.</summary>
+        public double FrameTwistRate => HeldFrameTurn.HasValue ? 0.0 : ProximalTwistRate;
+
+        /// <summary>How far the hub is ahead of that frame at this time, radians.</summary>
+        public double HubAhead(double time)
+        {
+            return HeldFrameTurn.HasValue ? ProximalTurnAt(time) - HeldFrameTurn.Value : 0.0;
         }
 
         /// <summary>From this time on, s, the proximal frame turns at this rate, rad/s.</summary>

@@ -92,6 +92,9 @@ namespace Guidewire.Core
         /// <summary>The vessel and what stands in it, placed; none costs nothing.</summary>
         public ContactShape[] Walls { get; set; } = Array.Empty<ContactShape>();
 
+        /// <summary>The sheath from which the wire is fed into the vessel, or null.</summary>
+        public Sheath? Sheath { get; set; }
+
         /// <summary>The same values; lists and walls are shared.</summary>
         internal SceneParameters Copy()
         {

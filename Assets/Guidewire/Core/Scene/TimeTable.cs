@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
@@ -32,6 +33,19 @@ namespace Guidewire.Core
 
         /// <summary>From when on the value no longer changes, s.</summary>
         public double End => _times[_times.Length - 1];
+
+        /// <summary>The values of the rows from time 0 up to a time, s, and that at the time.</summary>
+        internal IEnumerable<double> ValuesUntil(double time)
+        {
+            for (int i = 0; i < _times.Length; i++)
+            {
+                if (_times[i] >= 0.0 && _times[i] < time)
+                {
+                    yield return _values[i];
+                }
+            }
+            yield return At(time);
+        }
 
         /// <summary>The value at this time, s.</summary>
         public double At(double time)

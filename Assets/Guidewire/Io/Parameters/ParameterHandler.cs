@@ -151,6 +151,7 @@ namespace Guidewire.Io
             }
             LoadTableReader.Read(Values, _given.TryGetValue("loadTables", out var tables) ? tables.Source : "");
             DriveTableReader.Read(Values, _given.TryGetValue("driveFile", out var drive) ? drive.Source : "");
+            SheathReader.Read(Values, _given.TryGetValue("sheath", out var sheath) ? sheath.Source : "");
             ReadWalls(simulation);
             Warn();
             Hash = ComputeHash();
@@ -219,7 +220,9 @@ namespace Guidewire.Io
             string? complaint = Simulation.FindProblemOfStart(simulation);
             if (complaint != null)
             {
-                throw new ParameterException((vessel.Length > 0 ? vessel : obstacles) + ": " + complaint);
+                string source = Values.Sheath != null ? _given["sheath"].Source
+                    : vessel.Length > 0 ? vessel : obstacles;
+                throw new ParameterException(source + ": " + complaint);
             }
             string? sizes = WireStart.FindOddSizes(simulation);
             if (sizes != null)

@@ -46,6 +46,9 @@ namespace Guidewire.Io
         /// <summary>The obstacles as their key has them, or null.</summary>
         public JToken? Obstacles { get; set; }
 
+        /// <summary>The sheath as its key has it, or null.</summary>
+        public JToken? Sheath { get; set; }
+
         /// <summary>The files of loads over time as their key has them, or null.</summary>
         public JToken? LoadTables { get; set; }
 

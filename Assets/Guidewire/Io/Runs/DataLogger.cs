@@ -82,6 +82,11 @@ namespace Guidewire.Io
             {
                 AppendStress(simulation);
             }
+            if (_parameters.Sheath != null)
+            {
+                Append(", \"inBody\": ");
+                Append(simulation.Hub()?.SpheresInBody ?? 0);
+            }
             if (_parameters.LogHub && simulation.Hub() is HubRecord hub)
             {
                 AppendHub(hub);
@@ -161,6 +166,10 @@ namespace Guidewire.Io
             Append(", \"tipDirection\": ", hub.TipDirection);
             Append(", \"twist\": ", hub.Twist);
             Append(", \"largestCurvature\": ", hub.LargestCurvature);
+            if (hub.LengthInBody is double length)
+            {
+                Append(", \"lengthInBody\": ", length);
+            }
             Append("}");
         }
 

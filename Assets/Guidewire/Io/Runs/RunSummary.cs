@@ -122,6 +122,8 @@ namespace Guidewire.Io
                 ["tipDirection"] = Vector(hub.TipDirection),
                 ["twist"] = Finite(hub.Twist),
                 ["largestCurvature"] = Finite(hub.LargestCurvature),
+                ["lengthInBody"] = hub.LengthInBody,
+                ["spheresInBody"] = hub.SpheresInBody,
             };
         }
 

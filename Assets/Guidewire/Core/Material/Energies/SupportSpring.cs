@@ -11,6 +11,7 @@ namespace Guidewire.Core
     {
         private const double OverAxialSpring = 10.0;
         private readonly double _stiffness;  // N/m
+        private readonly double _axial;      // N/m
         private readonly double _limit;      // N
 
         /// <summary>The spring of a rod, without force.</summary>
@@ -18,7 +19,15 @@ namespace Guidewire.Core
         public SupportSpring(MaterialRod rod, double limit)
         {
             _stiffness = OverAxialSpring * rod.StretchStiffness[0] / rod.Length[0];
+            _axial = _stiffness;
             _limit = limit > 0.0 ? limit : double.PositiveInfinity;
+        }
+
+        private SupportSpring(SupportSpring hub, double compliance)
+        {
+            _stiffness = hub._stiffness;
+            _axial = 1.0 / (1.0 / hub._axial + compliance);
+            _limit = hub._limit;
         }
 
         /// <summary>The hub's axis, a unit vector, along which it gives way.</summary>
@@ -31,8 +40,23 @@ namespace Guidewire.Core
         public Vector3d Force(RodShape shape)
         {
             Vector3d force = _stiffness * (Place - shape.X[0]);
-            double excess = Excess(shape);
-            return excess == 0.0 ? force : force - excess * Axis;
+            double less = _axial == _stiffness ? 0.0
+                : (_stiffness - _axial) * Vector3d.Dot(Place - shape.X[0], Axis);
+            less += Excess(shape);
+            return less == 0.0 ? force : force - less * Axis;
+        }
+
+        /// <summary>The spring along the axis in series with another of this compliance, m/N.</summary>
+        public SupportSpring InSeries(double compliance)
+        {
+            return new SupportSpring(this, compliance);
+        }
+
+        /// <summary>How far node 0 is behind its place on a spring that is soft along the axis, m; 0 on one that is
+        /// not.</summary>
+        public Vector3d LagOf(RodShape shape)
+        {
+            return _axial == _stiffness ? Vector3d.Zero : Vector3d.Dot(Place - shape.X[0], Axis) * Axis;
         }
 
         /// <summary>Takes the place back, once a step is done, to where the axial force is no more than the
@@ -40,7 +64,7 @@ namespace Guidewire.Core
         /// <returns>By how much along the axis, m.</returns>
         public double TakeSlip(RodShape shape)
         {
-            double slip = Excess(shape) / _stiffness;
+            double slip = Excess(shape) / _axial;
             Place -= slip * Axis;
             return slip;
         }
@@ -48,8 +72,14 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override double Value(RodShape shape)
         {
+            double value = _stiffness * (shape.X[0] - Place).LengthSquared;
+            if (_axial != _stiffness)
+            {
+                double along = Vector3d.Dot(shape.X[0] - Place, Axis);
+                value -= (_stiffness - _axial) * along * along;
+            }
             double excess = Excess(shape);
-            return 0.5 * (_stiffness * (shape.X[0] - Place).LengthSquared - excess * excess / _stiffness);
+            return 0.5 * (value - excess * excess / _axial);
         }
 
         /// <inheritdoc/>
@@ -75,14 +105,15 @@ namespace Guidewire.Core
                 blocks[0].A11 += _stiffness;
                 blocks[0].A22 += _stiffness;
                 blocks[0].A33 += _stiffness;
-                if (Excess(shape) != 0.0)
+                double less = Excess(shape) != 0.0 ? _stiffness : _stiffness - _axial;
+                if (less != 0.0)
                 {
-                    blocks[0].A11 -= _stiffness * Axis.X * Axis.X;
-                    blocks[0].A21 -= _stiffness * Axis.Y * Axis.X;
-                    blocks[0].A22 -= _stiffness * Axis.Y * Axis.Y;
-                    blocks[0].A31 -= _stiffness * Axis.Z * Axis.X;
-                    blocks[0].A32 -= _stiffness * Axis.Z * Axis.Y;
-                    blocks[0].A33 -= _stiffness * Axis.Z * Axis.Z;
+                    blocks[0].A11 -= less * Axis.X * Axis.X;
+                    blocks[0].A21 -= less * Axis.Y * Axis.X;
+                    blocks[0].A22 -= less * Axis.Y * Axis.Y;
+                    blocks[0].A31 -= less * Axis.Z * Axis.X;
+                    blocks[0].A32 -= less * Axis.Z * Axis.Y;
+                    blocks[0].A33 -= less * Axis.Z * Axis.Z;
                 }
             }
         }
@@ -90,7 +121,7 @@ namespace Guidewire.Core
         // What the axial force would have beyond the limit, N, with its sign.
         private double Excess(RodShape shape)
         {
-            double force = _stiffness * Vector3d.Dot(Place - shape.X[0], Axis);
+            double force = _axial * Vector3d.Dot(Place - shape.X[0], Axis);
             return Math.Abs(force) > _limit ? force - Math.Sign(force) * _limit : 0.0;
         }
 

@@ -59,10 +59,20 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void Advance(RodState state)
         {
-            int last = state.ElementCount;
+            if (Step())
+            {
+                _scene.Write(state, _dynamics.Shape, _dynamics.Velocities, _dynamics.Spins);
+            }
+        }
+
+        /// <summary>One step.</summary>
+        /// <returns>False where it has no solution or has lost the wire.</returns>
+        public bool Step()
+        {
+            int last = _dynamics.Shape.ElementCount;
             _drive.Prepare(_dynamics.Shape, _dynamics.Time);
             SupportSpring? spring = _dynamics.Terms.Walls?.Spring;
-            if (spring != null)
+            if (spring != null && _drive.Axis != Vector3d.Zero)
             {
                 spring.Axis = _drive.Axis;
             }
@@ -75,14 +85,14 @@ namespace Guidewire.Core
                 Failure = "the step to t = " + _dynamics.Time.ToString("G6",
                     CultureInfo.InvariantCulture) + " s has no solution: "
                     + (_scene.Joints.FindTurned(_dynamics.Shape, _dynamics.Time) ?? failure) + Shorter;
-                return;
+                return false;
             }
-            _ends.Count(_dynamics.Shape, _dynamics.ProximalTurn, _dynamics.DistalTurn, _timeStep);
+            _ends.Count(_dynamics.Shape, HubTurn, _dynamics.DistalTurn, _timeStep);
             Divergence = _energy.Blowup();
             if (Divergence != null)
             {
                 Divergence += "; lower timeStep, or take another integrator";
-                return;
+                return false;
             }
             string? lost = _scene.Joints.FindLost(_dynamics.Shape, _dynamics.Time);
             Failure = lost == null ? null : lost + Shorter;
@@ -98,8 +108,11 @@ namespace Guidewire.Core
                     _drive.GiveWay(spring, _dynamics.Shape);
                 }
             }
-            _scene.Write(state, _dynamics.Shape, _dynamics.Velocities, _dynamics.Spins);
+            return true;
         }
+
+        // A frame in a sheath is held where the wire is; a spring beyond it turns with the hub.
+        private double HubTurn => _dynamics.ProximalTurn + _scene.Schedule.HubAhead(_dynamics.Time);
 
         /// <inheritdoc/>
         public override StressRecord? Stress()
@@ -120,7 +133,8 @@ namespace Guidewire.Core
                 return null;
             }
             _hub ??= new HubRecord(_scene.Rod, _scene.Supports);
-            _hub.Take(terms, _dynamics.Shape, _drive, _dynamics.ReactionAt(0), _dynamics.ProximalCouple);
+            _hub.Take(terms, _dynamics.Shape, _drive, _dynamics.ReactionAt(0), _dynamics.ProximalCouple,
+                _scene.Schedule.HubAhead(_dynamics.Time));
             return _hub;
         }
 
@@ -135,7 +149,8 @@ namespace Guidewire.Core
                     CultureInfo.InvariantCulture, "the wire is {0:0.0} % {1} than at rest", 100.0 * Math.Abs(change),
                     change < 0.0 ? "shorter" : "longer");
                 string? slip = _drive.Slip == 0.0 ? null : string.Format(CultureInfo.InvariantCulture,
-                    "the hub gave way at hubForceLimit, by {0:G3} m in all", _drive.Slip);
+                    "the hub did not make {0:G3} m of its way: it gave way at hubForceLimit, or the wire in its sheath"
+                    + " came to an end", _drive.Slip);
                 return odd == null ? slip : slip == null ? odd : odd + ", and " + slip;
             }
         }
@@ -198,6 +213,15 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>Writes or takes over what was counted, whatever the number of elements.</summary>
+        public void ExchangeCounts(Snapshot snapshot)
+        {
+            snapshot.Exchange(ref _startFactorisations);
+            _walls?.Exchange(snapshot);
+            _ends.ExchangeWork(snapshot);
+            _dynamics.ExchangeCounts(snapshot);
+        }
+
         // Between walls more is kept than without.
         private string SectionKey
         {
@@ -243,7 +267,7 @@ namespace Guidewire.Core
 
         private void FollowEnds()
         {
-            _ends.Follow(_dynamics.Shape, _dynamics.ProximalTurn, _dynamics.DistalTurn);
+            _ends.Follow(_dynamics.Shape, HubTurn, _dynamics.DistalTurn);
         }
     }
 }
