@@ -28,6 +28,8 @@ from studies.study_file import LIMIT, StudyFileError, read_study_file
 from studies.table import Source, Study
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from experiments.gallery import Gallery  # itself imported only where its packages are there
 
 BEYOND_A_GATE = 1  # all that was asked for is there, and a check is not passed
@@ -97,6 +99,10 @@ def parse(argv: list[str]) -> argparse.Namespace:
     stress = commands.add_parser("stress", help="draw what a run's material feels along the wire (logStrains)")
     stress.add_argument("folder", type=Path, metavar="DIR", help="folder of a run with logStrains; takes stress.png")
     stress.set_defaults(action=_stress, packages=DRAWING)
+
+    hub = commands.add_parser("hub", help="draw a run's push, turn, force and torque at the hub over time (logHub)")
+    hub.add_argument("folder", type=Path, metavar="DIR", help="folder of a run with logHub; takes hub.png")
+    hub.set_defaults(action=_hub, packages=DRAWING)
 
     modes = commands.add_parser("modes", help="lowest frequencies and shapes of a wire with a material")
     modes.add_argument("file", type=Path, metavar="FILE",
@@ -316,14 +322,27 @@ def _render(arguments: argparse.Namespace) -> int:
 
 def _stress(arguments: argparse.Namespace) -> int:
     from analysis.figures.stress import draw_stress
-    from analysis.logs import LogError
     from analysis.stress import read_stress
 
+    return _draw_log(arguments.folder, lambda folder: draw_stress(read_stress(folder)), "stress.png")
+
+
+def _hub(arguments: argparse.Namespace) -> int:
+    from analysis.figures.hub import draw_hub
+    from analysis.hub import read_hub
+
+    return _draw_log(arguments.folder, lambda folder: draw_hub(read_hub(folder)), "hub.png")
+
+
+def _draw_log(folder: Path, draw: Callable[[Path], Figure], name: str) -> int:
+    """Draw the log of a run into its folder."""
+    from analysis.logs import LogError
+
     try:
-        figure = draw_stress(read_stress(arguments.folder))
+        figure = draw(folder)
     except LogError as error:
         raise PreparationError(str(error)) from error
-    picture = arguments.folder / "stress.png"
+    picture = folder / name
     figure.savefig(picture)
     print(f"picture: {os.path.relpath(picture)}")
     return 0

@@ -38,6 +38,32 @@ class SessionError(Exception):
 
 
 @dataclass(frozen=True)
+class Hub:
+    """What is read off at the hub and at the tip of a wire with a material, in SI units but for tip_position.
+
+    Attributes
+    ----------
+    insertion, turn : way of the hub along its axis and turn about it since the start, m and rad.
+    force, torque : of the hub on the wire along and about its axis, N and N m; a push is positive.
+    tip_position, tip_direction : (3,), units, and a unit vector.
+    twist : of the wire from hub to tip, rad.
+    largest_curvature : of any joint, 1/m.
+    length_in_body, spheres_in_body : what is out of the sheath, m and spheres; None without a sheath.
+    """
+
+    insertion: float
+    turn: float
+    force: float
+    torque: float
+    tip_position: np.ndarray
+    tip_direction: np.ndarray
+    twist: float
+    largest_curvature: float
+    length_in_body: float | None
+    spheres_in_body: int | None
+
+
+@dataclass(frozen=True)
 class State:
     """The wire at one moment; n rod elements, n + 1 spheres. All arrays are of float64 and the caller's own.
 
@@ -56,6 +82,7 @@ class State:
         None where the method does not state it (xpbd, and gains without walls).
     curvature, couple : (n+1, 3), of a material: rad/m about d1, d2 and d3 at each joint, and N m; else None.
     strain, force : (n, 3), of a material: shear and stretch of each element, and force in it, N; else None.
+    hub : of solver direct, what is read off at hub and tip; else None.
     """
 
     step: int
@@ -73,6 +100,7 @@ class State:
     couple: np.ndarray | None
     strain: np.ndarray | None
     force: np.ndarray | None
+    hub: Hub | None
 
 
 class Session:
@@ -81,8 +109,8 @@ class Session:
     Parameters
     ----------
     file : parameter file, from the folder where the script runs; None: the defaults count.
-    hand : whether `push` and `turn` of `step` move the first sphere, in place of the file's drive. None: wherever the
-        solver can be steered.
+    hand : whether `push` and `turn` of `step` move the first sphere, in place of the file's drive. None: where the
+        wire is gains; a wire with a material has its file's drive.
     overrides : parameters by key, laid over the file's: numbers, texts, lists, dicts, numpy arrays.
 
     Attributes
@@ -132,7 +160,8 @@ class Session:
 
         Parameters
         ----------
-        push : way of the first sphere along the first element in all of them, units; negative values pull.
+        push : way of the first sphere in all of them, units; negative values pull. Along the first element, or along
+            displacementDirection where the drive of a wire with a material is "displace".
         turn : turn of the first element about its axis in all of them, rad.
         steps : number of steps, from 1; push and turn are made in equal parts.
         """
@@ -224,4 +253,12 @@ def _read_state(answer: Mapping[str, Any]) -> State:
         arrays.get("contactForces", np.zeros_like(positions)),
         arrays["reaction"][0] if "reaction" in arrays else None,
         arrays.get("curvature"), arrays.get("couple"), arrays.get("strain"), arrays.get("force"),
+        _read_hub(answer.get("hub")),
     )
+
+
+def _read_hub(hub: Mapping[str, Any] | None) -> Hub | None:
+    return hub and Hub(
+        hub["insertion"], hub["turn"], hub["force"], hub["torque"], np.array(hub["tipPosition"]),
+        np.array(hub["tipDirection"]), hub["twist"], hub["largestCurvature"],
+        hub["lengthInBody"], hub["spheresInBody"])

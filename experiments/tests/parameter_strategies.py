@@ -23,6 +23,7 @@ SOLVERS = ("pbd", "xpbd", "direct", "explicit")
 # What a run without them would answer another question than the file asks.
 REFUSED_IN_FILES = ("tipMoment", "tipFollowerForce", "damping", "materialDamping", "vessel", "obstacles")
 LOAD_TABLE = Path(__file__).with_name("load_table.csv")
+DRIVE_TABLE = Path(__file__).with_name("drive_table.csv")
 ARCH = Path(__file__).resolve().parents[2] / "params" / "meshes" / "arch.obj"
 LENGTH, OFFSET = 300.0, -120.0  # what the keys are where a scene does not name them
 whole = st.integers
@@ -155,6 +156,8 @@ VALUES: dict[str, st.SearchStrategy] = {
     "rotation": angles,
     "displacement": st.floats(-30.0, 30.0), "displacementDirection": not_zero,
     "displacementPerStep": st.floats(-1.0, 1.0), "twistPerStep": st.floats(-0.3, 0.3), "externalForce": around(1.0),
+    "insertionSpeed": st.floats(-0.05, 0.05), "rotationSpeed": st.floats(-5.0, 5.0),
+    "hubForceLimit": st.one_of(st.just(0), log_uniform(1e-3, 10.0)),
     "totalMass": log_uniform(1e-4, 100.0), "stretchStiffness": st.floats(0.0, 3.0),
     "bendStiffness": log_uniform(1e-3, 100.0),
     "youngsModulus": log_uniform(1e6, 1e12), "shearModulus": log_uniform(1e6, 1e12),
@@ -166,12 +169,13 @@ VALUES: dict[str, st.SearchStrategy] = {
     "contactDistance": st.one_of(st.just(0), log_uniform(1e-6, 1e-2)),
     "frictionSpeed": log_uniform(1e-6, 1.0),
     "contactStiffness": st.one_of(st.just(0), log_uniform(1.0, 1e8)),
+    "driveFile": st.sampled_from(["", str(DRIVE_TABLE)]),
     "logEvery": whole(1, 20), "logFilePath": st.sampled_from(["", "elsewhere", "Gefäß 1"]),
 }
 # Those that have to fit the rest of the scene.
 FITTED: dict[str, Callable[[Mapping[str, Any]], st.SearchStrategy]] = {
     "wireSections": wire_sections, "innerRadius": inner_radii, "loadTables": load_tables, "startFile": start_files,
-    "vessel": vessels, "obstacles": obstacles,
+    "vessel": vessels, "obstacles": obstacles, "sheath": lambda scene: st.just(None),  # needs a vessel that the wire starts in
 }
 # An explicit step is stable below some 1e-7 s.
 SMALL_STEPS = {"timeStep": log_uniform(1e-9, 1e-6)}
@@ -230,6 +234,21 @@ def scenes(draw, table: Mapping[str, Key], solver: str, integrators: Sequence[st
     return reconcile(scene)
 
 
+def _reconcile_hub(scene: dict) -> None:
+    """Leaves one of the groups of keys that say how the hub of a wire with a material moves."""
+    if scene.get("driveFile"):
+        for name in ("insertionSpeed", "rotationSpeed"):
+            scene.pop(name, None)
+    if scene.get("insertionSpeed") or scene.get("driveFile"):
+        scene.pop("displacementPerStep", None)
+        scene.pop("SteadyState", None)
+        scene["drive"] = "displace" if scene.get("drive") == "displace" else "push"
+    if scene.get("rotationSpeed") or scene.get("driveFile"):
+        scene.pop("twistPerStep", None)
+    if not scene.get("vessel") and not scene.get("obstacles"):
+        scene.pop("hubForceLimit", None)
+
+
 def reconcile(scene: dict) -> dict:
     """Changes what does not go together in a scene; `CONFLICTS` in the tests holds what is refused."""
     solver = scene["solver"]
@@ -249,7 +268,8 @@ def reconcile(scene: dict) -> dict:
         scene.pop("timeStepError", None)
     if solver == "xpbd" and scene.get("bendLaw") == "darboux":
         del scene["bendLaw"]
-    if scene.get("twistPerStep"):
+    _reconcile_hub(scene)
+    if scene.get("twistPerStep") or scene.get("rotationSpeed") or scene.get("driveFile"):
         scene["proximalEnd"] = "clamped"
         if scene.get("drive") == "force":
             del scene["drive"]

@@ -20,13 +20,13 @@ GAINS = "pbd"
 SUMMARY_KEYS = {
     "outcome", "reason", "steps", "inGameTime", "computationTime", "setUpTime", "wallTime", "averageStepTime",
     "medianStepTime", "predictionError", "steadyStateStep", "stiffness", "passages", "maxPenetration", "driveAsked",
-    "driveShortfall", "largestContactForce", "largestWallForce",
+    "driveShortfall", "hub", "largestContactForce", "largestWallForce",
     "wallForces", "timed", "repeat", "warnings", "ignored", "notes", "log", "versions", "parameterHash",
     "complete",
 }
 # What need not apply: null there is no number that got lost.
 MAY_BE_NULL = {
-    "driveAsked", "repeat", "largestError", "timeStepError", "stableSubstep", "energy", "equilibriumResidual",
+    "driveAsked", "hub", "repeat", "largestError", "timeStepError", "stableSubstep", "energy", "equilibriumResidual",
     "smallestEigenvalue", "proximalForce", "proximalMoment", "distalForce", "distalMoment",
     "wallIterations", "halvedSteps", "contactDistance", "contactStiffness",
 }

@@ -139,7 +139,7 @@ def test_the_table_of_keys_is_the_runners_own(runner_command):
 
 
 @pytest.mark.parametrize("parameters, nested", [
-    ("params/collision-wall.json", {"versions"}), ("params/cantilever.json", {"solver", "versions"}),
+    ("params/collision-wall.json", {"versions"}), ("params/cantilever.json", {"solver", "versions", "hub"}),
 ])
 def test_every_key_of_a_summary_is_explained(runner_command, tmp_path, parameters, nested):
     summary = json.loads((run(runner_command, tmp_path, ROOT / parameters, maxSimulationSteps=1)
@@ -156,16 +156,24 @@ def test_every_explained_key_of_a_summary_is_one(runner_command, tmp_path):
     summary = json.loads((run(runner_command, tmp_path, ROOT / "params/cantilever.json", maxSimulationSteps=1)
                           / "summary.json").read_text())
     explained = table_keys(section(RUNS, "## summary.json"))
-    assert set(explained) == {*summary, *summary["solver"], *summary["versions"]}
+    assert set(explained) == {*summary, *summary["solver"], *summary["versions"], *summary["hub"]}
+
+
+_SHEATHED = {
+    "solver": "direct", "proximalEnd": "clamped", "guidewireOffset": -280, "maxSimulationSteps": 1, "drive": "displace",
+    "sheath": {}, "vessel": {"shape": "tube", "knots": [[0, 0, -50], [0, 0, 90]], "radius": 5},
+}
 
 
 def test_every_key_of_a_log_is_explained(runner_command, tmp_path):
     folder = run(runner_command, tmp_path, ROOT / "params/insertion.json", maxSimulationSteps=1, logOrientations=True,
                  logContacts=True)
     entry = json.loads((folder / "positions.json").read_text())["1"]
+    hub = run(runner_command, tmp_path / "hub", {**_SHEATHED, "logHub": True})
+    entry |= json.loads((hub / "positions.json").read_text())["0"]
     told = section(RUNS, "### positions.json")
     assert set(entry) <= set(table_keys(told))
-    for inner in (*entry["sphere"]["0"], *entry["orientation"]["0"], *entry["contact"]):
+    for inner in (*entry["sphere"]["0"], *entry["orientation"]["0"], *entry["contact"], *entry["hub"]):
         assert f"`{inner}`" in told
 
 

@@ -17,7 +17,7 @@ from wrong_values import wrong
 
 EXAMPLE_OF_FITTED = {
     "wireSections": [{"from": 0, "to": 10, "wireRadius": 1e-4}], "startFile": "", "innerRadius": 1e-4,
-    "loadTables": {"tipForce": "load_table.csv"},
+    "loadTables": {"tipForce": "load_table.csv"}, "driveFile": "", "sheath": {},
     "vessel": {"shape": "plane", "point": [50, 0, 0], "normal": [-1, 0, 0]},
     "obstacles": [{"shape": "sphere", "centre": [50, 0, 0], "radius": 1}],
 }
@@ -73,6 +73,10 @@ CONFLICTS = {
     "explicit steps with a sliding end": ("distalEnd", {"solver": "explicit", "distalEnd": "sliding"}),
     "a turn at once": ("distalRotation", {"solver": "explicit", "distalEnd": "clamped", "distalRotation": 1.01}),
     "a twist without a clamp": ("twistPerStep", {"solver": "direct", "twistPerStep": 0.1}),
+    "two speeds of one hub": ("displacementPerStep", {"solver": "direct", "drive": "push", "insertionSpeed": 0.1,
+                                                      "displacementPerStep": 1.0}),
+    "a speed without a way": ("insertionSpeed", {"solver": "xpbd", "insertionSpeed": 0.1}),
+    "a hub that gives way without walls": ("hubForceLimit", {"solver": "direct", "hubForceLimit": 0.1}),
     "a free end that is driven": ("proximalEnd", {"solver": "direct", "proximalEnd": "free", "drive": "push"}),
     "a free end that is displaced": ("proximalEnd", {"solver": "xpbd", "proximalEnd": "free", "SteadyState": False}),
     "a helix longer than the wire": ("startTurns", {"solver": "direct", "startShape": "helix", "startTurns": -9}),

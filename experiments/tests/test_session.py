@@ -57,6 +57,15 @@ def test_what_a_hand_asks_is_made_in_equal_parts_along_and_about_the_first_eleme
     assert (state.curvature, state.couple, state.strain, state.force) == (None, None, None, None)
 
 
+def test_a_hand_pushes_and_turns_a_wire_with_a_material_and_reads_off_what_it_feels():
+    scene = {**MATERIAL, "initialState": "straight", "gravity": [0, 0, 0], "drive": "displace"}
+    with Session(**scene, hand=True) as session:
+        hub = session.step(push=2.0, turn=0.4, steps=4).hub
+        assert (hub.insertion, hub.turn) == (pytest.approx(2e-3), pytest.approx(0.4))
+        assert hub.tip_position == pytest.approx(session.state.positions[-1])
+        assert hub.turn + hub.twist == pytest.approx(0.4) and hub.tip_direction == pytest.approx([0.0, 0.0, 1.0])
+
+
 @pytest.mark.parametrize("friction", [0.0, 0.3])
 def test_sessions_side_by_side_save_restore_and_reset_to_the_same_bits(friction):
     scene = {**TUBE, "vessel": {**TUBE["vessel"], "frictionCoefficient": friction}}
@@ -100,7 +109,8 @@ def test_a_run_that_has_ended_stays_as_it_is_until_it_is_reset():
 
 @pytest.mark.parametrize("arguments, words", [
     ({"timestep": 0.1}, ["'timestep'", "'timeStep'"]), ({"timeStep": -1}, ["timeStep = -1", "number > 0"]),
-    ({"file": "nowhere.json"}, ["nowhere.json"]), ({"solver": "direct", "hand": True}, ["direct", "not steered"]),
+    ({"file": "nowhere.json"}, ["nowhere.json"]), ({"solver": "xpbd", "hand": True}, ["xpbd", "not steered"]),
+    ({"solver": "direct", "hand": True}, ["proximalEnd", "clamped"]),
     ({"gravity": np.array([1.0, 2.0])}, ["gravity = [1.0,2.0]", "three numbers"]),
 ])
 def test_what_cannot_be_opened_is_one_line(arguments, words):

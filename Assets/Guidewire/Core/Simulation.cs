@@ -56,7 +56,7 @@ namespace Guidewire.Core
         /// not take, or a wire that starts outside the vessel.</exception>
         public static Simulation Create(SimulationParameters parameters)
         {
-            ParameterConflict? conflict = ParameterConflict.Find(parameters);
+            ParameterConflict? conflict = ParameterConflict.FindInScene(parameters);
             if (conflict != null)
             {
                 throw new ArgumentException(conflict.Key + " needs " + conflict.Needed);
@@ -85,9 +85,13 @@ namespace Guidewire.Core
                 return null;
             }
             var scene = new Scene(parameters);
-            return MethodTable.Of(parameters.Method.Solver).TakesMaterial
-                ? MaterialStart.FindProblem(new MaterialScene(parameters, scene))
-                : WireStart.FindProblem(parameters, scene);
+            if (!MethodTable.Of(parameters.Method.Solver).TakesMaterial)
+            {
+                return WireStart.FindProblem(parameters, scene);
+            }
+            var material = new MaterialScene(parameters, scene);
+            return parameters.Scene.Sheath == null ? MaterialStart.FindProblem(material)
+                : SheathExit.FindProblem(parameters, material);
         }
 
         /// <summary>What the solver says of itself, for a run with a material; null with gains.</summary>
@@ -101,6 +105,13 @@ namespace Guidewire.Core
         public StressRecord? Stress()
         {
             return _stepper.Stress();
+        }
+
+        /// <summary>What is read off at the hub and at the tip as they are now; null where the method does not compute
+        /// it. Each call writes the record anew.</summary>
+        public HubRecord? Hub()
+        {
+            return _stepper.Hub();
         }
 
         /// <summary>One step. Does nothing once the run has ended.</summary>

@@ -62,7 +62,7 @@ namespace Guidewire.Cli
             if (!session.IsSteered && (request.Push != 0.0 || request.Turn != 0.0))
             {
                 throw new ParameterException("request: push and turn need a session that a hand steers; here the"
-                    + " parameters' drive moves the wire");
+                    + " parameters' drive moves the wire (\"hand\": true when it is opened gives it to a hand)");
             }
             for (int k = 0; k < request.Steps && session.Simulation.Outcome == Outcome.Running && !_stopRequested(); k++)
             {
@@ -99,6 +99,10 @@ namespace Guidewire.Cli
             {
                 answer["contactForces"] = Text(contacts.Forces);
                 answer["reaction"] = Text(new[] { contacts.Reaction });
+            }
+            if (simulation.Hub() is HubRecord hub)
+            {
+                answer["hub"] = RunSummary.Hub(hub, state);
             }
             if (simulation.Stress() is StressRecord stress)
             {

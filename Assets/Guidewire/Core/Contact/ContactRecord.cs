@@ -67,6 +67,26 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>Takes over what another record holds, its spheres moved on by an offset.</summary>
+        internal void Take(ContactRecord other, int offset)
+        {
+            Passages = other.Passages;
+            MaxPenetration = other.MaxPenetration;
+            DriveShortfall = other.DriveShortfall;
+            DriveAsked = other.DriveAsked;
+            StuckSteps = other.StuckSteps;
+            Total = other.Total;
+            LargestForce = other.LargestForce;
+            LargestTotal = other.LargestTotal;
+            Reaction = other.Reaction;
+            WallForces = other.WallForces;
+            for (int i = 0; i < Forces.Length; i++)
+            {
+                int from = i - offset;
+                Forces[i] = from >= 0 && from < other.Forces.Length ? other.Forces[from] : Vector3d.Zero;
+            }
+        }
+
         internal void StartStep()
         {
             Array.Clear(_impulses, 0, _impulses.Length);

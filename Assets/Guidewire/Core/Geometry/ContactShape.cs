@@ -43,6 +43,12 @@ namespace Guidewire.Core
         /// <summary>True where the wire may be: in a vessel's lumen, outside an obstacle.</summary>
         public abstract bool Contains(in Vector3d point);
 
+        /// <summary>The same without what an open end of a vessel leads to.</summary>
+        internal virtual bool IsWithin(in Vector3d point)
+        {
+            return Contains(point);
+        }
+
         /// <summary>Fraction of the linear motion of segment a b from (a0, b0) to (a1, b1) after which it stops clear
         /// of the wall, or <see cref="NoImpact"/>. At that moment its distance is at least <see cref="Kept"/>, and
         /// until then nowhere less than that or half the clearance, whichever is less.</summary>

@@ -95,6 +95,15 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
+        internal override bool IsWithin(in Vector3d point)
+        {
+            int piece = _tree.Deepest(point, 0, out double distance);
+            bool isBefore = piece < FirstKnot;
+            bool isBehind = piece >= LastKnot;
+            return distance > 0.0 && !isBefore && !isBehind;
+        }
+
+        /// <inheritdoc/>
         public override bool Nearest(
             in Vector3d a, in Vector3d b, double range, ref int hint, out SurfaceContact contact)
         {

@@ -1,34 +1,120 @@
+using System;
+
 namespace Guidewire.Core
 {
-    /// <summary>Prescribes the motion of node 0 of a material rod within the next step, as the scene's drive has
-    /// it.</summary>
+    /// <summary>Prescribes the motion of node 0 of a material rod and the turn of its clamp within the next step, as a
+    /// hand, a table or the drive's speeds have it.</summary>
     internal sealed class MaterialDrive
     {
         private readonly RodSchedule _schedule;
-        private readonly IDriveDirection? _direction;
-        private readonly double _speed;  // m/s
+        private IDriveDirection? _direction;
+        private readonly double _speed;      // m/s
+        private readonly double _timeStep;   // s
+        private readonly double _metres;     // per unit
+        private readonly Steering? _hand;
+        private readonly DriveTable? _table;
         private readonly bool _followsSpring;
 
         /// <summary>The drive of this scene.</summary>
         /// <param name="followsSpring">Whether node 0 follows its place on a spring, which gives way a little.</param>
         public MaterialDrive(SimulationParameters parameters, Scene scene, bool followsSpring)
         {
+            DriveParameters drive = parameters.Drive;
             _followsSpring = followsSpring;
             _schedule = scene.Schedule;
-            _direction = scene.Drive;
-            _speed = scene.UnitLength * parameters.Drive.DisplacementPerStep / parameters.Method.TimeStep;
+            _timeStep = parameters.Method.TimeStep;
+            _metres = scene.UnitLength;
+            _speed = drive.InsertionSpeed != 0.0 ? drive.InsertionSpeed
+                : scene.UnitLength * drive.DisplacementPerStep / parameters.Method.TimeStep;
+            _hand = scene.Steering;
+            _table = _hand == null ? drive.Table : null;
+            _direction = _hand == null ? scene.Drive : scene.Drive ?? new AlongFirstElement();
+            if (_hand != null || _table != null)
+            {
+                _schedule.ProximalTwistRate = 0.0;
+                _schedule.DriveEnd = _table?.End ?? double.PositiveInfinity;
+            }
         }
 
-        /// <summary>Sets where node 0 is and how fast it goes, from this time on.</summary>
+        /// <summary>How far the drive has moved node 0 along its way since the start, m; negative where it has
+        /// pulled.</summary>
+        public double Insertion { get; private set; }
+
+        /// <summary>How far the drive has turned the clamp since the start, rad.</summary>
+        public double Turn { get; private set; }
+
+        /// <summary>The farthest that it may move node 0, m.</summary>
+        public double MostInsertion { get; set; } = double.PositiveInfinity;
+
+        /// <summary>The farthest back, m.</summary>
+        public double LeastInsertion { get; set; } = double.NegativeInfinity;
+
+        /// <summary>The way of the drive in the present step, a unit vector; zero where nothing is driven.</summary>
+        public Vector3d Axis { get; private set; }
+
+        /// <summary>What of its way the hub has lost by giving way, m.</summary>
+        public double Slip { get; private set; }
+
+        /// <summary>What moves node 0 moves it along this axis, of any length but 0.</summary>
+        public void GoAlong(in Vector3d axis)
+        {
+            _direction = _direction == null ? null : new FixedAxis(axis);
+        }
+
+        /// <summary>Sets where node 0 is and how fast it goes and turns, from this time on.</summary>
         public void Prepare(RodShape shape, double time)
         {
+            if (_hand != null)
+            {
+                _schedule.TurnOn(time, _hand.Turn / _timeStep);
+            }
+            else if (_table != null)
+            {
+                _schedule.TurnOn(time, Rate(_table.Rotation, time));
+            }
+            Turn = _schedule.ProximalTurnAt(time + _timeStep);
             if (_direction == null)
             {
                 return;
             }
+            double speed = _hand != null ? _metres * _hand.Push / _timeStep
+                : _table != null ? Rate(_table.Insertion, time) : _speed;
+            double goes = Math.Min(Math.Max(Insertion + speed * _timeStep, LeastInsertion), MostInsertion) - Insertion;
+            if (Insertion + speed * _timeStep > MostInsertion || Insertion + speed * _timeStep < LeastInsertion)
+            {
+                Slip += Math.Abs(speed * _timeStep - goes);
+                speed = goes / _timeStep;
+            }
+            Axis = _direction.At(shape.X[0], shape.X[1]);
             _schedule.ProximalPosition = _followsSpring ? _schedule.ProximalPositionAt(time) : shape.X[0];
             _schedule.ProximalTime = time;
-            _schedule.ProximalVelocity = _speed * _direction.At(shape.X[0], shape.X[1]);
+            _schedule.ProximalVelocity = speed * Axis;
+            Insertion += speed * _timeStep;
+        }
+
+        /// <summary>The hub gives way, after a step, to the spring between it and node 0.</summary>
+        public void GiveWay(SupportSpring spring, RodShape shape)
+        {
+            double slip = spring.TakeSlip(shape);
+            if (slip != 0.0)
+            {
+                _schedule.ProximalPosition -= slip * Axis;
+                Insertion -= slip;
+                Slip += Math.Abs(slip);
+            }
+        }
+
+        /// <summary>Writes or takes over how far the hub has come.</summary>
+        public void Exchange(Snapshot snapshot)
+        {
+            Insertion = snapshot.Exchange(Insertion);
+            Turn = snapshot.Exchange(Turn);
+            Slip = snapshot.Exchange(Slip);
+        }
+
+        private double Rate(TimeTable table, double time)
+        {
+            return (table.At(time + _timeStep) - table.At(time)) / _timeStep;
         }
     }
 }

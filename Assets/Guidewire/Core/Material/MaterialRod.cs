@@ -118,6 +118,29 @@ namespace Guidewire.Core
             return rod;
         }
 
+        /// <summary>The rod of the elements from one on.</summary>
+        public MaterialRod From(int first)
+        {
+            var rod = new MaterialRod(ElementCount - first)
+            {
+                MassDamping = MassDamping,
+                MaterialDamping = MaterialDamping,
+            };
+            Array.Copy(Length, first, rod.Length, 0, rod.ElementCount);
+            Array.Copy(StretchStiffness, first, rod.StretchStiffness, 0, rod.ElementCount);
+            Array.Copy(ShearStiffness, first, rod.ShearStiffness, 0, rod.ElementCount);
+            Array.Copy(BendStiffness1, first, rod.BendStiffness1, 0, rod.ElementCount);
+            Array.Copy(BendStiffness2, first, rod.BendStiffness2, 0, rod.ElementCount);
+            Array.Copy(TwistStiffness, first, rod.TwistStiffness, 0, rod.ElementCount);
+            Array.Copy(LineDensity, first, rod.LineDensity, 0, rod.ElementCount);
+            Array.Copy(RotaryInertia1, first, rod.RotaryInertia1, 0, rod.ElementCount);
+            Array.Copy(RotaryInertia2, first, rod.RotaryInertia2, 0, rod.ElementCount);
+            Array.Copy(RestCurvature, first, rod.RestCurvature, 0, rod.ElementCount);
+            Array.Copy(Radius, first, rod.Radius, 0, rod.ElementCount);
+            Array.Copy(_sides, first, rod._sides, 0, rod.ElementCount);
+            return rod;
+        }
+
         /// <summary>Makes element j a round wire of this radius and material; its length and rest curvature
         /// stay.</summary>
         public void SetRound(int j, double radius, double youngsModulus, double shearModulus, double density)
@@ -152,6 +175,10 @@ namespace Guidewire.Core
         /// elsewhere the half element takes their place.</remarks>
         public Joint[] Joints(RodSupports supports)
         {
+            if (supports.Sheath != null)
+            {
+                return (Joint[])supports.Sheath.Joints.Clone();
+            }
             int n = ElementCount;
             double[] weights = JointWeights(supports);
             Joint[] joints = new Joint[n + 1];
@@ -173,6 +200,10 @@ namespace Guidewire.Core
         /// <summary>The length of wire that each of the n+1 joints stands for, m.</summary>
         public double[] JointLengths(RodSupports supports)
         {
+            if (supports.Sheath != null)
+            {
+                return (double[])supports.Sheath.JointLengths.Clone();
+            }
             double[] lengths = JointWeights(supports);
             for (int k = 0; k < lengths.Length; k++)
             {

@@ -10,6 +10,9 @@ namespace Guidewire.Core
         public MaterialScene(SimulationParameters parameters, Scene scene)
         {
             _scene = scene;
+            Shape = scene.Shape;
+            Velocities = scene.Velocities;
+            Spins = scene.Spins;
             Rod = CreateRod(parameters, scene.ElementLengths);
             Supports = new RodSupports
             {
@@ -26,6 +29,34 @@ namespace Guidewire.Core
             StartsStraight = parameters.Scene.Start == null && parameters.Scene.StartShape == StartShape.Straight;
             Joints = new JointWatch(this, parameters.Method.MaxSimulationSteps * parameters.Method.TimeStep);
             AlignTurns();
+        }
+
+        /// <summary>The part of a wire that is outside its sheath, as a scene of its own.</summary>
+        /// <param name="whole">The wire's scene.</param>
+        /// <param name="rod">The part.</param>
+        /// <param name="window">What the rest is to it.</param>
+        /// <param name="shape">Where it is.</param>
+        public MaterialScene(MaterialScene whole, MaterialRod rod, SheathWindow window, RodShape shape)
+        {
+            _scene = whole._scene;
+            Rod = rod;
+            Shape = shape;
+            Velocities = whole.Velocities;
+            Spins = whole.Spins;
+            RodSupports supports = whole.Supports;
+            Supports = new RodSupports
+            {
+                Proximal = supports.Proximal,
+                Distal = supports.Distal,
+                SlidingAxis = supports.SlidingAxis,
+                Clamp = supports.Clamp,
+                Mass = supports.Mass,
+                Bend = supports.Bend,
+                HasSpring = true,
+                Sheath = window,
+            };
+            Drive = whole.Drive;
+            Joints = new JointWatch(this, 0.0);
         }
 
         /// <summary>Metres per unit.</summary>
@@ -47,13 +78,13 @@ namespace Guidewire.Core
         public bool StartsStraight { get; }
 
         /// <summary>Where the rod is at the start, before the displacement of sphere 0, m.</summary>
-        public RodShape Shape => _scene.Shape;
+        public RodShape Shape { get; }
 
         /// <summary>Velocities at the start, m/s.</summary>
-        public Vector3d[] Velocities => _scene.Velocities;
+        public Vector3d[] Velocities { get; set; }
 
         /// <summary>Angular velocities at the start along the elements' axes, rad/s.</summary>
-        public Vector3d[] Spins => _scene.Spins;
+        public Vector3d[] Spins { get; set; }
 
         /// <summary>The vessel and what stands in it, in units.</summary>
         public ContactShape[] Walls => _scene.Walls;

@@ -7,10 +7,17 @@ namespace Guidewire.Core
     internal static class MaterialStart
     {
         /// <summary>What is wrong with the start of a scene, in one phrase, or null.</summary>
-        public static string? FindProblem(MaterialScene scene)
+        /// <param name="from">The first element that is looked at.</param>
+        public static string? FindProblem(MaterialScene scene, int from = 0)
+        {
+            return FindProblem(scene, from, scene.Rod.ElementCount);
+        }
+
+        /// <summary>The same of the elements before one, exclusive.</summary>
+        public static string? FindProblem(MaterialScene scene, int from, int to)
         {
             double units = 1.0 / scene.Metres;
-            for (int j = 0; j < scene.Rod.ElementCount; j++)
+            for (int j = from; j < to; j++)
             {
                 Vector3d a = units * scene.Shape.X[j];
                 Vector3d b = units * scene.Shape.X[j + 1];

@@ -11,6 +11,10 @@ namespace Guidewire.Core
         /// there exactly.</summary>
         public bool HasSpring { get; set; }
 
+        /// <summary>What the sheathed part is to the rod, where it is the part of a wire outside a sheath; else
+        /// null.</summary>
+        public SheathWindow? Sheath { get; set; }
+
         /// <summary>The distal end; default free.</summary>
         public DistalEnd Distal { get; set; } = DistalEnd.Free;
 

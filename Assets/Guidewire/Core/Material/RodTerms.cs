@@ -44,6 +44,11 @@ namespace Guidewire.Core
                 Stretch,
                 Bending,
             };
+            if (supports.Sheath != null)
+            {
+                Sheath = new SheathEnergy(rod, supports.Sheath);
+                _elastic = Joined(_elastic, new EnergyTerm[] { Sheath });
+            }
             _loads = Joined(new EnergyTerm[]
             {
                 Loads,
@@ -70,6 +75,9 @@ namespace Guidewire.Core
 
         /// <summary>Bending and twist.</summary>
         public BendTwistTerm Bending { get; }
+
+        /// <summary>What keeps it straight in its sheath; null without one.</summary>
+        public SheathEnergy? Sheath { get; }
 
         /// <summary>Weight and forces on the nodes.</summary>
         public DeadLoads Loads { get; }
@@ -103,6 +111,10 @@ namespace Guidewire.Core
         {
             schedule.SetLoads(Loads, time);
             Followers.SetTime(time);
+            if (Supports.Sheath != null)
+            {
+                Bending.TurnProximal(schedule.HubAhead(time));
+            }
             foreach (EnergyTerm term in All)
             {
                 term.SetTime(time);

@@ -1,3 +1,5 @@
+using System;
+
 namespace Guidewire.Core
 {
     /// <summary>What a wire's material feels along the wire and what energy it has at one moment, in SI units: for logs
@@ -39,6 +41,30 @@ namespace Guidewire.Core
         public double PotentialEnergy { get; private set; }
 
         private double[] JointLength { get; }  // of wire that each joint stands for, m
+
+        /// <summary>Takes the record of the part of a wire that is outside its sheath; the rest is straight, under the
+        /// sheath's springs.</summary>
+        /// <param name="push">Force of the hub along the axis, N.</param>
+        /// <param name="torque">Torque of the wire on the sheathed part about it, N m.</param>
+        internal void Take(StressRecord outside, SheathWindow window, double push, double torque)
+        {
+            int first = window.First;
+            Array.Copy(outside.Strain, 0, Strain, first, outside.Strain.Length);
+            Array.Copy(outside.Force, 0, Force, first, outside.Force.Length);
+            Array.Copy(outside.Curvature, 0, Curvature, first, outside.Curvature.Length);
+            Array.Copy(outside.Couple, 0, Couple, first, outside.Couple.Length);
+            for (int j = 0; j < first; j++)
+            {
+                (double stretch, double twist) = window.Stiffness(j);
+                Strain[j] = (-push / stretch) * Vector3d.UnitZ;
+                Force[j] = -push * window.Axis;
+                Curvature[j] = (torque / twist) * Vector3d.UnitZ;
+                Couple[j] = torque * window.Axis;
+            }
+            KineticEnergy = outside.KineticEnergy;
+            ElasticEnergy = outside.ElasticEnergy;
+            PotentialEnergy = outside.PotentialEnergy;
+        }
 
         /// <summary>Takes the wire as it is.</summary>
         internal void Take(RodTerms terms, RodShape shape, double kineticEnergy)

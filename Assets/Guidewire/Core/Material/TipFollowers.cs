@@ -13,8 +13,8 @@ namespace Guidewire.Core
         private readonly double _half;          // of the last element, m
         private readonly Vector3d _moment;      // N m
         private readonly Vector3d _force;       // N
-        private readonly LoadTable? _momentTable;
-        private readonly LoadTable? _forceTable;
+        private readonly TimeTable? _momentTable;
+        private readonly TimeTable? _forceTable;
 
         /// <summary>Those of a scene.</summary>
         public TipFollowers(MaterialRod rod, SceneParameters scene)

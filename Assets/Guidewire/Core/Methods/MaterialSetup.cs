@@ -22,7 +22,8 @@ namespace Guidewire.Core
             var scene = new MaterialScene(parameters, prescribed);
             var state = new RodState(ElementLayout.Lengths(parameters, 1.0, out _), parameters.Gains.TotalMass,
                 parameters.Scene.GuidewireOffset);
-            WallTerms? walls = Walls(parameters, scene);
+            bool isSheathed = parameters.Scene.Sheath != null;
+            WallTerms? walls = isSheathed ? null : Walls(parameters, scene);
             var terms = new RodTerms(scene.Rod, scene.Supports, parameters.Scene, walls, Array.Empty<EnergyTerm>());
             var report = new SolverReport();
             bool isAtRest = parameters.Scene.InitialState == InitialState.Equilibrium;
@@ -32,7 +33,7 @@ namespace Guidewire.Core
                 failure = new RestShape(scene, terms, Math.Min(parameters.Method.SolverTolerance, 1e-9),
                     EquilibriumFactor * parameters.Method.MaxNewtonIterations, report).Find(scene.Shape);
             }
-            else if (scene.Supports.Proximal != ProximalEnd.Free && walls == null)
+            else if (scene.Supports.Proximal != ProximalEnd.Free && walls == null && !isSheathed)
             {
                 scene.Shape.X[0] = scene.Schedule.ProximalPosition;
             }
@@ -63,24 +64,40 @@ namespace Guidewire.Core
             }
             double move = scene.Metres * Math.Abs(parameters.Drive.DisplacementPerStep);
             Barrier barrier = BarrierRule.Of(scene.Rod, parameters.Contact, scene.Walls, scene.Metres, move);
+            return WallTermsOf(parameters, scene, barrier,
+                new SupportSpring(scene.Rod, parameters.Drive.HubForceLimit));
+        }
+
+        /// <summary>What walls add to a wire's energy.</summary>
+        public static WallTerms WallTermsOf(SimulationParameters parameters, MaterialScene scene, Barrier barrier,
+            SupportSpring spring)
+        {
+            double move = scene.Metres * Math.Abs(parameters.Drive.DisplacementPerStep);
             var contact = new BarrierEnergy(scene.Rod, scene.Walls, scene.Metres, barrier);
             contact.Reach = Math.Max(contact.Reach, 2.0 * move);
             FrictionEnergy? friction = Array.Exists(scene.Walls, wall => wall.FrictionCoefficient > 0.0)
                 ? new FrictionEnergy(contact, scene.Rod.ElementCount, parameters.Contact.FrictionSpeed) : null;
-            return new WallTerms(contact, friction, new SupportSpring(scene.Rod), scene.Supports.HasSpring);
+            return new WallTerms(contact, friction, spring, scene.Supports.HasSpring);
         }
 
         /// <summary>Implicit steps by the direct solver.</summary>
         public static TimeStepper Direct(SimulationParameters parameters, MaterialScene scene, RodTerms terms,
             SolverReport report)
         {
+            return parameters.Scene.Sheath != null ? new SheathStep(parameters, scene, report)
+                : (TimeStepper)new DirectStep(scene, DynamicsOf(parameters, scene, terms), scene.Drive,
+                    parameters.Method, report, Reactions(parameters, scene));
+        }
+
+        /// <summary>The motion of a scene's rod by the direct solver.</summary>
+        public static RodDynamics DynamicsOf(SimulationParameters parameters, MaterialScene scene, RodTerms terms)
+        {
             var dynamics = new RodDynamics(terms, scene.Schedule, scene.Shape, Scheme(parameters.Method.Integrator),
                 parameters.Method.SolverTolerance, parameters.Method.MaxNewtonIterations);
             dynamics.Control.Tolerance = parameters.Method.TimeStepError;
             dynamics.Begin(scene.Velocities, scene.Spins,
                 parameters.Scene.InitialState == InitialState.Equilibrium);
-            return new DirectStep(scene, dynamics, scene.Drive, parameters.Method, report,
-                Reactions(parameters, scene));
+            return dynamics;
         }
 
         /// <summary>Sweeps over constraints with compliance.</summary>

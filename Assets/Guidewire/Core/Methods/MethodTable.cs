@@ -33,6 +33,7 @@ namespace Guidewire.Core
                 Solver = Solver.Direct,
                 TakesMaterial = true,
                 MeetsWalls = true,
+                TakesSteering = true,
                 Slides = true,
                 TakesTipMoment = true,
                 TakesDarbouxLaw = true,

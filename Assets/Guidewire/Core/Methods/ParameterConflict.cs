@@ -17,11 +17,39 @@ namespace Guidewire.Core
         /// <summary>What it needs, as a noun phrase.</summary>
         public string Needed { get; }
 
-        /// <summary>The first conflict of these parameters, or null.</summary>
+        /// <summary>The first conflict of these parameters, or null; walls and tables need not have been
+        /// read.</summary>
         public static ParameterConflict? Find(SimulationParameters parameters)
         {
             MethodTraits method = MethodTable.Of(parameters.Method.Solver);
-            return OfMethod(parameters, method) ?? OfEnds(parameters, method) ?? OfStart(parameters, method);
+            return OfMethod(parameters, method) ?? OfEnds(parameters, method) ?? OfHub(parameters, method)
+                ?? OfStart(parameters, method);
+        }
+
+        /// <summary>The first conflict of parameters that are complete, or null.</summary>
+        public static ParameterConflict? FindInScene(SimulationParameters parameters)
+        {
+            bool hasWalls = parameters.Scene.Walls.Length > 0;
+            return Find(parameters) ?? (parameters.Drive.HubForceLimit > 0.0 && !hasWalls
+                ? new ParameterConflict("hubForceLimit", "a vessel or obstacles: without walls a hub holds the wire")
+                : parameters.Scene.Sheath != null ? OfSheath(parameters, hasWalls) : null);
+        }
+
+        private static ParameterConflict? OfSheath(SimulationParameters parameters, bool hasWalls)
+        {
+            SceneParameters scene = parameters.Scene;
+            bool isDriven = parameters.Drive.Steering != null || parameters.Drive.Kind == Drive.Displace
+                || parameters.Drive.Kind == Drive.Hold;
+            string? needed = !hasWalls ? "a vessel"
+                : !IsClamped(parameters) ? "proximalEnd \"clamped\""
+                : !isDriven ? "drive \"displace\" or \"hold\""
+                : scene.DistalEnd != DistalEnd.Free ? "distalEnd \"free\""
+                : scene.StartShape != StartShape.Straight ? "startShape \"straight\""
+                : parameters.Method.Integrator != Integrator.ImplicitEuler ? "integrator \"implicitEuler\""
+                : parameters.Material.BendLaw != BendLaw.RotationVector ? "bendLaw \"rotationVector\""
+                : parameters.Drive.Displacement != 0.0 && parameters.Drive.Kind == Drive.Hold ? "displacement 0"
+                : null;
+            return needed == null ? null : new ParameterConflict("sheath", needed);
         }
 
         private static ParameterConflict? OfMethod(SimulationParameters parameters, MethodTraits method)
@@ -53,7 +81,7 @@ namespace Guidewire.Core
             }
             if (!method.TakesSteering && parameters.Drive.Steering != null)
             {
-                return new ParameterConflict("solver", "pbd where a hand steers: it steers wires with gains only");
+                return new ParameterConflict("solver", "pbd or direct where a hand steers");
             }
             if (method.TakesMaterial && parameters.Method.Damping != 0.0)
             {
@@ -115,6 +143,41 @@ namespace Guidewire.Core
                     "\"held\" or \"clamped\" with a drive that moves sphere 0");
             }
             return null;
+        }
+
+        // Every group of keys says on its own how the hub moves.
+        private static ParameterConflict? OfHub(SimulationParameters parameters, MethodTraits method)
+        {
+            DriveParameters drive = parameters.Drive;
+            if (!method.TakesMaterial)
+            {
+                return null;
+            }
+            bool hasTable = drive.Table != null;
+            if (drive.DisplacementPerStep != 0.0 && (drive.InsertionSpeed != 0.0 || hasTable))
+            {
+                return new ParameterConflict("displacementPerStep", "0 with an insertionSpeed or a driveFile");
+            }
+            if (drive.TwistPerStep != 0.0 && (drive.RotationSpeed != 0.0 || hasTable))
+            {
+                return new ParameterConflict("twistPerStep", "0 with a rotationSpeed or a driveFile");
+            }
+            if (hasTable && (drive.InsertionSpeed != 0.0 || drive.RotationSpeed != 0.0))
+            {
+                return new ParameterConflict("driveFile", "insertionSpeed and rotationSpeed to be 0: it has both");
+            }
+            string? key = hasTable ? "driveFile" : drive.RotationSpeed != 0.0 ? "rotationSpeed" : null;
+            if (key != null && !IsClamped(parameters))
+            {
+                return new ParameterConflict(key, "proximalEnd \"clamped\", and no drive \"force\"");
+            }
+            if (drive.Steering != null && !IsClamped(parameters))
+            {
+                return new ParameterConflict("proximalEnd", "\"clamped\" where a hand steers a wire with a material");
+            }
+            key = hasTable ? key : drive.InsertionSpeed != 0.0 ? "insertionSpeed" : null;
+            return key != null && drive.Kind != Drive.Displace && drive.Kind != Drive.Push
+                ? new ParameterConflict(key, "drive \"displace\" or \"push\"") : null;
         }
 
         private static ParameterConflict? OfStart(SimulationParameters parameters, MethodTraits method)

@@ -35,6 +35,12 @@ namespace Guidewire.Core
             return null;
         }
 
+        /// <summary>What is read off at the hub and the tip; null where the method does not compute it.</summary>
+        public virtual HubRecord? Hub()
+        {
+            return null;
+        }
+
         /// <summary>Advances the state by one step.</summary>
         public abstract void Advance(RodState state);
 

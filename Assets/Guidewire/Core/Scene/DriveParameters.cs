@@ -20,12 +20,43 @@ namespace Guidewire.Core
         /// held.</summary>
         public double TwistPerStep { get; set; }
 
+        /// <summary>Speed of sphere 0 in m/s, with <see cref="Core.Drive.Displace"/> and <see
+        /// cref="Core.Drive.Push"/>: for a wire with a material in place of
+        /// <see cref="DisplacementPerStep"/>.</summary>
+        public double InsertionSpeed { get; set; }
+
+        /// <summary>Turning of the proximal clamp about its axis in rad/s, in place of <see
+        /// cref="TwistPerStep"/>.</summary>
+        public double RotationSpeed { get; set; }
+
+        /// <summary>Way and turn of the proximal clamp over time, in place of the speeds, or null.</summary>
+        public DriveTable? Table { get; set; }
+
+        /// <summary>The axial force in N at which the hub gives way to the wire; 0: it never does.</summary>
+        public double HubForceLimit { get; set; }
+
         /// <summary>Force on sphere 0 in mass unit * unit / s^2; with <see cref="Core.Drive.Force"/>.</summary>
         public Vector3d ExternalForce { get; set; }
 
         /// <summary>A hand that pushes and turns the wire as it goes, in place of the drive's motion, or
         /// null.</summary>
         public Steering? Steering { get; set; }
+
+        /// <summary>The farthest that speeds or table move the hub within a time from the start, s; 0 where a hand
+        /// does. In m.</summary>
+        internal double LargestInsertion(double duration)
+        {
+            if (Steering != null || Table == null)
+            {
+                return Steering != null ? 0.0 : System.Math.Max(0.0, InsertionSpeed * duration);
+            }
+            double largest = 0.0;
+            foreach (double value in Table.Insertion.ValuesUntil(duration))
+            {
+                largest = System.Math.Max(largest, value - Table.Insertion.At(0.0));
+            }
+            return largest;
+        }
 
         /// <summary>The same values; lists and walls are shared.</summary>
         internal DriveParameters Copy()

@@ -21,16 +21,16 @@ namespace Guidewire.Core
         public double WireLength { get; set; }
 
         /// <summary>Factor on gravity over time, or null.</summary>
-        public LoadTable? GravityTable { get; set; }
+        public TimeTable? GravityTable { get; set; }
 
         /// <summary>Factor on the tip force over time, or null.</summary>
-        public LoadTable? TipForceTable { get; set; }
+        public TimeTable? TipForceTable { get; set; }
 
         /// <summary>Factor on the force per length over time, or null.</summary>
-        public LoadTable? DistributedForceTable { get; set; }
+        public TimeTable? DistributedForceTable { get; set; }
 
         /// <summary>Factor on the axial force over time, or null.</summary>
-        public LoadTable? AxialForceTable { get; set; }
+        public TimeTable? AxialForceTable { get; set; }
 
         /// <summary>s; the force acts at times up to and including this one.</summary>
         public double TipForceReleaseTime { get; set; } = double.PositiveInfinity;
@@ -55,6 +55,14 @@ namespace Guidewire.Core
 
         /// <summary>Its turning about its own d3, rad/s.</summary>
         public double ProximalTwistRate { get; set; }
+
+        /// <summary>From when on nothing but constant speeds moves the proximal end, s: infinite under a
+        /// hand.</summary>
+        public double DriveEnd { get; set; } = double.NegativeInfinity;
+
+        /// <summary>Where the proximal frame is held while the hub turns, radians: of a wire in a sheath, whose
+        /// sheathed part is a spring between hub and frame. Null: the frame is the hub.</summary>
+        public double? HeldFrameTurn { get; set; }
 
         /// <summary>Place of the last node before its displacement, m.</summary>
         public Vector3d DistalPosition { get; set; }
@@ -106,6 +114,29 @@ namespace Guidewire.Core
             return _twistOrigin + ProximalTwistRate * (time - _twistOriginTime);
         }
 
+        /// <summary>Turn of the frame to which the first element is clamped at this time, radians.</summary>
+        public double FrameTurnAt(double time)
+        {
+            return HeldFrameTurn ?? ProximalTurnAt(time);
+        }
+
+        /// <summary>Its turning, rad/s.</summary>
+        public double FrameTwistRate => HeldFrameTurn.HasValue ? 0.0 : ProximalTwistRate;
+
+        /// <summary>How far the hub is ahead of that frame at this time, radians.</summary>
+        public double HubAhead(double time)
+        {
+            return HeldFrameTurn.HasValue ? ProximalTurnAt(time) - HeldFrameTurn.Value : 0.0;
+        }
+
+        /// <summary>From this time on, s, the proximal frame turns at this rate, rad/s.</summary>
+        public void TurnOn(double time, double rate)
+        {
+            _twistOrigin = ProximalTurnAt(time);
+            _twistOriginTime = time;
+            ProximalTwistRate = rate;
+        }
+
         /// <summary>The last node at this time, m.</summary>
         public Vector3d DistalPositionAt(double time)
         {
@@ -151,7 +182,8 @@ namespace Guidewire.Core
             bool isReleased = time <= TipForceReleaseTime && TipForceReleaseTime < end && TipForce != Vector3d.Zero;
             bool changes = Changes(GravityTable, time) || Changes(TipForceTable, time)
                 || Changes(DistributedForceTable, time) || Changes(AxialForceTable, time);
-            return !ramps && !isReleased && !changes && ProximalVelocity == Vector3d.Zero && ProximalTwistRate == 0.0;
+            return !ramps && !isReleased && !changes && time >= DriveEnd
+                && ProximalVelocity == Vector3d.Zero && ProximalTwistRate == 0.0;
         }
 
         /// <summary>The largest turn between the two frames from a time to an end, s, over that at the time; 1 where
@@ -219,12 +251,12 @@ namespace Guidewire.Core
             }
         }
 
-        private static double Factor(LoadTable? table, double time)
+        private static double Factor(TimeTable? table, double time)
         {
             return table == null ? 1.0 : table.At(time);
         }
 
-        private static bool Changes(LoadTable? table, double time)
+        private static bool Changes(TimeTable? table, double time)
         {
             return table != null && time < table.End;
         }

@@ -39,7 +39,8 @@ namespace Guidewire.Core
                 ProximalForce = drive.Kind == Core.Drive.Force ? drive.ExternalForce : Vector3d.Zero,
                 ProximalPosition = Shape.X[0],
                 ProximalFrame = Shape.ProximalFrame,
-                ProximalTwistRate = drive.TwistPerStep / parameters.Method.TimeStep,
+                ProximalTwistRate = drive.RotationSpeed != 0.0 ? drive.RotationSpeed
+                    : drive.TwistPerStep / parameters.Method.TimeStep,
                 DistalPosition = Shape.X[n],
                 DistalFrame = Shape.DistalFrame,
                 DistalDisplacement = UnitLength * scene.DistalDisplacement,

@@ -60,16 +60,16 @@ namespace Guidewire.Core
         public Vector3d DistributedForce { get; set; }
 
         /// <summary>Factor on <see cref="Gravity"/> over time, or null.</summary>
-        public LoadTable? GravityTable { get; set; }
+        public TimeTable? GravityTable { get; set; }
 
         /// <summary>Factor on <see cref="TipForce"/> over time, or null.</summary>
-        public LoadTable? TipForceTable { get; set; }
+        public TimeTable? TipForceTable { get; set; }
 
         /// <summary>Factor on <see cref="DistributedForce"/> over time, or null.</summary>
-        public LoadTable? DistributedForceTable { get; set; }
+        public TimeTable? DistributedForceTable { get; set; }
 
         /// <summary>Factor on <see cref="AxialForce"/> over time, or null.</summary>
-        public LoadTable? AxialForceTable { get; set; }
+        public TimeTable? AxialForceTable { get; set; }
 
         /// <summary>When the tip force ends, s; it acts up to and including this time.</summary>
         public double TipForceReleaseTime { get; set; } = 1e9;
@@ -81,16 +81,19 @@ namespace Guidewire.Core
         public Vector3d TipFollowerForce { get; set; }
 
         /// <summary>Factor on <see cref="TipMoment"/> over time, or null.</summary>
-        public LoadTable? TipMomentTable { get; set; }
+        public TimeTable? TipMomentTable { get; set; }
 
         /// <summary>Factor on <see cref="TipFollowerForce"/> over time, or null.</summary>
-        public LoadTable? TipFollowerForceTable { get; set; }
+        public TimeTable? TipFollowerForceTable { get; set; }
 
         /// <summary>Force along the axis of a sliding distal end, N; a pull is positive.</summary>
         public double AxialForce { get; set; }
 
         /// <summary>The vessel and what stands in it, placed; none costs nothing.</summary>
         public ContactShape[] Walls { get; set; } = Array.Empty<ContactShape>();
+
+        /// <summary>The sheath from which the wire is fed into the vessel, or null.</summary>
+        public Sheath? Sheath { get; set; }
 
         /// <summary>The same values; lists and walls are shared.</summary>
         internal SceneParameters Copy()

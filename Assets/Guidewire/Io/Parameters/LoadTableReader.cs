@@ -1,6 +1,5 @@
 using System;
 using System.Collections.Generic;
-using System.Globalization;
 using System.IO;
 using Guidewire.Core;
 using Newtonsoft.Json.Linq;
@@ -8,11 +7,11 @@ using Newtonsoft.Json.Linq;
 namespace Guidewire.Io
 {
     /// <summary>Reads the tables of key loadTables: CSV files of two columns, time in s and a factor on the load that
-    /// names the file. A first line of words and lines that begin with # are passed over.</summary>
+    /// names the file.</summary>
     internal static class LoadTableReader
     {
-        private static readonly Dictionary<string, Action<SceneParameters, LoadTable>> Loads =
-            new Dictionary<string, Action<SceneParameters, LoadTable>>
+        private static readonly Dictionary<string, Action<SceneParameters, TimeTable>> Loads =
+            new Dictionary<string, Action<SceneParameters, TimeTable>>
             {
                 ["gravity"] = (scene, table) => scene.GravityTable = table,
                 ["tipForce"] = (scene, table) => scene.TipForceTable = table,
@@ -35,7 +34,7 @@ namespace Guidewire.Io
             tables = (JObject)tables.DeepClone();
             foreach (JProperty property in tables.Properties())
             {
-                if (!Loads.TryGetValue(property.Name, out Action<SceneParameters, LoadTable>? set)
+                if (!Loads.TryGetValue(property.Name, out Action<SceneParameters, TimeTable>? set)
                     || property.Value.Type != JTokenType.String)
                 {
                     throw new ParameterException(source, "loadTables", property.ToString(),
@@ -59,51 +58,17 @@ namespace Guidewire.Io
             return text;
         }
 
-        private static LoadTable Table(string file, string where)
+        private static TimeTable Table(string file, string where)
         {
-            var times = new List<double>();
-            var factors = new List<double>();
-            string[] lines;
+            List<double>[] columns = TableReader.Read(file, where, 2, "a time (s) and a factor, with a comma between");
             try
             {
-                lines = PlainFile.ReadText(file, "a table").Split('\n');
-            }
-            catch (ParameterException error)
-            {
-                throw new ParameterException(where + error.Message);
-            }
-            for (int i = 0; i < lines.Length; i++)
-            {
-                string[] cells = lines[i].Split(',');
-                if (lines[i].Trim().Length == 0 || lines[i].StartsWith("#", StringComparison.Ordinal))
-                {
-                    continue;
-                }
-                if (cells.Length == 2 && TryNumber(cells[0], out double time) && TryNumber(cells[1], out double factor))
-                {
-                    times.Add(time);
-                    factors.Add(factor);
-                }
-                else if (i > 0)
-                {
-                    throw new ParameterException(where + file + ": line " + (i + 1) + " needs a time (s) and a factor,"
-                        + " with a comma between");
-                }
-            }
-            try
-            {
-                return new LoadTable(times.ToArray(), factors.ToArray());
+                return new TimeTable(columns[0].ToArray(), columns[1].ToArray());
             }
             catch (ArgumentException error)
             {
                 throw new ParameterException(where + file + ": " + error.Message);
             }
-        }
-
-        private static bool TryNumber(string text, out double number)
-        {
-            return double.TryParse(text, NumberStyles.Float, CultureInfo.InvariantCulture, out number)
-                && !double.IsNaN(number) && !double.IsInfinity(number);
         }
     }
 }

@@ -150,6 +150,8 @@ namespace Guidewire.Io
                 simulation.Scene.Start = ReadStart(ElementLayout.Count(simulation));
             }
             LoadTableReader.Read(Values, _given.TryGetValue("loadTables", out var tables) ? tables.Source : "");
+            DriveTableReader.Read(Values, _given.TryGetValue("driveFile", out var drive) ? drive.Source : "");
+            SheathReader.Read(Values, _given.TryGetValue("sheath", out var sheath) ? sheath.Source : "");
             ReadWalls(simulation);
             Warn();
             Hash = ComputeHash();
@@ -210,7 +212,7 @@ namespace Guidewire.Io
                 simulation.Method.Integrator = MethodTable.Of(Method).IntegratorBetweenWalls
                     ?? simulation.Method.Integrator;
             }
-            ParameterConflict? conflict = ParameterConflict.Find(simulation);
+            ParameterConflict? conflict = ParameterConflict.FindInScene(simulation);
             if (conflict != null)
             {
                 throw Refused(conflict.Key, conflict.Needed);
@@ -218,7 +220,9 @@ namespace Guidewire.Io
             string? complaint = Simulation.FindProblemOfStart(simulation);
             if (complaint != null)
             {
-                throw new ParameterException((vessel.Length > 0 ? vessel : obstacles) + ": " + complaint);
+                string source = Values.Sheath != null ? _given["sheath"].Source
+                    : vessel.Length > 0 ? vessel : obstacles;
+                throw new ParameterException(source + ": " + complaint);
             }
             string? sizes = WireStart.FindOddSizes(simulation);
             if (sizes != null)
@@ -327,7 +331,7 @@ namespace Guidewire.Io
             foreach (ParameterEntry entry in Taken())
             {
                 if (!entry.IsOutputPath && entry.Key != "startFile" && entry.Key != "vessel"
-                    && entry.Key != "loadTables")
+                    && entry.Key != "loadTables" && entry.Key != "driveFile")
                 {
                     text.Append(entry.Key).Append('=').Append(NumberText.Write(entry.Write(Values))).Append('\n');
                 }
@@ -338,6 +342,10 @@ namespace Guidewire.Io
                 text.Append("start=").Append(File.ReadAllText(Values.StartFile)).Append('\n');
             }
             text.Append(LoadTableReader.Content(Values.LoadTables));
+            if (Values.DriveFile.Length > 0)
+            {
+                text.Append("drive=").Append(File.ReadAllText(Values.DriveFile)).Append('\n');
+            }
             using SHA256 sha = SHA256.Create();
             if (Values.Vessel?.DeepClone() is JObject vessel)
             {

@@ -46,8 +46,14 @@ namespace Guidewire.Io
         /// <summary>The obstacles as their key has them, or null.</summary>
         public JToken? Obstacles { get; set; }
 
+        /// <summary>The sheath as its key has it, or null.</summary>
+        public JToken? Sheath { get; set; }
+
         /// <summary>The files of loads over time as their key has them, or null.</summary>
         public JToken? LoadTables { get; set; }
+
+        /// <summary>The file with the hub's way and turn over time; empty for none.</summary>
+        public string DriveFile { get; set; } = "";
 
         /// <summary>Every k-th step is logged.</summary>
         public int LogEvery { get; set; } = 1;
@@ -60,6 +66,9 @@ namespace Guidewire.Io
 
         /// <summary>Whether strains, forces, couples, angular velocities and energies are logged too.</summary>
         public bool LogStrains { get; set; }
+
+        /// <summary>Whether what is read off at the hub is logged too.</summary>
+        public bool LogHub { get; set; }
 
         /// <summary>Whether contact forces are logged too.</summary>
         public bool LogContacts { get; set; }

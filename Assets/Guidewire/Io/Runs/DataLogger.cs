@@ -9,7 +9,7 @@ namespace Guidewire.Io
     /// "1": ...}</c>, and where asked for <c>"orientation": {"0": {"x","y","z","w"}, ...}</c> and <c>"contact":
     /// {"total": {"x","y","z"}, "reaction": ..., "sphere": {"i": ..., spheres that no wall pushes left
     /// out}}</c> and <c>"stress": {"kineticEnergy": J, .., "curvature": [[x, y, z], ...], ..}</c> as key logStrains
-    /// says.</summary>
+    /// says, and <c>"hub": {"insertion": m, ..}</c> as key logHub does.</summary>
     /// <remarks>Entry "k" is the state after k steps. Until <see cref="Close"/> the file is not whole JSON, but every
     /// line that ends is a whole entry. Numbers are round-trip exact; one that is not finite is null.</remarks>
     internal sealed class DataLogger : IDisposable
@@ -82,6 +82,15 @@ namespace Guidewire.Io
             {
                 AppendStress(simulation);
             }
+            if (_parameters.Sheath != null)
+            {
+                Append(", \"inBody\": ");
+                Append(simulation.Hub()?.SpheresInBody ?? 0);
+            }
+            if (_parameters.LogHub && simulation.Hub() is HubRecord hub)
+            {
+                AppendHub(hub);
+            }
             if (_parameters.LogContacts && simulation.Contacts != null)
             {
                 AppendContacts(simulation.Contacts);
@@ -145,6 +154,22 @@ namespace Guidewire.Io
             Append(", \"strain\": ", stress.Strain);
             Append(", \"force\": ", stress.Force);
             Append(", \"angularVelocity\": ", simulation.State.AngularVelocities);
+            Append("}");
+        }
+
+        private void AppendHub(HubRecord hub)
+        {
+            Append(", \"hub\": {\"insertion\": ", hub.Insertion);
+            Append(", \"turn\": ", hub.Turn);
+            Append(", \"force\": ", hub.Force);
+            Append(", \"torque\": ", hub.Torque);
+            Append(", \"tipDirection\": ", hub.TipDirection);
+            Append(", \"twist\": ", hub.Twist);
+            Append(", \"largestCurvature\": ", hub.LargestCurvature);
+            if (hub.LengthInBody is double length)
+            {
+                Append(", \"lengthInBody\": ", length);
+            }
             Append("}");
         }
 

@@ -48,6 +48,7 @@ namespace Guidewire.Io
                 ["maxPenetration"] = simulation.Contacts?.MaxPenetration ?? 0.0,
                 ["driveAsked"] = simulation.Contacts?.DriveAsked,
                 ["driveShortfall"] = simulation.Contacts?.DriveShortfall ?? 0.0,
+                ["hub"] = simulation.Hub() is HubRecord hub ? Hub(hub, simulation.State) : null,
                 ["largestContactForce"] = Finite(simulation.Contacts?.LargestForce ?? 0.0),
                 ["largestWallForce"] = Finite(simulation.Contacts?.LargestTotal ?? 0.0),
                 ["wallForces"] = new JArray(Array.ConvertAll(
@@ -105,6 +106,24 @@ namespace Guidewire.Io
                 ["distalForce"] = Vector(report.DistalForce),
                 ["distalMoment"] = Vector(report.DistalMoment),
                 ["energy"] = Finite(report.Energy),
+            };
+        }
+
+        /// <summary>What is read off at the hub and the tip, as summaries and answers have it.</summary>
+        public static JObject Hub(HubRecord hub, RodState state)
+        {
+            return new JObject
+            {
+                ["insertion"] = Finite(hub.Insertion),
+                ["turn"] = Finite(hub.Turn),
+                ["force"] = Finite(hub.Force),
+                ["torque"] = Finite(hub.Torque),
+                ["tipPosition"] = Vector(state.Positions[state.ElementCount]),
+                ["tipDirection"] = Vector(hub.TipDirection),
+                ["twist"] = Finite(hub.Twist),
+                ["largestCurvature"] = Finite(hub.LargestCurvature),
+                ["lengthInBody"] = hub.LengthInBody,
+                ["spheresInBody"] = hub.SpheresInBody,
             };
         }
 

@@ -33,6 +33,12 @@ namespace Guidewire.Io
             _file = file;
             _overrides = overrides;
             _handler = handler;
+            ParameterConflict? conflict = ParameterConflict.Find(handler.Values.Simulation);
+            if (conflict != null)
+            {
+                throw new ParameterException((file ?? CommandLineHandler.Source) + ": " + conflict.Key + " needs "
+                    + conflict.Needed);
+            }
             Simulation = Simulation.Create(handler.Values.Simulation);
             _start = Simulation.Save();
         }
@@ -59,8 +65,8 @@ namespace Guidewire.Io
         /// has them.</summary>
         /// <param name="file">Parameter file, or null for the defaults.</param>
         /// <param name="overrides">Parameters that count instead of the file's.</param>
-        /// <param name="isSteered">Whether a hand holds the first element, in place of the drive; null: wherever the
-        /// method may be steered.</param>
+        /// <param name="isSteered">Whether a hand holds the first element, in place of the drive; null: with
+        /// gains.</param>
         /// <exception cref="ParameterException">The file or a value cannot be used.</exception>
         public static SimulationSession Open(string? file, IEnumerable<KeyValuePair<string, JToken>> overrides,
             bool? isSteered)
@@ -68,14 +74,15 @@ namespace Guidewire.Io
             var given = new List<KeyValuePair<string, JToken>>(overrides);
             ParameterHandler handler = ParameterHandler.Load(file, given);
             MethodParameters method = handler.Values.Simulation.Method;
-            bool takesSteering = MethodTable.Of(method.Solver).TakesSteering;
-            if (isSteered == true && !takesSteering)
+            MethodTraits traits = MethodTable.Of(method.Solver);
+            if (isSteered == true && !traits.TakesSteering)
             {
                 throw new ParameterException((file ?? CommandLineHandler.Source) + ": a wire of solver "
                     + Get(handler, "solver") + " is not steered by hand: its file's drive moves it");
             }
             method.StatesReactions |= ParameterTable.Find("logContacts")!.IsTakenBy(method.Solver);
-            return new SimulationSession(file, given, handler, isSteered ?? takesSteering);
+            return new SimulationSession(file, given, handler,
+                isSteered ?? (traits.TakesSteering && !traits.TakesMaterial));
         }
 
         /// <summary>A run at its start.</summary>

@@ -12,6 +12,7 @@ namespace Guidewire.Core
         private readonly bool _hasProximal;
         private readonly bool _hasDistal;
         private readonly TLaw _law;
+        private readonly double _proximalRest;  // turn of joint 0 at rest about d3, radians
         private RodBlock _clampBlock;     // what falls on a clamp's frame, which does not move
         private RodVector _clampVector;
 
@@ -23,6 +24,14 @@ namespace Guidewire.Core
             _hasProximal = hasProximal;
             _hasDistal = hasDistal;
             _law = default;
+            _proximalRest = joints[0].Rest.Z;
+        }
+
+        /// <inheritdoc/>
+        public override void TurnProximal(double turn)
+        {
+            Vector3d rest = _joint[0].Rest;
+            _joint[0].Rest = new Vector3d(rest.X, rest.Y, _proximalRest + turn);
         }
 
         /// <inheritdoc/>

@@ -34,6 +34,10 @@ namespace Guidewire.Core
         public abstract void MeasureRates(RodShape shape, Vector3d[] spins, in Vector3d proximal, in Vector3d distal,
             Vector3d[] rates);
 
+        /// <summary>Joint 0 is without torque where it is turned by this more than at rest, radians: what is beyond its
+        /// frame has turned so far.</summary>
+        public abstract void TurnProximal(double turn);
+
         /// <summary>Couple of the proximal clamp on the rod, N m, along the world's axes; 0 without a clamp.</summary>
         public abstract Vector3d ProximalCouple(RodShape shape);
 

@@ -1,19 +1,37 @@
+using System;
+
 namespace Guidewire.Core
 {
     /// <summary>A stiff spring between node 0 and the place where its support has it, 1/2 k |x_0 - p|^2: between walls
     /// the support's motion is then part of the energy that a step minimises.</summary>
     /// <remarks>k = 10 EA/l of the first element: a push that would buckle the wire moves node 0 off its place by less
-    /// than a ten thousandth of the wire's radius.</remarks>
+    /// than a ten thousandth of the wire's radius. A hub that gives way at an axial force F has the same energy up to F
+    /// and a straight line beyond: 1/2 k d^2 - 1/2 (k |d_a| - F)^2/k, d_a along the axis.</remarks>
     internal sealed class SupportSpring : EnergyTerm
     {
         private const double OverAxialSpring = 10.0;
         private readonly double _stiffness;  // N/m
+        private readonly double _axial;      // N/m
+        private readonly double _limit;      // N
 
         /// <summary>The spring of a rod, without force.</summary>
-        public SupportSpring(MaterialRod rod)
+        /// <param name="limit">The axial force at which the hub gives way, N; 0: it never does.</param>
+        public SupportSpring(MaterialRod rod, double limit)
         {
             _stiffness = OverAxialSpring * rod.StretchStiffness[0] / rod.Length[0];
+            _axial = _stiffness;
+            _limit = limit > 0.0 ? limit : double.PositiveInfinity;
         }
+
+        private SupportSpring(SupportSpring hub, double compliance)
+        {
+            _stiffness = hub._stiffness;
+            _axial = 1.0 / (1.0 / hub._axial + compliance);
+            _limit = hub._limit;
+        }
+
+        /// <summary>The hub's axis, a unit vector, along which it gives way.</summary>
+        public Vector3d Axis { get; set; }
 
         /// <summary>p, m.</summary>
         public Vector3d Place { get; set; }
@@ -21,13 +39,47 @@ namespace Guidewire.Core
         /// <summary>Force of the support on node 0, N.</summary>
         public Vector3d Force(RodShape shape)
         {
-            return _stiffness * (Place - shape.X[0]);
+            Vector3d force = _stiffness * (Place - shape.X[0]);
+            double less = _axial == _stiffness ? 0.0
+                : (_stiffness - _axial) * Vector3d.Dot(Place - shape.X[0], Axis);
+            less += Excess(shape);
+            return less == 0.0 ? force : force - less * Axis;
+        }
+
+        /// <summary>The spring along the axis in series with another of this compliance, m/N.</summary>
+        public SupportSpring InSeries(double compliance)
+        {
+            return new SupportSpring(this, compliance);
+        }
+
+        /// <summary>How far node 0 is behind its place on a spring that is soft along the axis, m; 0 on one that is
+        /// not.</summary>
+        public Vector3d LagOf(RodShape shape)
+        {
+            return _axial == _stiffness ? Vector3d.Zero : Vector3d.Dot(Place - shape.X[0], Axis) * Axis;
+        }
+
+        /// <summary>Takes the place back, once a step is done, to where the axial force is no more than the
+        /// hub's.</summary>
+        /// <returns>By how much along the axis, m.</returns>
+        public double TakeSlip(RodShape shape)
+        {
+            double slip = Excess(shape) / _axial;
+            Place -= slip * Axis;
+            return slip;
         }
 
         /// <inheritdoc/>
         public override double Value(RodShape shape)
         {
-            return 0.5 * _stiffness * (shape.X[0] - Place).LengthSquared;
+            double value = _stiffness * (shape.X[0] - Place).LengthSquared;
+            if (_axial != _stiffness)
+            {
+                double along = Vector3d.Dot(shape.X[0] - Place, Axis);
+                value -= (_stiffness - _axial) * along * along;
+            }
+            double excess = Excess(shape);
+            return 0.5 * (value - excess * excess / _axial);
         }
 
         /// <inheritdoc/>
@@ -53,7 +105,24 @@ namespace Guidewire.Core
                 blocks[0].A11 += _stiffness;
                 blocks[0].A22 += _stiffness;
                 blocks[0].A33 += _stiffness;
+                double less = Excess(shape) != 0.0 ? _stiffness : _stiffness - _axial;
+                if (less != 0.0)
+                {
+                    blocks[0].A11 -= less * Axis.X * Axis.X;
+                    blocks[0].A21 -= less * Axis.Y * Axis.X;
+                    blocks[0].A22 -= less * Axis.Y * Axis.Y;
+                    blocks[0].A31 -= less * Axis.Z * Axis.X;
+                    blocks[0].A32 -= less * Axis.Z * Axis.Y;
+                    blocks[0].A33 -= less * Axis.Z * Axis.Z;
+                }
             }
+        }
+
+        // What the axial force would have beyond the limit, N, with its sign.
+        private double Excess(RodShape shape)
+        {
+            double force = _axial * Vector3d.Dot(Place - shape.X[0], Axis);
+            return Math.Abs(force) > _limit ? force - Math.Sign(force) * _limit : 0.0;
         }
 
         /// <inheritdoc/>

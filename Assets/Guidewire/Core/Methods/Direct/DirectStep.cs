@@ -18,6 +18,7 @@ namespace Guidewire.Core
         private readonly double _timeStep;
         private readonly SolverReport _report;
         private StressRecord? _stress;
+        private HubRecord? _hub;
         private long _startFactorisations;  // of the rest shape
         private readonly HeldEnds _ends;
         private readonly EnergyWatch _energy;
@@ -58,8 +59,23 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void Advance(RodState state)
         {
-            int last = state.ElementCount;
+            if (Step())
+            {
+                _scene.Write(state, _dynamics.Shape, _dynamics.Velocities, _dynamics.Spins);
+            }
+        }
+
+        /// <summary>One step.</summary>
+        /// <returns>False where it has no solution or has lost the wire.</returns>
+        public bool Step()
+        {
+            int last = _dynamics.Shape.ElementCount;
             _drive.Prepare(_dynamics.Shape, _dynamics.Time);
+            SupportSpring? spring = _dynamics.Terms.Walls?.Spring;
+            if (spring != null && _drive.Axis != Vector3d.Zero)
+            {
+                spring.Axis = _drive.Axis;
+            }
             Vector3d free = _dynamics.Shape.X[last] + _timeStep * _dynamics.Velocities[last]
                 + (_timeStep * _timeStep) * _scene.Schedule.Gravity;
             Vector3d place = _scene.Schedule.ProximalPositionAt(_dynamics.Time);
@@ -69,14 +85,14 @@ namespace Guidewire.Core
                 Failure = "the step to t = " + _dynamics.Time.ToString("G6",
                     CultureInfo.InvariantCulture) + " s has no solution: "
                     + (_scene.Joints.FindTurned(_dynamics.Shape, _dynamics.Time) ?? failure) + Shorter;
-                return;
+                return false;
             }
-            _ends.Count(_dynamics.Shape, _dynamics.ProximalTurn, _dynamics.DistalTurn, _timeStep);
+            _ends.Count(_dynamics.Shape, HubTurn, _dynamics.DistalTurn, _timeStep);
             Divergence = _energy.Blowup();
             if (Divergence != null)
             {
                 Divergence += "; lower timeStep, or take another integrator";
-                return;
+                return false;
             }
             string? lost = _scene.Joints.FindLost(_dynamics.Shape, _dynamics.Time);
             Failure = lost == null ? null : lost + Shorter;
@@ -87,9 +103,16 @@ namespace Guidewire.Core
                 Contacts.Reaction = _walls == null ? _dynamics.MeanReaction : _walls.MeanReaction;
                 _watch?.EndStep(_dynamics.Shape, Contacts);
                 CountDrive(place);
+                if (spring != null)
+                {
+                    _drive.GiveWay(spring, _dynamics.Shape);
+                }
             }
-            _scene.Write(state, _dynamics.Shape, _dynamics.Velocities, _dynamics.Spins);
+            return true;
         }
+
+        // A frame in a sheath is held where the wire is; a spring beyond it turns with the hub.
+        private double HubTurn => _dynamics.ProximalTurn + _scene.Schedule.HubAhead(_dynamics.Time);
 
         /// <inheritdoc/>
         public override StressRecord? Stress()
@@ -101,15 +124,34 @@ namespace Guidewire.Core
             return _stress;
         }
 
-        /// <summary>Between walls a drive can press a wire together as no wire of metal allows.</summary>
+        /// <inheritdoc/>
+        public override HubRecord? Hub()
+        {
+            RodTerms terms = _dynamics.Terms;
+            if (terms.Supports.Proximal == ProximalEnd.Free)
+            {
+                return null;
+            }
+            _hub ??= new HubRecord(_scene.Rod, _scene.Supports);
+            _hub.Take(terms, _dynamics.Shape, _drive, _dynamics.ReactionAt(0), _dynamics.ProximalCouple,
+                _scene.Schedule.HubAhead(_dynamics.Time));
+            return _hub;
+        }
+
+        /// <summary>Between walls a drive can press a wire together as no wire of metal allows, and a hub that gives
+        /// way does less than it is asked.</summary>
         public override string? AccuracyWarning
         {
             get
             {
                 double change = LengthOverRest - 1.0;
-                return _walls == null || Math.Abs(change) <= OddStretch ? null : string.Format(
+                string? odd = _walls == null || Math.Abs(change) <= OddStretch ? null : string.Format(
                     CultureInfo.InvariantCulture, "the wire is {0:0.0} % {1} than at rest", 100.0 * Math.Abs(change),
                     change < 0.0 ? "shorter" : "longer");
+                string? slip = _drive.Slip == 0.0 ? null : string.Format(CultureInfo.InvariantCulture,
+                    "the hub did not make {0:G3} m of its way: it gave way at hubForceLimit, or the wire in its sheath"
+                    + " came to an end", _drive.Slip);
+                return odd == null ? slip : slip == null ? odd : odd + ", and " + slip;
             }
         }
 
@@ -171,6 +213,15 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>Writes or takes over what was counted, whatever the number of elements.</summary>
+        public void ExchangeCounts(Snapshot snapshot)
+        {
+            snapshot.Exchange(ref _startFactorisations);
+            _walls?.Exchange(snapshot);
+            _ends.ExchangeWork(snapshot);
+            _dynamics.ExchangeCounts(snapshot);
+        }
+
         // Between walls more is kept than without.
         private string SectionKey
         {
@@ -186,6 +237,7 @@ namespace Guidewire.Core
             snapshot.Exchange(ref _startFactorisations);
             _report.Exchange(snapshot);
             _energy.Exchange(snapshot);
+            _drive.Exchange(snapshot);
             _walls?.Exchange(snapshot);
             ExchangeRecord(snapshot);
             _ends.ExchangeWork(snapshot);
@@ -210,12 +262,12 @@ namespace Guidewire.Core
             }
             Vector3d asked = _scene.Schedule.ProximalPositionAt(_dynamics.Time);
             Contacts!.DriveAsked += Vector3d.Distance(asked, before) / _scene.Metres;
-            Contacts.DriveShortfall = Vector3d.Distance(asked, _dynamics.Shape.X[0]) / _scene.Metres;
+            Contacts.DriveShortfall = (_drive.Slip + Vector3d.Distance(asked, _dynamics.Shape.X[0])) / _scene.Metres;
         }
 
         private void FollowEnds()
         {
-            _ends.Follow(_dynamics.Shape, _dynamics.ProximalTurn, _dynamics.DistalTurn);
+            _ends.Follow(_dynamics.Shape, HubTurn, _dynamics.DistalTurn);
         }
     }
 }

@@ -29,6 +29,32 @@ namespace Guidewire.Io
                 "turn of element 0 about its own axis, with a material of its clamp; with gains, where it is not 0 the"
                 + " element's frame is held",
                 p => p.Simulation.Drive.TwistPerStep, (p, v) => p.Simulation.Drive.TwistPerStep = v),
+            new NumberEntry("insertionSpeed", "m/s", NumberRange.Any,
+                "speed of sphere 0 with drive \"displace\" or \"push\", in place of displacementPerStep;"
+                + " negative values pull", p => p.Simulation.Drive.InsertionSpeed,
+                (p, v) => p.Simulation.Drive.InsertionSpeed = v)
+            {
+                Methods = Takers.Material,
+            },
+            new NumberEntry("rotationSpeed", "rad/s", NumberRange.Any,
+                "turning of the proximal clamp about its axis, in place of twistPerStep",
+                p => p.Simulation.Drive.RotationSpeed, (p, v) => p.Simulation.Drive.RotationSpeed = v)
+            {
+                Methods = Takers.Material,
+            },
+            new TextEntry("driveFile", "CSV file of time (s), insertion (m) and rotation (rad) of the proximal clamp,"
+                + " in place of the speeds: linear between the rows, at rest before and after; only differences count;"
+                + " a name counts from the parameter file's folder", p => p.DriveFile, (p, v) => p.DriveFile = v)
+            {
+                Methods = Takers.Material,
+            },
+            new NumberEntry("hubForceLimit", "N", NumberRange.NotNegative,
+                "between walls: axial force at which the hub gives way, so that it pushes and pulls no harder; what is"
+                + " lost of its way is driveShortfall; 0: it never gives way",
+                p => p.Simulation.Drive.HubForceLimit, (p, v) => p.Simulation.Drive.HubForceLimit = v)
+            {
+                Methods = Takers.Only(Solver.Direct),
+            },
             new VectorEntry("externalForce", "mass unit * unit/s^2", true,
                 "force on sphere 0 with drive \"force\"",
                 p => p.Simulation.Drive.ExternalForce, (p, v) => p.Simulation.Drive.ExternalForce = v)

@@ -24,6 +24,13 @@ namespace Guidewire.Io
             {
                 Methods = Takers.Material,
             },
+            new SwitchEntry("logHub",
+                "whether each entry of the log also has \"hub\": insertion (m), turn (rad), force (N) and torque (N m)"
+                + " of the hub, direction of the tip, twist from hub to tip (rad), largest curvature (1/m)",
+                p => p.LogHub, (p, v) => p.LogHub = v)
+            {
+                Methods = Takers.Only(Solver.Direct),
+            },
             new SwitchEntry("logContacts",
                 "whether each entry of the log also has \"contact\": the walls' force on each sphere"
                 + " they touch, their total, and the first sphere's reaction (mass unit * unit/s^2; with a material N,"

@@ -131,6 +131,16 @@ namespace Guidewire.Io
                 Methods = Takers.Walls,
                 IsRefusedElsewhere = true,
             },
+            new JsonEntry("sheath", JTokenType.Object, "null or {\"exit\", \"direction\"}, each [x, y, z]",
+                "a straight guide without friction around the wire's proximal part, on the axis on which it starts:"
+                + " only what is beyond its exit (units) is simulated, the rest is a spring along and about the axis;"
+                + " without an exit it ends one element inside the vessel's inlet, without a direction it leads along"
+                + " the wire; needs a vessel, proximalEnd \"clamped\" and drive \"displace\"",
+                p => p.Sheath, (p, v) => p.Sheath = v)
+            {
+                Methods = Takers.Only(Solver.Direct),
+                IsRefusedElsewhere = true,
+            },
             new JsonEntry("obstacles", JTokenType.Array, "null or a list of {\"shape\": \"sphere\", \"centre\","
                 + " \"radius\"}, {\"shape\": \"capsule\", \"from\", \"to\", \"radius\"}, {\"shape\": \"box\","
                 + " \"centre\", \"halfSize\", \"rotation\"}, {\"shape\": \"hull\", \"points\", \"radius\"}",

@@ -180,6 +180,39 @@ namespace Guidewire.Core.Tests
                 Throws.TypeOf<ParameterException>().With.Message.Contains("tipMoment"));
         }
 
+        [TestCase("time,insertion,rotation\n0,0,0\n1,0.02\n", "line 3")]
+        [TestCase("0,0,0\n1,,3\n", "line 2")]
+        [TestCase("0,0,0\n1,NaN,3\n", "line 2")]
+        [TestCase("time,insertion\n0,0\n", "line 1")]
+        [TestCase("0,0,0\n1,0.1,0\n0.5,0.2,0\n", "increase")]
+        [TestCase("time,insertion,rotation\n", "at least one row")]
+        [TestCase(null, "no such file")]
+        public void DriveFile_IsRefusedInOneLine_WhereItIsBroken(string? content, string word)
+        {
+            const string Scene = "{\"solver\": \"direct\", \"drive\": \"displace\", \"proximalEnd\": \"clamped\","
+                + " \"driveFile\": \"hub.csv\"}";
+            if (content != null)
+            {
+                File.WriteAllText(Path.Combine(_folder, "hub.csv"), content);
+            }
+            Assert.That(() => Load(Scene), Throws.TypeOf<ParameterException>().With.Message.Contains("driveFile")
+                .And.Message.Contains("hub.csv").And.Message.Contains(word).And.Message.Not.Contains("\n"));
+        }
+
+        [Test]
+        public void DriveFile_IsReadBesideTheParameterFile_AndWhatItHoldsMakesAnotherRun()
+        {
+            const string Scene = "{\"solver\": \"direct\", \"drive\": \"displace\", \"proximalEnd\": \"clamped\","
+                + " \"driveFile\": \"hub.csv\"}";
+            string file = Path.Combine(_folder, "hub.csv");
+            File.WriteAllText(file, "time,insertion,rotation\n# a turn\n0,0,0\n2,0.04,6\n");
+            ParameterHandler handler = Load(Scene);
+            Assert.That(handler.Values.Simulation.Drive.Table!.Insertion.At(0.5), Is.EqualTo(0.01));
+            Assert.That(handler.Values.Simulation.Drive.Table.Rotation.At(3.0), Is.EqualTo(6.0));
+            File.WriteAllText(file, "0,0,0\n2,0.04,7\n");
+            Assert.That(Load(Scene).Hash, Is.Not.EqualTo(handler.Hash));
+        }
+
         [Test]
         public void SectionShorterThanHalfAnElement_IsWarnedOf()
         {

@@ -101,7 +101,7 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        public void SessionOfAMaterial_IsDriven_AndStatesReactions()
+        public void SessionOfAMaterial_IsDriven_UnlessAHandIsAskedFor_AndStatesReactions()
         {
             var material = new[] { new KeyValuePair<string, JToken>("solver", "direct"),
                 new KeyValuePair<string, JToken>("proximalEnd", "clamped"),
@@ -110,8 +110,17 @@ namespace Guidewire.Core.Tests
             session.Step(0.0, 0.0);
             Assert.That(session.IsSteered, Is.False);
             Assert.That(session.Simulation.Contacts!.Reaction.Y, Is.GreaterThan(0.0));
+            SimulationSession steered = SimulationSession.Open(null, material, true);
+            steered.Step(0.25, 0.5);
+            Assert.That(steered.IsSteered, Is.True);
+            Assert.That(steered.Simulation.Hub()!.Turn, Is.EqualTo(0.5).Within(1e-12));
+            Assert.That(steered.Simulation.Hub()!.Insertion, Is.EqualTo(0.25e-3).Within(1e-12), "a unit is 1 mm");
+            material[1] = new KeyValuePair<string, JToken>("proximalEnd", "held");
             Assert.That(() => SimulationSession.Open(null, material, true), Throws.TypeOf<ParameterException>()
-                .With.Message.Contains("direct is not steered by hand"));
+                .With.Message.Contains("proximalEnd needs"));
+            material[0] = new KeyValuePair<string, JToken>("solver", "explicit");
+            Assert.That(() => SimulationSession.Open(null, material, true), Throws.TypeOf<ParameterException>()
+                .With.Message.Contains("explicit is not steered by hand"));
         }
 
         [Test]

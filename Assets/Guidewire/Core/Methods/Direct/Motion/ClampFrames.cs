@@ -34,7 +34,7 @@ namespace Guidewire.Core
         /// <summary>Whether the frames are where they should be at this time, to within an angle.</summary>
         public bool AreInPlace(double time, double angle)
         {
-            return Math.Abs(_schedule.ProximalTurnAt(time) - _proximal) <= angle
+            return Math.Abs(_schedule.FrameTurnAt(time) - _proximal) <= angle
                 && Math.Abs(_schedule.DistalTurnAt(time) - _distal) <= angle;
         }
 
@@ -44,7 +44,7 @@ namespace Guidewire.Core
         public string? Turn(RodShape shape, double time, out bool inParts)
         {
             inParts = false;
-            double proximal = _schedule.ProximalTurnAt(time) - _proximal;
+            double proximal = _schedule.FrameTurnAt(time) - _proximal;
             double distal = _schedule.DistalTurnAt(time) - _distal;
             if (proximal == 0.0 && distal == 0.0)
             {

@@ -93,6 +93,13 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>Goes on from this time, s, at which the proximal frame has made a turn, radians.</summary>
+        public void GoOn(double time, double proximalTurn)
+        {
+            Time = time;
+            _frames.Made = (proximalTurn, _frames.Made.Distal);
+        }
+
         /// <summary>The rod's energies and loads.</summary>
         public RodTerms Terms => _terms;
 
@@ -238,14 +245,20 @@ namespace Guidewire.Core
         public void ExchangeHistory(Snapshot snapshot, double dt)
         {
             _terms.Exchange(snapshot);
-            Solver.ExchangeCounts(snapshot);
-            WallSolver?.Exchange(snapshot);
-            Control.ExchangeCounts(snapshot);
+            ExchangeCounts(snapshot);
             string scheme = _scheme == null ? "BDF2" : _scheme.StageCount + " stages " + Text(_scheme.Diagonal);
             if (snapshot.Section(scheme + " " + Text(dt), ExchangeStages))
             {
                 _lastStep = dt;
             }
+        }
+
+        /// <summary>Writes or takes over what was counted.</summary>
+        public void ExchangeCounts(Snapshot snapshot)
+        {
+            Solver.ExchangeCounts(snapshot);
+            WallSolver?.Exchange(snapshot);
+            Control.ExchangeCounts(snapshot);
         }
 
         private void ExchangeStages(Snapshot snapshot)
@@ -452,7 +465,7 @@ namespace Guidewire.Core
 
         private void BeginDamping(RodDamping damping, double time)
         {
-            damping.Begin(Shape, Velocities, Spins, new Vector3d(0.0, 0.0, _schedule.ProximalTwistRate),
+            damping.Begin(Shape, Velocities, Spins, new Vector3d(0.0, 0.0, _schedule.FrameTwistRate),
                 new Vector3d(0.0, 0.0, _schedule.DistalTwistRateAt(time)));
         }
 

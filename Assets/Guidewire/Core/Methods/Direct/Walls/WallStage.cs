@@ -38,11 +38,13 @@ namespace Guidewire.Core
         public string? Solve(RodShape shape, Quaterniond[] orientations, in Vector3d start, in Vector3d end,
             double stageLength, double loads)
         {
-            _terms.Walls!.Spring.Place = start;
+            SupportSpring spring = _terms.Walls!.Spring;
+            Vector3d lag = spring.LagOf(shape);
+            spring.Place = start;
             _terms.Walls.Friction?.Lag(shape);
             PlaceEnd(shape, end);
             _predicted.CopyFrom(shape);
-            RodStep.PlaceElements(_supports, _predicted, orientations, start, end);
+            RodStep.PlaceElements(_supports, _predicted, orientations, start - lag, end);
             SetDirection(shape);
             double share = Newton.ShareOf(shape, _direction);
             if (!(share > 0.0))

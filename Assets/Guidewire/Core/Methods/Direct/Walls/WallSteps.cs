@@ -59,9 +59,9 @@ namespace Guidewire.Core
 
         private int Parts(double dt)
         {
-            double move = Vector3d.Distance(
-                _schedule.ProximalPositionAt(_dynamics.Time + dt), _dynamics.Shape.X[0]);
-            double turn = Math.Abs(_schedule.ProximalTurnAt(_dynamics.Time + dt) - _dynamics.ProximalTurn)
+            double move = Vector3d.Distance(_schedule.ProximalPositionAt(_dynamics.Time + dt)
+                - _dynamics.Terms.Walls!.Spring.LagOf(_dynamics.Shape), _dynamics.Shape.X[0]);
+            double turn = Math.Abs(_schedule.FrameTurnAt(_dynamics.Time + dt) - _dynamics.ProximalTurn)
                 + Math.Abs(_schedule.DistalTurnAt(_dynamics.Time + dt) - _dynamics.DistalTurn);
             // Rounding must not make a part more.
             double parts = Math.Ceiling(Math.Max(move / _longestMove, turn / LargestTurn) * (1.0 - 1e-9));

@@ -15,7 +15,7 @@ namespace Guidewire.Core.Tests
         private const double HessianTolerance = 1e-8;
 
         public static readonly string[] TermNames = { "stretch", "rotationVector", "darboux", "inertia", "plane",
-            "damping" };
+            "damping", "sheath" };
 
         [Test]
         public void Gradient_IsTheDifferenceOfTheEnergy([ValueSource(nameof(TermNames))] string name,
@@ -128,20 +128,7 @@ namespace Guidewire.Core.Tests
         private static EnergyTerm Create(string name, double angle, out RodShape shape)
         {
             // Stiffnesses of one size, so that an error in any block shows.
-            var rod = new MaterialRod(N);
-            for (int j = 0; j < N; j++)
-            {
-                rod.Length[j] = 0.5 + 0.1 * j;
-                rod.StretchStiffness[j] = 3.0 + j;
-                rod.ShearStiffness[j] = 1.3;
-                rod.BendStiffness1[j] = 0.5;
-                rod.BendStiffness2[j] = j % 2 == 0 ? 0.5 : 0.9;
-                rod.TwistStiffness[j] = 0.3;
-                rod.LineDensity[j] = 1.1;
-                rod.RotaryInertia1[j] = 0.4;
-                rod.RotaryInertia2[j] = 0.4;
-                rod.RestCurvature[j] = new Vector3d(0.2, -0.4, 0.3);
-            }
+            MaterialRod rod = Uneven(N);
             var supports = new RodSupports { Distal = DistalEnd.Clamped, Clamp = ClampRule.HalfElement };
             shape = Rods.Random(rod, angle, 0.3, 5);
             switch (name)
@@ -154,6 +141,8 @@ namespace Guidewire.Core.Tests
                     return new BendTwistEnergy<DarbouxLaw>(rod.Joints(supports), true, true);
                 case "plane":
                     return Plane(rod, shape);
+                case "sheath":
+                    return Sheath(shape);
                 case "damping":
                     rod.MassDamping = 0.3;
                     rod.MaterialDamping = 0.7;
@@ -170,6 +159,39 @@ namespace Guidewire.Core.Tests
                     inertia.Anchor(shape);
                     return inertia;
             }
+        }
+
+        private static MaterialRod Uneven(int count)
+        {
+            var rod = new MaterialRod(count);
+            for (int j = 0; j < count; j++)
+            {
+                rod.Length[j] = 0.5 + 0.1 * j;
+                rod.StretchStiffness[j] = 3.0 + j;
+                rod.ShearStiffness[j] = 1.3;
+                rod.BendStiffness1[j] = 0.5;
+                rod.BendStiffness2[j] = j % 2 == 0 ? 0.5 : 0.9;
+                rod.TwistStiffness[j] = 0.3;
+                rod.LineDensity[j] = 1.1;
+                rod.RotaryInertia1[j] = 0.4;
+                rod.RotaryInertia2[j] = 0.4;
+                rod.RestCurvature[j] = new Vector3d(0.2, -0.4, 0.3);
+            }
+            return rod;
+        }
+
+        /// <summary>Of the last N elements, the exit between the first two nodes.</summary>
+        private static SheathEnergy Sheath(RodShape shape)
+        {
+            const int first = 2;
+            MaterialRod whole = Uneven(first + N);
+            var even = new RodSupports { Clamp = ClampRule.HalfElement };
+            var window = new SheathWindow(whole, whole.Joints(even), whole.JointLengths(even), first)
+            {
+                Exit = Vector3d.Lerp(shape.X[0], shape.X[1], 0.4) + new Vector3d(0.05, 0.1, 0.0),
+                Axis = Vector3d.Normalize(shape.X[1] - shape.X[0]),
+            };
+            return new SheathEnergy(whole.From(first), window);
         }
 
         /// <summary>The guide of a plane without its springs on turns, which have no value: no bending stiffness, no

@@ -175,8 +175,8 @@ namespace Guidewire.Core.Tests
             SimulationParameters plain = tables.Copy();
             plain.Scene.TipFollowerForce = 0.25 * tables.Scene.TipFollowerForce;
             plain.Scene.TipMoment = -0.5 * tables.Scene.TipMoment;
-            tables.Scene.TipFollowerForceTable = new LoadTable(new[] { 0.0 }, new[] { 0.25 });
-            tables.Scene.TipMomentTable = new LoadTable(new[] { 0.0 }, new[] { -0.5 });
+            tables.Scene.TipFollowerForceTable = new TimeTable(new[] { 0.0 }, new[] { 0.25 });
+            tables.Scene.TipMomentTable = new TimeTable(new[] { 0.0 }, new[] { -0.5 });
             Assert.That(Wires.Run(tables).State.Positions[8], Is.EqualTo(Wires.Run(plain).State.Positions[8]));
         }
 
@@ -188,7 +188,7 @@ namespace Guidewire.Core.Tests
             const double Couple = 1e-3;  // N m
             SimulationParameters parameters = Rods.Clamped(10, Solver.Direct, 1e-3, 150);
             parameters.Scene.TipMoment = new Vector3d(0.0, 0.0, Couple);
-            parameters.Scene.TipMomentTable = new LoadTable(new[] { 0.0, 0.2 }, new[] { 0.0, 1.0 });
+            parameters.Scene.TipMomentTable = new TimeTable(new[] { 0.0, 0.2 }, new[] { 0.0, 1.0 });
             parameters.Material.MaterialDamping = 1e-3;
             Simulation run = Wires.Run(parameters);
             // Element 9 stands at 9.5 l.

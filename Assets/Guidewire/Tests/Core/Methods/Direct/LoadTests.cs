@@ -43,16 +43,16 @@ namespace Guidewire.Core.Tests
             plain.Scene.TipForce = 0.5 * half.Scene.TipForce;
             plain.Scene.DistributedForce = 0.25 * half.Scene.DistributedForce;
             plain.Scene.Gravity = -2.0 * half.Scene.Gravity;
-            half.Scene.TipForceTable = new LoadTable(new[] { 0.0 }, new[] { 0.5 });
-            half.Scene.DistributedForceTable = new LoadTable(new[] { 0.0 }, new[] { 0.25 });
-            half.Scene.GravityTable = new LoadTable(new[] { 0.0 }, new[] { -2.0 });
+            half.Scene.TipForceTable = new TimeTable(new[] { 0.0 }, new[] { 0.5 });
+            half.Scene.DistributedForceTable = new TimeTable(new[] { 0.0 }, new[] { 0.25 });
+            half.Scene.GravityTable = new TimeTable(new[] { 0.0 }, new[] { -2.0 });
             Assert.That(Tip(half), Is.EqualTo(Tip(plain)));
         }
 
         [Test]
         public void Table_IsLinearBetweenItsRows_AndEvenBeyondThem()
         {
-            var table = new LoadTable(new[] { 1.0, 2.0, 4.0 }, new[] { 3.0, 5.0, -1.0 });
+            var table = new TimeTable(new[] { 1.0, 2.0, 4.0 }, new[] { 3.0, 5.0, -1.0 });
             Assert.That(table.At(0.0), Is.EqualTo(3.0));
             Assert.That(table.At(1.5), Is.EqualTo(4.0));
             Assert.That(table.At(2.0), Is.EqualTo(5.0));
@@ -68,7 +68,7 @@ namespace Guidewire.Core.Tests
             SimulationParameters parameters = Moving(Solver.Direct);
             parameters.Scene.ProximalEnd = ProximalEnd.Free;
             parameters.Scene.Gravity = new Vector3d(0.0, -10.0, 0.0);
-            parameters.Scene.GravityTable = new LoadTable(new[] { 0.0, 0.02 }, new[] { 0.0, 1.0 });
+            parameters.Scene.GravityTable = new TimeTable(new[] { 0.0, 0.02 }, new[] { 0.0, 1.0 });
             Assert.That(Wires.Run(parameters).State.Velocities[3].Y, Is.EqualTo(-100.0).Within(1e-6));
         }
 

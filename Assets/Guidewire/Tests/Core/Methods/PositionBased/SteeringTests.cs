@@ -87,9 +87,9 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        public void WireWithAMaterial_IsNotSteered()
+        public void WireOfAMethodWithoutWalls_IsNotSteered()
         {
-            SimulationParameters parameters = SimulationParameters.DefaultsOf(Solver.Direct);
+            SimulationParameters parameters = SimulationParameters.DefaultsOf(Solver.Xpbd);
             parameters.Drive.Steering = _hand;
             Assert.That(() => Simulation.Create(parameters), Throws.ArgumentException.With.Message.Contains("pbd"));
         }

@@ -1,19 +1,20 @@
 using System;
+using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
-    /// <summary>A factor on a load over time: linear between the rows, the first and the last value before and after
-    /// them.</summary>
-    public sealed class LoadTable
+    /// <summary>A value over time, such as a factor on a load: linear between the rows, the first and the last value
+    /// before and after them.</summary>
+    public sealed class TimeTable
     {
         private readonly double[] _times;
         private readonly double[] _values;
 
         /// <summary>A table of k rows.</summary>
         /// <param name="times">s, strictly increasing, at least one.</param>
-        /// <param name="values">The factor at each time, dimensionless.</param>
+        /// <param name="values">The value at each time.</param>
         /// <exception cref="ArgumentException">No rows, not as many of both, or times that do not increase.</exception>
-        public LoadTable(double[] times, double[] values)
+        public TimeTable(double[] times, double[] values)
         {
             if (times.Length == 0 || values.Length != times.Length)
             {
@@ -30,10 +31,23 @@ namespace Guidewire.Core
             _values = (double[])values.Clone();
         }
 
-        /// <summary>From when on the factor no longer changes, s.</summary>
+        /// <summary>From when on the value no longer changes, s.</summary>
         public double End => _times[_times.Length - 1];
 
-        /// <summary>The factor at this time, s.</summary>
+        /// <summary>The values of the rows from time 0 up to a time, s, and that at the time.</summary>
+        internal IEnumerable<double> ValuesUntil(double time)
+        {
+            for (int i = 0; i < _times.Length; i++)
+            {
+                if (_times[i] >= 0.0 && _times[i] < time)
+                {
+                    yield return _values[i];
+                }
+            }
+            yield return At(time);
+        }
+
+        /// <summary>The value at this time, s.</summary>
         public double At(double time)
         {
             int next = Array.BinarySearch(_times, time);

@@ -1,0 +1,95 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>What is read off at the hub and at the tip of a wire with a material, at one moment, in SI
+    /// units.</summary>
+    /// <remarks>The hub is the proximal support; its axis is that of the clamp. Force and torque are those of the hub
+    /// on the wire: a push and a turn to the right, as seen from the hub, are positive.</remarks>
+    public sealed class HubRecord
+    {
+        private readonly double[] _jointLength;  // m
+        private readonly double[] _station;      // of nodes from the first, m
+        private readonly Vector3d[] _turns;      // of the joints, rad
+
+        internal HubRecord(MaterialRod rod, RodSupports supports)
+        {
+            _jointLength = rod.JointLengths(supports);
+            _turns = new Vector3d[rod.ElementCount + 1];
+            _station = new double[rod.ElementCount + 1];
+            for (int j = 0; j < rod.ElementCount; j++)
+            {
+                _station[j + 1] = _station[j] + rod.Length[j];
+            }
+        }
+
+        /// <summary>How far the hub has gone along its axis since the start, m.</summary>
+        public double Insertion { get; private set; }
+
+        /// <summary>How far it has turned since the start, rad; more than one turn counts.</summary>
+        public double Turn { get; private set; }
+
+        /// <summary>Its force on the wire along its axis, N.</summary>
+        public double Force { get; private set; }
+
+        /// <summary>Its torque on the wire about its axis, N m.</summary>
+        public double Torque { get; private set; }
+
+        /// <summary>Direction of the last element, a unit vector.</summary>
+        public Vector3d TipDirection { get; private set; }
+
+        /// <summary>Twist of the wire from the hub to the tip, rad: the sum over all joints.</summary>
+        public double Twist { get; private set; }
+
+        /// <summary>Largest curvature of any joint, 1/m.</summary>
+        public double LargestCurvature { get; private set; }
+
+        /// <summary>Length of the wire that is out of its sheath, m; null without a sheath.</summary>
+        public double? LengthInBody { get; private set; }
+
+        /// <summary>Spheres that are out of the sheath; null without a sheath.</summary>
+        public int? SpheresInBody { get; private set; }
+
+        /// <summary>Takes the wire as it is.</summary>
+        /// <param name="ahead">How far the hub is ahead of the frame of joint 0, radians.</param>
+        internal void Take(RodTerms terms, RodShape shape, MaterialDrive drive, in Vector3d force, in Vector3d couple,
+            double ahead)
+        {
+            Vector3d axis = terms.Supports.HasProximalJoint ? shape.ProximalFrame.Director3 : shape.Q[0].Director3;
+            Insertion = drive.Insertion;
+            Turn = drive.Turn;
+            Force = Vector3d.Dot(force, axis);
+            Torque = Vector3d.Dot(couple, axis);
+            TipDirection = shape.Q[shape.ElementCount - 1].Director3;
+            terms.Bending.Measure(shape, _turns);
+            Twist = -ahead;
+            LargestCurvature = 0.0;
+            for (int k = 0; k < _turns.Length; k++)
+            {
+                Vector3d turn = _turns[k];
+                Twist += turn.Z;
+                double bend = Math.Sqrt(turn.X * turn.X + turn.Y * turn.Y);
+                double share = terms.Sheath == null ? 1.0 : terms.Sheath.Share(shape, k);
+                LargestCurvature = Math.Max(LargestCurvature, bend / (share * _jointLength[k]));
+            }
+            if (terms.Supports.Sheath is SheathWindow window)
+            {
+                TakeBody(window, shape);
+            }
+        }
+
+        // Up to the first node outside the wire is straight.
+        private void TakeBody(SheathWindow window, RodShape shape)
+        {
+            int n = shape.ElementCount;
+            int inside = 0;
+            while (inside <= n && window.Outside(shape.X[inside]) <= 0.0)
+            {
+                inside++;
+            }
+            SpheresInBody = n + 1 - inside;
+            LengthInBody = inside > n ? 0.0
+                : _station[n] - _station[inside] + window.Outside(shape.X[inside]);
+        }
+    }
+}

@@ -1,0 +1,75 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>What the sheathed part is to the elements of a wire that are simulated, from one on: the springs that
+    /// it has along and about its axis, and where it ends.</summary>
+    internal sealed class SheathWindow
+    {
+        private readonly (double Stretch, double Twist)[] _sheathed;  // EA and GJ of the elements in the sheath
+
+        /// <summary>The window from an element on.</summary>
+        /// <param name="whole">The whole wire.</param>
+        /// <param name="joints">Its n + 1 joints.</param>
+        /// <param name="lengths">The length that each of them stands for, m.</param>
+        /// <param name="first">The first element that is simulated.</param>
+        public SheathWindow(MaterialRod whole, Joint[] joints, double[] lengths, int first)
+        {
+            First = first;
+            int count = joints.Length - first;
+            Joints = new Joint[count];
+            JointLengths = new double[count];
+            Array.Copy(joints, first, Joints, 0, count);
+            Array.Copy(lengths, first, JointLengths, 0, count);
+            _sheathed = new (double Stretch, double Twist)[first];
+            for (int j = 0; j < first; j++)
+            {
+                _sheathed[j] = (whole.StretchStiffness[j], whole.TwistStiffness[j]);
+                AxialCompliance += whole.Length[j] / whole.StretchStiffness[j];
+            }
+            double compliance = 0.0;
+            double rest = 0.0;
+            for (int k = 0; k <= first; k++)
+            {
+                compliance += 1.0 / joints[k].Twist;
+                rest += joints[k].Rest.Z;
+            }
+            Joints[0].Twist = 1.0 / compliance;
+            Joints[0].Rest = new Vector3d(Joints[0].Rest.X, Joints[0].Rest.Y, rest);
+            LengthBefore = whole.Length[Math.Max(first - 1, 0)];
+        }
+
+        /// <summary>The first element that is simulated.</summary>
+        public int First { get; }
+
+        /// <summary>Where the sheath ends, m.</summary>
+        public Vector3d Exit { get; set; }
+
+        /// <summary>Where it leads, a unit vector.</summary>
+        public Vector3d Axis { get; set; }
+
+        /// <summary>The joints of the window; joint 0 twists as all of the sheathed part with it.</summary>
+        public Joint[] Joints { get; }
+
+        /// <summary>The length that each stands for, m.</summary>
+        public double[] JointLengths { get; }
+
+        /// <summary>Sum of l/EA in the sheath, m/N.</summary>
+        public double AxialCompliance { get; }
+
+        /// <summary>Length of the element before the window's first, m.</summary>
+        public double LengthBefore { get; }
+
+        /// <summary>EA, N, and GJ, N m^2, of sheathed element j.</summary>
+        public (double Stretch, double Twist) Stiffness(int j)
+        {
+            return _sheathed[j];
+        }
+
+        /// <summary>How far a node of the window is out of the sheath, m; negative inside.</summary>
+        public double Outside(in Vector3d node)
+        {
+            return Vector3d.Dot(node - Exit, Axis);
+        }
+    }
+}

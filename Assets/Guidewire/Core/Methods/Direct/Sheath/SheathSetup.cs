@@ -1,0 +1,113 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>Builds what is simulated of a wire in a sheath, from an element on, and finds where the sheath
+    /// ends.</summary>
+    internal sealed class SheathSetup
+    {
+        private readonly SimulationParameters _parameters;
+        private readonly MaterialScene _whole;
+        private readonly double[] _jointLengths;  // m
+        private readonly Barrier _barrier;
+        private readonly SupportSpring _support;
+
+        /// <summary>For the wire of this scene.</summary>
+        /// <exception cref="ArgumentException">A sheath from which the wire cannot be fed into the vessel.</exception>
+        public SheathSetup(SimulationParameters parameters, MaterialScene whole)
+        {
+            _parameters = parameters;
+            _whole = whole;
+            Axis = whole.Schedule.ProximalFrame.Director3;
+            Stations = new double[whole.Rod.ElementCount + 1];
+            for (int j = 0; j < whole.Rod.ElementCount; j++)
+            {
+                Stations[j + 1] = Stations[j] + whole.Rod.Length[j];
+            }
+            Exit = whole.Metres * SheathExit.Find(parameters.Scene.Sheath!, whole);
+            var even = new RodSupports { Clamp = ClampRule.HalfElement };
+            Joints = whole.Rod.Joints(even);
+            _jointLengths = whole.Rod.JointLengths(even);
+            _barrier = BarrierRule.Of(whole.Rod, parameters.Contact, whole.Walls, whole.Metres, 0.0);
+            _support = new SupportSpring(whole.Rod, parameters.Drive.HubForceLimit);
+        }
+
+        /// <summary>Where the sheath leads, a unit vector.</summary>
+        public Vector3d Axis { get; }
+
+        /// <summary>Where it ends, m.</summary>
+        public Vector3d Exit { get; }
+
+        /// <summary>Distance at rest of each of the n + 1 nodes from node 0, m.</summary>
+        public double[] Stations { get; }
+
+        /// <summary>The n + 1 joints of the whole wire.</summary>
+        public Joint[] Joints { get; }
+
+        /// <summary>The last node that has not come out yet, or the first of the least number of elements.</summary>
+        public int FirstOutside(RodShape shape, int leastElements)
+        {
+            int first = shape.ElementCount - leastElements;
+            while (first > 0 && Vector3d.Dot(shape.X[first] - Exit, Axis) > 0.0)
+            {
+                first--;
+            }
+            return first;
+        }
+
+        /// <summary>Lets the hub go along the sheath, on to its exit, and back until the tip is there.</summary>
+        public void LimitDrive(RodShape shape)
+        {
+            int n = shape.ElementCount;
+            _whole.Drive.GoAlong(Axis);
+            _whole.Drive.MostInsertion = _whole.Drive.Insertion + Vector3d.Dot(Exit - shape.X[0], Axis);
+            _whole.Drive.LeastInsertion = Math.Min(_whole.Drive.Insertion,
+                _whole.Drive.Insertion - Vector3d.Dot(shape.X[n] - Exit, Axis));
+        }
+
+        /// <summary>What the sheathed part is to the elements from one on.</summary>
+        public SheathWindow Window(int first)
+        {
+            return new SheathWindow(_whole.Rod, Joints, _jointLengths, first) { Exit = Exit, Axis = Axis };
+        }
+
+        /// <summary>A frame about the sheath's axis, turned by an angle, radians.</summary>
+        public Quaterniond Frame(double turn)
+        {
+            return _whole.Schedule.ProximalFrame * Quaterniond.FromAxisAngle(Vector3d.UnitZ, turn);
+        }
+
+        /// <summary>The elements of a window as a scene of their own.</summary>
+        public MaterialScene Scene(SheathWindow window, RodShape shape, Vector3d[] velocities, Vector3d[] spins,
+            double frameTurn)
+        {
+            int first = window.First;
+            var part = new RodShape(shape.ElementCount - first);
+            Array.Copy(shape.X, first, part.X, 0, part.X.Length);
+            Array.Copy(shape.Q, first, part.Q, 0, part.Q.Length);
+            part.ProximalFrame = Frame(frameTurn);
+            part.DistalFrame = shape.DistalFrame;
+            return new MaterialScene(_whole, _whole.Rod.From(first), window, part)
+            {
+                Velocities = Tail(velocities, first),
+                Spins = Tail(spins, first),
+            };
+        }
+
+        /// <summary>The motion of a window's elements.</summary>
+        public RodDynamics Dynamics(MaterialScene scene, SheathWindow window)
+        {
+            WallTerms walls = MaterialSetup.WallTermsOf(_parameters, scene, _barrier,
+                _support.InSeries(window.AxialCompliance));
+            var terms = new RodTerms(scene.Rod, scene.Supports, _parameters.Scene, walls, Array.Empty<EnergyTerm>());
+            return MaterialSetup.DynamicsOf(_parameters, scene, terms);
+        }
+
+        private static Vector3d[] Tail(Vector3d[] all, int first)
+        {
+            var tail = new Vector3d[all.Length - first];
+            Array.Copy(all, first, tail, 0, tail.Length);
+            return tail;
+        }
+    }
+}

@@ -1,0 +1,253 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>Steps of a wire in a sheath: only what is outside is simulated, by a <see cref="DirectStep"/> of its
+    /// own, and elements come and go with the hub. The sheathed part is straight on the sheath's axis and massless: a
+    /// spring along it and one about it, in series with the hub.</summary>
+    /// <remarks>An element comes in before its distal node has passed the exit, with the strain and the twist that the
+    /// springs have, so that no force changes; it goes again where that node is a part of its length inside. What is
+    /// simulated is built anew whenever that happens.</remarks>
+    internal sealed class SheathStep : TimeStepper
+    {
+        private const double Early = 0.1;       // of an element's length, by which it comes in early
+        private const double Late = 0.3;        // and goes late
+        private const double LargestTurn = 1.0; // radians of the first element against its frame
+        private const int LeastElements = 2;
+
+        private readonly SimulationParameters _parameters;
+        private readonly MaterialScene _whole;
+        private readonly SolverReport _report;
+        private readonly SheathSetup _setup;
+        private readonly StressRecord _stress;
+        private readonly RodShape _shape;         // of the whole wire
+        private readonly Vector3d[] _velocities;
+        private readonly Vector3d[] _spins;
+        private SheathWindow _window;
+        private RodDynamics _dynamics = null!;    // this and the next are set wherever the window is
+        private DirectStep _inner = null!;
+        private double _frameTurn;                // of the frame of the first element's joint, radians
+
+        /// <summary>A step for this scene.</summary>
+        public SheathStep(SimulationParameters parameters, MaterialScene whole, SolverReport report)
+        {
+            _parameters = parameters;
+            _whole = whole;
+            _report = report;
+            int n = whole.Rod.ElementCount;
+            _shape = new RodShape(n);
+            _shape.CopyFrom(whole.Shape);
+            _velocities = (Vector3d[])whole.Velocities.Clone();
+            _spins = (Vector3d[])whole.Spins.Clone();
+            _stress = new StressRecord(whole.Rod, whole.Supports);
+            _setup = new SheathSetup(parameters, whole);
+            Contacts = new ContactRecord(n + 1);
+            int first = _setup.FirstOutside(_shape, LeastElements);
+            whole.Schedule.ProximalPosition += _setup.Stations[first] * _setup.Axis;
+            _setup.LimitDrive(_shape);
+            _window = _setup.Window(first);
+            Build(0.0, null);
+        }
+
+        /// <inheritdoc/>
+        public override ContactRecord? Contacts { get; }
+
+        /// <inheritdoc/>
+        public override string? AccuracyWarning => _inner.AccuracyWarning;
+
+        /// <inheritdoc/>
+        public override void Advance(RodState state)
+        {
+            MoveWindow();
+            bool isDone = _inner.Step();
+            Failure = _inner.Failure;
+            Divergence = _inner.Divergence;
+            SteadyState = _inner.SteadyState;
+            PredictionError = _inner.PredictionError;
+            if (isDone)
+            {
+                TakeWindow();
+                _whole.Write(state, _shape, _velocities, _spins);
+            }
+        }
+
+        /// <inheritdoc/>
+        public override StressRecord? Stress()
+        {
+            double push = AxialForce();
+            _stress.Take(_inner.Stress()!, _window, push, Torque());
+            return _stress;
+        }
+
+        /// <inheritdoc/>
+        public override HubRecord? Hub()
+        {
+            return _inner.Hub();
+        }
+
+        /// <inheritdoc/>
+        public override SolverReport? Report()
+        {
+            return _inner.Report();
+        }
+
+        /// <inheritdoc/>
+        public override void Exchange(Snapshot snapshot)
+        {
+            int first = _window.First;
+            double time = _dynamics.Time;
+            snapshot.Exchange(ref first);
+            snapshot.Exchange(ref _frameTurn);
+            snapshot.Exchange(ref time);
+            snapshot.Exchange(_shape.X);
+            snapshot.Exchange(_shape.Q);
+            snapshot.Exchange(_velocities);
+            snapshot.Exchange(_spins);
+            if (!snapshot.IsWritten)
+            {
+                _window = _setup.Window(first);
+                Build(time, null);
+            }
+            _inner.Exchange(snapshot);
+            Contacts!.Take(_inner.Contacts!, _window.First);
+        }
+
+        // Elements that have come to the exit come in, others go; and the frame follows the first element where that
+        // has turned far.
+        private void MoveWindow()
+        {
+            int first = _window.First;
+            double[] length = _whole.Rod.Length;
+            while (first > 0 && _window.Outside(_shape.X[first]) >= -Early * length[first - 1])
+            {
+                first--;
+                Enter(first);
+            }
+            int last = _shape.ElementCount - LeastElements;
+            while (first < last && _window.Outside(_shape.X[first + 1]) < -Late * length[first])
+            {
+                first++;
+            }
+            double turn = FirstTurn();
+            double torque = Torque();
+            if (first == _window.First && Math.Abs(turn) < LargestTurn)
+            {
+                return;
+            }
+            _whole.Schedule.ProximalPosition += (_setup.Stations[first] - _setup.Stations[_window.First]) * _setup.Axis;
+            double own = _frameTurn + turn - TurnInSheath(_window.First, 0.0, torque);
+            for (int j = first; j < _window.First; j++)
+            {
+                _shape.Q[j] = _setup.Frame(TurnInSheath(j, own, torque));
+            }
+            _frameTurn = first < _window.First ? TurnInSheath(first, own, torque) : TurnOf(first);
+            DirectStep old = _inner;
+            _window = _setup.Window(first);
+            Build(_dynamics.Time, old);
+        }
+
+        // Where a sheathed element is when it comes in: on the axis, as long as the push leaves it.
+        private void Enter(int j)
+        {
+            Vector3d next = _shape.X[j + 1];
+            double length = _whole.Rod.Length[j] * (1.0 - AxialForce() / _whole.Rod.StretchStiffness[j]);
+            double place = _window.Outside(next) - length;
+            _shape.X[j] = _setup.Exit + place * _setup.Axis;
+            _velocities[j] = Vector3d.Dot(_velocities[j + 1], _setup.Axis) * _setup.Axis;
+            _spins[j] = new Vector3d(0.0, 0.0, _spins[j + 1].Z);
+        }
+
+        private void Build(double time, DirectStep? old)
+        {
+            _whole.Schedule.HeldFrameTurn = _frameTurn;
+            MaterialScene scene = _setup.Scene(_window, _shape, _velocities, _spins, _frameTurn);
+            _dynamics = _setup.Dynamics(scene, _window);
+            _dynamics.GoOn(time, _frameTurn);
+            SupportSpring spring = _dynamics.Terms.Walls!.Spring;
+            spring.Axis = _setup.Axis;
+            spring.Place = _whole.Schedule.ProximalPositionAt(time);
+            _inner = new DirectStep(scene, _dynamics, _whole.Drive, _parameters.Method, _report,
+                new ContactRecord(scene.Shape.X.Length));
+            _inner.Contacts!.Take(Contacts!, -_window.First);
+            if (old != null)
+            {
+                var counts = new Snapshot();
+                old.ExchangeCounts(counts);
+                _inner.ExchangeCounts(counts.ToRead());
+            }
+        }
+
+        // The whole wire, of what was simulated and what the springs say of the rest.
+        private void TakeWindow()
+        {
+            int first = _window.First;
+            RodShape shape = _dynamics.Shape;
+            Array.Copy(shape.X, 0, _shape.X, first, shape.X.Length);
+            Array.Copy(shape.Q, 0, _shape.Q, first, shape.Q.Length);
+            Array.Copy(_dynamics.Velocities, 0, _velocities, first, shape.X.Length);
+            Array.Copy(_dynamics.Spins, 0, _spins, first, shape.Q.Length);
+            double push = AxialForce();
+            double torque = Torque();
+            double hub = _whole.Schedule.ProximalTurnAt(_dynamics.Time);
+            double place = _window.Outside(_shape.X[first]);
+            for (int j = first - 1; j >= 0; j--)
+            {
+                place -= _whole.Rod.Length[j] * (1.0 - push / _whole.Rod.StretchStiffness[j]);
+                _shape.X[j] = _setup.Exit + place * _setup.Axis;
+                _velocities[j] = Vector3d.Dot(_velocities[first], _setup.Axis) * _setup.Axis;
+                _spins[j] = new Vector3d(0.0, 0.0, _spins[first].Z);
+            }
+            for (int j = 0; j < first; j++)
+            {
+                hub += TurnOfJoint(j, torque);
+                _shape.Q[j] = _setup.Frame(hub);
+            }
+            Contacts!.Take(_inner.Contacts!, first);
+        }
+
+        // Of the hub on the wire along the axis, N.
+        private double AxialForce()
+        {
+            return Vector3d.Dot(_dynamics.Terms.Walls!.Spring.Force(_dynamics.Shape), _setup.Axis);
+        }
+
+        // Of the wire on the sheathed part about the axis, N m, positive where it is ahead of the hub.
+        private double Torque()
+        {
+            _dynamics.Terms.SetTime(_whole.Schedule, _dynamics.Time);
+            return -Vector3d.Dot(_dynamics.Terms.Bending.ProximalCouple(_dynamics.Shape), _setup.Axis);
+        }
+
+        private double TurnOfJoint(int k, double torque)
+        {
+            return torque / _setup.Joints[k].Twist + _setup.Joints[k].Rest.Z;
+        }
+
+        // Of a sheathed element, radians, from a turn of the hub on.
+        private double TurnInSheath(int element, double hub, double torque)
+        {
+            for (int k = 0; k <= element; k++)
+            {
+                hub += TurnOfJoint(k, torque);
+            }
+            return hub;
+        }
+
+        // Of the first element against its frame, radians.
+        private double FirstTurn()
+        {
+            return RotationVector.Log(_dynamics.Shape.ProximalFrame.Conjugate * _dynamics.Shape.Q[0]).Z;
+        }
+
+        // Of an element that is simulated, radians, joint by joint from the frame.
+        private double TurnOf(int element)
+        {
+            double turn = _frameTurn + FirstTurn();
+            for (int j = _window.First + 1; j <= element; j++)
+            {
+                turn += RotationVector.Log(_shape.Q[j - 1].Conjugate * _shape.Q[j]).Z;
+            }
+            return turn;
+        }
+    }
+}

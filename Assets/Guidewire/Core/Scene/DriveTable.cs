@@ -1,0 +1,25 @@
+namespace Guidewire.Core
+{
+    /// <summary>Where a hub is over time: how far it has gone along its axis and how far it has turned about it. Only
+    /// differences count.</summary>
+    public sealed class DriveTable
+    {
+        /// <summary>A table of both.</summary>
+        /// <param name="insertion">m.</param>
+        /// <param name="rotation">rad; more than one turn counts.</param>
+        public DriveTable(TimeTable insertion, TimeTable rotation)
+        {
+            Insertion = insertion;
+            Rotation = rotation;
+        }
+
+        /// <summary>m.</summary>
+        public TimeTable Insertion { get; }
+
+        /// <summary>rad.</summary>
+        public TimeTable Rotation { get; }
+
+        /// <summary>From when on the hub stands still, s.</summary>
+        public double End => Insertion.End;
+    }
+}

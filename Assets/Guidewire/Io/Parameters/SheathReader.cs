@@ -1,0 +1,36 @@
+using Guidewire.Core;
+
+namespace Guidewire.Io
+{
+    /// <summary>Reads the key sheath: an object with an exit and a direction, either of which may be missing.</summary>
+    internal static class SheathReader
+    {
+        /// <summary>Sets the sheath of a scene.</summary>
+        /// <param name="values">Its parameters.</param>
+        /// <param name="source">The parameter file that names it, or "command line".</param>
+        /// <exception cref="ParameterException">An object that is no sheath.</exception>
+        public static void Read(RunParameters values, string source)
+        {
+            if (values.Sheath == null)
+            {
+                return;
+            }
+            var fields = new JsonFields(source, "sheath", values.Sheath);
+            fields.Allow("exit", "direction");
+            var sheath = new Sheath();
+            if (values.Sheath["exit"] != null)
+            {
+                sheath.Exit = fields.Vector("exit", null);
+            }
+            if (values.Sheath["direction"] != null)
+            {
+                sheath.Direction = fields.Vector("direction", null);
+                if (sheath.Direction.Value.LengthSquared == 0.0)
+                {
+                    throw fields.Wrong("direction", "three numbers [x, y, z], not all 0");
+                }
+            }
+            values.Simulation.Scene.Sheath = sheath;
+        }
+    }
+}

@@ -1,0 +1,281 @@
+using System;
+using System.Collections.Generic;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>A wire that is fed into a vessel from a sheath: only what is outside is simulated, and it is as if all
+    /// of it were.</summary>
+    public sealed class SheathTests
+    {
+        private const double Speed = 0.02;      // m/s
+        private const double Radius = 0.18e-3;  // m
+        private const double Lumen = 2.0;       // mm
+
+        [Test]
+        public void WireFedInAndWithdrawn_HasItsEnergyBack()
+        {
+            // A straight wire that bears on the bend, and back; without friction nothing else takes energy.
+            SimulationParameters parameters = Sheathed(40, 0.2, 25.0);
+            parameters.Material.Sections = Array.Empty<WireSection>();
+            parameters.Drive.Table = new DriveTable(
+                new TimeTable(new[] { 0.0, 1.3, 2.6, 3.0 }, new[] { 0.0, 0.13, -0.002, -0.002 }),
+                new TimeTable(new[] { 0.0 }, new[] { 0.0 }));
+            parameters.Method.MaxSimulationSteps = 600;
+            Simulation run = Simulation.Create(parameters);
+            double peak = 0.0;
+            int least = int.MaxValue;
+            int most = 0;
+            while (run.Outcome == Outcome.Running)
+            {
+                run.Step();
+                peak = Math.Max(peak, run.Stress()!.ElasticEnergy);
+                least = Math.Min(least, run.Hub()!.SpheresInBody!.Value);
+                most = Math.Max(most, run.Hub()!.SpheresInBody!.Value);
+                Assert.That(run.State.SphereCount, Is.EqualTo(41));
+                for (int i = 0; i < 41 - run.Hub()!.SpheresInBody!.Value; i++)
+                {
+                    Vector3d place = run.State.Positions[i];
+                    Assert.That(Math.Abs(place.X) + Math.Abs(place.Y), Is.LessThan(1e-3), "on the sheath's axis");
+                }
+            }
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Assert.That(most - least, Is.GreaterThan(25), "elements came and went");
+            StressRecord end = run.Stress()!;
+            Assert.That(end.ElasticEnergy + end.KineticEnergy, Is.LessThan(1e-6 * peak));
+            Assert.That(run.Hub()!.LengthInBody, Is.EqualTo(0.023).Within(1e-5));
+            Assert.That(run.Contacts!.Passages, Is.Zero);
+        }
+
+        [Test]
+        public void ForceAndTorque_HaveNoJumpWhereAnElementComesIn()
+        {
+            // A wire that bears on the bend; its hub goes on and turns.
+            SimulationParameters parameters = Sheathed(60, 0.3, 110.0);
+            parameters.Drive.InsertionSpeed = 2.0 * Speed;
+            parameters.Drive.RotationSpeed = 2.0;
+            parameters.Method.MaxSimulationSteps = 240;
+            Simulation run = Simulation.Create(parameters);
+            int before = 0;
+            double force = 0.0;
+            double torque = 0.0;
+            double usual = 0.0;
+            double usualTurn = 0.0;
+            double atEntry = 0.0;
+            double atEntryTurn = 0.0;
+            int entries = 0;
+            while (run.Outcome == Outcome.Running)
+            {
+                run.Step();
+                HubRecord hub = run.Hub()!;
+                double jump = Math.Abs(hub.Force - force);
+                double turn = Math.Abs(hub.Torque - torque);
+                bool enters = hub.SpheresInBody != before;
+                if (run.StepCount > 100)
+                {
+                    entries += enters ? 1 : 0;
+                    usual = enters ? usual : Math.Max(usual, jump);
+                    usualTurn = enters ? usualTurn : Math.Max(usualTurn, turn);
+                    atEntry = enters ? Math.Max(atEntry, jump) : atEntry;
+                    atEntryTurn = enters ? Math.Max(atEntryTurn, turn) : atEntryTurn;
+                }
+                before = hub.SpheresInBody!.Value;
+                force = hub.Force;
+                torque = hub.Torque;
+            }
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Assert.That(entries, Is.GreaterThan(5));
+            Assert.That(atEntry, Is.LessThanOrEqualTo(usual));
+            Assert.That(atEntryTurn, Is.LessThanOrEqualTo(usualTurn));
+        }
+
+        [Test]
+        public void RunThatIsRestored_TakesTheSameSteps()
+        {
+            SimulationParameters parameters = Sheathed(40, 0.2, 60.0);
+            parameters.Drive.InsertionSpeed = Speed;
+            parameters.Drive.RotationSpeed = 2.0;
+            parameters.Method.MaxSimulationSteps = 160;
+            Simulation run = Simulation.Create(parameters);
+            Simulation? other = null;
+            while (run.Outcome == Outcome.Running)
+            {
+                if (run.StepCount == 70)
+                {
+                    other = Simulation.Restore(parameters, run.Save());
+                }
+                run.Step();
+                other?.Step();
+            }
+            Assert.That(other!.State.Positions, Is.EqualTo(run.State.Positions));
+            Assert.That(other.State.Orientations, Is.EqualTo(run.State.Orientations));
+            Assert.That(other.Hub()!.Force, Is.EqualTo(run.Hub()!.Force));
+            Assert.That(other.Contacts!.DriveAsked, Is.EqualTo(run.Contacts!.DriveAsked));
+        }
+
+        [Test]
+        public void SheathedPart_WindsUpAsTheSpringThatItIs()
+        {
+            // A tip bent by 45 degrees bears on the lumen of a bend: a torque of GJ/L over the whole length.
+            SimulationParameters parameters = Sheathed(60, 0.6, 90.0);
+            parameters.Drive.Table = new DriveTable(new TimeTable(new[] { 0.0, 1.5 }, new[] { 0.0, 0.06 }),
+                new TimeTable(new[] { 1.5, 2.5 }, new[] { 0.0, 1.0 }));
+            parameters.Method.MaxSimulationSteps = 600;
+            Simulation run = Run(parameters);
+            HubRecord hub = run.Hub()!;
+            double stiffness = CrossSection.At(parameters.Material, 0.0).TwistStiffness;
+            double sheathed = 0.6 - hub.LengthInBody!.Value;
+            Vector3d[] curvature = run.Stress()!.Curvature;
+            Assert.That(hub.Torque, Is.GreaterThan(1e-6));
+            Assert.That(-curvature[3].Z, Is.EqualTo(hub.Torque / stiffness).Within(1e-6 * hub.Torque / stiffness));
+            Assert.That(-hub.Twist, Is.GreaterThan(0.9 * hub.Torque * sheathed / stiffness));
+            double first = 2.0 * Math.Atan2(run.State.Orientations[30].Z, run.State.Orientations[30].W);
+            Assert.That(hub.Turn - first, Is.EqualTo(30.5 * 0.01 * hub.Torque / stiffness).Within(1e-6));
+        }
+
+        [Test]
+        public void HubStopsWhereTheWireEnds_AndWhereTheTipIsBackInTheSheath([Values(-1.0, 1.0)] double way)
+        {
+            SimulationParameters parameters = Sheathed(20, 0.1, 25.0);
+            var hand = new Steering();
+            parameters.Drive.Steering = hand;
+            parameters.Scene.Walls = new ContactShape[] { Vessel(0.0) };
+            parameters.Material.RestCurvature = Vector3d.Zero;
+            parameters.Material.Sections = Array.Empty<WireSection>();
+            parameters.Method.MaxSimulationSteps = 100;
+            Simulation run = Simulation.Create(parameters);
+            hand.Push = 1.0 * way;
+            while (run.Outcome == Outcome.Running)
+            {
+                run.Step();
+            }
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Assert.That(run.Hub()!.LengthInBody, Is.EqualTo(way > 0.0 ? 0.1 : 0.0).Within(1e-4));
+            Assert.That(run.Reason, Does.Contain("came to an end"));
+        }
+
+        [TestCase("points out of the vessel", 0.0, 0.0, 0.0, -1.0, 0.1)]
+        [TestCase("is not that of the wire", 0.0, 0.0, 0.0, 0.0, 0.1)]
+        [TestCase("units off the wire's axis", 0.5, 0.0, 0.0, 1.0, 0.1)]
+        [TestCase("has to be on the wire", 0.0, 0.0, 80.0, 1.0, 0.1)]
+        [TestCase("longer than the wire", 0.0, 0.0, 0.0, 1.0, 100.0)]
+        public void SheathThatFeedsNothing_IsRefusedInOnePhrase(string words, double x, double y, double z,
+            double along, double time)
+        {
+            SimulationParameters parameters = Sheathed(20, 0.1, 25.0);
+            parameters.Drive.InsertionSpeed = Speed;
+            parameters.Method.MaxSimulationSteps = (int)(time / parameters.Method.TimeStep);
+            parameters.Scene.Sheath = new Sheath
+            {
+                Exit = new Vector3d(x, y, z),
+                Direction = new Vector3d(0.0, along == 0.0 ? 1.0 : 0.0, along),
+            };
+            string? problem = Simulation.FindProblemOfStart(parameters);
+            Assert.That(problem, Does.StartWith("sheath").And.Contain(words).And.Not.Contain("\n"));
+        }
+
+        [Test]
+        public void ExitThatIsNotNamed_IsOneElementInsideTheInlet()
+        {
+            SimulationParameters parameters = Sheathed(20, 0.1, 25.0);
+            parameters.Scene.Sheath = new Sheath();
+            Simulation run = Simulation.Create(parameters);
+            // Nodes stand at z = 25, 20, ... -75 mm, the inlet at -12: the first inside is at -10.
+            Assert.That(run.Hub()!.LengthInBody, Is.EqualTo(0.03).Within(1e-12));
+        }
+
+        [Test, Category("Long")]
+        public void WireInASheath_IsTheWholeWireInALongTightTube()
+        {
+            // Gates: force, torque and angle of the tip within 2 %, its place within 3 % of the lumen's radius. The
+            // tube has 0.05 mm of play and a mouth 6 mm long, and the drag of the wire within it is taken off.
+            SimulationParameters sheathed = Turned();
+            SimulationParameters whole = Turned();
+            whole.Scene.Sheath = null;
+            whole.Scene.Walls = new ContactShape[] { Vessel(0.23) };
+            Simulation a = Run(sheathed);
+            Simulation b = Run(whole);
+            HubRecord one = a.Hub()!;
+            HubRecord other = b.Hub()!;
+            double drag = whole.Material.MassDamping * 0.04 * (0.3 - one.LengthInBody!.Value)
+                * CrossSection.At(whole.Material, 0.0).LineDensity;
+            Assert.That(one.Force, Is.GreaterThan(5e-3));
+            Assert.That(one.Force, Is.EqualTo(other.Force - drag).Within(0.02 * other.Force));
+            Assert.That(one.Torque, Is.EqualTo(other.Torque).Within(0.02 * other.Torque));
+            Assert.That(one.Turn + one.Twist, Is.EqualTo(other.Turn + other.Twist).Within(0.02));
+            int n = a.State.ElementCount;
+            Assert.That(Vector3d.Distance(a.State.Positions[n], b.State.Positions[n]), Is.LessThan(0.03 * Lumen));
+        }
+
+        private static SimulationParameters Turned()
+        {
+            SimulationParameters parameters = Sheathed(60, 0.3, 100.0);
+            parameters.Drive.InsertionSpeed = 0.04;
+            parameters.Drive.RotationSpeed = 0.6;
+            parameters.Method.MaxSimulationSteps = 420;
+            return parameters;
+        }
+
+        private static Simulation Run(SimulationParameters parameters)
+        {
+            Simulation run = Simulation.Create(parameters);
+            while (run.Outcome == Outcome.Running)
+            {
+                run.Step();
+            }
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            return run;
+        }
+
+        // A nitinol wire whose last 30 mm are bent by 45 degrees, its tip so far (mm) out of a sheath that ends at
+        // z = 0.
+        private static SimulationParameters Sheathed(int n, double length, double tip)
+        {
+            SimulationParameters parameters = WallScenes.Wire(n, Radius);
+            parameters.Scene.GuidewireLength = 1e3 * length;
+            parameters.Scene.GuidewireOffset = tip - 1e3 * length;
+            parameters.Scene.Sheath = new Sheath { Exit = Vector3d.Zero };
+            parameters.Scene.Walls = new ContactShape[] { Vessel(0.0) };
+            parameters.Drive.Kind = Drive.Displace;
+            parameters.Material.MassDamping = 20.0;
+            parameters.Material.Sections = new[]
+            {
+                new WireSection
+                {
+                    From = 1e3 * length - 30.0, To = 1e3 * length, YoungsModulus = 20e9,
+                    RestCurvature = new Vector3d(-0.25 * Math.PI / 0.03, 0.0, 0.0),
+                },
+            };
+            parameters.Method.TimeStep = 5e-3;
+            return parameters;
+        }
+
+        // Straight along z, then a bend of 70 degrees; behind it, where asked for, a tight tube of this radius.
+        private static TubeShape Vessel(double tight)
+        {
+            const double Bend = 40.0;
+            var knots = new List<Vector3d>();
+            var radii = new List<double>();
+            if (tight > 0.0)
+            {
+                knots.AddRange(new[] { new Vector3d(0.0, 0.0, -600.0), Vector3d.Zero, new Vector3d(0.0, 0.0, 6.0) });
+                radii.AddRange(new[] { tight, tight, Lumen });
+            }
+            else
+            {
+                knots.Add(new Vector3d(0.0, 0.0, -12.0));
+                radii.Add(Lumen);
+            }
+            const double End = 70.0 * Math.PI / 180.0;
+            for (int k = 0; k <= 20; k++)
+            {
+                double angle = End * k / 20.0;
+                knots.Add(new Vector3d(0.0, Bend * (1.0 - Math.Cos(angle)), 120.0 + Bend * Math.Sin(angle)));
+                radii.Add(Lumen);
+            }
+            knots.Add(knots[knots.Count - 1] + 200.0 * new Vector3d(0.0, Math.Sin(End), Math.Cos(End)));
+            radii.Add(Lumen);
+            return new TubeShape(knots.ToArray(), radii.ToArray(), true, true);
+        }
+    }
+}

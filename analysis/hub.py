@@ -1,0 +1,69 @@
+"""What is read off at the hub and at the tip over time, from a log with ``logHub``."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from pathlib import Path
+
+import numpy as np
+
+from analysis.logs import LogError, find_log, read_entries
+
+
+@dataclass(frozen=True)
+class HubLog:
+    """All entries of one log, ``k`` of them; SI units but for `tip`.
+
+    Attributes
+    ----------
+    time : ndarray, shape (k,)
+        In s.
+    insertion, turn : ndarray, shape (k,)
+        Way of the hub along its axis, m, and turn about it, rad, since the start.
+    force, torque : ndarray, shape (k,)
+        Of the hub on the wire, N and N m; a push is positive.
+    twist : ndarray, shape (k,)
+        Of the wire from hub to tip, rad.
+    largest_curvature : ndarray, shape (k,)
+        Of any joint, 1/m.
+    tip, tip_direction : ndarray, shape (k, 3)
+        In units; a unit vector.
+    """
+
+    time: np.ndarray
+    insertion: np.ndarray
+    turn: np.ndarray
+    force: np.ndarray
+    torque: np.ndarray
+    twist: np.ndarray
+    largest_curvature: np.ndarray
+    tip: np.ndarray
+    tip_direction: np.ndarray
+
+
+_KEYS = {"insertion": "insertion", "turn": "turn", "force": "force", "torque": "torque", "twist": "twist",
+         "largest_curvature": "largestCurvature"}
+
+
+def read_hub(path: Path) -> HubLog:
+    """Reads a log or a run folder's log.
+
+    Raises
+    ------
+    LogError
+        The log cannot be read, or says nothing of the hub.
+    """
+    rows: dict[str, list] = {field.name: [] for field in fields(HubLog)}
+    for _, entry in read_entries(path):
+        hub = entry.get("hub")
+        if hub is None:
+            raise LogError(f"{find_log(path)}: says nothing of the hub: needs a run of solver direct with logHub")
+        rows["time"].append(entry["totalTime"])
+        tip = entry["sphere"][max(entry["sphere"], key=int)]
+        rows["tip"].append([tip[axis] for axis in "xyz"])
+        rows["tip_direction"].append([hub["tipDirection"][axis] for axis in "xyz"])
+        for name, key in _KEYS.items():
+            rows[name].append(hub[key])
+    if not rows["time"]:
+        raise LogError(f"{find_log(path)}: holds no whole step")
+    return HubLog(**{name: np.asarray(values, dtype=float) for name, values in rows.items()})
