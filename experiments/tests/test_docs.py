@@ -19,7 +19,7 @@ from studies.table import Axis, Grid, Study
 
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 RUNS = (ROOT / "docs" / "runs.md").read_text(encoding="utf-8")
-_FOLDERS = "Assets|analysis|docs|experiments|params|studies|unitycheck"
+_FOLDERS = "Assets|analysis|docs|experiments|params|studies|unitycheck|viewer"
 _PLACEHOLDERS = {"T": "1", "STUDY": "default", "FILE": "params/default.json", "N": "2", "...": ""}
 
 
