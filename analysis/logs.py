@@ -149,6 +149,21 @@ def read_entries(path: Path) -> Iterator[tuple[int, dict]]:
         raise LogError(f"{source}: holds no whole step")
 
 
+def extent(log: PositionLog) -> tuple[np.ndarray, float]:
+    """Middle (3,) and diagonal, in units, of the box around all places that the wire passes.
+
+    Raises LogError where a log does not have every sphere, or no place that is finite.
+    """
+    if len(log.spheres) < 2:
+        raise LogError(f"{log.source}: holds one sphere only; a picture needs a run with logSpheres = \"all\"")
+    every = log.positions.reshape(-1, 3)
+    every = every[np.isfinite(every).all(axis=1)]
+    if len(every) == 0:
+        raise LogError(f"{log.source}: holds no finite position")
+    low, high = every.min(axis=0), every.max(axis=0)
+    return 0.5 * (low + high), float(np.linalg.norm(high - low))
+
+
 class _Entries:
     """Yields (step, entry) of a log; afterwards ``warning`` says whether its end was missing."""
 

@@ -101,7 +101,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
     view.add_argument("--html", type=_path, metavar="FILE", help="write the replay into one file that needs no server")
     view.add_argument("--frames", type=_positive, metavar="K", help="of a run at most (5000; 300 with --html)")
     view.add_argument("--open", action="store_true", help="open the page in a browser")
-    view.set_defaults(action=_view, packages=DRAWING + VIEWING)
+    view.set_defaults(action=_view, packages=("numpy", *VIEWING))
 
     stress = commands.add_parser("stress", help="draw what a run's material feels along the wire (logStrains)")
     stress.add_argument("folder", type=Path, metavar="DIR", help="folder of a run with logStrains; takes stress.png")
@@ -293,7 +293,7 @@ def _tell(drawn: Gallery) -> int:
 
 def _render(arguments: argparse.Namespace) -> int:
     from analysis import render
-    from analysis.logs import LogError, read_log
+    from analysis.logs import LogError, extent, read_log
     from analysis.runs import read_run
     from experiments import walls
 
@@ -305,7 +305,7 @@ def _render(arguments: argparse.Namespace) -> int:
     try:
         run = read_run(arguments.folder)
         log = read_log(arguments.folder, "all")
-        middle, diagonal = render.extent(log)
+        middle, diagonal = extent(log)
         checking.check_out(out.parent)
         surfaces = walls.read_walls(_build_runner, run, middle, max(diagonal, 1.0))
         view = render.View(tuple(arguments.target) if arguments.target else None, arguments.distance, arguments.yaw,

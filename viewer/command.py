@@ -9,8 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from analysis.logs import LogError, read_log
-from analysis.render import extent
+from analysis.logs import LogError, extent, read_log
 from analysis.runs import read_run
 from analysis.surfaces import Surface
 from experiments import checking, walls

@@ -86,23 +86,6 @@ def test_a_wire_is_pushed_into_the_branch_by_keys(browse, runner_command, tmp_pa
     assert is_drawn(tmp_path / "live.png")
 
 
-def test_a_replay_shows_the_positions_of_the_log(browse, runs, tmp_path):
-    log = read_log(runs / "many", "all")
-    with serving(tmp_path, str(runs / "many"), with_three=True) as (address, _):
-        seen = browse(
-            ["open", address], DRAWN, ["see", "viewer.shown.models[0].recording.count"],
-            ["see", "[...viewer.shown.models[0].recording.channel('positions').values]"],
-            ["press", "ArrowRight"], ["see", "viewer.shown.frames[0]"],
-            ["see", "viewer.shown.go(1.0); viewer.shown.frames[0]"], ["see", "[...viewer.shown.models[0].tip]"],
-            ["click", "play"], ["until", "viewer.shown.time > 1.05"], ["picture", str(tmp_path / "replay.png")],
-        )["seen"]
-    assert seen[0] == len(log.time)
-    np.testing.assert_array_equal(np.array(seen[1]).reshape(log.positions.shape), log.positions)
-    assert seen[2] == 1 and seen[3] == np.argmin(np.abs(log.time - 1.0))
-    assert seen[4] == log.positions[seen[3], -1].tolist()
-    assert is_drawn(tmp_path / "replay.png")
-
-
 def test_a_file_works_without_server_or_network(browse, runs, tmp_path):
     file = tmp_path / "run.html"
     done = subprocess.run([sys.executable, str(ROOT / "guidewire.py"), "view", str(runs / "many"), "--html", str(file)],
@@ -117,19 +100,24 @@ def test_a_file_works_without_server_or_network(browse, runs, tmp_path):
     assert is_drawn(tmp_path / "file.png")
 
 
-def test_two_runs_side_by_side_and_one_over_the_other(browse, runs, tmp_path):
+def test_two_replays_show_the_positions_of_their_logs_side_by_side_and_one_over_the_other(browse, runs, tmp_path):
     logs = [read_log(runs / name, "all") for name in ("many", "few")]
     with serving(tmp_path, str(runs / "many"), str(runs / "few"), with_three=True) as (address, _):
         seen = browse(
             ["open", address], DRAWN,
+            ["see", "viewer.shown.models.map((model) => [...model.recording.channel('positions').values])"],
+            ["press", "ArrowRight"], ["see", "viewer.shown.frames[0]"],
             ["see", "viewer.shown.go(1.6); viewer.shown.models.map((model) => [...model.tip])"],
             ["see", "document.getElementById('panes').children.length"], ["picture", str(tmp_path / "side.png")],
             ["click", "one over the other"], ["see", "document.getElementById('panes').children.length"],
             ["see", "document.getElementById('panes').textContent"], ["picture", str(tmp_path / "over.png")],
+            ["click", "play"], ["until", "viewer.shown.time > 1.65"],
         )["seen"]
-    for tip, log in zip(seen[0], logs):
+    for positions, tip, log in zip(seen[0], seen[2], logs):
+        np.testing.assert_array_equal(np.array(positions).reshape(log.positions.shape), log.positions)
         assert tip == log.positions[np.argmin(np.abs(log.time - 1.6)), -1].tolist()
-    assert (seen[1], seen[2]) == (2, 1) and "many" in seen[3] and "orange: few" in seen[3]
+    assert seen[1] == 1
+    assert (seen[3], seen[4]) == (2, 1) and "many" in seen[5] and "orange: few" in seen[5]
     assert is_drawn(tmp_path / "side.png") and is_drawn(tmp_path / "over.png")
 
 
