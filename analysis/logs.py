@@ -1,8 +1,9 @@
 """Reads position logs of any size in one pass.
 
-A log is one JSON object, ``{"0": {"totalTime", "elapsedMilliseconds", "delta", "sphere": {"0": {"x", ...}}}, ...}``.
+A log of format json is one JSON object, ``{"0": {"totalTime", "elapsedMilliseconds", "delta", "sphere": {"0": {"x", ...}}}, ...}``.
 It may stand on one line or on many. Only one entry is decoded at a time and only what was asked for is kept, so that
-memory is set by the request and not by the file.
+memory is set by the request and not by the file. Logs of format npz (logFormat) have an array for each quantity, which
+analysis.array_logs reads; what stands here gives the same of both.
 """
 
 from __future__ import annotations
@@ -10,13 +11,15 @@ from __future__ import annotations
 import json
 from array import array
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-LOG_NAME = "positions.json"
-PARTIAL_LOG_NAME = "positions.json.partial"
+from analysis.array_logs import ArrayLog
+
+LOG_NAMES = ("positions.json", "positions.npz", "positions.json.partial", "positions.npz.partial")
 
 _CHUNK = 1 << 20  # characters read at a time
 _LONGEST_TOKEN = 64  # characters; the decoder reports a cut token at most this far before the cut
@@ -86,10 +89,10 @@ class PositionLog:
 def find_log(path: Path) -> Path:
     """The log that ``path`` means: a file itself, or a run folder's log, complete or else partial."""
     if path.is_dir():
-        for name in (LOG_NAME, PARTIAL_LOG_NAME):
+        for name in LOG_NAMES:
             if (path / name).is_file():
                 return path / name
-        raise LogError(f"{path}: holds neither {LOG_NAME} nor {PARTIAL_LOG_NAME}")
+        raise LogError(f"{path}: holds neither {LOG_NAMES[0]} nor {LOG_NAMES[1]}")
     if not path.is_file():
         raise LogError(f"{path}: no such log")
     return path
@@ -122,6 +125,9 @@ def read_log(
     if every < 1:
         raise ValueError(f"every = {every}: must be at least 1")
     source = find_log(path)
+    if _is_of_arrays(source):
+        with _named(source):
+            return _read_arrays(source, spheres, every, velocities)
     entries = _Entries(source)
     columns = _Columns(source, spheres, velocities)
     step, entry = -1, None
@@ -142,11 +148,66 @@ def read_entries(path: Path) -> Iterator[tuple[int, dict]]:
         The file is missing, is not a log or holds no whole step.
     """
     source = find_log(path)
+    if _is_of_arrays(source):
+        with _named(source):
+            yield from ArrayLog(source).entries()
+        return
     step = -1
     for step, entry in _Entries(source):
         yield step, entry
     if step < 0:
         raise LogError(f"{source}: holds no whole step")
+
+
+def extent(log: PositionLog) -> tuple[np.ndarray, float]:
+    """Middle (3,) and diagonal, in units, of the box around all places that the wire passes.
+
+    Raises LogError where a log does not have every sphere, or no place that is finite.
+    """
+    if len(log.spheres) < 2:
+        raise LogError(f"{log.source}: holds one sphere only; a picture needs a run with logSpheres = \"all\"")
+    every = log.positions.reshape(-1, 3)
+    every = every[np.isfinite(every).all(axis=1)]
+    if len(every) == 0:
+        raise LogError(f"{log.source}: holds no finite position")
+    low, high = every.min(axis=0), every.max(axis=0)
+    return 0.5 * (low + high), float(np.linalg.norm(high - low))
+
+
+def _is_of_arrays(source: Path) -> bool:
+    return ".npz" in source.suffixes
+
+
+@contextmanager
+def _named(source: Path) -> Iterator[None]:
+    """What goes wrong with a log of arrays, as a line with its name."""
+    try:
+        yield
+    except (OSError, ValueError) as error:
+        raise LogError(f"{source}: {getattr(error, 'strerror', None) or error}") from error
+
+
+def _read_arrays(source: Path, spheres: str | Sequence[int], every: int, velocities: bool) -> PositionLog:
+    log = ArrayLog(source)
+    steps = log["step"]
+    kept = np.flatnonzero(steps % every == 0)
+    if kept.size == 0:
+        raise LogError(f"{source}: no step left after thinning")
+    whole = slice(None) if kept.size == steps.size else kept
+    logged, positions = log.spheres, log["positions"]
+    asked = logged if spheres == "all" else logged[-1:] if spheres == "last" else np.sort(np.asarray(spheres, dtype=int))
+    missing = np.setdiff1d(asked, logged)
+    if missing.size:
+        raise LogError(f"{source}: step {steps[0]} lacks sphere {missing[0]}")
+    columns = slice(None) if asked.size == logged.size else asked - logged[0]
+    return PositionLog(
+        source=source, steps=steps[whole], time=log["totalTime"][whole],
+        elapsed=log["elapsedMilliseconds"][whole] / 1000.0, prediction_error=log["delta"][whole], spheres=asked,
+        positions=np.asarray(positions[whole][:, columns], dtype=float),
+        velocities=np.asarray(log["velocities"][whole][:, columns], dtype=float) if velocities else None,
+        final_step=int(steps[-1]), final_spheres=logged, final_positions=np.asarray(positions[-1], dtype=float),
+        warning=log.warning,
+    )
 
 
 class _Entries:

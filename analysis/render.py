@@ -15,7 +15,7 @@ import numpy as np
 from matplotlib import colormaps
 from PIL import Image, ImageDraw
 
-from analysis.logs import LogError, PositionLog
+from analysis.logs import LogError, PositionLog, extent
 from analysis.raster import Camera, Picture, draw
 from analysis.runs import Run
 from analysis.surfaces import Surface, curvature, refine, tube
@@ -59,21 +59,6 @@ class Stage:
     obstacles: tuple[Surface, ...]
     radius: float
     bend: float
-
-
-def extent(log: PositionLog) -> tuple[np.ndarray, float]:
-    """Middle (3,) and diagonal, in units, of the box around all places that the wire passes.
-
-    Raises LogError where a log does not have every sphere, or no place that is finite.
-    """
-    if len(log.spheres) < 2:
-        raise LogError(f"{log.source}: holds one sphere only; a picture needs a run with logSpheres = \"all\"")
-    every = log.positions.reshape(-1, 3)
-    every = every[np.isfinite(every).all(axis=1)]
-    if len(every) == 0:
-        raise LogError(f"{log.source}: holds no finite position")
-    low, high = every.min(axis=0), every.max(axis=0)
-    return 0.5 * (low + high), float(np.linalg.norm(high - low))
 
 
 def bend_colours(values: np.ndarray, full: float) -> np.ndarray:

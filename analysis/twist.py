@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 
 import numpy as np
 
-from analysis.logs import LogError, find_log
+from analysis.logs import LogError, find_log, read_entries
 from analysis.runs import Run
 
 
@@ -63,16 +62,15 @@ def read_twist(run: Run) -> Twist:
     LogError
         The log cannot be read or holds no orientations.
     """
-    log = find_log(run.folder)
+    entries = dict(read_entries(run.folder))
     try:
-        entries = json.loads(log.read_text(encoding="utf-8"))
         orientations = np.array([
             [[entry["orientation"][str(j)][axis] for axis in "xyzw"] for j in range(len(entry["orientation"]))]
             for entry in entries.values()
         ])
-    except (ValueError, KeyError, OSError) as error:
-        raise LogError(f"{log}: no orientations can be read from it ({error})") from error
-    steps = np.array([int(step) for step in entries])
+    except KeyError as error:
+        raise LogError(f"{find_log(run.folder)}: no orientations can be read from it ({error})") from error
+    steps = np.array(list(entries))
     twist, bend = joint_angles(orientations)
     base = steps * run.number("twistPerStep")
     return Twist(steps, base, base + twist.sum(axis=-1), bend.sum(axis=-1))

@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from experiments import building, checking
-from experiments.prepare import DRAWING, ROOT, SWEEPING, TESTING, PreparationError
+from experiments.prepare import DRAWING, ROOT, SWEEPING, TESTING, VIEWING, PreparationError
 from experiments.runner import INTERNAL_ERROR, INTERRUPTED
 from experiments.sweep import FAILED, Bar, Means, SweepResult, sweep
 from studies.builtin import STUDIES
@@ -95,6 +95,15 @@ def parse(argv: list[str]) -> argparse.Namespace:
                         help="0 looks along z, -90 against x (-90)")
     render.add_argument("--pitch", type=_finite, default=15.0, metavar="DEGREES", help="90 looks down, against y (15)")
     render.set_defaults(action=_render, packages=DRAWING)
+
+    view = commands.add_parser("view", help="a page in the browser: a scene under your hand, or what runs left")
+    view.add_argument("what", metavar="FILE|RUN", nargs="+", type=Path,
+                      help="parameter file: live; folder of a run: a replay; of two: side by side, or one over the "
+                           "other")
+    view.add_argument("--html", type=_path, metavar="FILE", help="write the replay into one file that needs no server")
+    view.add_argument("--frames", type=_positive, metavar="K", help="of a run at most (5000; 300 with --html)")
+    view.add_argument("--open", action="store_true", help="open the page in a browser")
+    view.set_defaults(action=_view, packages=("numpy", *VIEWING))
 
     stress = commands.add_parser("stress", help="draw what a run's material feels along the wire (logStrains)")
     stress.add_argument("folder", type=Path, metavar="DIR", help="folder of a run with logStrains; takes stress.png")
@@ -290,7 +299,7 @@ def _tell(drawn: Gallery) -> int:
 
 def _render(arguments: argparse.Namespace) -> int:
     from analysis import render
-    from analysis.logs import LogError, read_log
+    from analysis.logs import LogError, extent, read_log
     from analysis.runs import read_run
     from experiments import walls
 
@@ -302,7 +311,7 @@ def _render(arguments: argparse.Namespace) -> int:
     try:
         run = read_run(arguments.folder)
         log = read_log(arguments.folder, "all")
-        middle, diagonal = render.extent(log)
+        middle, diagonal = extent(log)
         checking.check_out(out.parent)
         surfaces = walls.read_walls(_build_runner, run, middle, max(diagonal, 1.0))
         view = render.View(tuple(arguments.target) if arguments.target else None, arguments.distance, arguments.yaw,
@@ -318,6 +327,12 @@ def _render(arguments: argparse.Namespace) -> int:
         print(f"guidewire: warning: {log.warning}", file=sys.stderr)
     print(f"{'film' if out.suffix == '.gif' else 'picture'}: {os.path.relpath(out)}")
     return 0
+
+
+def _view(arguments: argparse.Namespace) -> int:
+    from viewer.command import view
+
+    return view(arguments.what, arguments.html, arguments.frames, arguments.open, _build_runner)
 
 
 def _stress(arguments: argparse.Namespace) -> int:

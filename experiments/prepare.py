@@ -20,7 +20,8 @@ LOG = ROOT / "results" / "prepare.log"
 
 DRAWING = ("numpy", "scipy", "matplotlib")
 SWEEPING = ("distributed", "tqdm", "scipy")
-TESTING = DRAWING + SWEEPING + ("pytest", "hypothesis")
+VIEWING = ("aiohttp",)
+TESTING = DRAWING + SWEEPING + VIEWING + ("pytest", "hypothesis")
 
 _HANDED_OVER = "GUIDEWIRE_HANDED_OVER"
 _PIP_SECONDS = 900

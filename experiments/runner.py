@@ -36,7 +36,7 @@ class Request:
     out : folder of the run; None where its parameters are only checked.
     overrides : parameter key to value, laid over the file.
     repeat : number of a timed repeat (from 1), or None for a run whose wall time does not matter.
-    log : whether it leaves positions.json.
+    log : whether it leaves a log.
     """
 
     name: str

@@ -151,6 +151,11 @@ class Session:
             warnings.warn(line, stacklevel=2)
 
     @property
+    def is_open(self) -> bool:
+        """Whether it can still be asked: not closed, and its runner lives."""
+        return self._process is not None
+
+    @property
     def state(self) -> State:
         """The wire as it is now."""
         return self._state
@@ -174,6 +179,14 @@ class Session:
     def reset(self) -> State:
         """Go back to the start."""
         self._state = _read_state(self._ask("reset"))
+        return self._state
+
+    def change(self, **parameters: Any) -> State:
+        """Change parameters, such as `timeStep`; the wire goes on from where it is. What takes the place of an override
+        counts after a `reset` too."""
+        answer = self._ask("change", set=parameters)
+        self.parameters = answer["effective"]
+        self._state = _read_state(answer)
         return self._state
 
     def save(self) -> bytes:
@@ -217,7 +230,7 @@ class Session:
             self._process.stdin.write(line + "\n")
             self._process.stdin.flush()
             answer = json.loads(self._process.stdout.readline() or "null")
-        except OSError:
+        except (OSError, ValueError):    # it is gone, and perhaps half of its answer is there
             answer = None
         except BaseException:    # such as Ctrl-C while it works: its answer would be taken for the next one's
             self._process.kill()

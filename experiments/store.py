@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 SUMMARY = "summary.json"
-LOG = "positions.json"
+LOGS = ("positions.json", "positions.npz")  # by the parameter logFormat
 LOAD = "load.json"  # of the machine beside a timed run
 _NOT_DONE = ("interrupted",)
 
@@ -36,7 +36,7 @@ def read_whole(folder: Path, log: bool, timed: bool) -> dict[str, Any] | None:
     Parameters
     ----------
     folder : of the run.
-    log : whether positions.json is needed.
+    log : whether its log is needed.
     timed : whether the load beside it is needed.
     """
     try:
@@ -46,7 +46,7 @@ def read_whole(folder: Path, log: bool, timed: bool) -> dict[str, Any] | None:
     if not isinstance(summary, dict) or summary.get("complete") is not True or summary.get("outcome") in _NOT_DONE:
         return None
     named = summary.get("log")  # null without a log, another name where the disk was lost
-    if named not in (None, LOG) or (log and (named is None or not (folder / LOG).is_file())):
+    if named not in (None, *LOGS) or (log and (named is None or not (folder / named).is_file())):
         return None
     if timed:
         try:

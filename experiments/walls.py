@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 import subprocess
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -14,24 +16,31 @@ from experiments.prepare import PreparationError
 
 
 def read_walls(build_runner: Callable[[], list[str]], run: Run, middle: np.ndarray, reach: float) -> list[Surface]:
-    """The vessel, where the run has one, and its obstacles.
+    """The vessel, where the run has one, and its obstacles; as `walls_of` with the run's own parameters."""
+    return walls_of(build_runner, run.parameters, run.folder / PARAMETERS_NAME, middle, reach)
+
+
+def walls_of(build_runner: Callable[[], list[str]], parameters: Mapping[str, Any], file: Path, middle: np.ndarray,
+             reach: float) -> list[Surface]:
+    """The vessel, where there is one, and obstacles.
 
     Parameters
     ----------
     build_runner : returns the command that starts the runner; not called where there are no walls.
-    run : the run.
+    parameters : effective values.
+    file : the parameter file that they are of.
     middle : ndarray (3,), units, and
     reach : units: of a wall without end what is so near.
 
     Raises
     ------
-    PreparationError : the runner cannot read the run's parameters, or a mesh that they name.
+    PreparationError : the runner cannot read the file, or a mesh that it names.
     """
-    if not run.parameters.get("vessel") and not run.parameters.get("obstacles"):
+    if not parameters.get("vessel") and not parameters.get("obstacles"):
         return []
     numbers = [repr(float(number)) for number in (*middle, reach)]
-    done = subprocess.run([*build_runner(), "--walls", str(run.folder / PARAMETERS_NAME), *numbers],
-                          capture_output=True, text=True, check=False)
+    command = [*build_runner(), "--walls", str(file), *numbers]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise PreparationError(done.stderr.strip().removeprefix("guidewire: "))
     walls = []

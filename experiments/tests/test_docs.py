@@ -8,6 +8,7 @@ import shlex
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
 from experiments.commands import parse
@@ -19,7 +20,7 @@ from studies.table import Axis, Grid, Study
 
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 RUNS = (ROOT / "docs" / "runs.md").read_text(encoding="utf-8")
-_FOLDERS = "Assets|analysis|docs|experiments|params|studies|unitycheck"
+_FOLDERS = "Assets|analysis|docs|experiments|params|studies|unitycheck|viewer"
 _PLACEHOLDERS = {"T": "1", "STUDY": "default", "FILE": "params/default.json", "N": "2", "...": ""}
 
 
@@ -175,6 +176,18 @@ def test_every_key_of_a_log_is_explained(runner_command, tmp_path):
     assert set(entry) <= set(table_keys(told))
     for inner in (*entry["sphere"]["0"], *entry["orientation"]["0"], *entry["contact"], *entry["hub"]):
         assert f"`{inner}`" in told
+
+
+def test_every_array_of_a_log_is_explained(runner_command, tmp_path):
+    told = set(table_keys(section(RUNS, "### positions.npz")))
+    found = set()
+    for k, scene in enumerate(("insertion", "cantilever")):
+        more = {"logContacts": True} if scene == "insertion" else {"logStrains": True}
+        folder = run(runner_command, tmp_path / str(k), ROOT / f"params/{scene}.json", maxSimulationSteps=1,
+                     logFormat="npz", logOrientations=True, **more)
+        with np.load(folder / "positions.npz") as log:
+            found |= set(log.files)
+    assert found == told
 
 
 def test_every_key_of_a_studys_table_is_explained(fake, tmp_path):

@@ -85,6 +85,24 @@ def test_sessions_side_by_side_save_restore_and_reset_to_the_same_bits(friction)
         assert_same_bits(one.step(push=30.0, turn=1.0, steps=15), end)
 
 
+def test_what_is_changed_holds_from_there_on_and_what_cannot_be_changes_nothing():
+    with Session(**WIRE) as session, Session(**WIRE) as other:
+        session.step(push=5.0, steps=5)
+        before = session.state
+        changed = session.change(timeStep=2 * session.parameters["timeStep"], damping=0.2)
+        np.testing.assert_array_equal(changed.positions, before.positions)
+        assert session.parameters["damping"] == 0.2
+        assert session.step().time == pytest.approx(before.time + session.parameters["timeStep"])
+        now = session.state
+        for wrong in ({"damping": -1}, {"solver": "direct"}, {"nonsense": 1}):
+            with pytest.raises(SessionError) as refused:
+                session.change(**wrong)
+            assert "\n" not in str(refused.value)
+            assert_same_bits(session.state, now)
+        assert not np.array_equal(session.step(push=1.0).positions, other.step(push=6.0, steps=6).positions)
+        assert session.reset().step == 0 and session.parameters["damping"] == 0.2
+
+
 def test_a_material_states_its_forces_and_is_carried_by_its_support():
     with Session(**MATERIAL) as session:
         assert not session.hand

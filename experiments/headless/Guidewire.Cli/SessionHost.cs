@@ -35,6 +35,10 @@ namespace Guidewire.Cli
                 case "step":
                     Step(Opened(), request);
                     break;
+                case "change":
+                    Change(Opened(), request);
+                    answer["effective"] = _session!.EffectiveParameters;
+                    break;
                 case "reset":
                     Opened().Reset();
                     break;
@@ -46,7 +50,7 @@ namespace Guidewire.Cli
                     break;
                 default:
                     throw new ParameterException("request", "session", "\"" + request.Session + "\"",
-                        "one of \"open\", \"step\", \"reset\", \"save\", \"restore\"");
+                        "one of \"open\", \"step\", \"change\", \"reset\", \"save\", \"restore\"");
             }
             State(_session!.Simulation, answer);
         }
@@ -54,6 +58,18 @@ namespace Guidewire.Cli
         private SimulationSession Opened()
         {
             return _session ?? throw new ParameterException("request: no session is open: \"session\": \"open\" opens one");
+        }
+
+        private static void Change(SimulationSession session, RunRequest request)
+        {
+            try
+            {
+                session.Set(request.Overrides);
+            }
+            catch (ArgumentException error)
+            {
+                throw new ParameterException("request: " + error.Message);
+            }
         }
 
         // What a hand asks is made in equal parts.

@@ -13,6 +13,19 @@ namespace Guidewire.Io
         Last,
     }
 
+    /// <summary>How a log is written.</summary>
+    public enum LogFormat
+    {
+        /// <summary>positions.json, text.</summary>
+        Json,
+
+        /// <summary>positions.npz, arrays of doubles.</summary>
+        Npz,
+
+        /// <summary>positions.npz, arrays of 32 bits a number.</summary>
+        Npz32,
+    }
+
     /// <summary>All that a parameter file says: what is simulated, and what is written of it.</summary>
     public sealed class RunParameters
     {
@@ -60,6 +73,9 @@ namespace Guidewire.Io
 
         /// <summary>Which spheres are logged.</summary>
         public LoggedSpheres LogSpheres { get; set; } = LoggedSpheres.All;
+
+        /// <summary>How the log is written.</summary>
+        public LogFormat LogFormat { get; set; } = LogFormat.Json;
 
         /// <summary>Whether orientations are logged too.</summary>
         public bool LogOrientations { get; set; }

@@ -12,7 +12,7 @@ namespace Guidewire.Io
     /// says, and <c>"hub": {"insertion": m, ..}</c> as key logHub does.</summary>
     /// <remarks>Entry "k" is the state after k steps. Until <see cref="Close"/> the file is not whole JSON, but every
     /// line that ends is a whole entry. Numbers are round-trip exact; one that is not finite is null.</remarks>
-    internal sealed class DataLogger : IDisposable
+    internal sealed class DataLogger : StateLog
     {
         private const int Buffer = 1 << 16;
         private const double FlushAfter = 1000.0;     // ms of run time
@@ -34,19 +34,8 @@ namespace Guidewire.Io
             Append("{\n");
         }
 
-        /// <summary>A log into a file, which others are kept from writing to.</summary>
-        /// <exception cref="IOException">The file cannot be written, or another run writes to it.</exception>
-        public static DataLogger Open(string path, RunParameters parameters)
-        {
-            return new DataLogger(new FileStream(path, FileMode.Create, FileAccess.Write, FileShare.None, 1),
-                parameters);
-        }
-
-        /// <summary>Writes one state.</summary>
-        /// <param name="simulation">The run after its last step.</param>
-        /// <param name="elapsed">Wall time since the run's start in ms.</param>
-        /// <exception cref="IOException">The disk is full or gone.</exception>
-        public void Log(Simulation simulation, double elapsed)
+        /// <inheritdoc/>
+        public override void Log(Simulation simulation, double elapsed)
         {
             RodState state = simulation.State;
             Append(_empty ? "\"" : ",\n\"");
@@ -103,9 +92,8 @@ namespace Guidewire.Io
             }
         }
 
-        /// <summary>Makes the file whole JSON, and everything in it safe on the disk.</summary>
-        /// <exception cref="IOException">The disk is full or gone.</exception>
-        public void Close()
+        /// <inheritdoc/>
+        public override void Close()
         {
             Append("\n}\n");
             Flush();
@@ -116,8 +104,8 @@ namespace Guidewire.Io
             _stream.Dispose();
         }
 
-        /// <summary>Lets go of the file as it is.</summary>
-        public void Dispose()
+        /// <inheritdoc/>
+        public override void Dispose()
         {
             _stream.Dispose();
         }

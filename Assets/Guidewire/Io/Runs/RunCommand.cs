@@ -60,7 +60,7 @@ namespace Guidewire.Io
             if (result.KeptEarlier)
             {
                 ending += "; the complete run that " + run.Folder + " held before is kept, the log of this one is "
-                    + RunFolder.PartialLog;
+                    + RunFolder.PartialLogOf(handler);
             }
             if (result.Outcome == Outcome.Failed)
             {

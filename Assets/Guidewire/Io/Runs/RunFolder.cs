@@ -7,26 +7,21 @@ using Newtonsoft.Json;
 
 namespace Guidewire.Io
 {
-    /// <summary>The results of one run as they come to be: positions.json, parameters.json, summary.json in a folder.
+    /// <summary>The results of one run as they come to be: its log, parameters.json, summary.json in a folder.
     /// Whoever steps a simulation, a loop of its own or Unity's frames, steps it through here to have it
     /// logged.</summary>
     /// <remarks>All three are written as *.partial and renamed at the end, the summary last, so that an earlier result
     /// stays whole until the new one is, and stays where the new one does not come to an end of its own. What a killed
-    /// run leaves is positions.json.partial.</remarks>
+    /// run leaves is the log's *.partial.</remarks>
     public sealed class RunFolder : IDisposable
     {
         internal const string ParametersFile = "parameters.json";
-        private const string PositionsFile = "positions.json";
-
-        /// <summary>Name of a log that is not whole yet.</summary>
-        internal const string PartialLog = PositionsFile + AtomicFile.Partial;
-
         internal static readonly double ToMilliseconds = 1000.0 / Stopwatch.Frequency;    // of a Stopwatch's ticks
 
         private readonly ParameterHandler _handler;
         private readonly string _folder;
         private readonly int? _repeat;
-        private readonly DataLogger? _logger;    // null: no log was asked for
+        private readonly StateLog? _logger;    // null: no log was asked for
         private readonly StepTimes _times = new StepTimes();
         private readonly Stopwatch _clock = new Stopwatch();
         private readonly List<string> _notes = new List<string>();
@@ -34,7 +29,7 @@ namespace Guidewire.Io
         private int _lastLogged = -1;
         private bool _lost;
 
-        private RunFolder(ParameterHandler handler, string folder, int? repeat, DataLogger? logger)
+        private RunFolder(ParameterHandler handler, string folder, int? repeat, StateLog? logger)
         {
             _handler = handler;
             _folder = folder;
@@ -63,9 +58,8 @@ namespace Guidewire.Io
             try
             {
                 Directory.CreateDirectory(folder);
-                string log = Path.Combine(folder, PositionsFile + AtomicFile.Partial);
-                return new RunFolder(handler, folder, repeat,
-                    keepsLog ? DataLogger.Open(log, handler.Values) : null);
+                string log = Path.Combine(folder, PartialLogOf(handler));
+                return new RunFolder(handler, folder, repeat, keepsLog ? StateLog.Open(log, handler.Values) : null);
             }
             catch (Exception error) when (error is IOException || error is UnauthorizedAccessException
                 || error is ArgumentException || error is NotSupportedException)
@@ -73,6 +67,12 @@ namespace Guidewire.Io
                 throw new ParameterException("out = " + folder + " cannot be written (" + error.Message
                     + "): needs a folder that this user may write to and no other run is writing to");
             }
+        }
+
+        /// <summary>Name of a log that is not whole yet.</summary>
+        internal static string PartialLogOf(ParameterHandler handler)
+        {
+            return StateLog.NameOf(handler.Values.LogFormat) + AtomicFile.Partial;
         }
 
         /// <summary>Starts the clock and logs the state before the first step.</summary>
@@ -138,7 +138,7 @@ namespace Guidewire.Io
             try
             {
                 string? log = _logger == null ? null
-                    : File.Exists(Path.Combine(_folder, PartialLog)) ? PartialLog : PositionsFile;
+                    : File.Exists(Path.Combine(_folder, PartialLogOf(_handler))) ? PartialLogOf(_handler) : LogName;
                 AtomicFile.Write(Path.Combine(_folder, RunSummary.FileName), Summary(simulation, log));
             }
             catch (Exception error) when (IsDisk(error))
@@ -204,7 +204,7 @@ namespace Guidewire.Io
             {
                 AtomicFile.Prepare(summary, Summary(simulation, null));
                 File.Delete(summary);    // an earlier run's, as the others
-                File.Delete(Path.Combine(_folder, PositionsFile));
+                DeleteLogs(null);
                 File.Delete(parameters);
                 AtomicFile.Publish(summary);
                 return;
@@ -212,7 +212,7 @@ namespace Guidewire.Io
             AtomicFile.Prepare(parameters, _handler.ToJson().ToString(Formatting.Indented) + "\n");
             try
             {
-                AtomicFile.Prepare(summary, Summary(simulation, PositionsFile));
+                AtomicFile.Prepare(summary, Summary(simulation, LogName));
             }
             catch (Exception error) when (IsDisk(error))
             {
@@ -220,9 +220,24 @@ namespace Guidewire.Io
                 throw;
             }
             File.Delete(summary);
-            AtomicFile.Publish(Path.Combine(_folder, PositionsFile));
+            DeleteLogs(LogName);
+            AtomicFile.Publish(Path.Combine(_folder, LogName));
             AtomicFile.Publish(parameters);
             AtomicFile.Publish(summary);
+        }
+
+        private string LogName => StateLog.NameOf(_handler.Values.LogFormat);
+
+        // Logs of an earlier run, which may have had another format.
+        private void DeleteLogs(string? kept)
+        {
+            foreach (LogFormat format in Enum.GetValues(typeof(LogFormat)))
+            {
+                if (StateLog.NameOf(format) != kept)
+                {
+                    File.Delete(Path.Combine(_folder, StateLog.NameOf(format)));
+                }
+            }
         }
 
         private string Summary(Simulation simulation, string? log)

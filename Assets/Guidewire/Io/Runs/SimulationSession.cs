@@ -21,6 +21,7 @@ namespace Guidewire.Io
         private readonly List<KeyValuePair<string, JToken>> _overrides;
         private ParameterHandler _handler;
         private readonly Steering? _hand;
+        private readonly bool _statesReactions;
         private RunFolder? _results;
         private bool _isNoted;
         private readonly byte[] _start;
@@ -29,6 +30,7 @@ namespace Guidewire.Io
             bool isSteered)
         {
             _hand = isSteered ? new Steering() : null;
+            _statesReactions = handler.Values.Simulation.Method.StatesReactions;
             handler.Values.Simulation.Drive.Steering = _hand;
             _file = file;
             _overrides = overrides;
@@ -80,7 +82,7 @@ namespace Guidewire.Io
                 throw new ParameterException((file ?? CommandLineHandler.Source) + ": a wire of solver "
                     + Get(handler, "solver") + " is not steered by hand: its file's drive moves it");
             }
-            method.StatesReactions |= ParameterTable.Find("logContacts")!.IsTakenBy(method.Solver);
+            method.StatesReactions |= CanStateReactions(method);
             return new SimulationSession(file, given, handler,
                 isSteered ?? (traits.TakesSteering && !traits.TakesMaterial));
         }
@@ -141,6 +143,11 @@ namespace Guidewire.Io
             return Get(_handler, key);
         }
 
+        private static bool CanStateReactions(MethodParameters method)
+        {
+            return ParameterTable.Find("logContacts")!.IsTakenBy(method.Solver);
+        }
+
         private static JToken Get(ParameterHandler handler, string key)
         {
             return ParameterTable.Find(key)!.Write(handler.Values);
@@ -194,10 +201,23 @@ namespace Guidewire.Io
         /// <exception cref="ParameterException">The value is not allowed; nothing has changed.</exception>
         public void Set(string key, JToken value)
         {
+            Set(new[] { new KeyValuePair<string, JToken>(key, value) });
+        }
+
+        /// <summary>Changes parameters; the wire goes on from where it is.</summary>
+        /// <exception cref="ParameterException">A value is not allowed; nothing has changed.</exception>
+        /// <exception cref="ArgumentException">This wire cannot go on with them; nothing has changed.</exception>
+        public void Set(IReadOnlyCollection<KeyValuePair<string, JToken>> values)
+        {
             var changed = new List<KeyValuePair<string, JToken>>(_overrides);
-            changed.RemoveAll(pair => pair.Key == key);
-            changed.Add(new KeyValuePair<string, JToken>(key, value));
+            foreach (KeyValuePair<string, JToken> value in values)
+            {
+                changed.RemoveAll(pair => pair.Key == value.Key);
+                changed.Add(value);
+            }
             ParameterHandler handler = ParameterHandler.Load(_file, changed);
+            MethodParameters method = handler.Values.Simulation.Method;
+            method.StatesReactions |= _statesReactions && CanStateReactions(method);
             handler.Values.Simulation.Drive.Steering = _hand;
             Simulation = Simulation.Continue(handler.Values.Simulation);
             Note("parameters changed by hand");

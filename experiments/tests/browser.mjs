@@ -1,0 +1,50 @@
+// Drives a browser for the tests: a JSON list of orders a line on standard input, a JSON list of what was seen a line
+// on standard output. Arguments: a folder that finds playwright-core, and the browser.
+import { createRequire } from "node:module";
+import { createInterface } from "node:readline";
+
+const [modules, executablePath] = process.argv.slice(2);
+const { chromium } = createRequire(`${modules}/`)("playwright-core");
+const browser = await chromium.launch({ executablePath, args: ["--no-sandbox", "--enable-unsafe-swiftshader"] });
+
+const until = async (page, expression) => {
+  for (let k = 0; k < 600; k++) {
+    if (await page.evaluate(expression)) return;
+    await page.waitForTimeout(50);
+  }
+  throw new Error(`not within 30 s: ${expression}`);
+};
+const orders = {
+  open: (page, address) => page.goto(address),
+  until,
+  down: (page, key) => page.keyboard.down(key),
+  up: (page, key) => page.keyboard.up(key),
+  press: (page, key) => page.keyboard.press(key),
+  choose: async (page, [selector, value]) => void await page.selectOption(selector, value),
+  click: (page, text) => page.getByRole("button", { name: text, exact: true }).click(),
+  see: (page, expression) => page.evaluate(expression),
+  picture: async (page, path) => void await page.screenshot({ path }),
+};
+
+for await (const line of createInterface({ input: process.stdin })) {
+  const { offline, steps } = JSON.parse(line);
+  const context = await browser.newContext({ viewport: { width: 1000, height: 640 }, offline });
+  const page = await context.newPage();
+  const troubles = [];
+  const asked = [];
+  page.on("pageerror", (error) => troubles.push(error.message));
+  page.on("console", (message) => message.type() === "error" && troubles.push(message.text()));
+  page.on("request", (request) => asked.push(request.url()));
+  const seen = [];
+  try {
+    for (const [order, value] of steps) {
+      const answer = await orders[order](page, value);
+      if (order === "see") seen.push(answer);
+    }
+  } catch (error) {
+    troubles.push(error.message);
+  }
+  process.stdout.write(`${JSON.stringify({ seen, troubles, asked })}\n`);
+  await context.close();
+}
+await browser.close();

@@ -1,0 +1,389 @@
+"""guidewire.py view: who is answered and who is not, one hand and many eyes, and how it ends; with the real runner."""
+
+import asyncio
+import http.client
+import json
+import os
+import signal
+import socket
+import struct
+import subprocess
+import sys
+import time
+from contextlib import contextmanager
+from urllib.parse import urlsplit
+
+import aiohttp
+import numpy as np
+import pytest
+
+from analysis.surfaces import Surface, curvature
+from experiments import commands
+from experiments.prepare import ROOT, PreparationError
+from viewer import parts
+from viewer.command import view
+from viewer.export import to_html
+from viewer.recording import Recording, Units, make_channels
+from viewer.server import LONGEST_MESSAGE, MOST_PAGES, page_files
+
+SCENE = {"guidewireLength": 60, "numberRodElements": 6, "guidewireOffset": -60, "displacement": 0, "sphereRadius": 2,
+         "constraintSolverSteps": 5, "vessel": {"shape": "tube", "knots": [[0, 0, -70], [0, 0, 90]], "radius": 8}}
+SECRET = "in no page"
+
+
+@contextmanager
+def serving(tmp_path, *words, with_three=False):
+    """A server of the page, and its address; Ctrl-C ends it well. Without three there is nothing to install."""
+    stand_in = "" if with_three else "from viewer import command; command.three = lambda tell: {}; "
+    start = (f"import sys; {stand_in}from experiments import commands; "
+             f"sys.exit(commands.run(commands.parse({['view', *words]!r})))")
+    with (tmp_path / "errors").open("w") as errors:
+        process = subprocess.Popen([sys.executable, "-c", start], cwd=tmp_path, stdout=subprocess.PIPE, stderr=errors,
+                                   text=True, env={**os.environ, "PYTHONPATH": str(ROOT)})
+    try:
+        line = process.stdout.readline()
+        assert line.startswith("open http://127.0.0.1:"), (tmp_path / "errors").read_text()
+        yield line.split()[1], process
+        process.send_signal(signal.SIGINT)
+        assert process.wait(20) == 0
+        assert (tmp_path / "errors").read_text() == ""
+    finally:
+        process.kill()
+        process.wait()
+        process.stdout.close()
+
+
+@pytest.fixture(scope="module")
+def live(runner_command, tmp_path_factory):
+    """Address and process of a server with a run that goes on."""
+    folder = tmp_path_factory.mktemp("live")
+    (folder / "secret.json").write_text(SECRET)
+    (folder / "scene.json").write_text(json.dumps(SCENE))
+    with serving(folder, "scene.json") as (address, process):
+        yield address, process
+
+
+def ask(address, path, method="GET", **headers):
+    """Status and text of an answer to a request as it stands, without anything put right before it is sent."""
+    where = urlsplit(address)
+    connection = http.client.HTTPConnection(where.hostname, where.port, timeout=10)
+    connection.putrequest(method, path, skip_host="Host" in headers)
+    for name, value in headers.items():
+        connection.putheader(name, value)
+    connection.endheaders()
+    answer = connection.getresponse()
+    text = answer.read().decode("utf-8", "replace")
+    connection.close()
+    return answer.status, text, answer.headers
+
+
+def with_pages(address, talk, count=1):
+    """Run a conversation of pages that have joined one after the other."""
+    async def talk_with_all():
+        origin = "http://" + urlsplit(address).netloc
+        async with aiohttp.ClientSession() as session:
+            pages = []
+            for _ in range(count):
+                pages.append(await session.ws_connect(address + "live", headers={"Origin": origin}, max_msg_size=0))
+                await pages[-1].receive_json(timeout=10)
+            try:
+                return await asyncio.wait_for(talk(*pages), 30)
+            finally:
+                for page in pages:
+                    await page.close()
+
+    return asyncio.run(talk_with_all())
+
+
+async def hear(page, wanted):
+    """The next status of which something is true; states between are let pass."""
+    while True:
+        message = await page.receive()
+        if message.type in (aiohttp.WSMsgType.CLOSE, aiohttp.WSMsgType.CLOSED, aiohttp.WSMsgType.ERROR):
+            raise AssertionError(f"closed: {message}")
+        if message.type == aiohttp.WSMsgType.TEXT and wanted(json.loads(message.data)):
+            return json.loads(message.data)
+
+
+async def see(page, count):
+    """So many states, each an array of doubles."""
+    states = []
+    while len(states) < count:
+        message = await page.receive()
+        if message.type == aiohttp.WSMsgType.BINARY:
+            await page.send_json({"do": "shown"})
+            states.append(np.frombuffer(message.data))
+    return np.array(states)
+
+
+def test_only_its_own_page_with_the_token_is_answered(live):
+    address, _ = live
+    path, host = urlsplit(address).path, urlsplit(address).netloc
+    status, text, headers = ask(address, path)
+    assert status == 200 and "<title>Guidewire</title>" in text
+    assert "default-src 'self'" in headers["Content-Security-Policy"] and headers["X-Content-Type-Options"] == "nosniff"
+    assert ask(address, path + "main.js", Origin=f"http://{host}")[0] == 200
+    for wrong in ({"Host": "guidewire.example"}, {"Host": "127.0.0.1"}, {"Origin": "http://guidewire.example"},
+                  {"Origin": "null"}, {"Origin": "https://" + host}, {"Origin": f"http://{host}.example"}):
+        assert ask(address, path, **wrong)[0] == 403, wrong
+    for wrong in ("/", "/main.js", "/" + path[2:], path[:-2] + "/", "/x" * 3, path.upper()):
+        assert ask(address, wrong)[0] == 404, wrong
+    for method in ("POST", "PUT", "DELETE", "OPTIONS"):
+        assert ask(address, path + "show.json", method)[0] in (404, 405)
+
+
+@pytest.mark.parametrize("name", [
+    "../secret.json", "secret.json", "%2e%2e/secret.json", "..%2fsecret.json", "/etc/passwd", "//etc/passwd",
+    "main.js/../../server.py", "package.json", "jsconfig.json", "main.js%00", "recording/1", "recording/-1",
+    "recording/00", "recording/../show.json", "page/main.js",
+])
+def test_nothing_is_served_that_is_not_in_the_table(live, name):
+    address, _ = live
+    status, text, _ = ask(address, urlsplit(address).path + name)
+    assert status in (400, 404) and SECRET not in text and "root:" not in text
+
+
+def test_it_listens_on_this_machine_alone(live):
+    port = urlsplit(live[0]).port
+    with pytest.raises(ConnectionRefusedError):  # of the loop of this machine, too, only the one address
+        socket.create_connection(("127.0.0.2", port), timeout=5)
+
+
+def test_a_run_is_for_its_own_page(live):
+    address, _ = live
+    upgrade = {"Connection": "Upgrade", "Upgrade": "websocket", "Sec-WebSocket-Version": "13",
+               "Sec-WebSocket-Key": "AAAAAAAAAAAAAAAAAAAAAA=="}
+    assert ask(address, urlsplit(address).path + "live", **upgrade)[0] == 403
+    assert ask(address, urlsplit(address).path + "live", Origin="http://guidewire.example", **upgrade)[0] == 403
+
+
+def test_a_page_moves_the_wire_and_another_looks_on_until_the_first_is_gone(live):
+    async def talk(hand, eye):
+        await hand.send_json({"do": "hand", "push": 1, "turn": 0, "mark": 7})
+        states = await see(hand, 12)
+        assert states[-1][0] == 7  # what the hand last said
+        assert states[-1][5] - states[0][5] > 0  # z of sphere 0: mark, time, step, x, y, z
+        assert (np.diff(states[:, 2]) > 0).all()
+        await eye.send_json({"do": "hand", "push": -1, "turn": 0, "mark": 9})
+        await eye.send_json({"do": "pause", "value": True})
+        await eye.send_json({"do": "take"})
+        for _ in range(3):
+            status = await hear(eye, lambda status: True)
+            assert not status["hand"] and not status["isFree"] and not status["isPaused"]
+        assert ((await see(hand, 3))[:, 0] == 7).all()
+        await hand.close()
+        status = await hear(eye, lambda status: status["isFree"])
+        assert status["isPaused"] and not status["hand"]
+        await eye.send_json({"do": "take"})
+        assert (await hear(eye, lambda status: status["hand"]))["isPaused"]
+        await eye.send_json({"do": "reset"})
+        assert (await hear(eye, lambda status: status["opened"] > 1))["problem"] == ""
+
+    with_pages(live[0], talk, 2)
+
+
+def test_a_hand_pauses_steps_changes_and_opens_scenes(live):
+    async def talk(page):
+        await page.send_json({"do": "pause", "value": True})
+        await hear(page, lambda status: status["isPaused"])
+        await page.send_json({"do": "step"})
+        (before,) = await see(page, 1)
+        await page.send_json({"do": "step"})
+        (after,) = await see(page, 1)
+        assert after[2] == before[2] + 1
+        await page.send_json({"do": "set", "key": "timeStep", "value": 0.004})
+        assert (await hear(page, lambda status: status["values"]["timeStep"] == 0.004))["problem"] == ""
+        await page.send_json({"do": "step"})
+        (later,) = await see(page, 1)
+        assert later[1] - after[1] == pytest.approx(0.004)
+        await page.send_json({"do": "set", "key": "timeStep", "value": -1})
+        assert "timeStep = -1" in (await hear(page, lambda status: status["problem"]))["problem"]
+        await page.send_json({"do": "set", "key": "solver", "value": "direct"})
+        assert "solver" in (await hear(page, lambda status: "solver" in status["problem"]))["problem"]
+        await page.send_json({"do": "open", "scene": "cantilever.json"})
+        status = await hear(page, lambda status: status["scene"] == "cantilever.json")
+        assert not status["isSteered"] and status["isPaused"] and status["values"]["solver"] == "direct"
+        await page.send_json({"do": "open", "scene": "scene.json"})
+        await hear(page, lambda status: status["scene"] == "scene.json")
+
+    with_pages(live[0], talk)
+
+
+@pytest.mark.parametrize("said", [
+    "x" * 100_000_000, "no JSON", "[]", '{"do": "nothing"}', '{"do": "open", "scene": "../secret.json"}',
+    '{"do": "set", "key": "logFilePath", "value": "/tmp"}', '{"do": "hand", "push": 2, "turn": 0, "mark": 1}',
+    '{"do": "hand", "push": NaN, "turn": 0, "mark": 1}', "[" * (LONGEST_MESSAGE - 1), b"bytes",
+], ids=lambda said: str(said[:30]))
+def test_a_page_that_says_what_no_page_says_is_closed_and_the_run_goes_on(live, said):
+    async def talk(page):
+        try:
+            await (page.send_bytes if isinstance(said, bytes) else page.send_str)(said)
+        except (ConnectionError, aiohttp.ClientError):
+            return  # it did not even listen to the end
+        while (await page.receive()).type not in (aiohttp.WSMsgType.CLOSE, aiohttp.WSMsgType.CLOSED,
+                                                  aiohttp.WSMsgType.CLOSING, aiohttp.WSMsgType.ERROR):
+            pass
+
+    async def talk_after(page):
+        await page.send_json({"do": "step"})
+        assert len(await see(page, 1)) == 1
+
+    with_pages(live[0], talk)
+    with_pages(live[0], talk_after)
+
+
+def test_so_many_pages_and_no_more(live):
+    async def talk(*pages):
+        with pytest.raises(aiohttp.WSServerHandshakeError) as refused:
+            async with aiohttp.ClientSession() as session:
+                await session.ws_connect(live[0] + "live", headers={"Origin": "http://" + urlsplit(live[0]).netloc})
+        assert refused.value.status == 503
+
+    with_pages(live[0], talk, MOST_PAGES)
+
+
+def test_a_runner_that_is_killed_is_said_and_a_new_one_takes_its_place(live):
+    async def talk(page):
+        await page.send_json({"do": "pause", "value": False})
+        await see(page, 2)
+        os.kill(children(live[1].pid)[0], signal.SIGKILL)
+        status = await hear(page, lambda status: status["problem"])
+        assert "killed by signal 9" in status["problem"] and status["isPaused"]
+        await page.send_json({"do": "reset"})
+        await hear(page, lambda status: not status["problem"])
+        assert (await see(page, 1))[0][2] <= 20  # among its first steps
+
+    with_pages(live[0], talk)
+
+
+def test_a_server_that_ends_says_so_and_leaves_no_runner(runner_command, tmp_path):
+    (tmp_path / "scene.json").write_text(json.dumps(SCENE))
+    with serving(tmp_path, "scene.json") as (address, process):
+        runners = children(process.pid)
+        assert len(runners) == 1
+
+        async def talk(page):
+            process.send_signal(signal.SIGINT)
+            while not (message := await page.receive()).type == aiohttp.WSMsgType.CLOSE:
+                pass
+            assert message.extra == "the server has ended"
+
+        with_pages(address, talk)
+        assert process.wait(10) == 0
+    for _ in range(100):
+        if not any(os.path.exists(f"/proc/{runner}") for runner in runners):
+            return
+        time.sleep(0.1)
+    raise AssertionError("a runner is left")
+
+
+def children(pid):
+    with open(f"/proc/{pid}/task/{pid}/children", encoding="ascii") as file:
+        named = [int(child) for child in file.read().split()]
+    threads = os.listdir(f"/proc/{pid}/task")
+    for thread in threads:  # a process that a thread started is listed there
+        with open(f"/proc/{pid}/task/{thread}/children", encoding="ascii") as file:
+            named += [int(child) for child in file.read().split()]
+    return sorted(set(named))
+
+
+def recording(frames=300, elements=60, wall=None):
+    """A wire that swings, of so many frames."""
+    time_ = np.linspace(0.0, 3.0, frames)
+    s = np.linspace(0.0, 300.0, elements + 1)
+    x = 40.0 * np.sin(s / 50.0 + time_[:, None]) + 0.1 * np.sin(7.0 * s * time_[:, None])
+    positions = np.stack([x, 20.0 * np.cos(s / 40.0 - time_[:, None]), np.broadcast_to(s, x.shape)], axis=2)
+    forces = np.where(x[..., None] > 30.0, positions, 0.0)
+    orientations = np.zeros((frames, elements, 4))
+    half = 0.5 * 0.02 * np.arange(elements) + np.zeros((frames, 1))
+    orientations[..., 2], orientations[..., 3] = np.sin(half), np.cos(half)
+    channels = make_channels(Units(None), {
+        "time": time_, "step": np.arange(frames), "positions": positions, "orientations": orientations,
+        "contact_forces": forces, "reaction": forces[:, 3] + 1.0})
+    return Recording("swing", "finished", [], [], 1.0, channels, [("vessel", wall)] if wall else [])
+
+
+def unpack(block):
+    """Channels by name, as the page reads them, with what the header says of them."""
+    (length,) = struct.unpack_from("<I", block)
+    header = json.loads(block[4:4 + length])
+    channels = {}
+    for channel in header["channels"]:
+        start = 4 + length + channel["offset"]
+        values = np.frombuffer(block, "<" + channel["type"], channel["count"], start).astype(float)
+        if "low" in channel:
+            low, high = np.array(channel["low"]), np.array(channel["high"])
+            values = (low + values.reshape(-1, len(low)) / 65535.0 * (high - low)).ravel()
+        channels[channel["name"]] = (channel, values.reshape(-1, channel["width"]))
+    return channels
+
+
+def test_a_recording_is_exact_or_as_near_as_16_bits_are():
+    whole = recording(20, 8)
+    exact, near = unpack(whole.to_bytes()), unpack(whole.to_bytes(exact=False))
+    for channel in whole.channels:
+        np.testing.assert_array_equal(exact[channel.name][1], channel.values)
+        span = channel.values.max() - channel.values.min()
+        share = 1e-7 if channel.place == "frame" else 0.51 / 65535.0
+        np.testing.assert_allclose(near[channel.name][1], channel.values, atol=share * span + 1e-7, rtol=1e-7)
+
+
+def test_what_colours_the_wire_is_its_own():
+    channels = {channel.name: channel.values for channel in recording(3, 12).channels}
+    for k in range(3):
+        np.testing.assert_allclose(channels["curvature"][k], curvature(channels["positions"][k].reshape(-1, 3)))
+    # Each element turned about its axis by 0.02 rad against the one before.
+    lengths = np.linalg.norm(np.diff(channels["positions"].reshape(3, 13, 3), axis=1), axis=2)
+    np.testing.assert_allclose(channels["twist"][:, 1:-1], 0.02 / (0.5 * (lengths[:, 1:] + lengths[:, :-1])))
+    np.testing.assert_allclose(channels["tipz"][:, 0], 300.0)
+
+
+def test_300_frames_and_a_vessel_of_50_000_triangles_are_a_file_of_less_than_4_MB(tmp_path):
+    s, around = np.meshgrid(np.linspace(0.0, 300.0, 251), 0.02 * np.pi * np.arange(100), indexing="ij")
+    radius = 8.0 + np.sin(0.3 * s) + 0.1 * np.random.default_rng(1).standard_normal(s.shape)
+    vertices = np.stack([radius * np.cos(around), radius * np.sin(around) + 0.001 * s**2, s], axis=2).reshape(-1, 3)
+    a = np.arange(250 * 100)
+    b = np.where(a % 100 == 99, a - 99, a + 1)
+    triangles = np.concatenate([np.stack([a, b, a + 100], 1), np.stack([b, b + 100, a + 100], 1)])
+    assert len(triangles) == 50_000
+    block = recording(wall=Surface(vertices, triangles, np.zeros(len(vertices)))).to_bytes(exact=False)
+    three = tmp_path / "three.module.js"  # as much text as three has, and as hard to press
+    three.write_text("import { a } from './three.core.js';\n" + np.random.default_rng(2).bytes(400_000).hex())
+    html = to_html(page_files({"three.module.js": three}), [block])
+    assert len(html) < 4e6
+    assert "src=" not in html and "./" not in html.split("<script", 1)[0]
+
+
+@pytest.mark.parametrize("words, said", [
+    (["nowhere.json"], "nowhere.json"), (["a", "b"], "one parameter file, or the folders"),
+    (["--html", "a.html", "scene.json"], "--html"),
+    (["--html", "a.txt", "."], "a page's name ends with .html"), (["."], "parameters.json"),
+    (["--html", "/proc/no/a.html", "."], "/proc/no"),
+])
+def test_what_cannot_be_shown_is_one_line(tmp_path, monkeypatch, words, said):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "scene.json").write_text("{}")
+    monkeypatch.setattr("viewer.command.three", lambda tell: {})
+    with pytest.raises(PreparationError) as refused:
+        arguments = commands.parse(["view", *words])
+        arguments.action(arguments)
+    assert said in str(refused.value) and "\n" not in str(refused.value)
+
+
+def test_a_log_of_one_sphere_is_one_line(runner_command, tmp_path, monkeypatch):
+    monkeypatch.setattr("viewer.command.three", lambda tell: {})
+    subprocess.run([*runner_command, "-out", str(tmp_path), "-logSpheres", "last", "-maxSimulationSteps", "1"],
+                   check=True, capture_output=True)
+    with pytest.raises(PreparationError, match="logSpheres"):
+        view([tmp_path], tmp_path / "a.html", None, False, lambda: runner_command)
+
+
+def test_without_npm_one_line_says_what_to_install(tmp_path, monkeypatch):
+    monkeypatch.setattr(parts, "CACHE", tmp_path / "cache")
+    monkeypatch.setattr(parts.shutil, "which", lambda name: None)
+    with pytest.raises(PreparationError, match="three@.*there is no npm: install Node.js") as refused:
+        parts.three(print)
+    assert "\n" not in str(refused.value) and not (tmp_path / "cache").exists()
+    monkeypatch.setattr(parts.shutil, "which", lambda name: "/bin/false")
+    with pytest.raises(PreparationError, match="npm could not install three@"):
+        parts.three(lambda line: None)

@@ -1,0 +1,128 @@
+"""The page in a real browser: a wire pushed by keys, replays, and the file that needs no server."""
+
+import json
+import shutil
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from analysis.logs import read_log
+from experiments.prepare import ROOT, PreparationError
+from test_view import serving
+from viewer import parts
+
+BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+DRAWN = ["until", "globalThis.viewer?.stage.drawn > 0"]
+
+
+def from_npm(kind):
+    try:
+        return parts.require(kind, print)
+    except PreparationError as error:
+        pytest.skip(str(error))
+
+
+@pytest.fixture(scope="module")
+def browse():
+    """A function that has a browser follow orders and returns what it saw."""
+    browser = next(filter(None, map(shutil.which, BROWSERS)), None)
+    node = shutil.which("node")
+    if browser is None or node is None:
+        pytest.skip("no browser: as root 'apt-get install --no-install-recommends chromium' and nodejs")
+    from_npm("dependencies")
+    modules = from_npm("devDependencies")
+    script = ROOT / "experiments" / "tests" / "browser.mjs"
+    process = subprocess.Popen([node, str(script), str(modules.parent), browser], stdin=subprocess.PIPE,
+                               stdout=subprocess.PIPE, text=True)
+
+    def follow(*steps, offline=False):
+        process.stdin.write(json.dumps({"steps": steps, "offline": offline}) + "\n")
+        process.stdin.flush()
+        answer = json.loads(process.stdout.readline())
+        assert answer["troubles"] == []
+        return answer
+
+    yield follow
+    process.stdin.close()
+    process.wait(20)
+    process.stdout.close()
+
+
+@pytest.fixture(scope="module")
+def runs(runner_command, tmp_path_factory):
+    """Folder with two runs: pushed into the vessel with many iterations and with few."""
+    folder = tmp_path_factory.mktemp("runs")
+    for name, sweeps in (("many", "100"), ("few", "10")):
+        subprocess.run([*runner_command, "-parameters", str(ROOT / "params/insertion.json"), "-out", str(folder / name),
+                        "-constraintSolverSteps", sweeps, "-logContacts", "true", "-logEvery", "2"], check=True,
+                       capture_output=True)
+    return folder
+
+
+def test_types_of_the_page_are_right(browse):
+    modules = from_npm("devDependencies")
+    done = subprocess.run([str(modules / ".bin" / "tsc"), "-p", str(parts.PAGE / "jsconfig.json")], capture_output=True,
+                          text=True, check=False)
+    assert done.returncode == 0, done.stdout
+
+
+def test_a_wire_is_pushed_into_the_branch_by_keys(browse, runner_command, tmp_path):
+    with serving(tmp_path, str(ROOT / "params/insertion.json"), with_three=True) as (address, _):
+        seen = browse(
+            ["open", address], DRAWN, ["choose", ["#pace", "10"]], ["see", "document.activeElement.blur()"],
+            ["down", "w"], ["until", "viewer.shown.model.recording.at('step', viewer.shown.model.frame)[0] >= 600"],
+            ["up", "w"], ["press", "c"],
+            ["see", "[viewer.shown.received, ...viewer.shown.model.tip]"], ["picture", str(tmp_path / "live.png")],
+            ["see", "document.getElementById('said').textContent"],
+            ["see", "document.getElementById('panes').textContent"], ["see", "viewer.shown.delays.length"],
+        )["seen"]
+    received, x, y, z = seen[1]
+    # 600 steps are 240 units: the branch goes on as the inlet came, and the arch turns back at z = 200.
+    assert received > 10 and abs(x) < 10 and 30 < y < 80 and z > 205
+    assert seen[2] == "" and "times real time" in seen[3] and seen[4] >= 2
+    assert is_drawn(tmp_path / "live.png")
+
+
+def test_a_file_works_without_server_or_network(browse, runs, tmp_path):
+    file = tmp_path / "run.html"
+    done = subprocess.run([sys.executable, str(ROOT / "guidewire.py"), "view", str(runs / "many"), "--html", str(file)],
+                          capture_output=True, text=True, check=True)
+    assert "run.html" in done.stdout and file.stat().st_size < 4e6
+    log = read_log(runs / "many", "all")
+    answer = browse(["open", file.as_uri()], DRAWN, ["see", "viewer.shown.go(99); [...viewer.shown.models[0].tip]"],
+                    ["picture", str(tmp_path / "file.png")], offline=True)
+    near = np.ptp(log.positions.reshape(-1, 3), axis=0).max() / 65535.0
+    np.testing.assert_allclose(answer["seen"][0], log.positions[-1, -1], atol=near)
+    assert all(asked.startswith(("file:", "blob:", "data:")) for asked in answer["asked"])
+    assert is_drawn(tmp_path / "file.png")
+
+
+def test_two_replays_show_the_positions_of_their_logs_side_by_side_and_one_over_the_other(browse, runs, tmp_path):
+    logs = [read_log(runs / name, "all") for name in ("many", "few")]
+    with serving(tmp_path, str(runs / "many"), str(runs / "few"), with_three=True) as (address, _):
+        seen = browse(
+            ["open", address], DRAWN,
+            ["see", "viewer.shown.models.map((model) => [...model.recording.channel('positions').values])"],
+            ["press", "ArrowRight"], ["see", "viewer.shown.frames[0]"],
+            ["see", "viewer.shown.go(1.6); viewer.shown.models.map((model) => [...model.tip])"],
+            ["see", "document.getElementById('panes').children.length"], ["picture", str(tmp_path / "side.png")],
+            ["click", "one over the other"], ["see", "document.getElementById('panes').children.length"],
+            ["see", "document.getElementById('panes').textContent"], ["picture", str(tmp_path / "over.png")],
+            ["click", "play"], ["until", "viewer.shown.time > 1.65"],
+        )["seen"]
+    for positions, tip, log in zip(seen[0], seen[2], logs):
+        np.testing.assert_array_equal(np.array(positions).reshape(log.positions.shape), log.positions)
+        assert tip == log.positions[np.argmin(np.abs(log.time - 1.6)), -1].tolist()
+    assert seen[1] == 1
+    assert (seen[3], seen[4]) == (2, 1) and "many" in seen[5] and "orange: few" in seen[5]
+    assert is_drawn(tmp_path / "side.png") and is_drawn(tmp_path / "over.png")
+
+
+def is_drawn(path):
+    """Whether the picture shows more than its background where the wire is."""
+    with Image.open(path) as picture:
+        pixels = np.asarray(picture.convert("RGB"))[:560, :660].astype(int)
+    return (np.abs(pixels - (20, 23, 31)).max(axis=2) > 20).mean() > 0.01

@@ -1,0 +1,114 @@
+"""`guidewire.py view`: what it is given, and how that comes to the page."""
+
+from __future__ import annotations
+
+import os
+import sys
+import webbrowser
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from analysis.logs import LogError, extent, read_log
+from analysis.runs import read_run
+from analysis.surfaces import Surface
+from experiments import checking, walls
+from experiments.key_table import read_key_table
+from experiments.prepare import ROOT, PreparationError
+from experiments.session import SessionError, State
+from viewer.export import to_html
+from viewer.live import LiveRun
+from viewer.parts import three
+from viewer.recording import read_recording
+from viewer.server import Server, page_files
+
+MOST_RUNS = 2
+FRAMES_OF_A_FILE = 300
+FRAMES_SERVED = 5000
+
+
+def view(what: Sequence[Path], html: Path | None, frames: int | None, opens: bool,
+         build_runner: Callable[[], list[str]]) -> int:
+    """Show runs that have ended, or a run that goes on; or write runs into one file.
+
+    Parameters
+    ----------
+    what : a parameter file, or folders of one run or two.
+    html : the file to write in place of serving.
+    frames : of a run at most; None: as many as go well.
+    opens : whether the page is opened in a browser.
+    build_runner : returns the command that starts the runner.
+
+    Raises
+    ------
+    PreparationError : with one line, where something cannot be shown.
+    """
+    is_live = not what[0].is_dir()
+    if len(what) > (1 if is_live else MOST_RUNS):
+        raise PreparationError("view takes one parameter file, or the folders of one run or two")
+    if is_live:
+        checking.check_file(what[0])
+        if html is not None or frames is not None:
+            raise PreparationError("--html and --frames are for folders of runs: make one with 'run', and give its "
+                                   "folder")
+    elif html is not None:
+        checking.check_out(html.parent)
+        if html.suffix != ".html" or html.is_dir():
+            raise PreparationError(f"--html {html}: a page's name ends with .html")
+    files = page_files(three(_say))
+    if is_live:
+        return _serve(Server(files, (), _live(what[0], build_runner)), opens)
+    try:
+        most = frames or (FRAMES_SERVED if html is None else FRAMES_OF_A_FILE)
+        recordings = [_read(folder, most, html is None, build_runner) for folder in what]
+    except LogError as error:
+        raise PreparationError(str(error)) from error
+    if html is None:
+        return _serve(Server(files, recordings, None), opens)
+    html.parent.mkdir(parents=True, exist_ok=True)
+    html.write_text(to_html(files, recordings), encoding="utf-8")
+    print(f"page: {os.path.relpath(html)} ({html.stat().st_size / 1e6:.1f} MB)")
+    return 0
+
+
+def _read(folder: Path, frames: int, exact: bool, build_runner: Callable[[], list[str]]) -> bytes:
+    run = read_run(folder)
+    middle, diagonal = extent(read_log(folder, "all"))
+    surfaces = walls.read_walls(build_runner, run, middle, max(diagonal, 1.0))
+    return read_recording(run, surfaces, frames).to_bytes(exact)
+
+
+def _live(file: Path, build_runner: Callable[[], list[str]]) -> LiveRun:
+    command = build_runner()
+    keys = read_key_table(command)
+    own = {path.name: path for path in sorted((ROOT / "params").glob("*.json"))}
+    first = file.name if own.get(file.name, file).resolve() == file.resolve() else str(file)
+    run = LiveRun({first: file, **own}, first, lambda *scene: _walls_of(build_runner, *scene),
+                  {name: list(key.words) for name, key in keys.items() if key.words})
+    try:
+        run.open()
+    except SessionError as error:
+        raise PreparationError(str(error)) from error
+    return run
+
+
+def _walls_of(build_runner: Callable[[], list[str]], file: Path, parameters: Mapping[str, Any], state: State
+              ) -> list[Surface]:
+    """Walls of a scene as its wire may meet them: as far around its start as it is long."""
+    length = float(parameters["guidewireLength"])
+    middle = 0.5 * (state.positions.min(axis=0) + state.positions.max(axis=0))
+    return walls.walls_of(build_runner, parameters, file, middle, length)
+
+
+def _serve(server: Server, opens: bool) -> int:
+    def ready(address: str) -> None:
+        print(f"open {address} (Ctrl-C ends it)", flush=True)
+        if opens:
+            webbrowser.open(address)
+
+    server.run(ready)
+    return 0
+
+
+def _say(line: str) -> None:
+    print(f"guidewire: {line}", file=sys.stderr, flush=True)

@@ -1,0 +1,325 @@
+"""A run under the hand of one page, while others look on. The runner simulates; here is only who asks it for what.
+
+A page says what it wants in short JSON messages, `_DO` below lists them, and is told the run's status as JSON where
+that has changed, and each new state as doubles: the number of the page's last message of its hand, then all channels.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import math
+import time
+import warnings
+from collections.abc import Awaitable, Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from aiohttp import WSCloseCode, WSMsgType, web
+
+from analysis.surfaces import Surface
+from experiments.session import Session, SessionError, State
+from viewer.recording import Recording, facts_of, make_channels, name_walls, radius_of, units_of
+
+PUSH_SPEED = 40.0              # units a second of in-game time, as in the Unity scene
+TURN_SPEED = math.radians(180.0)  # rad a second of in-game time
+PACES = (0.01, 0.1, 0.5, 1, 2, 5, 10)  # of in-game time against the clock, where the machine is fast enough
+_FRAME = 1.0 / 60.0            # s of in-game time that a picture shows, where the machine is fast enough
+_LONGEST = 0.025               # s of wall time that one request may take, so that keys are answered
+_BEHIND = 0.1                  # s; what is lost beyond that is not made up for
+_MOST_ON_THE_WAY = 2           # pictures that a page has not shown yet; further ones are left out
+_SMOOTHING = 0.1               # share of the newest request in the step time shown
+_ENDLESS = {"maxSimulationSteps": 1_000_000_000, "deltaThreshold": 0}
+_CHANGED = ("solver", "integrator", "sweepOrder", "elementContact", "constraintSolverSteps", "stretchStiffness",
+            "bendStiffness", "collisionStiffness", "damping", "timeStep")  # as in the Unity scene
+
+
+class _Page:
+    """A page that is open."""
+
+    def __init__(self, socket: web.WebSocketResponse) -> None:
+        self.socket = socket
+        self.on_the_way = 0
+
+
+class LiveRun:
+    """The run that goes on.
+
+    Parameters
+    ----------
+    scenes : name to parameter file; what a page may open.
+    first : name of the one that is opened at first.
+    walls : from a parameter file, its effective values and its start to the walls.
+    choices : name to words, of the parameters that are words.
+    """
+
+    def __init__(self, scenes: Mapping[str, Path], first: str,
+                 walls: Callable[[Path, Mapping[str, Any], State], list[Surface]],
+                 choices: Mapping[str, list[str]]) -> None:
+        self._scenes = scenes
+        self._scene = first
+        self._read_walls = walls
+        self._choices = choices
+        self._pages: list[_Page] = []
+        self._hand: _Page | None = None
+        self._session: Session | None = None
+        self._walls: list[Surface] = []
+        self._warnings: list[str] = []
+        self._opened = 0
+        self._is_paused = True
+        self._steps_asked = 0
+        self._push = self._turn = 0.0
+        self._mark = 0
+        self._problem = ""
+        self._cost = 0.0  # s of wall time a step, smoothed
+        self._pace = 1.0
+        self._is_over = False
+        self._wake: asyncio.Event | None = None
+        self._asking = ThreadPoolExecutor(1, "session")
+
+    @property
+    def pages(self) -> int:
+        """How many are open."""
+        return len(self._pages)
+
+    def open(self) -> None:
+        """Open the first scene; raises SessionError where it cannot be."""
+        self._open(self._scene)
+
+    async def recording(self) -> bytes:
+        """The run as it is now, one frame of it, with its walls."""
+        return await self._in_thread(lambda: self._record().to_bytes())
+
+    async def go(self) -> None:
+        """Step while a page has the hand and does not pause; to be cancelled."""
+        self._wake = asyncio.Event()
+        due = time.monotonic()
+        while True:
+            if not self._may_step():
+                self._wake.clear()
+                await self._wake.wait()
+                due = time.monotonic()
+                continue
+            session = self._session
+            dt = float(session.parameters["timeStep"])
+            steps = 1 if self._steps_asked else max(1, round(_FRAME / dt))
+            if self._cost > 0.0:
+                steps = max(1, min(steps, int(_LONGEST / self._cost)))
+            self._steps_asked = max(0, self._steps_asked - steps)
+            mark = self._mark
+            push, turn = (PUSH_SPEED * self._push, TURN_SPEED * self._turn) if session.hand else (0.0, 0.0)
+            began = time.monotonic()
+            try:
+                state = await self._in_thread(lambda: session.step(push * dt * steps, turn * dt * steps, steps))
+            except SessionError as error:
+                await self._fail(error)
+                continue
+            cost = (time.monotonic() - began) / steps
+            self._cost = cost if self._cost == 0.0 else self._cost + _SMOOTHING * (cost - self._cost)
+            await self._show(mark, state)
+            if state.outcome is not None:
+                self._is_paused = True
+                await self._tell()
+            due = max(due + steps * dt / self._pace, time.monotonic() - _BEHIND)
+            await asyncio.sleep(max(0.0, due - time.monotonic()))
+
+    async def serve(self, socket: web.WebSocketResponse) -> None:
+        """Talk with a page until it goes away. The first has the hand; a page that has it and goes pauses the run."""
+        page = _Page(socket)
+        self._pages.append(page)
+        if self._hand is None:
+            self._hand = page
+        try:
+            await self._tell()
+            async for message in socket:
+                if message.type != WSMsgType.TEXT or not await self._do(page, message.data):
+                    await socket.close(code=WSCloseCode.POLICY_VIOLATION, message=b"this page said what no page says")
+        finally:
+            if self._is_over:
+                await _say_goodbye(socket)  # before this answer ends, which would close it without a word
+            self._pages.remove(page)
+            if self._hand is page:
+                self._hand = None
+                self._is_paused = True
+                self._push = self._turn = 0.0
+            await self._tell()
+
+    async def close(self) -> None:
+        """End the runner and let go of the pages."""
+        self._is_over = True
+        for page in list(self._pages):
+            await _say_goodbye(page.socket)
+        await self._in_thread(self._close_session)
+        self._asking.shutdown()
+
+    async def _do(self, page: _Page, text: str) -> bool:
+        """Do what a page asks; False for what no page of ours asks."""
+        try:
+            message = json.loads(text)
+            what = message["do"]
+            if what == "shown":
+                page.on_the_way = max(0, page.on_the_way - 1)
+                return True
+            if what == "take":
+                self._hand = self._hand or page
+            elif self._hand is page:
+                await _DO[what](self, message)
+        except SessionError as error:
+            await self._fail(error)
+        except (ValueError, KeyError, TypeError, RecursionError):
+            return False
+        if self._wake is not None:
+            self._wake.set()
+        await self._tell()
+        return True
+
+    async def _do_hand(self, message: Mapping[str, Any]) -> None:
+        push, turn, mark = float(message["push"]), float(message["turn"]), int(message["mark"])
+        if not (abs(push) <= 1.0 and abs(turn) <= 1.0):
+            raise ValueError("a hand pushes and turns with -1 to 1")
+        self._push, self._turn, self._mark = push, turn, mark
+
+    async def _do_pause(self, message: Mapping[str, Any]) -> None:
+        self._is_paused = bool(message["value"])
+
+    async def _do_step(self, _: Mapping[str, Any]) -> None:
+        self._is_paused = True
+        self._steps_asked = 1
+
+    async def _do_reset(self, _: Mapping[str, Any]) -> None:
+        self._problem = ""
+        if self._session is None:  # it died: a new one takes its place
+            await self._in_thread(lambda: self._open(self._scene))
+            return
+        await self._in_thread(self._session.reset)
+        self._is_paused = not self._session.hand
+        self._opened += 1
+
+    async def _do_pace(self, message: Mapping[str, Any]) -> None:
+        if message["value"] not in PACES:
+            raise ValueError("no such pace")
+        self._pace = message["value"]
+
+    async def _do_open(self, message: Mapping[str, Any]) -> None:
+        scene = message["scene"]
+        if scene not in self._scenes:
+            raise ValueError("no such scene")
+        self._problem = ""
+        await self._in_thread(lambda: self._open(scene))
+
+    async def _do_set(self, message: Mapping[str, Any]) -> None:
+        key, value = message["key"], message["value"]
+        if key not in _CHANGED or not isinstance(value, (int, float, str)):
+            raise ValueError("no parameter that may be changed")
+        self._problem = ""
+        if isinstance(value, float) and value.is_integer():
+            value = int(value)
+        await self._in_thread(lambda: self._session.change(**{key: value}))
+        self._cost = 0.0
+
+    def _open(self, scene: str) -> None:
+        self._close_session()
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always")
+            session = Session(self._scenes[scene])
+            if session.hand:
+                session.close()
+                session = Session(self._scenes[scene], **_ENDLESS)
+        self._session, self._scene = session, scene
+        self._is_paused = not session.hand  # a wire that waits for a hand is at rest
+        self._warnings = list(dict.fromkeys(str(one.message) for one in said))
+        self._walls = self._read_walls(self._scenes[scene], session.parameters, session.state)
+        self._opened += 1
+        self._cost = 0.0
+
+    def _close_session(self) -> None:
+        session, self._session = self._session, None
+        if session is not None:
+            session.close()
+
+    def _record(self) -> Recording:
+        session = self._session
+        if session is None:
+            raise web.HTTPNotFound()
+        return Recording(
+            self._scene, "", self._warnings, facts_of(session.parameters, None), radius_of(session.parameters),
+            self._channels(session.state), name_walls(session.parameters, self._walls),
+        )
+
+    def _channels(self, state: State) -> list[Any]:
+        session = self._session
+        walls = bool(self._walls)
+        real_time = float(session.parameters["timeStep"]) / self._cost if self._cost > 0.0 else math.nan
+        one = {
+            "step": np.array([state.step]), "time": np.array([state.time]), "positions": state.positions[None],
+            "orientations": state.orientations[None], "contact_forces": state.contact_forces[None] if walls else None,
+            "step_time": np.array([1e3 * self._cost]), "real_time": np.array([real_time]),
+            **{name: None if values is None else values[None]
+               for name, values in (("curvature", state.curvature), ("force", state.force), ("couple", state.couple),
+                                    ("reaction", state.reaction))},
+        }
+        return make_channels(units_of(session.parameters), one)
+
+    def _may_step(self) -> bool:
+        return (self._session is not None and self._hand is not None and not self._ended()
+                and (not self._is_paused or self._steps_asked > 0))
+
+    def _ended(self) -> bool:
+        return self._session is None or self._session.state.outcome is not None
+
+    async def _show(self, mark: int, state: State) -> None:
+        frame = np.concatenate([[float(mark)], *(channel.values.ravel() for channel in self._channels(state))])
+        block = frame.astype("<f8").tobytes()
+        for page in list(self._pages):
+            if page.on_the_way < _MOST_ON_THE_WAY:
+                page.on_the_way += 1
+                await _send(page.socket.send_bytes(block))
+
+    async def _tell(self) -> None:
+        for page in list(self._pages):
+            await _send(page.socket.send_str(json.dumps(self._status(page))))
+
+    def _status(self, page: _Page) -> dict[str, Any]:
+        session = self._session
+        values = {} if session is None else {key: session.parameters[key] for key in _CHANGED
+                                             if key in session.parameters}
+        state = None if session is None else session.state
+        return {
+            "hand": self._hand is page, "isFree": self._hand is None, "isPaused": self._is_paused,
+            "isSteered": session is not None and session.hand, "opened": self._opened, "scene": self._scene,
+            "scenes": list(self._scenes), "problem": self._problem, "values": values,
+            "choices": {key: words for key, words in self._choices.items() if key in values},
+            "pace": self._pace, "paces": PACES,
+            "outcome": "" if state is None or state.outcome is None else f"{state.outcome}: {state.reason}",
+        }
+
+    async def _fail(self, error: SessionError) -> None:
+        """Say what the runner could not do. One that is gone is let go of."""
+        self._problem = str(error)
+        self._is_paused = True
+        if self._session is not None and not self._session.is_open:
+            self._session = None
+        await self._tell()
+
+    async def _in_thread(self, work: Callable[[], Any]) -> Any:
+        """One thing at a time is asked of the runner."""
+        return await asyncio.get_running_loop().run_in_executor(self._asking, work)
+
+
+_DO: Mapping[str, Callable[[LiveRun, Mapping[str, Any]], Awaitable[None]]] = {
+    "hand": LiveRun._do_hand, "pause": LiveRun._do_pause, "step": LiveRun._do_step, "reset": LiveRun._do_reset,
+    "pace": LiveRun._do_pace, "open": LiveRun._do_open, "set": LiveRun._do_set,
+}
+
+
+async def _say_goodbye(socket: web.WebSocketResponse) -> None:
+    await socket.close(code=WSCloseCode.GOING_AWAY, message=b"the server has ended")
+
+
+async def _send(sending: Awaitable[None]) -> None:
+    try:
+        await sending
+    except (ConnectionError, RuntimeError):
+        pass  # the page is on its way out; its own loop says so

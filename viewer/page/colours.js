@@ -1,0 +1,82 @@
+// @ts-check
+// Grey to red as in the pictures of analysis/render.py; where the sign counts, blue stands for values below zero.
+const GREY = [0.82, 0.84, 0.88];
+const RED = [0.95, 0.1, 0.05];
+const BLUE = [0.1, 0.3, 0.95];
+const STEPS = 256;
+
+/** Colours in [0, 1], shape (256, 3), from the lowest value to the highest. @param {boolean} isSigned */
+export function ramp(isSigned) {
+  const colours = new Float32Array(3 * STEPS);
+  for (let k = 0; k < STEPS; k++) {
+    const share = isSigned ? (2 * k) / (STEPS - 1) - 1 : k / (STEPS - 1);
+    for (let part = 0; part < 3; part++) {
+      const far = share < 0 ? BLUE[part] : RED[part];
+      colours[3 * k + part] = GREY[part] + Math.abs(share) * (far - GREY[part]);
+    }
+  }
+  return colours;
+}
+
+/** Row of a ramp that shows a value. @param {number} value @param {number} full @param {boolean} isSigned */
+export function row(value, full, isSigned) {
+  const share = isSigned ? 0.5 + (0.5 * value) / full : value / full;
+  return Math.min(STEPS - 1, Math.max(0, Math.round(share * (STEPS - 1)))) || 0;
+}
+
+/** The next number of the form 1, 2 or 5 times a power of ten. @param {number} value above 0 */
+export function roundUp(value) {
+  const power = 10 ** Math.floor(Math.log10(value));
+  return [1, 2, 5, 10].map((step) => step * power).find((step) => value <= step * (1 + 1e-12)) ?? value;
+}
+
+/** Largest size of numbers that are finite. @param {Float64Array} values */
+export function largest(values) {
+  let most = 0;
+  for (const value of values) if (Math.abs(value) > most && Number.isFinite(value)) most = Math.abs(value);
+  return most;
+}
+
+/** A number as people read it. @param {number} value @param {number} [digits] */
+export function brief(value, digits = 4) {
+  if (!Number.isFinite(value)) return "-";
+  const size = Math.abs(value);
+  const isFar = size !== 0 && (size < 1e-3 || size >= 1e5);
+  return isFar ? value.toExponential(1) : String(Number(value.toPrecision(digits)));
+}
+
+/**
+ * The scale beside a picture.
+ * @param {HTMLCanvasElement} canvas
+ * @param {{label: string, unit: string, isSigned: boolean} | null} channel null: the wire is plain
+ * @param {number} full value of full red
+ */
+export function drawScale(canvas, channel, full) {
+  canvas.hidden = !channel;
+  if (!channel) return;
+  const pen = prepare(canvas);
+  const width = canvas.clientWidth;
+  const colours = ramp(channel.isSigned);
+  for (let x = 0; x < width; x++) {
+    const k = 3 * Math.floor((x / width) * STEPS);
+    const [r, g, b] = [0, 1, 2].map((part) => Math.round(255 * colours[k + part]));
+    pen.fillStyle = `rgb(${r},${g},${b})`;
+    pen.fillRect(x, 0, 1, 14);
+  }
+  pen.fillStyle = "#e1e1e6";
+  pen.fillText(channel.isSigned ? brief(-full) : "0", 0, 28);
+  const end = `${brief(full)} ${channel.unit}`;
+  pen.fillText(end, width - pen.measureText(end).width, 28);
+  pen.fillText(channel.label, 0.5 * (width - pen.measureText(channel.label).width), 28);
+}
+
+/** A pen for a canvas as large as it is shown. @param {HTMLCanvasElement} canvas */
+export function prepare(canvas) {
+  const ratio = globalThis.devicePixelRatio || 1;
+  canvas.width = Math.max(1, Math.round(canvas.clientWidth * ratio));
+  canvas.height = Math.max(1, Math.round(canvas.clientHeight * ratio));
+  const pen = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
+  pen.scale(ratio, ratio);
+  pen.font = "11px system-ui, sans-serif";
+  return pen;
+}

@@ -1,0 +1,138 @@
+// @ts-check
+import {
+  BackSide, BufferAttribute, BufferGeometry, DoubleSide, FrontSide, Group, LineBasicMaterial, LineSegments, Mesh,
+  MeshLambertMaterial,
+} from "three";
+
+import { largest, ramp, roundUp, row } from "./colours.js";
+import { Tube } from "./tube.js";
+
+/** @typedef {import("./recording.js").Recording} Recording */
+
+/** Layer of walls behind the wire, and of those that tint it. */
+export const [BEHIND, BEFORE] = [1, 2];
+const PLAIN = [1, 0.62, 0.18]; // a wire that is not coloured, such as the second of two in one picture
+const LONGEST_ARROW = 0.2; // share of the wire's length
+
+/** One run in the picture: its wire, walls and the forces of the walls on it. */
+export class Model {
+  /** @param {Recording} recording */
+  constructor(recording) {
+    this.recording = recording;
+    this.group = new Group();
+    this.walls = new Group();
+    const spheres = recording.channel("positions").width / 3;
+    this.tube = new Tube(spheres - 1);
+    const wire = new Mesh(this.tube.geometry, new MeshLambertMaterial({ vertexColors: true }));
+    wire.frustumCulled = false;
+    this.arrows = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ color: 0x7fe07f }));
+    this.arrows.geometry.setAttribute("position", new BufferAttribute(new Float32Array(6 * spheres), 3));
+    this.arrows.frustumCulled = false;
+    for (const wall of recording.walls) this.walls.add(...surfaces(wall));
+    this.group.add(wire, this.arrows, this.walls);
+    /** Name of the channel that colours the wire; "" for none. */
+    this.colour = "";
+    this.thickness = 1;
+    this.frame = 0;
+    /** @type {Map<string, number>} */
+    this._full = new Map();
+    this._ramps = [ramp(false), ramp(true)];
+  }
+
+  /** The value that full red stands for; grows with a run that goes on. @param {string} name of a channel */
+  full(name) {
+    const channel = this.recording.channel(name);
+    const known = this._full.get(name);
+    const seen = known === undefined ? channel.values : this.recording.at(name, this.frame);
+    const full = Math.max(known ?? 0, roundUp(largest(seen) || 1e-9));
+    this._full.set(name, full);
+    return full;
+  }
+
+  /** Shows a frame. @param {number} frame @param {number} [full] value of full red, where two share a scale */
+  show(frame, full) {
+    this.frame = frame;
+    const positions = this.recording.at("positions", frame);
+    this.tube.place(positions, this.recording.radius * this.thickness);
+    this._paint(full);
+    this._point(positions);
+  }
+
+  /** The place of the last sphere, units. */
+  get tip() {
+    return this.recording.at("positions", this.frame).slice(-3);
+  }
+
+  /** Lets go of what the picture's memory holds of it. */
+  dispose() {
+    this.group.traverse((part) => {
+      if (part instanceof Mesh || part instanceof LineSegments) {
+        part.geometry.dispose();
+        part.material.dispose();
+      }
+    });
+  }
+
+  /** @param {number} [shared] */
+  _paint(shared) {
+    const channel = this.colour ? this.recording.channels.get(this.colour) : undefined;
+    if (!channel) {
+      this.tube.paint((_, colour) => colour.splice(0, 3, ...PLAIN));
+      return;
+    }
+    const values = this.recording.at(channel.name, this.frame);
+    const full = shared ?? this.full(channel.name);
+    const colours = this._ramps[channel.isSigned ? 1 : 0];
+    const last = values.length - 1;
+    this.tube.paint((along, colour) => {
+      const j = Math.min(Math.floor(along), last);
+      const next = channel.place === "sphere" ? values[Math.min(j + 1, last)] : values[j];
+      const k = 3 * row(values[j] + (along - j) * (next - values[j]), full, channel.isSigned);
+      for (let part = 0; part < 3; part++) colour[part] = colours[k + part];
+    });
+  }
+
+  /** @param {Float64Array} positions */
+  _point(positions) {
+    const channel = this.recording.channels.get("contactForces");
+    const ends = this.arrows.geometry.getAttribute("position");
+    if (!channel) {
+      this.arrows.geometry.setDrawRange(0, 0);
+      return;
+    }
+    const forces = this.recording.at("contactForces", this.frame);
+    const unit = (LONGEST_ARROW * this._length(positions)) / this.full("contactForces");
+    for (let i = 0; i < positions.length; i += 3) {
+      for (let part = 0; part < 3; part++) {
+        ends.array[2 * i + part] = positions[i + part];
+        ends.array[2 * i + 3 + part] = positions[i + part] + unit * forces[i + part];
+      }
+    }
+    ends.needsUpdate = true;
+  }
+
+  /** @param {Float64Array} x */
+  _length(x) {
+    let length = 0;
+    for (let i = 3; i < x.length; i += 3) {
+      length += Math.hypot(x[i] - x[i - 3], x[i + 1] - x[i - 2], x[i + 2] - x[i - 1]);
+    }
+    return length;
+  }
+}
+
+/** A wall as one looks into it: its far side, and its near side faintly. @param {import("./recording.js").Wall} wall */
+function surfaces(wall) {
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", new BufferAttribute(wall.vertices, 3));
+  geometry.setIndex(new BufferAttribute(wall.triangles, 1));
+  geometry.computeVertexNormals();
+  const make = (/** @type {import("three").MeshLambertMaterialParameters} */ look) =>
+    new Mesh(geometry, new MeshLambertMaterial({ transparent: true, depthWrite: false, ...look }));
+  // Triangles of a vessel face the lumen: of the far wall one sees the front.
+  const parts = wall.kind === "obstacle" ? [make({ color: 0x7399bf, opacity: 0.35, side: DoubleSide })]
+    : [make({ color: 0xb8998f, opacity: 0.12, side: BackSide }),
+      make({ color: 0xb8998f, opacity: 0.5, side: FrontSide })];
+  parts.forEach((part, k) => part.layers.set(k === 0 ? BEFORE : BEHIND));
+  return parts;
+}

@@ -1,0 +1,152 @@
+// @ts-check
+import { drawScale } from "./colours.js";
+import { drawCurves } from "./curves.js";
+
+/** @typedef {import("./model.js").Model} Model */
+
+const BETWEEN_CURVES = 100; // ms
+
+/** @param {string} id @returns {any} */
+export const byId = (id) => document.getElementById(id);
+
+/**
+ * An element with properties and children.
+ * @param {string} tag @param {object} properties @param {...(Node | string)} children @returns {any}
+ */
+export function make(tag, properties, ...children) {
+  const element = Object.assign(document.createElement(tag), properties);
+  element.append(...children);
+  return element;
+}
+
+/** What stands beside the picture: what colours the wire, curves, facts. */
+export class Panel {
+  /**
+   * @param {import("./stage.js").Stage} stage
+   * @param {() => void} changed told when something else is to be shown
+   */
+  constructor(stage, changed) {
+    this._stage = stage;
+    /** @type {Model[]} */
+    this.models = [];
+    /** @type {number[]} */
+    this._frames = [];
+    this._full = 1;
+    this._drawn = -BETWEEN_CURVES;
+    this._isWaiting = false;
+    this._coloured = 1; // how many of them take the colours; the others are plain
+    for (const id of ["colour", "first", "second", "thickness"]) byId(id).onchange = changed;
+    for (const id of ["walls", "arrows", "follow"]) byId(id).onchange = changed;
+  }
+
+  /** @param {Model[]} models @param {boolean} areOver whether the second lies over the first in one picture */
+  set(models, areOver) {
+    const [{ recording }] = models;
+    this.models = models;
+    this._coloured = areOver ? 1 : models.length;
+    const channels = [...recording.channels.values()];
+    const along = channels.filter((channel) => channel.place === "sphere" || channel.place === "element");
+    const overTime = channels.filter((channel) => channel.place === "frame" && channel.label);
+    fill(byId("colour"), [...along.map((channel) => [channel.name, channel.label]), ["", "plain"]], 0);
+    fill(byId("first"), overTime.map((channel) => [channel.name, channel.label]), 0);
+    fill(byId("second"), overTime.map((channel) => [channel.name, channel.label]), 1);
+    byId("facts").replaceChildren(...models.flatMap((model) => [
+      ["run", model.recording.title], ["outcome", model.recording.outcome], ...model.recording.facts,
+    ]).flatMap(([name, value]) => [make("dt", {}, name), make("dd", {}, value)]));
+    this.say(models.flatMap((model) => model.recording.warnings));
+  }
+
+  /** @param {string[]} lines what a user has to know */
+  say(lines) {
+    byId("said").textContent = lines.join("\n");
+  }
+
+  /** Takes the next of the colours. */
+  nextColour() {
+    const choice = byId("colour");
+    choice.selectedIndex = (choice.selectedIndex + 1) % choice.options.length;
+    choice.onchange();
+  }
+
+  /** Puts what is chosen into the models and asks for a picture. @param {number[]} frames of each model */
+  show(frames) {
+    const name = byId("colour").value;
+    const coloured = this.models.slice(0, this._coloured).filter((model) => model.recording.channels.has(name));
+    const full = coloured.length ? Math.max(...coloured.map((model) => model.full(name))) : 1;
+    this.models.forEach((model, k) => {
+      model.colour = k < this._coloured ? name : "";
+      model.thickness = Number(byId("thickness").value);
+      model.walls.visible = byId("walls").checked && (k === 0 || this._coloured > 1);
+      model.arrows.visible = byId("arrows").checked;
+      model.show(frames[k], full);
+    });
+    this._stage.followsTip = byId("follow").checked;
+    this._stage.ask();
+    this._frames = frames;
+    this._full = full;
+    if (this._isWaiting) return; // curves cost as much as a picture, and need not be as quick
+    this._isWaiting = true;
+    setTimeout(() => {
+      this._isWaiting = false;
+      this._drawCurves(this._frames, this._full);
+    }, this._drawn + BETWEEN_CURVES - performance.now());
+  }
+
+  /** @param {number[]} frames @param {number} full */
+  _drawCurves(frames, full) {
+    this._drawn = performance.now();
+    const name = byId("colour").value;
+    drawScale(byId("scale"), name ? this.models[0].recording.channel(name) : null, full);
+    this._drawAlong(frames);
+    this._drawOverTime("first");
+    this._drawOverTime("second");
+  }
+
+  /** @param {number[]} frames */
+  _drawAlong(frames) {
+    const name = byId("colour").value || "curvature";
+    const shown = this.models.flatMap(({ recording }, k) => {
+      const channel = recording.channels.get(name);
+      const x = arcLength(recording.at("positions", frames[k]));
+      return channel ? [{ channel, x, y: recording.at(name, frames[k]) }] : [];
+    });
+    if (!shown.length) return;
+    const [{ channel }] = shown;
+    const curves = shown.map(({ x, y }) => ({ y, x: channel.place === "sphere" ? x : middles(x) }));
+    drawCurves(byId("along"), curves, "arc length, units", `${channel.label}, ${channel.unit}`);
+  }
+
+  /** @param {string} which of the two */
+  _drawOverTime(which) {
+    const name = byId(which).value;
+    const drawn = this.models.filter(({ recording }) => recording.channels.has(name));
+    if (!drawn.length) return;
+    const { label, unit } = drawn[0].recording.channel(name);
+    const curves = drawn.map(({ recording }) => ({ x: recording.overTime("time"), y: recording.overTime(name) }));
+    const [{ recording, frame }] = this.models;
+    drawCurves(byId(`${which}Curve`), curves, "t, s", `${label}, ${unit}`, recording.overTime("time")[frame]);
+  }
+}
+
+/** Where spheres stand along the wire, units. @param {Float64Array} x */
+function arcLength(x) {
+  const along = new Float64Array(x.length / 3);
+  for (let i = 1; i < along.length; i++) {
+    const k = 3 * i;
+    along[i] = along[i - 1] + Math.hypot(x[k] - x[k - 3], x[k + 1] - x[k - 2], x[k + 2] - x[k - 1]);
+  }
+  return along;
+}
+
+/** @param {Float64Array} x */
+function middles(x) {
+  return x.subarray(1).map((end, i) => 0.5 * (x[i] + end));
+}
+
+/** @param {HTMLSelectElement} select @param {string[][]} choices values and texts @param {number} chosen */
+function fill(select, choices, chosen) {
+  const before = select.value;
+  select.replaceChildren(...choices.map(([value, text]) => make("option", { value }, text)));
+  const kept = choices.findIndex(([value]) => value === before);
+  select.selectedIndex = before && kept >= 0 ? kept : Math.min(chosen, choices.length - 1);
+}

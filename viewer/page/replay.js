@@ -1,0 +1,115 @@
+// @ts-check
+import { brief } from "./colours.js";
+import { Model } from "./model.js";
+import { byId, make } from "./panel.js";
+
+/** @typedef {import("./recording.js").Recording} Recording */
+
+const SPEEDS = [0.001, 0.01, 0.1, 0.25, 0.5, 1, 2, 5, 10]; // of real time
+const SECONDS = 8; // that a replay takes at most as it begins
+
+/** One run that has ended, or two, at the same moment of their own time. */
+export class Replay {
+  /**
+   * @param {import("./stage.js").Stage} stage
+   * @param {import("./panel.js").Panel} panel
+   * @param {Recording[]} recordings
+   */
+  constructor(stage, panel, recordings) {
+    this._stage = stage;
+    this._panel = panel;
+    this.models = recordings.map((recording) => new Model(recording));
+    this.isPlaying = false;
+    this.areOver = false;
+    this.time = this._times(0)[0];
+    this._end = Math.max(...recordings.map((_, k) => this._times(k).at(-1) ?? 0));
+    this._slider = make("input", { type: "range", min: 0, max: 1, step: "any", value: 0, id: "slider" });
+    this._slider.oninput = () => this.go(this._start + Number(this._slider.value) * (this._end - this._start));
+    const speeds = SPEEDS.map((speed) => make("option", { value: speed }, `${speed} x`));
+    this._speed = make("select", { id: "speed" }, ...speeds);
+    const whole = this._end - this._start;
+    this._speed.value = SPEEDS.find((speed) => whole / speed <= SECONDS) ?? SPEEDS.at(-1);
+    const button = (/** @type {string} */ text, /** @type {() => void} */ onclick) => make("button", { onclick }, text);
+    this._play = button("play", () => this.play(!this.isPlaying));
+    byId("bar").replaceChildren(button("|<", () => this.go(this._start)), button("<", () => this.step(-1)), this._play,
+      button(">", () => this.step(1)), this._slider, this._speed,
+      ...(recordings.length > 1 ? [button("one over the other", () => this.lay(!this.areOver))] : []));
+    this.lay(false);
+  }
+
+  get _start() {
+    return Math.min(...this.models.map((_, k) => this._times(k)[0]));
+  }
+
+  /** Frames shown now, one a run. */
+  get frames() {
+    return this.models.map(({ recording }) => recording.nearest(this.time));
+  }
+
+  /** Side by side, or one over the other. @param {boolean} areOver */
+  lay(areOver) {
+    this.areOver = areOver;
+    this._stage.set(areOver ? [this.models] : this.models.map((model) => [model]));
+    this._panel.set(this.models, areOver);
+    this.show();
+    this._stage.frameAll();
+  }
+
+  /** Goes to a moment. @param {number} time s */
+  go(time) {
+    this.time = Math.min(Math.max(time, this._start), this._end);
+    this.show();
+  }
+
+  /** Goes on by single frames of the first run. @param {number} frames */
+  step(frames) {
+    this.play(false);
+    const times = this._times(0);
+    this.go(times[Math.min(Math.max(this.models[0].recording.nearest(this.time) + frames, 0), times.length - 1)]);
+  }
+
+  /** @param {boolean} isPlaying */
+  play(isPlaying) {
+    this.isPlaying = isPlaying;
+    this._play.textContent = isPlaying ? "pause" : "play";
+    if (!isPlaying) return;
+    if (this.time >= this._end) this.time = this._start;
+    let before = performance.now();
+    const go = (/** @type {number} */ now) => {
+      if (!this.isPlaying) return;
+      this.go(this.time + ((now - before) / 1000) * Number(this._speed.value));
+      before = now;
+      if (this.time >= this._end) this.play(false);
+      else requestAnimationFrame(go);
+    };
+    requestAnimationFrame(go);
+  }
+
+  /** Shows the frames of this moment. */
+  show() {
+    this._slider.value = String((this.time - this._start) / (this._end - this._start || 1));
+    const { frames } = this;
+    this._panel.show(frames);
+    const texts = this.models.map(({ recording }, k) =>
+      `${recording.title}\nt = ${brief(this._times(k)[frames[k]])} s   step ${recording.at("step", frames[k])[0]}`);
+    if (this.areOver) this._stage.label(0, `${texts[0]}\norange: ${texts[1]}`);
+    else texts.forEach((text, k) => this._stage.label(k, text));
+  }
+
+  /** @param {KeyboardEvent} event @returns {boolean} whether the key means something here */
+  key(event) {
+    if (event.key === " ") this.play(!this.isPlaying);
+    else if (event.key === "ArrowRight" || event.key === "n") this.step(1);
+    else if (event.key === "ArrowLeft") this.step(-1);
+    else if (event.key === "r") this.go(this._start);
+    else return false;
+    return true;
+  }
+
+  /** @param {number} k */
+  _times(k) {
+    return this.models[k].recording.overTime("time");
+  }
+}
+
+export const REPLAY_KEYS = "space  play, pause\nleft, right  single frames\nR  to the start";

@@ -1,0 +1,318 @@
+"""What the page shows of a run: numbers by frame, and walls; from a run's folder, or from a session as it goes on.
+
+A recording goes to the page as one block of bytes: the length of the header (4 bytes, lowest first), the header (JSON),
+then the arrays, lowest byte first. `viewer/page/recording.js` reads it.
+"""
+
+from __future__ import annotations
+
+import json
+import struct
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from analysis.logs import LogError, read_entries, read_log
+from analysis.runs import Run
+from analysis.surfaces import Surface
+
+_STEPS = 65535  # of a quantised number, from its lowest value to its highest
+_ALIGNED = 8
+_ENERGIES = ("kineticEnergy", "elasticEnergy", "potentialEnergy")
+
+
+@dataclass(frozen=True)
+class Channel:
+    """Numbers of one kind.
+
+    Attributes
+    ----------
+    name, label, unit : for the program and for people; what has no label is not offered as a curve.
+    place : where they stand: "frame" (one a frame), "sphere", "element", "vector" (three a sphere).
+    values : (frames, width).
+    is_signed : whether values below zero mean another direction.
+    """
+
+    name: str
+    label: str
+    unit: str
+    place: str
+    values: np.ndarray
+    is_signed: bool = False
+
+
+@dataclass(frozen=True)
+class Recording:
+    """A run as the page takes it.
+
+    Attributes
+    ----------
+    title, outcome : lines.
+    warnings : what a user has to know of it.
+    facts : names and values, for people.
+    radius : of the wire, units.
+    channels : "time", "step" and "positions" are always among them.
+    walls : triangles with "vessel" or "obstacle".
+    """
+
+    title: str
+    outcome: str
+    warnings: Sequence[str]
+    facts: Sequence[tuple[str, str]]
+    radius: float
+    channels: Sequence[Channel]
+    walls: Sequence[tuple[str, Surface]]
+
+    def to_bytes(self, exact: bool = True) -> bytes:
+        """The block for the page; where it need not be exact, of 16 bits a number between the lowest and the highest
+        of its kind (time: 32 bits)."""
+        arrays = _Arrays()
+        channels = [{
+            "name": channel.name, "label": channel.label, "unit": channel.unit, "place": channel.place,
+            "isSigned": channel.is_signed, "width": channel.values.shape[1],
+            **(arrays.add(channel.values, "f8") if exact else
+               arrays.add(channel.values, "f4") if channel.place == "frame" else
+               arrays.quantise(channel.values, 3 if channel.place == "vector" else 1)),
+        } for channel in self.channels]
+        walls = [{
+            "kind": kind,
+            "vertices": arrays.add(wall.vertices, "f4") if exact else arrays.quantise(wall.vertices, 3),
+            "triangles": arrays.add(wall.triangles, "u2" if len(wall.vertices) <= _STEPS else "u4"),
+        } for kind, wall in self.walls]
+        header = json.dumps({
+            "title": self.title, "outcome": self.outcome, "warnings": list(self.warnings), "facts": list(self.facts),
+            "radius": self.radius, "channels": channels, "walls": walls,
+        }, allow_nan=False).encode()
+        header += b" " * (-(len(header) + 4) % _ALIGNED)
+        return struct.pack("<I", len(header)) + header + arrays.bytes()
+
+
+class _Arrays:
+    """Arrays one behind the other, each where its numbers may stand."""
+
+    def __init__(self) -> None:
+        self._parts: list[bytes] = []
+        self._length = 0
+
+    def add(self, values: np.ndarray, kind: str) -> dict[str, Any]:
+        part = np.ascontiguousarray(values, dtype="<" + kind).tobytes()
+        place = {"type": kind, "offset": self._length, "count": int(np.size(values))}
+        part += b"\0" * (-len(part) % _ALIGNED)
+        self._parts.append(part)
+        self._length += len(part)
+        return place
+
+    def quantise(self, values: np.ndarray, width: int) -> dict[str, Any]:
+        rows = np.nan_to_num(np.asarray(values, dtype=float)).reshape(-1, width)
+        low, high = rows.min(axis=0, initial=np.inf), rows.max(axis=0, initial=-np.inf)
+        if len(rows) == 0:
+            low, high = np.zeros(width), np.zeros(width)
+        span = np.where(high > low, high - low, 1.0)
+        return {**self.add(np.rint((rows - low) / span * _STEPS), "u2"), "low": low.tolist(), "high": high.tolist()}
+
+    def bytes(self) -> bytes:
+        return b"".join(self._parts)
+
+
+@dataclass(frozen=True)
+class Units:
+    """How numbers of a run are named. metres : of a unit, or None with gains."""
+
+    metres: float | None
+
+    @property
+    def force(self) -> str:
+        """With gains a force has no unit that one can buy a scale for."""
+        return "mass unit·unit/s²" if self.metres is None else "N"
+
+    @property
+    def bend(self) -> str:
+        """Of curvature, and of twist with "rad" before it."""
+        return "/unit" if self.metres is None else "/m"
+
+
+def units_of(parameters: Mapping[str, Any]) -> Units:
+    """The units of a run with these effective values."""
+    return Units(parameters["metresPerUnit"] if "wireRadius" in parameters else None)
+
+
+def radius_of(parameters: Mapping[str, Any]) -> float:
+    """The wire's radius in units: with gains what meets walls, with a material its own."""
+    if "wireRadius" in parameters:
+        return parameters["wireRadius"] / parameters["metresPerUnit"]
+    return parameters["sphereRadius"]
+
+
+def make_channels(units: Units, numbers: Mapping[str, np.ndarray | None]) -> list[Channel]:
+    """What can be shown of k frames of a wire of n elements.
+
+    Parameters
+    ----------
+    units : of the run.
+    numbers : "step", "time" (k,), s; "positions" (k, n+1, 3), units; and where they are known "orientations" (k, n, 4),
+        x, y, z, w; "curvature" (k, n+1, 3), rad/m; "force" (k, n, 3), N; "contact_forces" (k, n+1, 3); "reaction"
+        (k, 3); "couple" (k, n+1, 3), N m; "energy" (k,), J; "step_time" (k,), ms; "real_time" (k,), times faster.
+    """
+    known = {name: values for name, values in numbers.items() if values is not None}
+    positions = known["positions"]
+    elements = np.diff(positions, axis=1)
+    lengths = np.linalg.norm(elements, axis=2)
+    along = elements / np.where(lengths > 0.0, lengths, 1.0)[..., None]
+    per_unit = 1.0 if units.metres is None else 1.0 / units.metres
+    channels = [
+        Channel("time", "", "s", "frame", known["time"]), Channel("step", "", "", "frame", known["step"]),
+        Channel("positions", "", "units", "vector", _flat(positions)),
+    ]
+    if "curvature" in known:
+        bend = np.hypot(known["curvature"][..., 0], known["curvature"][..., 1])
+    else:
+        bend = per_unit * _bend(along, lengths)
+    channels.append(Channel("curvature", "curvature", f"rad{units.bend}", "sphere", bend))
+    if "curvature" in known or "orientations" in known:
+        twist = (known["curvature"][..., 2] if "curvature" in known
+                 else per_unit * _twist(known["orientations"], lengths))
+        channels.append(Channel("twist", "twist", f"rad{units.bend}", "sphere", twist, True))
+    if "force" in known:
+        axial = np.einsum("kij,kij->ki", known["force"], along)
+        channels.append(Channel("axialForce", "axial force", "N", "element", axial, True))
+    if "contact_forces" in known:
+        forces = known["contact_forces"]
+        channels += [
+            Channel("contactForces", "", units.force, "vector", _flat(forces)),
+            Channel("contactForce", "contact force", units.force, "sphere", np.linalg.norm(forces, axis=2)),
+            Channel("wallForce", "force of all walls", units.force, "frame",
+                    np.linalg.norm(forces.sum(axis=1), axis=1)),
+        ]
+    if "reaction" in known:
+        channels.append(Channel("hubForce", "force at the hub", units.force, "frame",
+                                np.einsum("kj,kj->k", known["reaction"], along[:, 0]), True))
+    if "couple" in known:
+        channels.append(Channel("hubTorque", "torque at the hub", "N m", "frame",
+                                np.einsum("kj,kj->k", known["couple"][:, 0], along[:, 0]), True))
+    if "energy" in known:
+        channels.append(Channel("energy", "energy", "J", "frame", known["energy"]))
+    channels += [Channel(f"tip{axis}", f"tip, {axis}", "units", "frame", positions[:, -1, k], True)
+                 for k, axis in enumerate("xyz")]
+    for name, key, label, unit in (("stepTime", "step_time", "wall time of a step", "ms"),
+                                   ("realTime", "real_time", "times faster than real time", "1")):
+        if key in known:
+            channels.append(Channel(name, label, unit, "frame", known[key]))
+    return [_two_dimensional(channel) for channel in channels]
+
+
+def _two_dimensional(channel: Channel) -> Channel:
+    values = np.asarray(channel.values, dtype=float)
+    if values.ndim == 2:
+        return channel
+    return Channel(channel.name, channel.label, channel.unit, channel.place, values[:, None], channel.is_signed)
+
+
+def _flat(vectors: np.ndarray) -> np.ndarray:
+    return vectors.reshape(len(vectors), -1)
+
+
+def _bend(along: np.ndarray, lengths: np.ndarray) -> np.ndarray:
+    """Angle between neighbouring elements over their mean length, (k, n+1); 0 at the ends."""
+    cosine = np.clip(np.einsum("kij,kij->ki", along[:, :-1], along[:, 1:]), -1.0, 1.0)
+    means = 0.5 * (lengths[:, :-1] + lengths[:, 1:])
+    return np.pad(np.arccos(cosine) / np.where(means > 0.0, means, 1.0), ((0, 0), (1, 1)))
+
+
+def _twist(orientations: np.ndarray, lengths: np.ndarray) -> np.ndarray:
+    """Turn about the wire between neighbouring elements over their mean length, (k, n+1); 0 at the ends."""
+    a, b = orientations[:, :-1], orientations[:, 1:]
+    w = np.einsum("kij,kij->ki", a, b)
+    z = a[..., 3] * b[..., 2] - a[..., 2] * b[..., 3] - (a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0])
+    turn = 2.0 * np.arctan2(np.where(w < 0.0, -z, z), np.abs(w))
+    means = 0.5 * (lengths[:, :-1] + lengths[:, 1:])
+    return np.pad(turn / np.where(means > 0.0, means, 1.0), ((0, 0), (1, 1)))
+
+
+def read_recording(run: Run, walls: Sequence[Surface], frames: int) -> Recording:
+    """A run from its folder.
+
+    Parameters
+    ----------
+    run : the run.
+    walls : the vessel first, where the run has one, and the obstacles.
+    frames : how many at most; of more entries they are taken at even distances, the first and the last among them.
+
+    Raises
+    ------
+    LogError : the log cannot be read, or does not have every sphere.
+    """
+    log = read_log(run.folder, "all")
+    if len(log.spheres) < 2:
+        raise LogError(f"{log.source}: holds one sphere only; the page needs a run with logSpheres = \"all\"")
+    finite = np.flatnonzero(np.isfinite(log.positions).all(axis=(1, 2)))
+    if len(finite) == 0:
+        raise LogError(f"{log.source}: holds no finite position")
+    kept = finite[np.unique(np.linspace(0, len(finite) - 1, frames).round().astype(int))]
+    numbers: dict[str, np.ndarray | None] = {
+        "step": log.steps[kept], "time": log.time[kept], "positions": log.positions[kept],
+        **_wall_times(log.steps, log.elapsed, log.time, kept),
+    }
+    if any(run.parameters.get(key) for key in ("logOrientations", "logContacts", "logStrains")):
+        numbers.update(_read_more(run, log.steps[kept]))
+    warnings = [line for line in (log.warning,) if line] + list((run.summary or {}).get("warnings", []))
+    if len(finite) < len(log.steps):
+        warnings.append(f"{len(log.steps) - len(finite)} entries with positions that are not finite are left out")
+    reason = (run.summary or {}).get("reason", "")
+    return Recording(
+        run.folder.resolve().name, f"{run.outcome}: {reason}" if reason else run.outcome, warnings,
+        facts_of(run.parameters, run.summary), radius_of(run.parameters),
+        make_channels(units_of(run.parameters), numbers), name_walls(run.parameters, walls),
+    )
+
+
+def name_walls(parameters: Mapping[str, Any], walls: Sequence[Surface]) -> list[tuple[str, Surface]]:
+    """Each wall of a run with what it is; the vessel stands first where there is one."""
+    return [("vessel" if k == 0 and parameters.get("vessel") else "obstacle", wall) for k, wall in enumerate(walls)]
+
+
+def facts_of(parameters: Mapping[str, Any], summary: Mapping[str, Any] | None) -> list[tuple[str, str]]:
+    """What is told of a run beside its picture."""
+    facts = [("method", parameters.get("solver", "")), ("elements", str(parameters.get("numberRodElements", ""))),
+             ("time step", f"{parameters.get('timeStep')} s")]
+    if summary:
+        median = summary.get("medianStepTime") or 0.0
+        facts.append(("step time", f"{median:.4g} ms, median"))
+        if median > 0.0:
+            facts.append(("against real time", f"{1e3 * parameters['timeStep'] / median:.3g} times faster"))
+    return facts
+
+
+def _wall_times(steps: np.ndarray, elapsed: np.ndarray, time: np.ndarray, kept: np.ndarray) -> dict[str, np.ndarray]:
+    """Wall time of a step between entries, logging included, and what it is against real time."""
+    if len(steps) < 2:
+        return {}
+    wall = np.diff(elapsed) / np.diff(steps)
+    wall = np.concatenate([wall[:1], wall])
+    rate = np.diff(time) / np.maximum(np.diff(elapsed), 1e-9)
+    return {"step_time": 1e3 * wall[kept], "real_time": np.concatenate([rate[:1], rate])[kept]}
+
+
+def _read_more(run: Run, steps: np.ndarray) -> dict[str, np.ndarray | None]:
+    """What entries of a log hold beside positions, for the steps that are shown."""
+    wanted = set(steps.tolist())
+    rows: dict[str, list[Any]] = {}
+    for step, entry in read_entries(run.folder):
+        if step not in wanted:
+            continue
+        if "orientation" in entry:
+            rows.setdefault("orientations", []).append([[q[part] for part in "xyzw"]
+                                                        for q in entry["orientation"].values()])
+        if "contact" in entry:
+            contact = entry["contact"]
+            forces = np.zeros((len(entry["sphere"]), 3))
+            for index, force in contact["sphere"].items():
+                forces[int(index)] = [force[axis] for axis in "xyz"]
+            rows.setdefault("contact_forces", []).append(forces)
+            rows.setdefault("reaction", []).append([contact["reaction"][axis] for axis in "xyz"])
+        if "stress" in entry:
+            for name in ("curvature", "force", "couple"):
+                rows.setdefault(name, []).append(entry["stress"][name])
+            rows.setdefault("energy", []).append(sum(entry["stress"][name] for name in _ENERGIES))
+    return {name: np.asarray(values, dtype=float) for name, values in rows.items() if len(values) == len(steps)}
