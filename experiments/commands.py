@@ -82,6 +82,18 @@ def parse(argv: list[str]) -> argparse.Namespace:
     _add_workers(figures)
     figures.set_defaults(action=_figures, packages=DRAWING + SWEEPING)
 
+    advise = commands.add_parser("advise", help="the cheapest settings of a scene that meet an error, found by running")
+    advise.add_argument("file", metavar="SCENE", type=Path, help="parameter file, such as params/insertion.json")
+    asked = advise.add_mutually_exclusive_group(required=True)
+    asked.add_argument("--error", type=_above_zero, metavar="E",
+                       help="RMS distance of the wire from a finer run, over the way that it goes, such as 0.01")
+    asked.add_argument("--budget", type=_above_zero, metavar="MS_PER_STEP",
+                       help="wall time that a step may take, ms: the most accurate settings within it")
+    advise.add_argument("--out", type=_path, default=Path("results"),
+                        help="folder above that of the runs (results); the file and advice.md stand in advice/SCENE")
+    _add_workers(advise)
+    advise.set_defaults(action=_advise, packages=DRAWING + SWEEPING)
+
     render = commands.add_parser("render", help="a picture or a film of a run, with its vessel and obstacles")
     render.add_argument("folder", type=Path, metavar="RUN", help="folder of a run")
     render.add_argument("--out", type=_path, metavar="FILE", help="FILE.png or FILE.gif (RUN/render.png)")
@@ -284,6 +296,35 @@ def _figures(arguments: argparse.Namespace) -> int:
     folders = {name: (arguments.out / name).resolve() for name in studies}
     code = _tell(gallery.draw(ids, folders, arguments.out / "figures"))
     return FAILED if result.failures else code
+
+
+def _advise(arguments: argparse.Namespace) -> int:
+    from analysis.advice import plan, report
+    from analysis.logs import LogError
+    from analysis.validation.check import replay
+
+    checking.check_file(arguments.file)
+    checking.check_out(arguments.out)
+    wish = plan.Wish(arguments.error, arguments.budget)
+    check, folder = plan.check_of(arguments.file, wish), plan.folder_of(arguments.out)
+    means = _means_of(arguments, _build_runner(), check.name)
+    try:
+        if _make([(check, folder)], arguments.out, means).failures:
+            return FAILED
+        advice = replay(check, folder)
+    except LogError as error:
+        raise PreparationError(f"{arguments.file}: {error}") from error
+    place = (folder / check.name).resolve()
+    (place / "advice.md").write_text(report.as_markdown(arguments.file.name, wish, advice), encoding="utf-8")
+    print(report.verdict(wish, advice))
+    print(f"evidence: {os.path.relpath(place / 'advice.md')}")
+    if advice.taken is None:
+        return FAILED
+    scene = json.loads(arguments.file.read_text(encoding="utf-8-sig"))
+    file = place / arguments.file.with_suffix(".json").name
+    file.write_text(report.parameters(advice, scene, place), encoding="utf-8")
+    print(f"parameter file: {os.path.relpath(file)}")
+    return 0
 
 
 def _tell(drawn: Gallery) -> int:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
@@ -38,12 +38,15 @@ class FigureSpec:
         From a mapping of study name to study folder to the figure and its caption. Raises analysis.logs.LogError
         where a file cannot be read or no run lasts as long as its reference, and analysis.relaxation.RelaxationError
         where nothing relaxes.
+    beside : mapping of str to callable
+        Further files of the picture's folder, by name: from the same mapping to what writes one to a path.
     """
 
     id: str
     title: str
     studies: tuple[str, ...]
     draw: Callable[[Mapping[str, Path]], Drawn]
+    beside: Mapping[str, Callable[[Mapping[str, Path], Path], None]] = field(default_factory=dict)
 
 
 def _draw_default(draw: Callable[[default_run.RunTable], Drawn], options: dict, studies: Mapping[str, Path]) -> Drawn:

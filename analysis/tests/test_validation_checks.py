@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from analysis.figures.style import CAPTION_ID
 from analysis.runs import Run
-from analysis.validation import balance, chart, dynamics, pictures, ring, scenes, stability
+from analysis.validation import balance, dynamics, pictures, ring, scenes, stability
 from analysis.validation.beam import mode_numbers
 from analysis.validation.check import Check, Finding, Result, not_run
 from analysis.validation.clamp import fit_frequency
@@ -102,9 +102,9 @@ def test_period_is_twice_the_distance_of_zeros() -> None:
 def test_gain_of_the_bar_moves_a_sphere_as_its_spring_does() -> None:
     """One sweep over one extended element, by the projection's own formula, against s e/m dt^2."""
     step, extension = 2.5e-7, 1e-3  # s, units
-    weight, length = 1.0 / dynamics._BAR_MASS, BASE.length / 30 / scenes.UNIT
-    moved = dynamics._bar_gain(step) * weight * length * (extension / length) / (2.0 * weight + 4.0 * length**2)
-    assert moved == pytest.approx(dynamics._BAR_SPRING * extension * weight * step**2, rel=1e-12)
+    weight, length = 1.0 / dynamics.BAR_MASS, BASE.length / 30 / scenes.UNIT
+    moved = dynamics.bar_gain(step) * weight * length * (extension / length) / (2.0 * weight + 4.0 * length**2)
+    assert moved == pytest.approx(dynamics.BAR_SPRING * extension * weight * step**2, rel=1e-12)
 
 
 def test_link_counts_the_turns_of_a_twisted_ring() -> None:
@@ -227,16 +227,3 @@ def test_every_check_has_its_own_name() -> None:
     assert len({check.name for check in ROWS}) == len(ROWS)
     assert {check.section for check in ROWS} == {
         "The clamp", "Statics", "Stability limits", "Dynamics", "Independence"}
-
-
-def test_gains_stand_in_every_panel_of_the_chart_between_the_same_ends() -> None:
-    twist = chart._twist_points(0.1, dict.fromkeys(chart._LIMITS, STABLE))
-    assert {point.solver for point in twist} == {"pbd", "xpbd", "explicit", "direct"}
-    for point in twist:
-        assert point.case.overrides["distalEnd"] == "clamped" and "twistPerStep" not in point.case.overrides
-
-
-def test_twist_of_gains_is_off_by_an_element_at_either_clamp() -> None:
-    # Inner element j of n stands at (j - 1/2)/(n - 2) instead of (j + 1/2)/n: (n - 2 j - 1)/(n (n - 2)) apart.
-    n = 30
-    assert chart._pbd_twist_error(n) == pytest.approx((n - 5) / (n * (n - 2)), rel=1e-12)

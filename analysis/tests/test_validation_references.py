@@ -177,7 +177,7 @@ def test_long_bar_chain_has_the_frequency_of_the_bar() -> None:
 
 def test_release_keeps_its_energy() -> None:
     """Kinetic and bending energy of a large swing, both by quadrature: the equations are those of this energy."""
-    system = release._Cantilever(6, 1e-4)
+    system = release.cantilever(6, 1e-4)
     start = np.concatenate([system.rest(1.0), np.zeros(6)])
     state, step = start.copy(), 2e-4
     energy = system.energy(start)

@@ -18,7 +18,7 @@ import math
 from collections.abc import Callable, Generator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 from matplotlib.figure import Figure
 
@@ -90,11 +90,12 @@ class Finding:
 
 
 Plan = Generator[Sequence[Case], Mapping[str, Run], Finding]
+Found = TypeVar("Found")
 
 
 @dataclass(frozen=True)
-class Check:
-    """One row of the validation.
+class Check(Generic[Found]):
+    """One row of the validation, or of the chart: what it finds is a Finding, or has lines with gates as that has.
 
     Attributes
     ----------
@@ -117,7 +118,7 @@ class Check:
     name: str
     section: str
     title: str
-    plan: Callable[[], Plan] = field(repr=False)
+    plan: Callable[[], Generator[Sequence[Case], Mapping[str, Run], Found]] = field(repr=False)
     scene: str = SCENE
     results: tuple[str, ...] = ("converged", "finished", "diverged", "failed")
     logs: bool = True
@@ -140,7 +141,7 @@ class Check:
             return end.value
 
 
-def replay(check: Check, folder: Path) -> Finding:
+def replay(check: Check[Found], folder: Path) -> Found:
     """Drive a check over runs that were made before.
 
     Parameters

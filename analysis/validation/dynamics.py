@@ -158,19 +158,19 @@ def _slug(name: str) -> str:
 
 
 _BAR_TIME = 2e-3  # s
-_BAR_ELEMENTS = 30
-_BAR_MASS = BASE.line_density * BASE.length / (_BAR_ELEMENTS + 1)  # kg, of a sphere
-_BAR_SPRING = BASE.stretching * _BAR_ELEMENTS / BASE.length  # N/m
+BAR_ELEMENTS = 30
+BAR_MASS = BASE.line_density * BASE.length / (BAR_ELEMENTS + 1)  # kg, of a sphere
+BAR_SPRING = BASE.stretching * BAR_ELEMENTS / BASE.length  # N/m
 
 
-def _bar_gain(step: float) -> float:
+def bar_gain(step: float) -> float:
     """k_A of one sweep a step that pulls as the springs do.
 
     A sweep moves a sphere of mass m by k e/(m D) for an extension e, D = 2/m + 4 w_q l^2 (w_q = 1, l in units): over
     dt^2 that is the acceleration s e/m of a spring s where k = s D dt^2.
     """
-    length = BASE.length / _BAR_ELEMENTS / scenes.UNIT
-    return _BAR_SPRING * (2.0 / _BAR_MASS + 4.0 * length * length) * step * step
+    length = BASE.length / BAR_ELEMENTS / scenes.UNIT
+    return BAR_SPRING * (2.0 / BAR_MASS + 4.0 * length * length) * step * step
 
 
 _BAR_METHODS = {
@@ -182,13 +182,13 @@ _BAR_METHODS = {
     "explicit, 0.25 µs": ({"solver": "explicit", "timeStep": 2.5e-7}, None),
     "xpbd, 10 sweeps, 0.25 µs": ({"solver": "xpbd", "timeStep": 2.5e-7, "constraintSolverSteps": 10}, None),
     "pbd, one sweep with the springs' gain, 0.25 µs": ({
-        "solver": "pbd", "timeStep": 2.5e-7, "constraintSolverSteps": 1, "stretchStiffness": _bar_gain(2.5e-7),
-        "bendStiffness": 0.0, "totalMass": (_BAR_ELEMENTS + 1) * _BAR_MASS}, None),
+        "solver": "pbd", "timeStep": 2.5e-7, "constraintSolverSteps": 1, "stretchStiffness": bar_gain(2.5e-7),
+        "bendStiffness": 0.0, "totalMass": (BAR_ELEMENTS + 1) * BAR_MASS}, None),
 }
 
 
 def _bar() -> Plan:
-    n, shift = _BAR_ELEMENTS, 1e-3
+    n, shift = BAR_ELEMENTS, 1e-3
     common = {
         "numberRodElements": n, "displacement": shift / scenes.UNIT, "logSpheres": "last",
         "displacementDirection": [0.0, 0.0, 1.0],
@@ -200,7 +200,7 @@ def _bar() -> Plan:
         for k, (method, _) in enumerate(_BAR_METHODS.values())
     ]
     runs = yield cases
-    chain = BarChain(n, _BAR_MASS, _BAR_SPRING, shift)
+    chain = BarChain(n, BAR_MASS, BAR_SPRING, shift)
     results, motions = [], {}
     for case, (name, (_, gate)) in zip(cases, _BAR_METHODS.items()):
         run = runs[case.key]

@@ -136,17 +136,6 @@ def _line(r: Result) -> str:
     return "| " + " | ".join(cells) + " |"
 
 
-def write_report(report: Report, folder: Path) -> Path:
-    """Writes validation.md, validation.csv and a picture of every check; returns the first."""
-    folder.mkdir(parents=True, exist_ok=True)
-    for check, finding in report.findings.items():
-        draw_finding(finding).savefig(folder / picture_name(check))
-    (folder / "validation.csv").write_text(as_csv(report), encoding="utf-8")
-    table = folder / "validation.md"
-    table.write_text(as_markdown(report), encoding="utf-8")
-    return table
-
-
 def picture_name(check: Check) -> str:
     """File of a check's picture beside the report."""
     return f"{check.name}.png"

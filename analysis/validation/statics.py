@@ -172,15 +172,15 @@ def _spatial_bend(solvers: Sequence[str] = ALL) -> Plan:
     return Finding(tuple(results), draw, caption)
 
 
-_PLANE_WIRE = Wire(radius=0.3e-3)
-_PLANE_DROP = 20e-3  # m
+PLANE_WIRE = Wire(radius=0.3e-3)
+PLANE_DROP = 20e-3  # m
 
 
 def _plane_contact() -> Plan:
     """The tip on a plane, as the end of a damped motion; the other solvers' lines say why they have no run."""
-    wire = _PLANE_WIRE
+    wire = PLANE_WIRE
     gap = 1e-5  # m, the largest that the barrier leaves
-    height = -1e3 * (_PLANE_DROP + wire.radius)  # of the plane: the axis comes to rest a radius above it
+    height = -1e3 * (PLANE_DROP + wire.radius)  # of the plane: the axis comes to rest a radius above it
     case = Case("direct", {
         **scenes.wire_parameters(wire), "gravity": [0.0, -_GRAVITY, 0.0], "timeStep": 5e-3, "massDamping": 10.0,
         "integrator": "implicitEuler", "deltaThreshold": 1e-6, "maxSimulationSteps": 3000, "contactDistance": gap,
@@ -189,12 +189,12 @@ def _plane_contact() -> Plan:
     runs = yield [case]
     run = runs[case.key]
     load = wire.line_density * _GRAVITY * wire.length**3 / wire.bending
-    shape, force = elastica.heavy_on_plane(load, _PLANE_DROP / wire.length, _POINTS)
+    shape, force = elastica.heavy_on_plane(load, PLANE_DROP / wire.length, _POINTS)
     free = elastica.heavy(load, _POINTS)
     newtons = force * wire.bending / wire.length**2
     measured = float(run.measured("wallForces")[0][1])
     nodes = _plane(run, wire)
-    what = (f"cantilever, r = {1e3 * wire.radius:g} mm, on a frictionless plane {1e3 * _PLANE_DROP:g} mm below: force "
+    what = (f"cantilever, r = {1e3 * wire.radius:g} mm, on a frictionless plane {1e3 * PLANE_DROP:g} mm below: force "
             "at the tip")
     reasons = {
         "explicit": "meets no walls",
@@ -209,7 +209,7 @@ def _plane_contact() -> Plan:
 
     def draw(figure) -> None:
         axes = figure.add_subplot()
-        axes.axhline(_PLANE_DROP / wire.length, color="0.3", linewidth=1.0, linestyle="--", label="plane")
+        axes.axhline(PLANE_DROP / wire.length, color="0.3", linewidth=1.0, linestyle="--", label="plane")
         axes.plot(*nodes.T, pictures.MARKERS[0], fillstyle="none", label="direct")
         axes.plot(shape.along, shape.across, color="0.6", linewidth=2.5, label="tip on the plane")
         axes.plot(free.along, free.across, color="0.6", linewidth=1.0, label="without the plane")

@@ -1,0 +1,244 @@
+"""How far each trial is from the reference, what it costs, and which one to take.
+
+The error of a run is the RMS distance of its wire from the reference's, over points along the wire and times from start
+to end, over the RMS way that the reference's points have gone.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Generator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.interpolate import CubicHermiteSpline
+
+from analysis.advice import trials
+from analysis.advice.trials import Trial
+from analysis.logs import LogError, read_log
+from analysis.runs import Run, read_repeats
+from analysis.validation.check import Check
+from studies.table import Case
+
+REPEATS = 3  # timed ones
+_TIMED = 12  # candidates that are timed, those of least work first
+_TIMES = 81
+_POINTS = 21
+_LOGGED = 400  # entries of a log
+_LOST = ("diverged", "failed")
+_STILL = 1e-9  # of L; what moves less does so by rounding
+
+
+@dataclass(frozen=True)
+class Tried:
+    """What came of a trial.
+
+    Attributes
+    ----------
+    trial : Trial
+    error : float
+        Not a number where the run was lost or passed a wall.
+    moved : float
+        Distance of its answer from that of the file as it is, measured as an error is.
+    outcome : str
+    work : float
+        As `trials.work` counts it, over the whole run.
+    step : float or None
+        Wall time of a step in ms, median of the timed repeats; None where it was not timed.
+    total : float or None
+        Wall time of all steps, s, the same.
+    log : float or None
+        Wall time that the log took, ms a step, the same.
+    parameters : mapping of str to Any
+        All effective values.
+    others_busy : float or None
+        Processors that other programs kept busy beside the repeat that they disturbed most.
+    """
+
+    trial: Trial
+    error: float
+    moved: float
+    outcome: str
+    work: float
+    step: float | None
+    total: float | None
+    log: float | None
+    parameters: Mapping[str, Any]
+    others_busy: float | None = None
+
+
+@dataclass(frozen=True)
+class Advice:
+    """What was found.
+
+    Attributes
+    ----------
+    scene : Tried
+        The file as it is.
+    reference : Tried
+    reference_error : float
+        Of the coarser run of the reference's kind: what the reference is known to, or worse.
+    parts, searched : sequence of Tried
+        Parts left out, and all candidates.
+    taken : Tried or None
+        The cheapest that meets what was asked; None where none does.
+    results : tuple
+        No lines with gates.
+    """
+
+    scene: Tried
+    reference: Tried
+    reference_error: float
+    parts: Sequence[Tried]
+    searched: Sequence[Tried]
+    taken: Tried | None
+    results: tuple[()] = ()
+
+
+@dataclass(frozen=True)
+class Wish:
+    """What is asked for: an error at the least cost, or, with a budget, the least error within ms a step."""
+
+    error: float | None = None
+    budget: float | None = None
+
+
+Cost = Callable[[Tried], float]
+
+
+def by_time(tried: Tried) -> float:
+    """Wall time of all steps, s; infinite where it was not timed."""
+    return math.inf if tried.total is None else tried.total
+
+
+def by_work(tried: Tried) -> float:
+    """Counts, which are the same on every machine."""
+    return tried.work
+
+
+def choose(searched: Sequence[Tried], wish: Wish, cost: Cost = by_time) -> Tried | None:
+    """The cheapest trial that meets an error, or the most accurate one within the budget of a step."""
+    if wish.budget is None:
+        good = [tried for tried in searched if tried.error <= wish.error and math.isfinite(cost(tried))]
+        return min(good, key=cost, default=None)
+    good = [tried for tried in searched if math.isfinite(tried.error) and tried.step is not None
+            and tried.step <= wish.budget]
+    return min(good, key=lambda tried: tried.error, default=None)
+
+
+def check_of(file: Path, wish: Wish, cost: Cost = by_time, repeats: int = REPEATS) -> Check[Advice]:
+    """What makes the runs of a scene's advice and reads them; without repeats the cost can be counts alone."""
+    return Check(file.stem, "Advice", f"advice for {file.name}", partial(_plan, wish, cost, repeats),
+                 str(file.resolve()))
+
+
+def _plan(wish: Wish, cost: Cost, repeats: int) -> Generator[Sequence[Case], Mapping[str, Run], Advice]:
+    scene = _lasting((yield [Case("scene", {"logSpheres": "all"})])["scene"])
+    fine, coarse = trials.references(scene)
+    asked = {"file": Trial("as the file has it", {}), "reference": fine, "coarser": coarse}
+    asked |= {f"part-{k}": trial for k, trial in enumerate(trials.parts(scene))}
+    asked |= {f"candidate-{k}": trial for k, trial in enumerate(trials.candidates(scene))}
+    runs = yield [_case(key, scene, trial) for key, trial in asked.items()]
+    if runs["reference"].outcome in _LOST:
+        raise LogError(f"the reference is lost ({runs['reference'].measured('reason')}): no error can be measured")
+    measure = _Measure(scene, runs["reference"], runs["file"])
+    found = {key: _tried(trial, runs[key], measure) for key, trial in asked.items()}
+    shortlist = _shortlist([key for key in found if key.startswith("candidate-")], found, wish)
+    timed = ["file", *(key for key in found if key.startswith("part-")), *shortlist]
+    if repeats:
+        again = yield [replace(_case(key, scene, asked[key]), key=f"{key}-timed", repeats=repeats) for key in timed]
+        for key in timed:
+            found[key] = _with_times(found[key], read_repeats(again[f"{key}-timed"], repeats))
+    searched = [tried for key, tried in found.items() if key.startswith("candidate-")]
+    parts = [tried for key, tried in found.items() if key.startswith("part-")]
+    return Advice(found["file"], found["reference"], found["coarser"].error, parts, searched,
+                  choose(searched, wish, cost))
+
+
+def _lasting(run: Run) -> dict[str, Any]:
+    """Effective values of the scene, with the steps after which it rests as their number, such that it divides."""
+    if run.summary is None or run.outcome in _LOST:
+        raise LogError(f"the scene itself is lost: {run.measured('reason')}")
+    steps = int(run.measured("steps"))
+    if steps == 0:
+        raise LogError("the scene makes no step: nothing moves, and nothing costs")
+    places = read_log(run.folder, spheres="all").positions
+    if np.max(np.abs(places - places[0])) <= _STILL * run.number("guidewireLength"):
+        raise LogError("nothing moves in the scene: there is no way that an error could be a part of")
+    asked = int(run.number("maxSimulationSteps"))
+    return {**run.parameters, "maxSimulationSteps": asked if steps == asked else min(asked, -(-steps // 16) * 16)}
+
+
+def _case(key: str, scene: Mapping[str, Any], trial: Trial) -> Case:
+    effective = {**scene, **trial.changed}
+    return Case(key, {
+        "maxSimulationSteps": effective["maxSimulationSteps"], "deltaThreshold": 0.0, "logSpheres": "all",
+        "logEvery": trials.log_every(effective, _LOGGED), "logOrientations": False, **trial.changed,
+    })
+
+
+class _Measure:
+    """Distances from a reference run."""
+
+    def __init__(self, scene: Mapping[str, Any], reference: Run, file: Run) -> None:
+        self._times = np.array(trials.sample_times(scene, _TIMES))
+        self._exact = self._points(reference)
+        self._file = self._points(file)
+        self._way = float(np.sqrt(np.mean((self._exact - self._exact[0]) ** 2)))
+
+    def errors(self, run: Run) -> tuple[float, float]:
+        """Of a run from the reference and from the file as it is; not numbers where it was lost or passed a wall."""
+        if run.outcome in _LOST or run.measured("passages") > 0:
+            return math.nan, math.nan
+        points = self._points(run)
+        from_exact, from_file = (float(np.sqrt(np.mean((points - other) ** 2))) / self._way
+                                 for other in (self._exact, self._file))
+        return from_exact, from_file
+
+    def _points(self, run: Run) -> np.ndarray:
+        """Places at the sample times, in units, shape (times, points, 3), by cubics in time, straight along elements.
+        A run that ended early rests from then on."""
+        log = read_log(run.folder, spheres="all", velocities=True)
+        inside = np.minimum(self._times, log.time[-1])
+        places = CubicHermiteSpline(log.time, log.positions, log.velocities)(inside)
+        arc = np.linspace(0.0, places.shape[1] - 1.0, _POINTS)
+        low = np.minimum(arc.astype(int), places.shape[1] - 2)
+        share = (arc - low)[None, :, None]
+        return (1.0 - share) * places[:, low] + share * places[:, low + 1]
+
+
+def _tried(trial: Trial, run: Run, measure: _Measure) -> Tried:
+    return Tried(trial, *measure.errors(run), run.outcome, trials.work(run.parameters, run.summary), None, None, None,
+                 run.parameters)
+
+
+def _with_times(tried: Tried, repeats: Sequence[Run]) -> Tried:
+    steps = max(1, int(repeats[0].measured("steps")))
+    totals = [repeat.measured("computationTime") for repeat in repeats]
+    total = float(np.median(totals))
+    log = float(np.median([repeat.measured("wallTime") for repeat in repeats])) - total
+    busy = [repeat.others_busy for repeat in repeats if repeat.others_busy is not None]
+    return replace(tried, total=total, step=1e3 * total / steps, log=1e3 * max(log, 0.0) / steps,
+                   others_busy=max(busy, default=None))
+
+
+def _shortlist(keys: Sequence[str], found: Mapping[str, Tried], wish: Wish) -> list[str]:
+    """What is worth timing: of those that meet the error the ones of least work, or, with a budget, those of least
+    error among ever less work."""
+    if wish.budget is None:
+        good = sorted((key for key in keys if found[key].error <= wish.error), key=lambda key: found[key].work)
+        return good[:_TIMED]
+    front: list[str] = []
+    for key in sorted((key for key in keys if math.isfinite(found[key].error)), key=lambda key: found[key].error):
+        steps = found[key].parameters["maxSimulationSteps"]
+        if not front or found[key].work / steps < found[front[-1]].work / found[front[-1]].parameters["maxSimulationSteps"]:
+            front.append(key)
+    return front
+
+
+def folder_of(out: Path) -> Path:
+    """Folder above those of advice, within that of the results."""
+    return out / "advice"

@@ -1,0 +1,111 @@
+"""What advice tells: the parts of a scene, the settings that were searched, and the file to run."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from analysis.advice.plan import Advice, Tried, Wish
+from analysis.figures.wording import number, percent, span
+
+_PATHS = ("startFile", "logFilePath")
+
+
+def as_markdown(name: str, wish: Wish, advice: Advice) -> str:
+    """The evidence: what each part costs and moves, and every setting that was searched."""
+    asked = f"an error of at most {percent(wish.error)}" if wish.budget is None else \
+        f"the least error within {number(wish.budget)} ms a step"
+    lines = [
+        f"# Advice for {name}", "", f"Asked: {asked}.", "", verdict(wish, advice), "",
+        "An error is the RMS distance of the wire from the reference, over points along it and times from start to "
+        "end, over the RMS way that the reference went.",
+        f"Reference: {advice.reference.trial.name.removeprefix('reference, ')}; one of its kind that is half as fine "
+        f"is {percent(advice.reference_error)} from it. The file as it is: "
+        f"{_error(advice.scene)} at {_step(advice.scene)} ms a step. Times are medians of three runs; other programs "
+        f"kept {span(_busy(advice), 2)} processors busy beside them.", "",
+        "## Parts of the model", "",
+        "Each part that the scene has, left out or halved: how far the answer moves from the file's, and what it costs. "
+        "Work is counted, over that of the file, and does not depend on the machine.", "",
+        "| part | answer moves by | error | ms a step | work |", "|---|---|---|---|---|",
+        f"| the file as it is | - | {_error(advice.scene)} | {_step(advice.scene)} | 1 |",
+        *(f"| {one.trial.name} | {_moved(one)} | {_error(one)} | {_step(one)} | "
+          f"{number(one.work / advice.scene.work, 2)} |" for one in advice.parts),
+        "", f"Writing the log of this comparison took {_log(advice.scene)} ms a step more; a run that nobody reads back "
+        "does without (`logSpheres`, `logEvery`).", "",
+        "## Settings that were searched", "",
+        "From the least work on; settings without a time were not timed, because they miss the error or others that "
+        "meet it need less work." if wish.budget is None else
+        "From the least work on; those that no other setting beats in both error and work a step were timed.", "",
+        "| settings | error | work | ms a step | s in all |", "|---|---|---|---|---|",
+        *(_row(one, advice) for one in sorted(advice.searched, key=lambda one: one.work)),
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def verdict(wish: Wish, advice: Advice) -> str:
+    """One line: what to take."""
+    taken = advice.taken
+    if taken is None:
+        best = min((one for one in advice.searched if math.isfinite(one.error)), key=lambda one: one.error, default=None)
+        least = "every setting is lost" if best is None else f"the best has {percent(best.error)} ({best.trial.name})"
+        missed = "has so small an error" if wish.budget is None else "keeps within the budget"
+        return f"None of the {len(advice.searched)} settings searched {missed}; {least}."
+    told = f"Take: {taken.trial.name}. Error {percent(taken.error)}, {_step(taken)} ms a step, {_all(taken)} s in all"
+    doubt = "" if advice.reference_error <= 0.5 * max(taken.error, wish.error or 0.0) else \
+        f" The reference itself is only known to {percent(advice.reference_error)}."
+    return f"{told}; the file as it is: {_error(advice.scene)}, {_step(advice.scene)} ms a step, " \
+           f"{_all(advice.scene)} s in all.{doubt}"
+
+
+def parameters(advice: Advice, scene: Mapping[str, Any], folder: Path) -> str:
+    """The parameter file of the settings to take, to stand in `folder`: effective values, with the scene's own log and
+    end. Files that it names count from there."""
+    own = ("deltaThreshold", "logSpheres", "logEvery", "logOrientations")
+    values = {**advice.taken.parameters, **{key: scene[key] for key in own if key in scene}}
+    for key in _PATHS:
+        if values.get(key):
+            values[key] = _relative(values[key], folder)
+    vessel = values.get("vessel")
+    if vessel and "file" in vessel:
+        values["vessel"] = {**vessel, "file": _relative(vessel["file"], folder)}
+    if values.get("loadTables"):
+        values["loadTables"] = {load: _relative(file, folder) for load, file in values["loadTables"].items()}
+    return json.dumps(values, indent=2) + "\n"
+
+
+def _relative(file: str, folder: Path) -> str:
+    return os.path.relpath(file, folder).replace(os.sep, "/")
+
+
+def _row(one: Tried, advice: Advice) -> str:
+    name = f"**{one.trial.name}**" if one is advice.taken else one.trial.name
+    return f"| {name} | {_error(one)} | {number(one.work / advice.scene.work, 2)} | {_step(one)} | {_all(one)} |"
+
+
+def _moved(one: Tried) -> str:
+    return percent(one.moved) if math.isfinite(one.moved) else one.outcome
+
+
+def _error(one: Tried) -> str:
+    return percent(one.error) if math.isfinite(one.error) else one.outcome
+
+
+def _step(one: Tried) -> str:
+    return "-" if one.step is None else number(one.step, 2)
+
+
+def _log(one: Tried) -> str:
+    return "-" if one.log is None else number(one.log, 2)
+
+
+def _all(one: Tried) -> str:
+    return "-" if one.total is None else number(one.total, 2)
+
+
+def _busy(advice: Advice) -> Sequence[float]:
+    timed = (advice.scene, *advice.parts, *advice.searched)
+    return [one.others_busy for one in timed if one.others_busy is not None]

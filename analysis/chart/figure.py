@@ -1,0 +1,174 @@
+"""The chart as pictures: one panel a problem, and a small one for the README."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.transforms import Bbox
+
+from analysis.chart.points import (
+    FRAME, METHODS, TICK, Charted, Cost, load_in_words, milliseconds, repeats_in_words, seconds,
+)
+from analysis.figures.style import add_caption, letter, new_figure, styled
+from analysis.figures.wording import number
+from analysis.validation.pictures import SOLVER_MARKERS
+
+COLOURS = dict(zip(METHODS, ("C0", "C1", "C2", "C3")))
+_COLUMNS = 4
+_ROOM = 2.5  # factor between the outermost points and the frame
+_OFFSETS = ((4, 3), (4, -8), (-4, 3), (-4, -8), (4, 10), (-4, 10), (4, -15), (-4, -15))  # points, of a label
+_PADDING = 2.0  # pixels around a label
+_COST = "wall time per simulated second (s per s)"
+_STEP = "wall time of one time step (ms)"
+
+
+@styled
+def draw_costs(found: Sequence[Charted]) -> tuple[Figure, str]:
+    """Error against wall time per simulated second."""
+    lines = ((1.0, "real time"),)
+    figure = _panels(found, seconds, _COST, lines)
+    caption = (
+        "Figure chart. Error against cost of every method on eight problems. Cost: wall time of the steps per simulated "
+        f"second, one thread, median of timed runs made one at a time ({repeats_in_words()}); {_load(found)}. Markers: "
+        "pbd diamonds, xpbd triangles, explicit squares, direct circles. Thick grey line: the Pareto front, which no "
+        "other setting beats in both error and cost; its settings stand beside it where they fit (n elements, time "
+        "step or substep, m sweeps), and all of them in the table and on the page beside this picture. Vertical line: real time, 1 s per s. Crosses at the "
+        f"upper edge: settings without an answer, at what they cost. {_lost(found)}{_references(found)} pbd has no "
+        f"material: {_gains(found)} On the bar its stretch gain is that of the springs; in the arch neither stiffness "
+        f"nor mass decides the shape. {_absent(found)}"
+    )
+    add_caption(figure, caption)
+    return figure, caption
+
+
+@styled
+def draw_steps(found: Sequence[Charted]) -> tuple[Figure, str]:
+    """Error against the wall time of a step."""
+    lines = ((1e3 * FRAME, "90 Hz"), (1e3 * TICK, "1 kHz"))
+    figure = _panels(found, milliseconds, _STEP, lines)
+    caption = (
+        "Figure chart, against what a loop has to wait for: wall time of one time step, of the same runs. A display of "
+        f"90 Hz has {number(1e3 * FRAME, 3)} ms for a step, a haptic loop of 1 kHz one ms (vertical lines). A step that "
+        "fits keeps its loop on time; whether simulated time then passes as fast as real time, the chart of cost says."
+    )
+    add_caption(figure, caption)
+    return figure, caption
+
+
+@styled
+def draw_summary(found: Sequence[Charted]) -> Figure:
+    """The front of each method and that of all."""
+    figure = new_figure(10.0, 4.6)
+    for axes, charted in zip(figure.subplots(2, _COLUMNS).ravel(), found):
+        _draw_front(axes, charted, seconds)
+        for method in METHODS:
+            front = charted.front(method=method)
+            if front:
+                axes.plot([p.cost for p in front], [p.drawn for p in front], SOLVER_MARKERS[method] + "-",
+                          color=COLOURS[method], fillstyle="none", markersize=4, linewidth=0.9, label=method)
+        axes.axvline(1.0, color="0.3", linestyle="--", linewidth=0.8)
+        axes.set(xscale="log", yscale="log")
+        axes.set_title(charted.problem.title, fontsize=8)
+        axes.tick_params(labelsize=6)
+    figure.supxlabel(f"{_COST}; dashed: real time", fontsize=8)
+    figure.supylabel("error (1)", fontsize=8)
+    figure.axes[0].legend(fontsize=6)
+    return figure
+
+
+def _panels(found: Sequence[Charted], cost: Cost, label: str,
+            lines: Sequence[tuple[float, str]]) -> Figure:
+    rows = math.ceil(len(found) / _COLUMNS)
+    figure = new_figure(16.0, 4.4 * rows)
+    panels = figure.subplots(rows, _COLUMNS, squeeze=False).ravel()
+    for k, (axes, charted) in enumerate(zip(panels, found)):
+        letter(axes, "abcdefgh"[k], charted.problem.title)
+        _draw_panel(axes, charted, cost, lines)
+        axes.set(xlabel=label, ylabel=f"error: {charted.problem.error}")
+    for axes in panels[len(found):]:
+        axes.axis("off")
+    named = {name: handle for axes in panels for handle, name in zip(*axes.get_legend_handles_labels())}
+    panels[0].legend(named.values(), named.keys(), fontsize=7)
+    figure.draw_without_rendering()
+    for axes, charted in zip(panels, found):
+        _write_labels(axes, [(cost(p), p.drawn, p.setting.label) for p in charted.front(cost)],
+                      [(cost(p), p.drawn) for p in charted.points if p.held])
+    return figure
+
+
+def _draw_panel(axes: Axes, charted: Charted, cost: Cost,
+                lines: Sequence[tuple[float, str]]) -> None:
+    _draw_front(axes, charted, cost)
+    for method in METHODS:
+        held = [(cost(p), p.drawn) for p in charted.points if p.held and p.setting.method == method]
+        if held:
+            axes.plot(*np.transpose(held), SOLVER_MARKERS[method], color=COLOURS[method], fillstyle="none",
+                      label=method)
+    axes.set(xscale="log", yscale="log")
+    costs, errors = [cost(p) for p in charted.points], [p.drawn for p in charted.points if p.held]
+    axes.set_xlim(min(*costs, *(x for x, _ in lines)) / _ROOM, max(*costs, *(x for x, _ in lines)) * _ROOM)
+    axes.set_ylim(min(errors) / _ROOM, max(errors) * _ROOM**2)
+    for x, name in lines:
+        axes.axvline(x, color="0.3", linestyle="--", linewidth=0.8)
+        axes.annotate(name, (x, 0.01), xycoords=("data", "axes fraction"), rotation=90, fontsize=6, ha="right")
+    for method in METHODS:
+        lost = [cost(p) for p in charted.points if not p.held and p.setting.method == method]
+        axes.plot(lost, [0.97] * len(lost), "x", color=COLOURS[method], transform=axes.get_xaxis_transform(),
+                  label=f"{method}, lost" if lost else None)
+
+
+def _draw_front(axes: Axes, charted: Charted, cost: Cost) -> None:
+    front = [(cost(p), p.drawn) for p in charted.front(cost)]
+    axes.plot(*np.transpose(front), "-", color="0.8", linewidth=4.0, zorder=0, solid_capstyle="round")
+
+
+def _write_labels(axes: Axes, labels: Sequence[tuple[float, float, str]],
+                  points: Sequence[tuple[float, float]]) -> None:
+    """Texts beside points, each at the first place where it covers neither a point nor another text, or nowhere."""
+    renderer = axes.figure.canvas.get_renderer()
+    frame = axes.get_window_extent(renderer)
+    dots = axes.transData.transform(points)
+    legend = axes.get_legend()
+    taken: list[Bbox] = [] if legend is None else [legend.get_window_extent(renderer)]
+    for x, y, text in labels:
+        for right, up in _OFFSETS:
+            written = axes.annotate(text, (x, y), (right, up), textcoords="offset points", fontsize=5.5,
+                                    ha="left" if right > 0 else "right", in_layout=False)
+            box = written.get_window_extent(renderer).padded(_PADDING)
+            inside = frame.x0 <= box.x0 and box.x1 <= frame.x1 and frame.y0 <= box.y0 and box.y1 <= frame.y1
+            if inside and not any(box.overlaps(other) for other in taken) and not any(box.contains(*p) for p in dots):
+                taken.append(box)
+                break
+            written.remove()
+
+
+def _load(found: Sequence[Charted]) -> str:
+    return load_in_words([point for charted in found for point in charted.points])
+
+
+def _lost(found: Sequence[Charted]) -> str:
+    """Which settings have no answer."""
+    lost = [f"{p.setting.method}, {p.setting.words} ({'abcdefgh'[k]}): {p.outcome}"
+            for k, charted in enumerate(found) for p in charted.points if not p.held]
+    return f"Without an answer: {'; '.join(lost)}. " if lost else ""
+
+
+def _references(found: Sequence[Charted]) -> str:
+    told = "; ".join(f"({'abcdefgh'[k]}) {charted.reference}" for k, charted in enumerate(found))
+    return f"References: {told}."
+
+
+def _gains(found: Sequence[Charted]) -> str:
+    gains = sorted({charted.gain for charted in found if charted.gain is not None})
+    return (f"its bendStiffness ({', '.join(number(gain, 4) for gain in gains)}) is tuned so that each wire sags as the "
+            "material does at m = 500, n = 30, dt = 1 ms; other pbd points have the same gains.")
+
+
+def _absent(found: Sequence[Charted]) -> str:
+    absent = {method for charted in found for method in charted.problem.absent}
+    names = " and ".join(method for method in METHODS if method in absent)
+    return f"{names} meet no walls and are missing there." if names else ""

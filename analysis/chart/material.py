@@ -1,0 +1,305 @@
+"""Problems of a wire without walls: own weight, a cantilever let go, a pendulum, a bar that is struck, twist."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from analysis.chart import settings
+from analysis.chart.points import Asked, Measure, Problem, Setting, case
+from analysis.figures.wording import number, percent
+from analysis.runs import Run
+from analysis.validation import beam, elastica, scenes, swing
+from analysis.validation.bar import BarChain
+from analysis.validation.dynamics import (
+    BAR_ELEMENTS, BAR_MASS, BAR_SPRING, RELEASE_LOAD, RELEASE_TIME, bar_gain, release, release_error,
+    release_reference, rms_error,
+)
+from analysis.validation.states import last_state, tip_at, tip_motion
+from analysis.validation.wire import BASE
+
+FIRST = 2.0 * math.pi * beam.frequencies(BASE, 1)[0]  # rad/s
+REST_TIME = 15.0 / FIRST  # s; a critically damped motion is over
+_RATE = 2.0 * FIRST  # 1/s, critical
+_WEIGHT = BASE.line_density * settings.GRAVITY * BASE.length**3 / BASE.bending
+_COUNTS = (8, 15, 30)
+
+
+def own_sag() -> float:
+    """Deflection of the base wire's tip under its own weight over L."""
+    return elastica.heavy(_WEIGHT, np.linspace(0.0, 1.0, 11)).tip[1]
+
+
+def base_gain() -> scenes.Asking[float]:
+    """pbd's gain for that sag."""
+    return (yield from settings.tuned_gain(BASE, _RATE, REST_TIME, own_sag()))
+
+
+def _limits(counts: Sequence[int], more: Mapping[str, Any] | None = None) -> scenes.Asking[dict[int, float]]:
+    """Stable substeps of the explicit method by n."""
+    named = {f"limit-{n}": {"numberRodElements": n, **(more or {})} for n in counts}
+    stable = yield from scenes.stable_substeps(named)
+    return dict(zip(counts, stable.values()))
+
+
+def _explicit(step: float, stable: float) -> tuple[dict[str, Any], float]:
+    """Keys and substep."""
+    keys = scenes.explicit_steps(step, stable)
+    return keys, step / keys["substeps"]
+
+
+def _xpbd(substeps: int, sweeps: int) -> dict[str, Any]:
+    return {"substeps": substeps, "constraintSolverSteps": sweeps}
+
+
+def _at_rest() -> scenes.Asking[Asked]:
+    gain = yield from base_gain()
+    stable = yield from _limits(_COUNTS)
+    made = [
+        Setting("direct", f"rest shape at once, n = {n}", f"at once n{n}", case(f"at-once-{n}", "direct", {
+            "numberRodElements": n, "initialState": "equilibrium", "maxSimulationSteps": 0, "timeStep": REST_TIME,
+            "gravity": [0.0, -settings.GRAVITY, 0.0]}))
+        for n in (5, 10, 30)
+    ]
+    for n, step in ((8, 2e-2), (8, 4e-3), (15, 4e-3), (30, 4e-3), (60, 2e-3)):
+        keys = {**settings.settled({"integrator": "implicitEuler"}, step, _RATE, REST_TIME), "numberRodElements": n}
+        made.append(Setting("direct", *settings.direct("implicitEuler", n, step),
+                            case(f"direct-{n}-{step}", "direct", keys)))
+    for n in _COUNTS:
+        small, substep = _explicit(2e-4, stable[n])
+        keys = {**settings.settled({"solver": "explicit", **small}, 2e-4, _RATE, REST_TIME), "numberRodElements": n}
+        made.append(Setting("explicit", *settings.small_steps(n, substep), case(f"explicit-{n}", "explicit", keys)))
+    for n, k, m in ((8, 180, 1), (15, 320, 1), (30, 400, 1), (30, 600, 1), (30, 1000, 1), (30, 300, 3)):
+        keys = {**settings.settled({"solver": "xpbd", **_xpbd(k, m)}, 1e-3, _RATE, REST_TIME), "numberRodElements": n}
+        made.append(Setting("xpbd", *settings.small_steps(n, 1e-3 / k, m), case(f"xpbd-{n}-{k}-{m}", "xpbd", keys)))
+    made += [
+        Setting("pbd", *settings.pbd(changed), case(f"pbd-{k}", "pbd", settings.settled(
+            {**settings.PBD, **changed, "bendStiffness": gain}, {**settings.TUNED, **changed}["timeStep"], _RATE,
+            REST_TIME)))
+        for k, changed in enumerate(settings.PBD_CHANGES)
+    ]
+    wanted = own_sag()
+
+    def measure(_: Mapping[str, Run]) -> tuple[Measure, str]:
+        return lambda run: abs(settings.tip_sag(run, BASE) / wanted - 1.0), "the elastica under its own weight"
+
+    return Asked(made, measure, gain=gain)
+
+
+def _let_go() -> scenes.Asking[Asked]:
+    gain = yield from base_gain()
+    counts = (10, 20, 30)
+    stable = yield from _limits(counts)
+    made = [
+        Setting("direct", *settings.direct(scheme, n, dt),
+                case(f"{scheme}-{n}-{dt}", "direct", release(n, dt, {"integrator": scheme})))
+        for scheme, n, dt in (
+            ("implicitEuler", 12, 1e-3), ("implicitEuler", 12, 1e-4), ("bdf2", 12, 5e-4), ("bdf2", 12, 2.5e-4),
+            ("trbdf2", 10, 2e-3), ("trbdf2", 12, 5e-4), ("esdirk3", 5, 8e-3), ("esdirk3", 8, 4e-3),
+            ("esdirk3", 10, 4e-3), ("esdirk3", 10, 2e-3), ("esdirk3", 12, 1e-3), ("esdirk4", 10, 4e-3),
+            ("esdirk4", 12, 2e-3), ("esdirk4", 16, 1e-3), ("esdirk4", 30, 5e-4),
+        )
+    ]
+    for n in counts:
+        small, substep = _explicit(2e-4, stable[n])
+        made.append(Setting("explicit", *settings.small_steps(n, substep), case(
+            f"explicit-{n}", "explicit", release(n, 2e-4, {"solver": "explicit", **small}))))
+    made += [
+        Setting("xpbd", *settings.small_steps(n, 2e-4 / k, m), case(
+            f"xpbd-{n}-{k}-{m}", "xpbd", release(n, 2e-4, {"solver": "xpbd", **_xpbd(k, m)})))
+        for n, k, m in ((10, 45, 1), (20, 80, 1), (30, 80, 1), (30, 120, 1), (30, 200, 1), (30, 60, 3), (30, 20, 30))
+    ]
+    for k, changed in enumerate(settings.PBD_CHANGES):
+        method = {**settings.PBD, **changed, "bendStiffness": gain}
+        shape = elastica.tip_loaded(RELEASE_LOAD, np.linspace(0.0, 1.0, method["numberRodElements"] + 1))
+        made.append(Setting("pbd", *settings.pbd(changed), case(f"pbd-{k}", "pbd", {
+            **method, "maxSimulationSteps": round(RELEASE_TIME / method["timeStep"]), "logSpheres": "last",
+        }, scenes.plane_start(BASE.length * shape.along, BASE.length * shape.across))))
+
+    def measure(_: Mapping[str, Run]) -> tuple[Measure, str]:
+        return release_error, ("modes of the slope, geometrically exact; 14 and 10 of them are "
+                               f"{percent(release_reference()[1], 1)} apart")
+
+    return Asked(made, measure, gain=gain)
+
+
+_SWING_TIME = 1.0  # s
+
+
+@lru_cache(maxsize=1)
+def _swing_reference() -> tuple[np.ndarray, np.ndarray, float]:
+    """Times in s, shape (k,), places of the tip (along, down) in m, shape (k, 2), and the error of a shorter series."""
+    fine, coarse = (swing.tip_motion(BASE, settings.GRAVITY, _SWING_TIME, 501, modes) for modes in (5, 4))
+    return fine.time, np.stack([fine.along, fine.across], axis=1), rms_error(
+        np.stack([coarse.along, coarse.across]), np.stack([fine.along, fine.across]))
+
+
+def _swing_error(run: Run) -> float:
+    time, tip, _ = _swing_reference()
+    found = tip_at(run, time)
+    return rms_error(np.stack([found[:, 2], -found[:, 1]], axis=1), tip)
+
+
+def _pendulum() -> scenes.Asking[Asked]:
+    gain = yield from base_gain()
+    counts = (4, 8, 15)
+    stable = yield from _limits(counts, {"proximalEnd": "held"})
+
+    def motion(n: int, step: float, more: Mapping[str, Any]) -> dict[str, Any]:
+        return {"numberRodElements": n, "proximalEnd": "held", "gravity": [0.0, -settings.GRAVITY, 0.0],
+                "timeStep": step, "maxSimulationSteps": round(_SWING_TIME / step), "logSpheres": "last", **more}
+
+    made = [
+        Setting("direct", *settings.direct(scheme, n, dt),
+                case(f"{scheme}-{n}-{dt}", "direct", motion(n, dt, {"integrator": scheme})))
+        for scheme, n, dt in (
+            ("implicitEuler", 4, 1e-3), ("implicitEuler", 8, 1e-4), ("bdf2", 4, 4e-3), ("bdf2", 8, 1e-3),
+            ("trbdf2", 4, 1e-2), ("trbdf2", 8, 2e-3), ("esdirk3", 2, 2e-2), ("esdirk3", 4, 1e-2), ("esdirk3", 8, 4e-3),
+            ("esdirk4", 2, 4e-2), ("esdirk4", 4, 2e-2), ("esdirk4", 8, 4e-3), ("esdirk4", 16, 2e-3),
+        )
+    ]
+    for n in counts:
+        small, substep = _explicit(1e-3, stable[n])
+        made.append(Setting("explicit", *settings.small_steps(n, substep), case(
+            f"explicit-{n}", "explicit", motion(n, 1e-3, {"solver": "explicit", **small}))))
+    made += [
+        Setting("xpbd", *settings.small_steps(n, 1e-3 / k, m), case(
+            f"xpbd-{n}-{k}-{m}", "xpbd", motion(n, 1e-3, {"solver": "xpbd", **_xpbd(k, m)})))
+        for n, k, m in ((4, 100, 1), (4, 400, 1), (10, 225, 1), (20, 400, 1), (10, 100, 3))
+    ]
+    weight = [0.0, -settings.GRAVITY / scenes.UNIT, 0.0]
+    for k, changed in enumerate((*settings.PBD_CHANGES, {"constraintSolverSteps": 50, "numberRodElements": 8})):
+        method = {**settings.PBD, **changed, "bendStiffness": gain}
+        made.append(Setting("pbd", *settings.pbd(changed), case(f"pbd-{k}", "pbd", motion(
+            method["numberRodElements"], method["timeStep"], {**method, "gravity": weight}))))
+
+    def measure(_: Mapping[str, Run]) -> tuple[Measure, str]:
+        return _swing_error, ("cosines of the slope, geometrically exact; 5 and 4 of them are "
+                              f"{percent(_swing_reference()[2], 1)} apart")
+
+    return Asked(made, measure, gain=gain)
+
+
+_BAR_TIME = 2e-3  # s
+_BAR_SHIFT = 1e-3  # m
+
+
+def _bar() -> scenes.Asking[Asked]:
+    yield []
+    wave = {"numberRodElements": BAR_ELEMENTS, "displacement": _BAR_SHIFT / scenes.UNIT, "logSpheres": "last",
+            "displacementDirection": [0.0, 0.0, 1.0]}
+
+    def motion(step: float, more: Mapping[str, Any]) -> dict[str, Any]:
+        return {**wave, "timeStep": step, "maxSimulationSteps": round(_BAR_TIME / step), **more}
+
+    uniform = {"massRule": "uniform"}  # as a wire of gains has it
+    made = [
+        Setting("direct", *settings.direct(scheme, BAR_ELEMENTS, dt), case(
+            f"{scheme}-{dt}", "direct", motion(dt, {**uniform, "integrator": scheme})))
+        for scheme, dt in (
+            ("implicitEuler", 2e-6), ("implicitEuler", 2.5e-7), ("bdf2", 2e-6), ("bdf2", 2.5e-7), ("trbdf2", 2e-6),
+            ("trbdf2", 2.5e-7), ("esdirk3", 4e-6), ("esdirk3", 1e-6), ("esdirk3", 2.5e-7), ("esdirk4", 4e-6),
+            ("esdirk4", 1e-6), ("esdirk4", 2.5e-7),
+        )
+    ]
+    made += [
+        Setting("explicit", *settings.small_steps(BAR_ELEMENTS, 2.5e-7 / k), case(
+            f"explicit-{k}", "explicit", motion(2.5e-7, {**uniform, "solver": "explicit", "substeps": k})))
+        for k in (1, 2, 5)
+    ]
+    made += [
+        Setting("xpbd", *settings.small_steps(BAR_ELEMENTS, dt, m), case(
+            f"xpbd-{dt}-{m}", "xpbd", motion(dt, {**uniform, "solver": "xpbd", "constraintSolverSteps": m})))
+        for dt, m in ((2.5e-7, 1), (2.5e-7, 10), (1e-6, 10))
+    ]
+    for step in (1e-6, 2.5e-7, 5e-8):
+        made.append(Setting("pbd", f"m = 1, gain of the springs, dt = {settings.time_text(step)}",
+                            f"m1 {settings.time_text(step)}", case(f"pbd-{step}", "pbd", motion(step, {
+                                "solver": "pbd", "constraintSolverSteps": 1, "stretchStiffness": bar_gain(step),
+                                "bendStiffness": 0.0, "totalMass": (BAR_ELEMENTS + 1) * BAR_MASS}))))
+    chain = BarChain(BAR_ELEMENTS, BAR_MASS, BAR_SPRING, _BAR_SHIFT)
+
+    def error(run: Run) -> float:
+        time, tip = tip_motion(run)
+        return rms_error(tip[:, 2] - BASE.length, chain.motion(time, BAR_ELEMENTS))
+
+    return Asked(made, lambda _: (error, "the exact motion of the chain of 30 springs"))
+
+
+_TURN = 0.5 * math.pi
+_TWIST_FREQUENCY = 0.5 / BASE.length * math.sqrt(BASE.shear_modulus / BASE.density)  # Hz
+_TWIST_TIME = 2e-3  # s, six periods of the slowest wave of twist
+_PBD_TWIST_TIME = 0.4  # s; with gains twist has no damping but that of the sweeps themselves
+
+
+def twist_error(run: Run) -> float:
+    """Worst difference of an inner element's turn from the linear profile, over the turn."""
+    twists = last_state(run).twists / _TURN
+    return float(np.max(np.abs(twists - _linear(len(twists)))[2:-2]))
+
+
+def _linear(n: int) -> np.ndarray:
+    """Turn of the elements' middles between two clamps over the whole turn, shape (n,)."""
+    return (np.arange(n) + 0.5) / n
+
+
+def pbd_twist_error(n: int) -> float:
+    """The same for sweeps with gains at rest: inner joints share the turn, the first and the last take half a share."""
+    found = (np.arange(n) - 0.5) / (n - 2)
+    return float(np.max(np.abs(found - _linear(n))[2:-2]))
+
+
+def _twist() -> scenes.Asking[Asked]:
+    gain = yield from base_gain()
+    stable = yield from _limits(_COUNTS, {"distalEnd": "clamped"})
+    return twist_asked(gain, stable)
+
+
+def twist_asked(gain: float, stable: Mapping[int, float]) -> Asked:
+    """Settings of the twist problem with pbd's gain and the explicit method's stable substeps by n."""
+    omega = 2.0 * math.pi * _TWIST_FREQUENCY
+
+    def turned(method: Mapping[str, Any], step: float, n: int) -> dict[str, Any]:
+        return {
+            "numberRodElements": n, "distalEnd": "clamped", "distalRotation": _TURN, "timeStep": step,
+            **scenes.damping(method.get("solver", "direct"), 2.0 * omega, step),
+            "maxSimulationSteps": math.ceil(_TWIST_TIME / step), "logEvery": 1_000_000, "logOrientations": True,
+            "distalRampTime": 0.05 / _TWIST_FREQUENCY, **method,
+        }
+
+    made = [
+        Setting("direct", *settings.direct("implicitEuler", n, dt), case(
+            f"direct-{n}-{dt}", "direct", turned({"integrator": "implicitEuler"}, dt, n)))
+        for n, dt in ((8, 1e-4), (8, 2e-5), (15, 2e-5), (30, 2e-5))
+    ]
+    for n in _COUNTS:
+        small, substep = _explicit(4e-6, stable[n])
+        made.append(Setting("explicit", *settings.small_steps(n, substep), case(
+            f"explicit-{n}", "explicit", turned({"solver": "explicit", **small}, 4e-6, n))))
+    made += [
+        Setting("xpbd", *settings.small_steps(n, 4e-6 / k, m), case(
+            f"xpbd-{n}-{k}-{m}", "xpbd", turned({"solver": "xpbd", **_xpbd(k, m)}, 4e-6, n)))
+        for n, k, m in ((8, 1, 1), (15, 1, 1), (30, 1, 1), (30, 2, 1), (30, 4, 1), (30, 1, 3), (30, 1, 10))
+    ]
+    for k, changed in enumerate(settings.PBD_CHANGES):
+        method = {**settings.PBD, **changed, "bendStiffness": gain, "damping": 0.0}
+        method["maxSimulationSteps"] = round(_PBD_TWIST_TIME / method["timeStep"])
+        made.append(Setting("pbd", *settings.pbd(changed), case(f"pbd-{k}", "pbd", turned(
+            method, method["timeStep"], method["numberRodElements"]))))
+    clamps = number(100.0 * pbd_twist_error(settings.TUNED["numberRodElements"]), 2)
+    reference = (f"the linear profile; pbd holds the frames of the outer elements, which alone is {clamps} % off at "
+                 "n = 30")
+    return Asked(made, lambda _: (twist_error, reference), gain=gain)
+
+
+PROBLEMS = (
+    Problem("static", "sag under own weight", "sag of the tip, relative", _at_rest),
+    Problem("release", "cantilever let go, 0.2 s", "RMS of the tip, relative", _let_go),
+    Problem("pendulum", "pendulum let go level, 1 s", "RMS of the tip, of L", _pendulum),
+    Problem("bar", "bar struck at its base, 2 ms", "RMS of the tip, relative", _bar),
+    Problem("turned", "one end turned by 90°", "worst element's turn, of 90°", _twist),
+)

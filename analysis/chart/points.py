@@ -1,0 +1,238 @@
+"""A problem of the chart, the settings that are run on it, and what came of each: error, cost, outcome."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Generator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import partial
+
+import numpy as np
+
+from analysis.figures.wording import number, span
+from analysis.runs import Run, read_repeats
+from analysis.validation.check import Check
+from analysis.validation.scenes import Asking
+from studies.table import Case
+
+METHODS = ("pbd", "xpbd", "explicit", "direct")
+LOST = ("passed a wall", "diverged", "failed")
+FRAME = 1.0 / 90.0  # s, of a display with 90 Hz
+TICK = 1e-3  # s, of a haptic loop with 1 kHz
+FLOOR = 1e-6  # an error below is rounding: as good as this one
+_REPEATS = {"pbd": 3, "direct": 5}  # the other methods take long enough to be timed once
+_LEVELS = (0.1, 0.01, 0.001)
+
+
+@dataclass(frozen=True)
+class Setting:
+    """One way to solve a problem.
+
+    Attributes
+    ----------
+    method : str
+        One of METHODS.
+    words : str
+        What it is set to, as tables say it.
+    label : str
+        The same in a few characters, as pictures say it.
+    case : Case
+        The run, with its timed repeats.
+    """
+
+    method: str
+    words: str
+    label: str
+    case: Case
+
+
+@dataclass(frozen=True)
+class Point:
+    """What came of a setting.
+
+    Attributes
+    ----------
+    setting : Setting
+    outcome : str
+        "finished" or "converged", or one of LOST.
+    reason : str
+        As the run says it.
+    error : float
+        As the problem measures it; not a number where the run was lost.
+    cost, least, most : float
+        Wall time in s per simulated second: median, smallest and largest of the timed repeats.
+    step : float
+        Wall time of a time step, s, of the median.
+    others_busy : float or None
+        Processors that other programs kept busy beside the repeat that they disturbed most; None where nobody looked.
+    """
+
+    setting: Setting
+    outcome: str
+    reason: str
+    error: float
+    cost: float
+    least: float
+    most: float
+    step: float
+    others_busy: float | None
+
+    @property
+    def drawn(self) -> float:
+        """Its error, or FLOOR where that is larger."""
+        return max(self.error, FLOOR)
+
+    @property
+    def held(self) -> bool:
+        """Whether it has an error."""
+        return self.outcome not in LOST and math.isfinite(self.error)
+
+
+def seconds(point: Point) -> float:
+    """Cost as the chart has it, s per simulated second."""
+    return point.cost
+
+
+def milliseconds(point: Point) -> float:
+    """Wall time of a time step, ms."""
+    return 1e3 * point.step
+
+
+Cost = Callable[[Point], float]
+Measure = Callable[[Run], float]
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What a problem asks for.
+
+    Attributes
+    ----------
+    settings : sequence of Setting
+    measure : callable
+        From the runs of `references` to the error of a run, and a sentence on what the reference is worth.
+    references : sequence of Case
+        Finer runs that are the reference, or show that it has converged.
+    gain : float or None
+        Of pbd's bend-twist constraint, where it was tuned.
+    """
+
+    settings: Sequence[Setting]
+    measure: Callable[[Mapping[str, Run]], tuple[Measure, str]]
+    references: Sequence[Case] = ()
+    gain: float | None = None
+
+
+@dataclass(frozen=True)
+class Problem:
+    """One panel of the chart.
+
+    Attributes
+    ----------
+    name : str
+        Folder of its runs.
+    title : str
+        A few words.
+    error : str
+        What its error is, and of what it is a part.
+    ask : callable
+        Makes the generator that finds what it needs to know and returns what it asks for.
+    absent : mapping of str to str
+        Methods that cannot solve it, and why.
+    """
+
+    name: str
+    title: str
+    error: str
+    ask: Callable[[], Asking[Asked]] = field(repr=False)
+    absent: Mapping[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Charted:
+    """A problem with all its points; it has no lines with gates."""
+
+    problem: Problem
+    points: Sequence[Point]
+    reference: str
+    gain: float | None
+    results: tuple[()] = ()
+
+    def front(self, cost: Cost = seconds, method: str | None = None) -> list[Point]:
+        """Points, of all methods or of one, that no other one beats in both error and cost, from the cheapest on."""
+        return pareto([p for p in self.points if p.held and method in (None, p.setting.method)], cost)
+
+    def cheapest(self, error: float) -> Point | None:
+        """The cheapest point with at most this error."""
+        good = [point for point in self.points if point.held and point.error <= error]
+        return min(good, key=lambda point: point.cost, default=None)
+
+
+def pareto(points: Sequence[Point], cost: Cost = seconds) -> list[Point]:
+    """Points that no other one beats in both error and cost, from the cheapest on."""
+    front: list[Point] = []
+    for point in sorted(points, key=lambda point: (cost(point), point.drawn)):
+        if not front or point.drawn < front[-1].drawn:
+            front.append(point)
+    return front
+
+
+def case(key: str, method: str, overrides: Mapping[str, object], start: Mapping[str, object] | None = None) -> Case:
+    """A run of a method with as many timed repeats as the method is worth."""
+    return Case(key, {"solver": method, **overrides}, _REPEATS.get(method, 1), start)
+
+
+def check_of(problem: Problem) -> Check[Charted]:
+    """What makes the runs of a problem and reads its points."""
+    return Check(problem.name, "Chart", problem.title, partial(_plan, problem))
+
+
+def _plan(problem: Problem) -> Generator[Sequence[Case], Mapping[str, Run], Charted]:
+    asked = yield from problem.ask()
+    runs = yield [*asked.references, *(setting.case for setting in asked.settings)]
+    measure, reference = asked.measure(runs)
+    points = [_point(setting, runs[setting.case.key], measure) for setting in asked.settings]
+    return Charted(problem, points, reference, asked.gain)
+
+
+def _point(setting: Setting, run: Run, measure: Measure) -> Point:
+    outcome, error = run.outcome, math.nan
+    if outcome not in LOST:
+        error = measure(run)
+        if run.summary.get("passages", 0) > 0:
+            outcome = "passed a wall"
+    repeats = read_repeats(run, setting.case.repeats)
+    costs = sorted(_cost(repeat) for repeat in repeats)
+    cost = float(np.median(costs))
+    busy = [one.others_busy for one in repeats if one.others_busy is not None]
+    return Point(setting, outcome, str(run.measured("reason")), error, cost, costs[0], costs[-1],
+                 cost * run.number("timeStep"), max(busy, default=None))
+
+
+def _cost(run: Run) -> float:
+    """Wall time of the steps over the simulated time; without steps that of the search for the rest shape over the
+    time step, which then stands for the motion that is not made."""
+    steps = run.measured("steps")
+    if not steps:
+        return run.measured("setUpTime") / run.number("timeStep")
+    return run.measured("computationTime") / run.measured("inGameTime")
+
+
+def load_in_words(points: Sequence[Point]) -> str:
+    """What was measured of the machine's load beside timed runs."""
+    busy = [point.others_busy for point in points if point.others_busy is not None]
+    if not busy:
+        return "the load beside them was not measured"
+    return f"other programs kept {span(busy, 2)} processors busy beside a setting's most disturbed repeat " \
+           f"(median {number(float(np.median(busy)), 2)})"
+
+
+def repeats_in_words() -> str:
+    """How often the methods are timed."""
+    others = " and ".join(method for method in METHODS if method not in _REPEATS)
+    return "; ".join(f"{method}: {count}" for method, count in _REPEATS.items()) + f"; {others}: 1"
+
+
+def best_by_error(charted: Charted) -> list[tuple[float, Point | None]]:
+    """For errors of 10, 1 and 0.1 % the cheapest setting."""
+    return [(level, charted.cheapest(level)) for level in _LEVELS]

@@ -1,0 +1,193 @@
+"""Problems of a wire that meets walls, for the methods that do: pbd, and direct with implicitEuler."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from analysis.chart import settings
+from analysis.chart.points import Asked, Measure, Problem, Setting, case
+from analysis.figures.wording import percent
+from analysis.runs import Run
+from analysis.validation import beam, elastica, scenes
+from analysis.validation.dynamics import rms_error
+from analysis.validation.states import last_state, tip_at
+from analysis.validation.statics import PLANE_DROP, PLANE_WIRE
+from analysis.validation.wire import Wire
+from studies.table import Case
+
+ABSENT = {"xpbd": "meets no walls", "explicit": "meets no walls"}
+_FIRST = 2.0 * math.pi * beam.frequencies(PLANE_WIRE, 1)[0]  # rad/s
+_REST_TIME = 15.0 / _FIRST  # s
+_RATE = 2.0 * _FIRST  # 1/s, critical
+_LOAD = PLANE_WIRE.line_density * settings.GRAVITY * PLANE_WIRE.length**3 / PLANE_WIRE.bending
+_ARC = np.linspace(0.0, 1.0, 601)  # s/L, at which shapes are compared
+_PBD_CHANGES: tuple[dict[str, Any], ...] = (
+    {}, {"constraintSolverSteps": 125}, {"constraintSolverSteps": 250}, {"constraintSolverSteps": 1000},
+    {"numberRodElements": 15}, {"timeStep": 5e-4}, {"constraintSolverSteps": 50, "timeStep": 1e-2},
+)
+
+
+def _gain() -> scenes.Asking[float]:
+    """pbd's gain for the sag of the thin wire without walls."""
+    sag = elastica.heavy(_LOAD, np.linspace(0.0, 1.0, 11)).tip[1]
+    return (yield from settings.tuned_gain(PLANE_WIRE, _RATE, _REST_TIME, sag))
+
+
+def _thin(wall: Mapping[str, Any], duration: float) -> tuple[Any, Any]:
+    """What makes keys of the thin wire that falls on a wall: of direct from n, dt and more, of pbd from what changes
+    and its gain."""
+
+    def direct(n: int, step: float, more: Mapping[str, Any]) -> dict[str, Any]:
+        method = {"integrator": "implicitEuler", "numberRodElements": n, **more}
+        return {**scenes.wire_parameters(PLANE_WIRE), **settings.settled(method, step, _RATE, duration), **wall}
+
+    def pbd(changed: Mapping[str, Any], gain: float) -> dict[str, Any]:
+        method = {**settings.PBD, **changed, "bendStiffness": gain, "collisionStiffness": 0.1,
+                  "sphereRadius": PLANE_WIRE.radius / scenes.UNIT}
+        return {**settings.settled(method, method["timeStep"], _RATE, duration), **wall}
+
+    return direct, pbd
+
+
+def _plane() -> scenes.Asking[Asked]:
+    gain = yield from _gain()
+    height = -(PLANE_DROP + PLANE_WIRE.radius) / scenes.UNIT  # the axis comes to rest a radius above it
+    wall = {"vessel": {"shape": "plane", "point": [0.0, height, 0.0], "normal": [0.0, 1.0, 0.0]}}
+    direct, pbd = _thin(wall, _REST_TIME)
+    made = [
+        Setting("direct", *_near(n, dt, gap), case(
+            f"direct-{n}-{dt}-{gap}", "direct", direct(n, dt, {} if gap is None else {"contactDistance": gap})))
+        for n, dt, gap in ((8, 2e-2, None), (8, 5e-3, None), (15, 2e-2, None), (15, 5e-3, None), (15, 5e-3, 3e-6),
+                           (30, 2e-2, None), (30, 5e-3, 3e-6), (30, 2e-3, 3e-6))
+    ]
+    made += [Setting("pbd", *settings.pbd(changed), case(f"pbd-{k}", "pbd", pbd(changed, gain)))
+             for k, changed in enumerate(_PBD_CHANGES)]
+    shape, _ = elastica.heavy_on_plane(_LOAD, PLANE_DROP / PLANE_WIRE.length, _ARC)
+
+    def error(run: Run) -> float:
+        nodes = last_state(run).positions[:, [2, 1]] * np.array([1.0, -1.0])
+        arc = np.linspace(0.0, 1.0, len(nodes))
+        exact = PLANE_WIRE.length * np.stack([np.interp(arc, _ARC, x) for x in (shape.along, shape.across)], axis=1)
+        return float(np.max(np.linalg.norm(nodes - exact, axis=1))) / PLANE_DROP
+
+    return Asked(made, lambda _: (error, "the elastica with its tip on the plane"), gain=gain)
+
+
+def _near(n: int, step: float, gap: float | None) -> tuple[str, str]:
+    words, label = settings.direct("implicitEuler", n, step)
+    if gap is None:
+        return words, label
+    return f"{words}, contactDistance {1e6 * gap:g} µm", f"{label} {1e6 * gap:g} µm"
+
+
+_FALL_TIME = 0.3  # s
+_FALL_SAMPLES = np.linspace(0.0, _FALL_TIME, 601)
+_BAR_RADIUS = 3.0  # units
+_BAR_BELOW = 5.0  # units, of the wire's surface
+
+
+def _fall() -> scenes.Asking[Asked]:
+    gain = yield from _gain()
+    middle = 0.5 * PLANE_WIRE.length / scenes.UNIT
+    height = -(_BAR_RADIUS + PLANE_WIRE.radius / scenes.UNIT + _BAR_BELOW)
+    wall = {"obstacles": [{"shape": "capsule", "from": [-50.0, height, middle], "to": [50.0, height, middle],
+                           "radius": _BAR_RADIUS}], "logSpheres": "last", "logEvery": 1}
+    direct, pbd = _thin(wall, _FALL_TIME)
+    made = [
+        Setting("direct", *_near(n, dt, gap), case(
+            f"direct-{n}-{dt}-{gap}", "direct", direct(n, dt, {} if gap is None else {"contactDistance": gap})))
+        for n, dt, gap in ((8, 1e-2, None), (8, 2e-3, None), (16, 1e-2, None), (16, 2e-3, None), (16, 1e-3, None),
+                           (16, 5e-4, 3e-6), (30, 1e-3, 3e-6))
+    ]
+    made += [Setting("pbd", *settings.pbd(changed), case(f"pbd-{k}", "pbd", pbd(changed, gain)))
+             for k, changed in enumerate(_PBD_CHANGES)]
+    fine = Case("fine", direct(40, 1e-4, {"contactDistance": 3e-6}))
+    coarse = Case("coarse", direct(20, 2e-4, {"contactDistance": 3e-6}))
+
+    def measure(runs: Mapping[str, Run]) -> tuple[Measure, str]:
+        exact = tip_at(runs[fine.key], _FALL_SAMPLES)
+        start = exact[0]
+
+        def error(run: Run) -> float:
+            return rms_error(tip_at(run, _FALL_SAMPLES) - start, exact - start)
+
+        return error, (f"direct with n = 40, dt = 100 µs; twice as coarse in both it is "
+                       f"{percent(error(runs[coarse.key]), 1)} off")
+
+    return Asked(made, measure, (fine, coarse), gain)
+
+
+_WAY = 150.0  # units that the wire is pushed
+_SPEED = 100.0  # units/s
+_LUMEN = 3.0  # units
+_BEND = 30.0  # units, radius of the arch
+_PIECES = 40
+_ARCH_WIRE = Wire(radius=0.4e-3)
+_ARCH_DAMPING = 20.0  # 1/s; without it the wire still swings at the end of the push
+_ARCH = {
+    "shape": "tube", "radius": _LUMEN, "openStart": True, "openEnd": True,
+    "knots": [[0.0, 0.0, -320.0], *([0.0, _BEND * (1.0 - math.cos(a)), _BEND * math.sin(a)] for a in
+                                    (math.pi * k / _PIECES for k in range(_PIECES + 1))), [0.0, 2.0 * _BEND, -200.0]],
+}
+
+
+def _insertion() -> scenes.Asking[Asked]:
+    yield []
+    clearance = scenes.UNIT * _LUMEN - _ARCH_WIRE.radius  # m
+    material = {**scenes.wire_parameters(_ARCH_WIRE), "integrator": "implicitEuler", "massDamping": _ARCH_DAMPING}
+
+    def pushed(n: int, step: float, more: Mapping[str, Any]) -> dict[str, Any]:
+        return {
+            "guidewireLength": _ARCH_WIRE.length / scenes.UNIT, "numberRodElements": n, "timeStep": step, "guidewireOffset": -300.0,
+            "drive": "displace", "displacement": 0.0, "displacementPerStep": _SPEED * step, "vessel": _ARCH,
+            "maxSimulationSteps": round(_WAY / _SPEED / step), "logEvery": 1_000_000, **more,
+        }
+
+    made = [
+        Setting("direct", *_near(n, dt, gap), case(f"direct-{n}-{dt}-{gap}", "direct", pushed(
+            n, dt, {**material, **({} if gap is None else {"contactDistance": gap})})))
+        for n, dt, gap in ((20, 2e-2, None), (30, 2e-2, None), (30, 1e-2, None), (60, 2e-2, None), (60, 1e-2, None),
+                           (60, 1e-2, 1e-5), (90, 1e-2, 1e-5))
+    ]
+    gains = {"stretchStiffness": 1.0, "bendStiffness": 0.1, "totalMass": 0.01, "damping": 0.1,
+             "collisionStiffness": 0.5, "sphereRadius": _ARCH_WIRE.radius / scenes.UNIT}
+    for m, n, step, stiffness in ((20, 30, 1e-2, 0.1), (100, 30, 1e-2, 0.1), (500, 30, 1e-2, 0.1), (500, 30, 1e-2, 0.02),
+                                  (500, 60, 1e-2, 0.1), (500, 60, 1e-2, 0.02), (500, 60, 1e-2, 1.0),
+                                  (100, 60, 2e-3, 0.1)):
+        changed = {"constraintSolverSteps": m, "numberRodElements": n, "timeStep": step}
+        words, label = settings.pbd(changed)
+        made.append(Setting("pbd", f"{words}, k_B = {stiffness:g}", f"{label} kB{stiffness:g}", case(
+            f"pbd-{m}-{n}-{step}-{stiffness}", "pbd",
+            pushed(n, step, {"solver": "pbd", **gains, **changed, "bendStiffness": stiffness}))))
+    fine = Case("fine", pushed(150, 5e-3, {**material, "contactDistance": 5e-6}))
+    coarse = Case("coarse", pushed(75, 1e-2, {**material, "contactDistance": 1e-5}))
+
+    def measure(runs: Mapping[str, Run]) -> tuple[Measure, str]:
+        exact = _points(runs[fine.key])
+
+        def error(run: Run) -> float:
+            return float(np.max(np.linalg.norm(_points(run) - exact, axis=1))) / clearance
+
+        return error, (f"direct with n = 150, dt = 5 ms, contactDistance 5 µm; twice as coarse in all three it is "
+                       f"{percent(error(runs[coarse.key]), 1)} off")
+
+    return Asked(made, measure, (fine, coarse))
+
+
+def _points(run: Run) -> np.ndarray:
+    """Places along the wire at its end, m, shape (k, 3)."""
+    nodes = last_state(run).positions
+    arc = np.linspace(0.0, 1.0, len(nodes))
+    return np.stack([np.interp(_ARC, arc, x) for x in nodes.T], axis=1)
+
+
+PROBLEMS = (
+    Problem("on-plane", "cantilever that rests on a plane", "worst node's distance, of the drop", _plane, ABSENT),
+    Problem("collision", "fall onto a bar, 0.3 s", "RMS of the tip, relative", _fall, ABSENT),
+    Problem("insertion", "pushed into an arch, 1.5 s", "worst distance along the wire, of the clearance", _insertion,
+            ABSENT),
+)
