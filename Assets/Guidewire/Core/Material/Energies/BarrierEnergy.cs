@@ -15,7 +15,12 @@ namespace Guidewire.Core
     /// value. What one shape comes to is kept until another is asked for.</remarks>
     internal sealed class BarrierEnergy : EnergyTerm
     {
-        private const double LeftOfGap = 0.05;    // that a step leaves at least
+        private const double LeftOfGap = 0.3;     // that a step leaves at least
+        private const double MostLeft = 0.2;      // of the barrier's distance
+        private const double PushedTo = 0.5;      // of it
+        private const double LeastLever = 0.1;
+        private const double TooWide = 4.0;       // times the reach that is needed
+        private const double WithRoom = 1.25;     // to the way that is expected
         private const double Resolved = 1e-3;     // of the distance that is kept: an approach that is none
         private const double ResolvedOfWay = 0.05;    // the same, of the way to it
         private const double QuickShare = 0.9;    // of a gap that is only about right
@@ -31,11 +36,16 @@ namespace Guidewire.Core
         private readonly double[] _room;          // by wall and element: from the reference to the wall, units
         private readonly bool[] _isNear;          // the same: whether the barrier may act within the reach
         private readonly int[] _hint;
+        private readonly StructList<int> _features = new StructList<int>(256);
+        private readonly int[] _firstFeature;     // by wall and element, and of none
         private readonly double[] _nodeGap;       // by wall and node, m, no more than the barrier's distance
         private readonly double[] _ridgeGap;      // by wall and element, between its nodes
         private readonly Vector3d[] _gradient;    // of the shape at hand, by node, N
         private readonly Symmetric3[] _own;       // (x_i, x_i), N/m
-        private readonly Symmetric3[] _coupling;  // (x_i, x_i+1)
+        private readonly Symmetric3[] _coupling;  // (x_i+1, x_i)
+        private readonly Symmetric3[] _ownBending;      // what elements' contacts add by their second derivatives
+        private readonly Symmetric3[] _couplingBending;
+        private readonly Vector3d[] _couplingTurn;      // the same, t of the part v -> t x v
         private readonly Vector3d[] _resultant;   // of each wall on the wire, N
         private readonly StructList<WallPlace> _places = new StructList<WallPlace>(16);
         private readonly StructList<WallRidge> _ridges = new StructList<WallRidge>(16);
@@ -43,6 +53,7 @@ namespace Guidewire.Core
         private double _leastReach;               // units
         private double _reach;                    // since the wire was last looked for walls
         private bool _hasReference;
+        private bool _isWide;                     // the reach is that of a step of which a part may be left
         private bool _isKnown;
         private double _value;
 
@@ -69,6 +80,7 @@ namespace Guidewire.Core
             _reference = new Vector3d[n + 1];
             _room = new double[walls.Length * n];
             _isNear = new bool[walls.Length * n];
+            _firstFeature = new int[walls.Length * n + 1];
             _hint = new int[walls.Length * n];
             Array.Fill(_hint, -1);
             _nodeGap = new double[walls.Length * (n + 1)];
@@ -76,8 +88,15 @@ namespace Guidewire.Core
             _gradient = new Vector3d[n + 1];
             _own = new Symmetric3[n + 1];
             _coupling = new Symmetric3[n];
+            _ownBending = new Symmetric3[n + 1];
+            _couplingBending = new Symmetric3[n];
+            _couplingTurn = new Vector3d[n];
             _resultant = new Vector3d[walls.Length];
         }
+
+        /// <summary>Whether the second derivatives of elements' contacts have the part that goes with their force, which
+        /// need not be positive.</summary>
+        public bool HasBending { get; set; } = true;
 
         /// <summary>The walls, in units.</summary>
         public ContactShape[] Walls => _walls;
@@ -92,6 +111,9 @@ namespace Guidewire.Core
             get => _leastReach / _units;
             set => _leastReach = value * _units;
         }
+
+        /// <summary>Whether a wall pushes the wire in the shape last looked at.</summary>
+        public bool Touches => _contacts.Count > 0;
 
         /// <summary>Where walls push the wire in a shape, wall by wall and along the wire.</summary>
         public StructList<WallContact> ContactsOf(RodShape shape)
@@ -163,20 +185,23 @@ namespace Guidewire.Core
             for (int i = from; i < end; i++)
             {
                 ref RodBlock b = ref blocks[i];
-                Symmetric3 a = _own[i];
+                Symmetric3 a = HasBending ? _own[i] + _ownBending[i] : _own[i];
                 b.A11 += a.A11; b.A21 += a.A21; b.A22 += a.A22;
                 b.A31 += a.A31; b.A32 += a.A32; b.A33 += a.A33;
                 if (i < _coupling.Length)
                 {
-                    Symmetric3 d = _coupling[i];
-                    b.D11 += d.A11; b.D12 += d.A21; b.D13 += d.A31;
-                    b.D21 += d.A21; b.D22 += d.A22; b.D23 += d.A32;
-                    b.D31 += d.A31; b.D32 += d.A32; b.D33 += d.A33;
+                    Symmetric3 d = HasBending ? _coupling[i] + _couplingBending[i] : _coupling[i];
+                    Vector3d t = HasBending ? _couplingTurn[i] : Vector3d.Zero;
+                    b.D11 += d.A11; b.D12 += d.A21 - t.Z; b.D13 += d.A31 + t.Y;
+                    b.D21 += d.A21 + t.Z; b.D22 += d.A22; b.D23 += d.A32 - t.X;
+                    b.D31 += d.A31 - t.Y; b.D32 += d.A32 + t.X; b.D33 += d.A33;
                 }
             }
         }
 
-        /// <summary>Leaves at least 5 % of every gap, elements' among them, on the straight way of all nodes.</summary>
+        /// <summary>Leaves at least 30 % of every gap, or a fifth of the barrier's distance, on the straight way of all
+        /// nodes, to elements too. From a gap that is left too small Newton's method comes back by doubling it.
+        /// </summary>
         public override double LargestShare(RodShape shape, RodVector[] direction, double scale)
         {
             Look(shape);
@@ -189,7 +214,8 @@ namespace Guidewire.Core
             }
             if (!(longest <= _reach))
             {
-                FindNear(1.1 * longest);
+                FindNear(WithRoom * longest);
+                _isWide = true;
             }
             int n = _elementRadius.Length;
             double share = 1.0;
@@ -207,6 +233,80 @@ namespace Guidewire.Core
                 }
             }
             return share;
+        }
+
+        /// <summary>Moves nodes off the walls, until no gap of a shape is less than it was in another shape or half of
+        /// the barrier's distance, but for what one push does to the next.</summary>
+        /// <param name="before">The other shape.</param>
+        /// <param name="shape">Its nodes 1 to <paramref name="last"/> are moved.</param>
+        /// <param name="last">Up to n.</param>
+        public void PushBack(RodShape before, RodShape shape, int last)
+        {
+            Look(before);
+            double longest = 0.0;
+            for (int i = 0; i < _x.Length; i++)
+            {
+                longest = Math.Max(longest, Vector3d.Distance(_units * shape.X[i], _x[i]));
+            }
+            FindNear(WithRoom * longest);
+            int n = _elementRadius.Length;
+            for (int w = 0; w < _walls.Length; w++)
+            {
+                for (int i = 1; i <= last; i++)
+                {
+                    if ((i < n && _isNear[w * n + i]) || _isNear[w * n + i - 1])
+                    {
+                        PushNode(w, i, ref shape.X[i]);
+                    }
+                }
+                for (int j = 0; j < n; j++)
+                {
+                    if (_isNear[w * n + j])
+                    {
+                        PushElement(w, j, shape, last);
+                    }
+                }
+            }
+        }
+
+        private void PushNode(int w, int i, ref Vector3d x)
+        {
+            double asked = Math.Min(_nodeGap[w * _x.Length + i], PushedTo * _barrier.Distance);
+            Vector3d place = _units * x;
+            _places.Clear();
+            _walls[w].FindPlaces(place, _units * (_nodeRadius[i] + asked), FeaturesOfNode(w, i), _places);
+            for (int k = 0; k < _places.Count; k++)
+            {
+                ref WallPlace at = ref _places[k];
+                double gap = at.Contact.Distance / _units - _nodeRadius[i];
+                if (gap < asked && at.Weight > 0)
+                {
+                    x += (asked - gap) * at.Contact.Normal;
+                    return;
+                }
+            }
+        }
+
+        private void PushElement(int w, int j, RodShape shape, int last)
+        {
+            double asked = Math.Min(_ridgeGap[w * _elementRadius.Length + j], PushedTo * _barrier.Distance);
+            _ridges.Clear();
+            _walls[w].FindRidges(_units * shape.X[j], _units * shape.X[j + 1],
+                _units * (_elementRadius[j] + asked), FeaturesOf(w, j), _ridges);
+            for (int k = 0; k < _ridges.Count; k++)
+            {
+                ref WallRidge ridge = ref _ridges[k];
+                double gap = ridge.Distance / _units - _elementRadius[j];
+                if (gap < asked)
+                {
+                    double a = j > 0 ? 1.0 - ridge.Position : 0.0;
+                    double b = j < last ? ridge.Position : 0.0;
+                    double share = (asked - gap) / Math.Max(a * a + b * b, LeastLever);
+                    shape.X[j] += share * a * ridge.Normal;
+                    shape.X[j + 1] += share * b * ridge.Normal;
+                    return;
+                }
+            }
         }
 
         private static Vector3d Move(in RodVector direction, double step)
@@ -227,22 +327,23 @@ namespace Guidewire.Core
             ref int hint = ref _hint[w * n + j];
             Vector3d a = _x[j] + moveA;
             Vector3d b = _x[j + 1] + moveB;
-            double share = ShareOf(w, j, a, b, radius, gap);
+            double share = ShareOf(w, j, a, b, radius, gap, hint);
             if (share == 0.0)
             {
                 _walls[w].Nearest(
                     _x[j], _x[j + 1], double.PositiveInfinity, ref hint, out SurfaceContact contact);
                 gap = contact.Distance - radius;
-                share = ShareOf(w, j, a, b, radius, gap);
+                share = ShareOf(w, j, a, b, radius, gap, hint);
             }
             return Math.Min(1.0, share);
         }
 
-        private double ShareOf(int w, int j, in Vector3d a, in Vector3d b, double radius, double gap)
+        private double ShareOf(int w, int j, in Vector3d a, in Vector3d b, double radius, double gap, int hint)
         {
-            double keep = radius + LeftOfGap * gap;
-            double resolution = Math.Min(Resolved * keep, ResolvedOfWay * (1.0 - LeftOfGap) * gap);
-            return gap > 0.0 ? _walls[w].FreeShare(_x[j], _x[j + 1], a, b, keep, resolution) : 0.0;
+            double left = Math.Min(LeftOfGap * gap, MostLeft * _units * _barrier.Distance);
+            double keep = radius + left;
+            double resolution = Math.Min(Resolved * keep, ResolvedOfWay * (gap - left));
+            return gap > 0.0 ? _walls[w].FreeShare(_x[j], _x[j + 1], a, b, keep, resolution, hint) : 0.0;
         }
 
         // Finds what the shape comes to, unless it is that of the last call.
@@ -264,13 +365,17 @@ namespace Guidewire.Core
                 farthest = Math.Max(farthest, (_x[i] - _reference[i]).LengthSquared);
                 _gradient[i] = Vector3d.Zero;
                 _own[i] = default;
+                _ownBending[i] = default;
             }
+            Array.Clear(_couplingBending, 0, _couplingBending.Length);
+            Array.Clear(_couplingTurn, 0, _couplingTurn.Length);
             _contacts.Clear();
             Array.Clear(_coupling, 0, _coupling.Length);
             Array.Clear(_resultant, 0, _resultant.Length);
             _isKnown = true;
             _value = 0.0;
-            if (!_hasReference || !(farthest <= _reach * _reach))
+            if (!_hasReference || !(farthest <= _reach * _reach)
+                || (_isWide && _reach > TooWide * _leastReach && farthest * TooWide * TooWide < _reach * _reach))
             {
                 FindNear(_leastReach);
             }
@@ -288,7 +393,9 @@ namespace Guidewire.Core
             int n = _elementRadius.Length;
             _reach = Math.Max(_leastReach, reach);
             _hasReference = true;
+            _isWide = false;
             Array.Copy(_x, _reference, _x.Length);
+            _features.Clear();
             for (int w = 0; w < _walls.Length; w++)
             {
                 for (int j = 0; j < n; j++)
@@ -296,12 +403,14 @@ namespace Guidewire.Core
                     int k = w * n + j;
                     double range = _reach + _units * (Math.Max(_nodeRadius[j], _nodeRadius[j + 1])
                         + _barrier.Distance);
-                    double distance = SureOfQuick * Math.Abs(
-                        _walls[w].QuickDistance(_x[j], _x[j + 1], range / SureOfQuick, ref _hint[k]));
+                    _firstFeature[k] = _features.Count;
+                    double distance = SureOfQuick * Math.Abs(_walls[w].FindFeatures(
+                        _x[j], _x[j + 1], range / SureOfQuick, _reach, ref _hint[k], _features));
                     _isNear[k] = distance <= range;
                     _room[k] = Math.Min(distance, range);
                 }
             }
+            _firstFeature[_isNear.Length] = _features.Count;
         }
 
         private void AddWall(int w)
@@ -323,11 +432,24 @@ namespace Guidewire.Core
             }
         }
 
+        private FeatureRange FeaturesOf(int w, int j)
+        {
+            int k = w * _elementRadius.Length + j;
+            return new FeatureRange(_features, _firstFeature[k], _firstFeature[k + 1]);
+        }
+
+        // Those of an element beside it that is near.
+        private FeatureRange FeaturesOfNode(int w, int i)
+        {
+            int n = _elementRadius.Length;
+            return FeaturesOf(w, i < n && _isNear[w * n + i] ? i : i - 1);
+        }
+
         private void AddNode(int w, int i)
         {
             double radius = _nodeRadius[i];
             _places.Clear();
-            _walls[w].FindPlaces(_x[i], _x[i], _units * (radius + _barrier.Distance), _places);
+            _walls[w].FindPlaces(_x[i], _units * (radius + _barrier.Distance), FeaturesOfNode(w, i), _places);
             Vector3d gradient = Vector3d.Zero;
             Symmetric3 second = default;
             bool mayBeNegative = false;
@@ -373,7 +495,7 @@ namespace Guidewire.Core
             double radius = _elementRadius[j];
             _ridges.Clear();
             ref double nearest = ref _ridgeGap[w * _elementRadius.Length + j];
-            _walls[w].FindRidges(_x[j], _x[j + 1], _units * (radius + _barrier.Distance), _ridges);
+            _walls[w].FindRidges(_x[j], _x[j + 1], _units * (radius + _barrier.Distance), FeaturesOf(w, j), _ridges);
             for (int k = 0; k < _ridges.Count; k++)
             {
                 ref WallRidge ridge = ref _ridges[k];
@@ -403,7 +525,35 @@ namespace Guidewire.Core
                 _own[j] += Symmetric3.Outer(stiffness * r * r, ridge.Normal);
                 _own[j + 1] += Symmetric3.Outer(stiffness * s * s, ridge.Normal);
                 _coupling[j] += Symmetric3.Outer(stiffness * r * s, ridge.Normal);
+                AddBending(j, ridge, _units * ridge.Weight * slope);
+                AddPairs(j, _units * slope, r * ridge.Normal, s * ridge.Normal, ridge.WeightAlongA,
+                    ridge.WeightAlongB);
             }
+        }
+
+        // The force of a ridge times the second derivative of its distance.
+        private void AddBending(int j, in WallRidge ridge, double force)
+        {
+            double s = ridge.Position;
+            double r = 1.0 - s;
+            Symmetric3 h = ridge.Curvature;
+            _ownBending[j] += (force * r * r) * h;
+            _ownBending[j + 1] += (force * s * s) * h;
+            _couplingBending[j] += (force * r * s) * h;
+            Vector3d u = _x[j + 1] - _x[j];
+            Vector3d hu = h.Times(u);
+            double half = 0.5 * Vector3d.Dot(u, hu);
+            AddPairs(j, force, r * hu - ridge.Normal + half * ridge.SlideAlongA,
+                s * hu + ridge.Normal + half * ridge.SlideAlongB, ridge.SlideAlongA, ridge.SlideAlongB);
+        }
+
+        // weight (c d^T + d c^T) of vectors over both nodes of an element.
+        private void AddPairs(int j, double weight, in Vector3d c, in Vector3d cNext, in Vector3d d, in Vector3d dNext)
+        {
+            _ownBending[j] += Symmetric3.Pair(weight, c, d);
+            _ownBending[j + 1] += Symmetric3.Pair(weight, cNext, dNext);
+            _couplingBending[j] += Symmetric3.Pair(0.5 * weight, cNext, d) + Symmetric3.Pair(0.5 * weight, dNext, c);
+            _couplingTurn[j] -= (0.5 * weight) * (Vector3d.Cross(cNext, d) + Vector3d.Cross(dNext, c));
         }
     }
 }

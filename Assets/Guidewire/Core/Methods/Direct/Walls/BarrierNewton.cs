@@ -19,10 +19,12 @@ namespace Guidewire.Core
         private const double Rounding = 1e-13;           // of the energies' magnitudes
         private const double LastPlace = 1.0 / (1L << 52);
         private const double LeastShift = 1e-4;          // of EI/L^2
+        private const double FreeParts = 5.0;            // L over what is free of a wire that touches walls
         private const int MostCuts = 30;
 
         private readonly MaterialRod _rod;
         private readonly EnergyTerm[] _terms;
+        private readonly BarrierEnergy _barrier;
         private readonly BlockTridiagonal _system;
         private readonly RodVector[] _gradient;
         private readonly RodVector[] _direction;
@@ -38,6 +40,7 @@ namespace Guidewire.Core
         {
             _rod = terms.Rod;
             _terms = terms.With(moving);
+            _barrier = terms.Walls!.Barrier;
             _system = new BlockTridiagonal(_rod, terms.Supports);
             _gradient = new RodVector[_system.VectorCount];
             _direction = new RodVector[_system.VectorCount];
@@ -89,7 +92,8 @@ namespace Guidewire.Core
                 double before = left;
                 left = Math.Max(RodVectors.LargestPartialForce(_direction, out double couples),
                     couples / _totalLength);
-                double allowed = Math.Min(Balance * Math.Max(measures.LargestForce, loads), Tolerance * _bendForce)
+                double allowed = Math.Min(Balance * Math.Max(measures.LargestForce, loads),
+                    (_barrier.Touches ? FreeParts * FreeParts : 1.0) * Tolerance * _bendForce)
                     + rounding;
                 if (left <= allowed)
                 {
@@ -102,9 +106,7 @@ namespace Guidewire.Core
                 Iterations++;
                 EnergySum.Anchor(_terms, shape);
                 FindDirection(shape);
-                double size = RodStep.Size(_direction, _rod.ElementCount, _totalLength, out double relative);
-                double scale = Math.Min(1.0, Math.Min(LargestTurn / size, LargestRelativeTurn / relative));
-                scale *= EnergySum.LargestShare(_terms, shape, _direction, scale);
+                double scale = Scale(shape, out double size);
                 bool isRounding = !Search(shape, ref scale, size, out bool isHidden);
                 if (isRounding)
                 {
@@ -139,18 +141,40 @@ namespace Guidewire.Core
         private void FindDirection(RodShape shape)
         {
             Factorisations++;
-            if (_system.Factorise(_terms, shape, _gradient, _direction, 0.0) > 0)
+            _barrier.HasBending = true;
+            int negative = _system.Factorise(_terms, shape, _gradient, _direction, 0.0);
+            if (negative > 0)
             {
-                _shift = Math.Max(0.25 * _shift, LeastShift * _bendForce);
+                _barrier.HasBending = false;
                 Factorisations++;
-                while (_system.Factorise(_terms, shape, _gradient, _direction, _shift) > 0
-                    && _shift <= double.MaxValue)
-                {
-                    _shift *= 4.0;
-                    Factorisations++;
-                }
+                negative = _system.Factorise(_terms, shape, _gradient, _direction, 0.0);
+            }
+            if (negative == 0)
+            {
+                _system.Back(_direction);
+                return;
+            }
+            Shift(shape, 0.25);
+        }
+
+        private void Shift(RodShape shape, double factor)
+        {
+            _shift = Math.Max(factor * _shift, LeastShift * _bendForce);
+            Factorisations++;
+            while (_system.Factorise(_terms, shape, _gradient, _direction, _shift) > 0 && _shift <= double.MaxValue)
+            {
+                _shift *= 4.0;
+                Factorisations++;
             }
             _system.Back(_direction);
+        }
+
+        // How much of the direction may be tried.
+        private double Scale(RodShape shape, out double size)
+        {
+            size = RodStep.Size(_direction, _rod.ElementCount, _totalLength, out double relative);
+            double scale = Math.Min(1.0, Math.Min(LargestTurn / size, LargestRelativeTurn / relative));
+            return scale * EnergySum.LargestShare(_terms, shape, _direction, scale);
         }
 
         // Cuts the step until the energy falls enough; the accepted shape is left in the trial.
