@@ -44,12 +44,6 @@ namespace Guidewire.Core
         /// <summary>False where no point within a reach of segment a b has a distance above 0.</summary>
         public bool MayHold(in Vector3d a, in Vector3d b, double reach)
         {
-            Vector3d half = 0.5 * (b - a);
-            double far = _extent + reach + half.Length;
-            if ((a + half - _middle).LengthSquared > far * far)
-            {
-                return false;
-            }
             double near = Math.Max(_radius, _radius + _slope * _length) + reach;
             return ClosestPoints.SegmentSegment(a, b, From, To, out _, out _) <= near * near;
         }

@@ -149,13 +149,7 @@ namespace Guidewire.Core
             StructList<int> features)
         {
             int from = features.Count;
-            for (int i = 0; i < _tree.Pieces.Length; i++)
-            {
-                if (_tree.Pieces[i].MayHold(a, b, reach))
-                {
-                    features.Add(i);
-                }
-            }
+            _tree.Collect(a, b, reach, features);
             if (features.Count == from)
             {
                 return QuickDistance(a, b, range, ref hint);
@@ -233,7 +227,7 @@ namespace Guidewire.Core
 
         /// <inheritdoc/>
         internal override double FreeShare(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
-            double resolution, int hint)
+            double resolution, int hint, FeatureRange features)
         {
             _keeping ??= new TubeKeeping(_tree.Pieces, Planes);
             return _keeping.Keeping(a0, b0, a1, b1, keep, hint);

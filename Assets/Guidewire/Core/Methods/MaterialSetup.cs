@@ -64,7 +64,6 @@ namespace Guidewire.Core
             double move = scene.Metres * Math.Abs(parameters.Drive.DisplacementPerStep);
             Barrier barrier = BarrierRule.Of(scene.Rod, parameters.Contact, scene.Walls, scene.Metres, move);
             var contact = new BarrierEnergy(scene.Rod, scene.Walls, scene.Metres, barrier);
-            contact.Reach = Math.Max(contact.Reach, 2.0 * move);
             FrictionEnergy? friction = Array.Exists(scene.Walls, wall => wall.FrictionCoefficient > 0.0)
                 ? new FrictionEnergy(contact, scene.Rod.ElementCount, parameters.Contact.FrictionSpeed) : null;
             return new WallTerms(contact, friction, new SupportSpring(scene.Rod), scene.Supports.HasSpring);

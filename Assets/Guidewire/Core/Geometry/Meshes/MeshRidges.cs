@@ -40,6 +40,20 @@ namespace Guidewire.Core
         {
             _triangles.Clear();
             _mesh.Tree.Within(a, b, range, _triangles);
+            AddRidges(a, b, range, ridges);
+        }
+
+        /// <summary>The same by the triangles near the segment.</summary>
+        public void Find(in Vector3d a, in Vector3d b, double range, MeshNearby nearby, FeatureRange among,
+            StructList<WallRidge> ridges)
+        {
+            _triangles.Clear();
+            nearby.Choose(a, b, range, among, _triangles);
+            AddRidges(a, b, range, ridges);
+        }
+
+        private void AddRidges(in Vector3d a, in Vector3d b, double range, StructList<WallRidge> ridges)
+        {
             for (int i = 0; i < _triangles.Count; i++)
             {
                 int triangle = _triangles[i];

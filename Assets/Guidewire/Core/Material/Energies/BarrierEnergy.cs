@@ -7,37 +7,29 @@ namespace Guidewire.Core
     /// <remarks>The wire's surface is that of capsules, of each element's own radius; at a node the larger of its two
     /// elements'. Nodes meet walls that are flat or hollow before the elements between them do; what bulges into the
     /// free side may come between two nodes, and the elements meet it there. An element's contact at s acts on its two
-    /// nodes with weights 1 - s and s. A node's second derivative is exact, without its negative part; an element's is
-    /// b'' times the square of the gap's derivative.
+    /// nodes with weights 1 - s and s. A node's second derivative is exact, without its negative part; an element's
+    /// has b'' times the square of the gap's derivative and, where asked for, all but that of the ridge's
+    /// weight.
     ///
-    /// Walls are in units, all else in metres. Where the wire was when it was last looked for walls, elements farther
-    /// from them than the barrier's distance and the way that they have gone since are passed over; that changes no
-    /// value. What one shape comes to is kept until another is asked for.</remarks>
+    /// Walls are in units, all else in metres. Elements that are far from walls are passed over
+    /// (<see cref="NearWalls"/>); that changes no value. What one shape comes to is kept until another is asked
+    /// for.</remarks>
     internal sealed class BarrierEnergy : EnergyTerm
     {
         private const double LeftOfGap = 0.3;     // that a step leaves at least
         private const double MostLeft = 0.2;      // of the barrier's distance
-        private const double PushedTo = 0.5;      // of it
-        private const double LeastLever = 0.1;
-        private const double TooWide = 4.0;       // times the reach that is needed
-        private const double WithRoom = 1.25;     // to the way that is expected
         private const double Resolved = 1e-3;     // of the distance that is kept: an approach that is none
         private const double ResolvedOfWay = 0.05;    // the same, of the way to it
         private const double QuickShare = 0.9;    // of a gap that is only about right
-        private const double SureOfQuick = 0.9;   // of a quick distance there is surely room
 
         private readonly ContactShape[] _walls;
         private readonly double _units;           // per metre
         private readonly double[] _nodeRadius;    // m
         private readonly double[] _elementRadius;
         private readonly Barrier _barrier;
+        private readonly NearWalls _near;
         private readonly Vector3d[] _x;           // of the shape at hand, units
-        private readonly Vector3d[] _reference;   // where the wire was last looked for walls, units
-        private readonly double[] _room;          // by wall and element: from the reference to the wall, units
-        private readonly bool[] _isNear;          // the same: whether the barrier may act within the reach
-        private readonly int[] _hint;
-        private readonly StructList<int> _features = new StructList<int>(256);
-        private readonly int[] _firstFeature;     // by wall and element, and of none
+        private readonly Vector3d[] _to;          // where its nodes go, units
         private readonly double[] _nodeGap;       // by wall and node, m, no more than the barrier's distance
         private readonly double[] _ridgeGap;      // by wall and element, between its nodes
         private readonly Vector3d[] _gradient;    // of the shape at hand, by node, N
@@ -50,10 +42,6 @@ namespace Guidewire.Core
         private readonly StructList<WallPlace> _places = new StructList<WallPlace>(16);
         private readonly StructList<WallRidge> _ridges = new StructList<WallRidge>(16);
         private readonly StructList<WallContact> _contacts = new StructList<WallContact>(64);
-        private double _leastReach;               // units
-        private double _reach;                    // since the wire was last looked for walls
-        private bool _hasReference;
-        private bool _isWide;                     // the reach is that of a step of which a part may be left
         private bool _isKnown;
         private double _value;
 
@@ -75,14 +63,14 @@ namespace Guidewire.Core
                 _nodeRadius[j + 1] = rod.Radius[j];
             }
             _barrier = barrier;
-            _leastReach = Math.Max(4.0 * barrier.Distance, rod.Radius[n - 1]) * _units;
             _x = new Vector3d[n + 1];
-            _reference = new Vector3d[n + 1];
-            _room = new double[walls.Length * n];
-            _isNear = new bool[walls.Length * n];
-            _firstFeature = new int[walls.Length * n + 1];
-            _hint = new int[walls.Length * n];
-            Array.Fill(_hint, -1);
+            _to = new Vector3d[n + 1];
+            var range = new double[n];
+            for (int j = 0; j < n; j++)
+            {
+                range[j] = _units * (Math.Max(_nodeRadius[j], _nodeRadius[j + 1]) + barrier.Distance);
+            }
+            _near = new NearWalls(walls, range, _units * Math.Max(4.0 * barrier.Distance, rod.Radius[n - 1]));
             _nodeGap = new double[walls.Length * (n + 1)];
             _ridgeGap = new double[walls.Length * n];
             _gradient = new Vector3d[n + 1];
@@ -94,8 +82,8 @@ namespace Guidewire.Core
             _resultant = new Vector3d[walls.Length];
         }
 
-        /// <summary>Whether the second derivatives of elements' contacts have the part that goes with their force, which
-        /// need not be positive.</summary>
+        /// <summary>Whether the second derivatives of elements' contacts have the part that goes with their force,
+        /// which need not be positive.</summary>
         public bool HasBending { get; set; } = true;
 
         /// <summary>The walls, in units.</summary>
@@ -103,14 +91,6 @@ namespace Guidewire.Core
 
         /// <summary>b.</summary>
         public Barrier Barrier => _barrier;
-
-        /// <summary>The wire is looked for walls anew after this way, m; by default 4 times the barrier's
-        /// distance or the wire's radius.</summary>
-        public double Reach
-        {
-            get => _leastReach / _units;
-            set => _leastReach = value * _units;
-        }
 
         /// <summary>Whether a wall pushes the wire in the shape last looked at.</summary>
         public bool Touches => _contacts.Count > 0;
@@ -120,6 +100,15 @@ namespace Guidewire.Core
         {
             Look(shape);
             return _contacts;
+        }
+
+        /// <summary>Units in a metre.</summary>
+        public double UnitsPerMetre => _units;
+
+        /// <summary>Radius of node i, the larger of its two elements', m.</summary>
+        public double RadiusOfNode(int i)
+        {
+            return _nodeRadius[i];
         }
 
         /// <summary>Radius of element j, m.</summary>
@@ -142,14 +131,7 @@ namespace Guidewire.Core
         /// looked at.</summary>
         public double ClearanceOf(int j)
         {
-            int n = _elementRadius.Length;
-            double room = double.PositiveInfinity;
-            for (int w = 0; w < _walls.Length; w++)
-            {
-                room = Math.Min(room, _room[w * n + j]);
-            }
-            return room - Math.Max(Vector3d.Distance(_x[j], _reference[j]),
-                Vector3d.Distance(_x[j + 1], _reference[j + 1]));
+            return _near.ClearanceOf(_x, j);
         }
 
         /// <inheritdoc/>
@@ -206,115 +188,54 @@ namespace Guidewire.Core
         {
             Look(shape);
             double step = scale * _units;
-            double longest = 0.0;
             for (int i = 0; i < _x.Length; i++)
             {
-                Vector3d to = _x[i] + Move(direction[i], step);
-                longest = Math.Max(longest, Vector3d.Distance(to, _reference[i]));
+                RodVector d = direction[i];
+                _to[i] = _x[i] + step * new Vector3d(d.X1, d.X2, d.X3);
             }
-            if (!(longest <= _reach))
-            {
-                FindNear(WithRoom * longest);
-                _isWide = true;
-            }
-            int n = _elementRadius.Length;
+            _near.Cover(_x, _to);
             double share = 1.0;
-            for (int j = 0; j < n; j++)
+            for (int j = 0; j < _elementRadius.Length; j++)
             {
-                Vector3d a = Move(direction[j], step);
-                Vector3d b = Move(direction[j + 1], step);
-                double motion = Math.Sqrt(Math.Max(a.LengthSquared, b.LengthSquared));
+                double motion = Math.Sqrt(Math.Max((_to[j] - _x[j]).LengthSquared,
+                    (_to[j + 1] - _x[j + 1]).LengthSquared));
                 for (int w = 0; w < _walls.Length; w++)
                 {
-                    if (_isNear[w * n + j])
+                    if (_near.IsNear(w, j))
                     {
-                        share = Math.Min(share, ShareOf(w, j, a, b, motion));
+                        share = Math.Min(share, ShareOf(w, j, motion));
                     }
                 }
             }
             return share;
         }
 
-        /// <summary>Moves nodes off the walls, until no gap of a shape is less than it was in another shape or half of
-        /// the barrier's distance, but for what one push does to the next.</summary>
-        /// <param name="before">The other shape.</param>
-        /// <param name="shape">Its nodes 1 to <paramref name="last"/> are moved.</param>
-        /// <param name="last">Up to n.</param>
-        public void PushBack(RodShape before, RodShape shape, int last)
+        /// <summary>What is near on the way from one shape to another.</summary>
+        public NearWalls Cover(RodShape shape, RodShape to)
         {
-            Look(before);
-            double longest = 0.0;
-            for (int i = 0; i < _x.Length; i++)
+            Look(shape);
+            for (int i = 0; i < _to.Length; i++)
             {
-                longest = Math.Max(longest, Vector3d.Distance(_units * shape.X[i], _x[i]));
+                _to[i] = _units * to.X[i];
             }
-            FindNear(WithRoom * longest);
-            int n = _elementRadius.Length;
-            for (int w = 0; w < _walls.Length; w++)
-            {
-                for (int i = 1; i <= last; i++)
-                {
-                    if ((i < n && _isNear[w * n + i]) || _isNear[w * n + i - 1])
-                    {
-                        PushNode(w, i, ref shape.X[i]);
-                    }
-                }
-                for (int j = 0; j < n; j++)
-                {
-                    if (_isNear[w * n + j])
-                    {
-                        PushElement(w, j, shape, last);
-                    }
-                }
-            }
+            _near.Cover(_x, _to);
+            return _near;
         }
 
-        private void PushNode(int w, int i, ref Vector3d x)
+        /// <summary>Gap between node i and wall w in the shape last looked at, m, no more than the barrier's
+        /// distance.</summary>
+        public double NodeGap(int w, int i)
         {
-            double asked = Math.Min(_nodeGap[w * _x.Length + i], PushedTo * _barrier.Distance);
-            Vector3d place = _units * x;
-            _places.Clear();
-            _walls[w].FindPlaces(place, _units * (_nodeRadius[i] + asked), FeaturesOfNode(w, i), _places);
-            for (int k = 0; k < _places.Count; k++)
-            {
-                ref WallPlace at = ref _places[k];
-                double gap = at.Contact.Distance / _units - _nodeRadius[i];
-                if (gap < asked && at.Weight > 0)
-                {
-                    x += (asked - gap) * at.Contact.Normal;
-                    return;
-                }
-            }
+            return _nodeGap[w * _x.Length + i];
         }
 
-        private void PushElement(int w, int j, RodShape shape, int last)
+        /// <summary>The same between the inside of element j and ridges of the wall.</summary>
+        public double RidgeGap(int w, int j)
         {
-            double asked = Math.Min(_ridgeGap[w * _elementRadius.Length + j], PushedTo * _barrier.Distance);
-            _ridges.Clear();
-            _walls[w].FindRidges(_units * shape.X[j], _units * shape.X[j + 1],
-                _units * (_elementRadius[j] + asked), FeaturesOf(w, j), _ridges);
-            for (int k = 0; k < _ridges.Count; k++)
-            {
-                ref WallRidge ridge = ref _ridges[k];
-                double gap = ridge.Distance / _units - _elementRadius[j];
-                if (gap < asked)
-                {
-                    double a = j > 0 ? 1.0 - ridge.Position : 0.0;
-                    double b = j < last ? ridge.Position : 0.0;
-                    double share = (asked - gap) / Math.Max(a * a + b * b, LeastLever);
-                    shape.X[j] += share * a * ridge.Normal;
-                    shape.X[j + 1] += share * b * ridge.Normal;
-                    return;
-                }
-            }
+            return _ridgeGap[w * _elementRadius.Length + j];
         }
 
-        private static Vector3d Move(in RodVector direction, double step)
-        {
-            return new Vector3d(step * direction.X1, step * direction.X2, step * direction.X3);
-        }
-
-        private double ShareOf(int w, int j, in Vector3d moveA, in Vector3d moveB, double motion)
+        private double ShareOf(int w, int j, double motion)
         {
             int n = _elementRadius.Length;
             double radius = _units * _elementRadius[j];
@@ -324,26 +245,25 @@ namespace Guidewire.Core
             {
                 return 1.0;
             }
-            ref int hint = ref _hint[w * n + j];
-            Vector3d a = _x[j] + moveA;
-            Vector3d b = _x[j + 1] + moveB;
-            double share = ShareOf(w, j, a, b, radius, gap, hint);
+            ref int hint = ref _near.HintOf(w, j);
+            double share = ShareOf(w, j, radius, gap, hint);
             if (share == 0.0)
             {
                 _walls[w].Nearest(
                     _x[j], _x[j + 1], double.PositiveInfinity, ref hint, out SurfaceContact contact);
                 gap = contact.Distance - radius;
-                share = ShareOf(w, j, a, b, radius, gap, hint);
+                share = ShareOf(w, j, radius, gap, hint);
             }
             return Math.Min(1.0, share);
         }
 
-        private double ShareOf(int w, int j, in Vector3d a, in Vector3d b, double radius, double gap, int hint)
+        private double ShareOf(int w, int j, double radius, double gap, int hint)
         {
             double left = Math.Min(LeftOfGap * gap, MostLeft * _units * _barrier.Distance);
             double keep = radius + left;
             double resolution = Math.Min(Resolved * keep, ResolvedOfWay * (gap - left));
-            return gap > 0.0 ? _walls[w].FreeShare(_x[j], _x[j + 1], a, b, keep, resolution, hint) : 0.0;
+            return gap > 0.0 ? _walls[w].FreeShare(_x[j], _x[j + 1], _to[j], _to[j + 1], keep, resolution, hint,
+                _near.FeaturesOf(w, j)) : 0.0;
         }
 
         // Finds what the shape comes to, unless it is that of the last call.
@@ -358,11 +278,9 @@ namespace Guidewire.Core
             {
                 return;
             }
-            double farthest = 0.0;
             for (int i = 0; i < _x.Length; i++)
             {
                 _x[i] = _units * shape.X[i];
-                farthest = Math.Max(farthest, (_x[i] - _reference[i]).LengthSquared);
                 _gradient[i] = Vector3d.Zero;
                 _own[i] = default;
                 _ownBending[i] = default;
@@ -374,11 +292,7 @@ namespace Guidewire.Core
             Array.Clear(_resultant, 0, _resultant.Length);
             _isKnown = true;
             _value = 0.0;
-            if (!_hasReference || !(farthest <= _reach * _reach)
-                || (_isWide && _reach > TooWide * _leastReach && farthest * TooWide * TooWide < _reach * _reach))
-            {
-                FindNear(_leastReach);
-            }
+            _near.Follow(_x);
             Array.Fill(_nodeGap, _barrier.Distance);
             Array.Fill(_ridgeGap, _barrier.Distance);
             for (int w = 0; w < _walls.Length; w++)
@@ -387,39 +301,13 @@ namespace Guidewire.Core
             }
         }
 
-        // Which elements may come near a wall while no node goes farther than the reach.
-        private void FindNear(double reach)
-        {
-            int n = _elementRadius.Length;
-            _reach = Math.Max(_leastReach, reach);
-            _hasReference = true;
-            _isWide = false;
-            Array.Copy(_x, _reference, _x.Length);
-            _features.Clear();
-            for (int w = 0; w < _walls.Length; w++)
-            {
-                for (int j = 0; j < n; j++)
-                {
-                    int k = w * n + j;
-                    double range = _reach + _units * (Math.Max(_nodeRadius[j], _nodeRadius[j + 1])
-                        + _barrier.Distance);
-                    _firstFeature[k] = _features.Count;
-                    double distance = SureOfQuick * Math.Abs(_walls[w].FindFeatures(
-                        _x[j], _x[j + 1], range / SureOfQuick, _reach, ref _hint[k], _features));
-                    _isNear[k] = distance <= range;
-                    _room[k] = Math.Min(distance, range);
-                }
-            }
-            _firstFeature[_isNear.Length] = _features.Count;
-        }
-
         private void AddWall(int w)
         {
             int n = _elementRadius.Length;
             bool wasNear = false;
             for (int j = 0; j <= n; j++)
             {
-                bool isNear = j < n && _isNear[w * n + j];
+                bool isNear = j < n && _near.IsNear(w, j);
                 if (isNear || wasNear)
                 {
                     AddNode(w, j);
@@ -432,24 +320,12 @@ namespace Guidewire.Core
             }
         }
 
-        private FeatureRange FeaturesOf(int w, int j)
-        {
-            int k = w * _elementRadius.Length + j;
-            return new FeatureRange(_features, _firstFeature[k], _firstFeature[k + 1]);
-        }
-
-        // Those of an element beside it that is near.
-        private FeatureRange FeaturesOfNode(int w, int i)
-        {
-            int n = _elementRadius.Length;
-            return FeaturesOf(w, i < n && _isNear[w * n + i] ? i : i - 1);
-        }
-
         private void AddNode(int w, int i)
         {
             double radius = _nodeRadius[i];
             _places.Clear();
-            _walls[w].FindPlaces(_x[i], _units * (radius + _barrier.Distance), FeaturesOfNode(w, i), _places);
+            _walls[w].FindPlaces(_x[i], _units * (radius + _barrier.Distance), _near.FeaturesOfNode(w, i),
+                _places);
             Vector3d gradient = Vector3d.Zero;
             Symmetric3 second = default;
             bool mayBeNegative = false;
@@ -495,7 +371,8 @@ namespace Guidewire.Core
             double radius = _elementRadius[j];
             _ridges.Clear();
             ref double nearest = ref _ridgeGap[w * _elementRadius.Length + j];
-            _walls[w].FindRidges(_x[j], _x[j + 1], _units * (radius + _barrier.Distance), FeaturesOf(w, j), _ridges);
+            _walls[w].FindRidges(_x[j], _x[j + 1], _units * (radius + _barrier.Distance), _near.FeaturesOf(w, j),
+                _ridges);
             for (int k = 0; k < _ridges.Count; k++)
             {
                 ref WallRidge ridge = ref _ridges[k];

@@ -19,6 +19,7 @@ namespace Guidewire.Core
         private const double Rounding = 1e-13;           // of the energies' magnitudes
         private const double LastPlace = 1.0 / (1L << 52);
         private const double LeastShift = 1e-4;          // of EI/L^2
+        private const double Far = 1e5;                  // from balance: not there after one iteration
         private const double FreeParts = 5.0;            // L over what is free of a wire that touches walls
         private const int MostCuts = 30;
 
@@ -28,6 +29,8 @@ namespace Guidewire.Core
         private readonly BlockTridiagonal _system;
         private readonly RodVector[] _gradient;
         private readonly RodVector[] _direction;
+        private readonly RodVector[] _forces;
+        private readonly double[] _values;        // of the terms in the shape that was looked at last, J
         private readonly RodShape _trial;
         private readonly double _totalLength;
         private readonly double _mass;
@@ -44,6 +47,8 @@ namespace Guidewire.Core
             _system = new BlockTridiagonal(_rod, terms.Supports);
             _gradient = new RodVector[_system.VectorCount];
             _direction = new RodVector[_system.VectorCount];
+            _forces = new RodVector[_system.VectorCount];
+            _values = new double[_terms.Length];
             _trial = new RodShape(_rod.ElementCount);
             _totalLength = _rod.TotalLength;
             _mass = terms.Mass.Total;
@@ -86,28 +91,32 @@ namespace Guidewire.Core
             double rounding = LastPlace * (shape.X[0].Length + _totalLength)
                 * (10.0 * _axialSpring + _mass / (stageLength * stageLength));
             double left = double.PositiveInfinity;
+            double allowed = 0.0;
             for (int k = 0; k < MostIterations; k++)
             {
-                GradientMeasures measures = _system.Gradient(_terms, shape, _gradient, _direction);
                 double before = left;
-                left = Math.Max(RodVectors.LargestPartialForce(_direction, out double couples),
-                    couples / _totalLength);
-                double allowed = Math.Min(Balance * Math.Max(measures.LargestForce, loads),
-                    (_barrier.Touches ? FreeParts * FreeParts : 1.0) * Tolerance * _bendForce)
-                    + rounding;
-                if (left <= allowed)
+                bool isFar = left > Far * allowed && left <= double.MaxValue;
+                if (!isFar)
                 {
-                    return null;
+                    GradientMeasures measures = _system.Gradient(_terms, shape, _gradient, _direction);
+                    left = Unbalanced();
+                    allowed = Math.Min(Balance * Math.Max(measures.LargestForce, loads),
+                        (_barrier.Touches ? FreeParts * FreeParts : 1.0) * Tolerance * _bendForce) + rounding;
+                    if (left <= allowed)
+                    {
+                        return null;
+                    }
                 }
+                EnergySum.Anchor(_terms, shape);
+                FindDirection(shape);
+                left = isFar ? Unbalanced() : left;
                 if (!(left <= double.MaxValue))
                 {
                     return "a force is not a finite number";
                 }
                 Iterations++;
-                EnergySum.Anchor(_terms, shape);
-                FindDirection(shape);
                 double scale = Scale(shape, out double size);
-                bool isRounding = !Search(shape, ref scale, size, out bool isHidden);
+                bool isRounding = !Search(shape, k == 0, ref scale, size, out bool isHidden);
                 if (isRounding)
                 {
                     return "no lower energy along the Newton step, " + Text(left) + " N out of balance";
@@ -157,6 +166,15 @@ namespace Guidewire.Core
             Shift(shape, 0.25);
         }
 
+        // The largest force on a piece of the rod from its start to any node, or the sum of the couples over L, N.
+        private double Unbalanced()
+        {
+            Array.Copy(_gradient, _forces, _forces.Length);
+            _system.Project(_forces);
+            double force = RodVectors.LargestPartialForce(_forces, out double couples);
+            return Math.Max(force, couples / _totalLength);
+        }
+
         private void Shift(RodShape shape, double factor)
         {
             _shift = Math.Max(factor * _shift, LeastShift * _bendForce);
@@ -178,16 +196,17 @@ namespace Guidewire.Core
         }
 
         // Cuts the step until the energy falls enough; the accepted shape is left in the trial.
-        private bool Search(RodShape shape, ref double scale, double size, out bool isHidden)
+        private bool Search(RodShape shape, bool isFirst, ref double scale, double size, out bool isHidden)
         {
             double slope = RodVectors.Dot(_gradient, _direction);
-            double start = EnergySum.Value(_terms, shape, out double magnitude);
+            double start = isFirst ? EnergySum.Value(_terms, shape, _values, out double magnitude)
+                : EnergySum.AnchoredValue(_terms, shape, _values, out magnitude);
             double rounding = Rounding * magnitude;
             isHidden = -slope < 1e3 * rounding && size < 1e-2;
             for (int cut = 0; cut < MostCuts; cut++)
             {
                 RodStep.ApplyStraight(shape, _direction, scale, _trial);
-                double value = EnergySum.Value(_terms, _trial, out _);
+                double value = EnergySum.Value(_terms, _trial, _values, out _);
                 if (value <= start + SufficientDecrease * scale * slope + rounding
                     || (isHidden && value <= double.MaxValue))
                 {

@@ -14,7 +14,7 @@ namespace Guidewire.Core
         private const int MostParts = 16;
         private const double OfElement = 0.5;
         private readonly RodSupports _supports;
-        private readonly BarrierEnergy _barrier;
+        private readonly WallPush _push;
         private readonly InertiaEnergy _inertia;
         private readonly Vector3d[] _past;       // x'
         private readonly Vector3d[] _before;     // x
@@ -30,7 +30,7 @@ namespace Guidewire.Core
         public WallPrediction(RodTerms terms, InertiaEnergy inertia)
         {
             _supports = terms.Supports;
-            _barrier = terms.Walls!.Barrier;
+            _push = new WallPush(terms.Walls!.Barrier);
             _inertia = inertia;
             _past = new Vector3d[terms.Rod.ElementCount + 1];
             _before = new Vector3d[_past.Length];
@@ -46,7 +46,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Looks at a shape from which predictions set out.</summary>
-        /// <param name="shape">Where the wire is; kept, not copied.</param>
+        /// <param name="shape">Where the wire is.</param>
         /// <param name="start">Where node 0 is to be, m.</param>
         /// <returns>In how many parts the way should be taken: in each a node goes less than half an element along the
         /// curve, so that straight ways of the nodes do not leave it by much.</returns>
@@ -91,7 +91,7 @@ namespace Guidewire.Core
                 double length = Vector3d.Distance(_before[i - 1], _before[i]);
                 predicted.X[i] = predicted.X[i - 1] + length * Vector3d.Normalize(_place[i] - _place[i - 1]);
             }
-            _barrier.PushBack(shape, predicted, last);
+            _push.Apply(shape, predicted, last);
             for (int j = 0; j < n; j++)
             {
                 Vector3d before = shape.X[j + 1] - shape.X[j];
