@@ -141,13 +141,44 @@ namespace Guidewire.Core
                 : double.PositiveInfinity;
         }
 
+        /// <summary>The same, and features of the wall (whatever a shape takes for them) that queries of points and
+        /// parts of the segment may come to while nothing of it goes farther than <paramref name="reach"/>, units: they
+        /// are added to a list, by which such queries are quicker. None where a shape has none.</summary>
+        internal virtual double FindFeatures(in Vector3d a, in Vector3d b, double range, double reach, ref int hint,
+            StructList<int> features)
+        {
+            return QuickDistance(a, b, range, ref hint);
+        }
+
+        /// <summary>The places within a range of a point, by the features near it.</summary>
+        internal virtual void FindPlaces(in Vector3d x, double range, FeatureRange features,
+            StructList<WallPlace> places)
+        {
+            FindPlaces(x, x, range, places);
+        }
+
+        /// <summary>The ridges within a range of a segment, by the features near it.</summary>
+        internal virtual void FindRidges(in Vector3d a, in Vector3d b, double range, FeatureRange features,
+            StructList<WallRidge> ridges)
+        {
+            FindRidges(a, b, range, ridges);
+        }
+
+        /// <summary>Whether the whole segment surely lies where the wire may be; false too where a shape cannot tell
+        /// quickly.</summary>
+        internal virtual bool Holds(in Vector3d a, in Vector3d b, int hint)
+        {
+            return false;
+        }
+
         /// <summary>A fraction of the linear motion of segment a b from (a0, b0) to (a1, b1) on which it keeps a
         /// distance, in units, or more: <see cref="NoImpact"/> for all of it, 0 where the start is nearer. An approach
-        /// of less than <paramref name="resolution"/>, units, is none.</summary>
+        /// of less than <paramref name="resolution"/>, units, is none. The hint is that of a query of the start, or
+        /// -1; the features are those of the start, for a reach that the motion keeps to.</summary>
         internal virtual double FreeShare(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
-            double resolution)
+            double resolution, int hint, FeatureRange features)
         {
-            return FreeUntil(a0, b0, a1, b1, keep, resolution, -1);
+            return FreeUntil(a0, b0, a1, b1, keep, resolution, hint);
         }
 
         /// <summary>Adds the ridges of the wall within <paramref name="range"/> of segment a b: where the wall bulges

@@ -41,6 +41,13 @@ namespace Guidewire.Core
             return reach < 0.0 || (x - _middle).LengthSquared > reach * reach;
         }
 
+        /// <summary>False where no point within a reach of segment a b has a distance above 0.</summary>
+        public bool MayHold(in Vector3d a, in Vector3d b, double reach)
+        {
+            double near = Math.Max(_radius, _radius + _slope * _length) + reach;
+            return ClosestPoints.SegmentSegment(a, b, From, To, out _, out _) <= near * near;
+        }
+
         /// <summary>max over y in [0, length] of R(y) - |x - c(y)|: how deep x lies in the piece's lumen, negative
         /// outside. Concave, because the lumen is convex, and of slope 1 or less.</summary>
         public double Distance(in Vector3d x)

@@ -199,10 +199,21 @@ namespace Guidewire.Core
         {
             Vector3d x = Vector3d.Lerp(_a, _b, s);
             double distance = _tube.Largest(x, 0, out int piece);
-            if (distance > range)
+            if (distance <= range)
             {
-                return;
+                Add(x, s, weight, piece, distance, places);
             }
+        }
+
+        /// <summary>Adds the place of a point whose piece and distance are known.</summary>
+        public void Add(in Vector3d x, int piece, double distance, StructList<WallPlace> places)
+        {
+            Add(x, 0.0, 1, piece, distance, places);
+        }
+
+        private void Add(in Vector3d x, double s, int weight, int piece, double distance,
+            StructList<WallPlace> places)
+        {
             _tube.PieceDistance(piece, x, out Vector3d centre, out double along);
             double radius = Vector3d.Distance(centre, x);
             Vector3d normal = Vector3d.Normalize(centre - x);

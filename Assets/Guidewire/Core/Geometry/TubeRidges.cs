@@ -19,17 +19,17 @@ namespace Guidewire.Core
         private readonly Vector3d[] _knots;
         private readonly double[] _radii;
         private readonly bool[] _isCrease;        // by knot
-        private readonly Vector3d[] _across;      // by knot: normal of the plane that halves the bend
+        private readonly TubePlanes _planes;
         private readonly double[] _slack;         // by knot: the crease is no farther from that plane, units
 
         /// <summary>For this tube.</summary>
-        public TubeRidges(TubeShape tube, TubePiece[] pieces)
+        public TubeRidges(TubeShape tube, TubePiece[] pieces, TubePlanes planes)
         {
+            _planes = planes;
             _pieces = pieces;
             _knots = tube.Knots;
             _radii = tube.Radii;
             _isCrease = new bool[_knots.Length];
-            _across = new Vector3d[_knots.Length];
             _slack = new double[_knots.Length];
             for (int k = 1; k + 1 < _knots.Length; k++)
             {
@@ -39,7 +39,6 @@ namespace Guidewire.Core
                 double narrows = (_radii[k] - _radii[k - 1]) / before.Length;
                 double widens = (_radii[k + 1] - _radii[k]) / after.Length;
                 _isCrease[k] = turn + Math.Asin(widens) - Math.Asin(narrows) > LeastAngle;
-                _across[k] = Vector3d.Normalize(Vector3d.Normalize(before) + Vector3d.Normalize(after));
                 _slack[k] = 2.0 * _radii[k] * (Math.Abs(narrows) + Math.Abs(widens) + 1e-9);
             }
         }
@@ -52,9 +51,21 @@ namespace Guidewire.Core
             double size = Vector3d.Distance(a, b);
             for (int k = 1; k + 1 < _knots.Length; k++)
             {
-                if (MayCross(k, a, b, size) && Cross(k, a, b, out Crossing crossing))
+                nearest = Math.Min(nearest, DistanceAt(k, a, b, size));
+            }
+            return nearest;
+        }
+
+        /// <summary>The same between pieces that are next to each other in a range.</summary>
+        public double Nearest(in Vector3d a, in Vector3d b, FeatureRange pieces)
+        {
+            double nearest = double.PositiveInfinity;
+            double size = Vector3d.Distance(a, b);
+            for (int i = pieces.From + 1; i < pieces.To; i++)
+            {
+                if (pieces[i] == pieces[i - 1] + 1)
                 {
-                    nearest = Math.Min(nearest, crossing.Distance);
+                    nearest = Math.Min(nearest, DistanceAt(pieces[i], a, b, size));
                 }
             }
             return nearest;
@@ -66,33 +77,65 @@ namespace Guidewire.Core
             double size = Vector3d.Distance(a, b);
             for (int k = 1; k + 1 < _knots.Length; k++)
             {
-                if (!MayCross(k, a, b, size) || !Cross(k, a, b, out Crossing c) || c.Distance > range)
+                if (MayCross(k, a, b, size))
                 {
-                    continue;
+                    Add(k, a, b, range, ridges);
                 }
-                Vector3d u = b - a;
-                Vector3d m = c.First - c.Second;
-                double along = Vector3d.Dot(m, u);
-                Vector3d normal = (1.0 / along) * (Vector3d.Dot(c.First, u) * c.Second
-                    - Vector3d.Dot(c.Second, u) * c.First);
-                double s = c.Position;
-                double weight = m.Length;
-                Vector3d e = m / weight;
-                Vector3d turn = c.Change(k - 1, _knots, c.First, c.FirstCentre, c.FirstIsRound, e)
-                    - c.Change(k, _knots, c.Second, c.SecondCentre, c.SecondIsRound, e);
-                // Along the crossing's own motion dx + u ds.
-                Vector3d slope = turn - (Vector3d.Dot(turn, u) / along) * m;
-                double toEnd = Math.Min(s, 1.0 - s) / Fade;
-                if (toEnd < 1.0)
-                {
-                    double sign = s < 0.5 ? 1.0 : -1.0;
-                    double share = toEnd * toEnd * (3.0 - 2.0 * toEnd);
-                    slope = share * slope
-                        + (-weight * sign * 6.0 * toEnd * (1.0 - toEnd) / (Fade * along)) * m;
-                    weight *= share;
-                }
-                ridges.Add(new WallRidge(s, c.Distance, normal, weight, (1.0 - s) * slope, s * slope));
             }
+        }
+
+        /// <summary>The same between pieces that are next to each other in a range.</summary>
+        public void Find(in Vector3d a, in Vector3d b, double range, FeatureRange pieces,
+            StructList<WallRidge> ridges)
+        {
+            double size = Vector3d.Distance(a, b);
+            for (int i = pieces.From + 1; i < pieces.To; i++)
+            {
+                if (pieces[i] == pieces[i - 1] + 1 && MayCross(pieces[i], a, b, size))
+                {
+                    Add(pieces[i], a, b, range, ridges);
+                }
+            }
+        }
+
+        private double DistanceAt(int k, in Vector3d a, in Vector3d b, double size)
+        {
+            return MayCross(k, a, b, size) && Cross(k, a, b, out Crossing crossing) ? crossing.Distance
+                : double.PositiveInfinity;
+        }
+
+        private void Add(int k, in Vector3d a, in Vector3d b, double range, StructList<WallRidge> ridges)
+        {
+            if (!Cross(k, a, b, out Crossing c) || c.Distance > range)
+            {
+                return;
+            }
+            Vector3d u = b - a;
+            Vector3d m = c.First - c.Second;
+            double along = Vector3d.Dot(m, u);
+            Vector3d normal = (1.0 / along) * (Vector3d.Dot(c.First, u) * c.Second
+                - Vector3d.Dot(c.Second, u) * c.First);
+            double s = c.Position;
+            double weight = m.Length;
+            Vector3d e = m / weight;
+            Symmetric3 first = c.Curvature(_knots, k - 1, c.First, c.FirstCentre, c.FirstIsRound);
+            Symmetric3 second = c.Curvature(_knots, k, c.Second, c.SecondCentre, c.SecondIsRound);
+            Vector3d turn = first.Times(e) - second.Times(e);
+            // Along the crossing's own motion dx + u ds.
+            Vector3d slope = turn - (Vector3d.Dot(turn, u) / along) * m;
+            double toEnd = Math.Min(s, 1.0 - s) / Fade;
+            if (toEnd < 1.0)
+            {
+                double sign = s < 0.5 ? 1.0 : -1.0;
+                double left = toEnd * toEnd * (3.0 - 2.0 * toEnd);
+                slope = left * slope
+                    + (-weight * sign * 6.0 * toEnd * (1.0 - toEnd) / (Fade * along)) * m;
+                weight *= left;
+            }
+            double share = Vector3d.Dot(c.First, u) / along;
+            Vector3d slide = (-1.0 / along) * m;
+            ridges.Add(new WallRidge(s, c.Distance, normal, weight, (1.0 - s) * slope, s * slope).Sliding(
+                (1.0 - s) * slide, s * slide, (1.0 - share) * first + share * second));
         }
 
         // No crossing is farther from the knot than the wall's radius there, nor from a than b is; and it goes from
@@ -102,8 +145,7 @@ namespace Guidewire.Core
             double reach = 1.5 * _radii[k] + size;
             Vector3d offset = a - _knots[k];
             return _isCrease[k] && offset.LengthSquared <= reach * reach
-                && Vector3d.Dot(_across[k], offset) <= _slack[k]
-                && Vector3d.Dot(_across[k], b - _knots[k]) >= -_slack[k];
+                && _planes.Past(k, a) <= _slack[k] && _planes.Past(k, b) >= -_slack[k];
         }
 
         // Where f1 - f2 goes from positive to negative along the segment, by Newton's method between bounds.
@@ -150,8 +192,8 @@ namespace Guidewire.Core
         // Near the crossing: in the plane that halves the bend.
         private double PlaneCrossing(int k, in Vector3d a, in Vector3d b)
         {
-            double atA = Vector3d.Dot(_across[k], a - _knots[k]);
-            double atB = Vector3d.Dot(_across[k], b - _knots[k]);
+            double atA = _planes.Past(k, a);
+            double atB = _planes.Past(k, b);
             return atA < 0.0 && atB > 0.0 ? atA / (atA - atB) : 0.5;
         }
 
@@ -183,18 +225,19 @@ namespace Guidewire.Core
                 SecondIsRound = alongSecond <= 0.0 || alongSecond >= 1.0;
             }
 
-            /// <summary>How a piece's normal changes along e: -e/r across it, r the distance from its centre; along
-            /// the wall not at all, but where it is a ball.</summary>
-            public Vector3d Change(int piece, Vector3d[] knots, in Vector3d normal, in Vector3d centre, bool isRound,
-                in Vector3d e)
+            /// <summary>How a piece's normal changes: across it by -1/r, r the distance from its centre; along the wall
+            /// not at all, but where it is a ball.</summary>
+            public Symmetric3 Curvature(Vector3d[] knots, int piece, in Vector3d normal, in Vector3d centre,
+                bool isRound)
             {
                 double curvature = -1.0 / Vector3d.Distance(_x, centre);
                 if (isRound)
                 {
-                    return curvature * (e - Vector3d.Dot(e, normal) * normal);
+                    return new Symmetric3(curvature, 0.0, curvature, 0.0, 0.0, curvature)
+                        + Symmetric3.Outer(-curvature, normal);
                 }
                 Vector3d around = Vector3d.Normalize(Vector3d.Cross(knots[piece + 1] - knots[piece], normal));
-                return (curvature * Vector3d.Dot(around, e)) * around;
+                return Symmetric3.Outer(curvature, around);
             }
         }
     }

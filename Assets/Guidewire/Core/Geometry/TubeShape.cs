@@ -19,6 +19,7 @@ namespace Guidewire.Core
         private TubePlaces? _places;
         private TubeRidges? _ridges;
         private TubeKeeping? _keeping;
+        private TubePlanes? _planes;
 
         /// <summary>The tube through <paramref name="knots"/> (at least 2, units) with a radius at each (positive,
         /// units). It ends in half spheres; an open end goes on straight, with the radius of its last knot.</summary>
@@ -152,6 +153,69 @@ namespace Guidewire.Core
             return Math.Min(Math.Min(atA, atB), Ridges.Nearest(a, b));
         }
 
+        /// <summary>Pieces that hold something within the reach of the segment, along the centreline.</summary>
+        internal override double FindFeatures(in Vector3d a, in Vector3d b, double range, double reach, ref int hint,
+            StructList<int> features)
+        {
+            int from = features.Count;
+            _tree.Collect(a, b, reach, features);
+            if (features.Count == from)
+            {
+                return QuickDistance(a, b, range, ref hint);
+            }
+            var found = new FeatureRange(features, from, features.Count);
+            hint = Deepest(a, found, out double atA);
+            Deepest(b, found, out double atB);
+            return Math.Min(Math.Min(atA, atB), Ridges.Nearest(a, b, found));
+        }
+
+        /// <inheritdoc/>
+        internal override void FindPlaces(in Vector3d x, double range, FeatureRange features,
+            StructList<WallPlace> places)
+        {
+            if (features.From == features.To)
+            {
+                FindPlaces(x, x, range, places);
+                return;
+            }
+            int piece = Deepest(x, features, out double distance);
+            if (distance <= range)
+            {
+                _places ??= new TubePlaces(this);
+                _places.Add(x, piece, distance, places);
+            }
+        }
+
+        /// <inheritdoc/>
+        internal override void FindRidges(in Vector3d a, in Vector3d b, double range, FeatureRange features,
+            StructList<WallRidge> ridges)
+        {
+            Ridges.Find(a, b, range, features, ridges);
+        }
+
+        /// <inheritdoc/>
+        internal override bool Holds(in Vector3d a, in Vector3d b, int hint)
+        {
+            ref readonly TubePiece piece = ref _tree.Pieces[hint >= 0 && hint < _tree.Pieces.Length ? hint : 0];
+            return (piece.Distance(a) > 0.0 && piece.Distance(b) > 0.0) || LeastDistance(a, b) > 0.0;
+        }
+
+        private int Deepest(in Vector3d x, FeatureRange features, out double distance)
+        {
+            int piece = features[features.From];
+            distance = _tree.Pieces[piece].Distance(x);
+            for (int k = features.From + 1; k < features.To; k++)
+            {
+                double own = _tree.Pieces[features[k]].Distance(x);
+                if (own > distance)
+                {
+                    distance = own;
+                    piece = features[k];
+                }
+            }
+            return piece;
+        }
+
         /// <summary>The creases at its knots; see <see cref="TubeRidges"/>.</summary>
         internal override void FindRidges(
             in Vector3d a, in Vector3d b, double range, StructList<WallRidge> ridges)
@@ -172,10 +236,10 @@ namespace Guidewire.Core
 
         /// <inheritdoc/>
         internal override double FreeShare(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
-            double resolution)
+            double resolution, int hint, FeatureRange features)
         {
-            _keeping ??= new TubeKeeping(_tree.Pieces);
-            return _keeping.Keeping(a0, b0, a1, b1, keep);
+            _keeping ??= new TubeKeeping(_tree.Pieces, Planes);
+            return _keeping.Keeping(a0, b0, a1, b1, keep, hint);
         }
 
         /// <summary>d(x), and the piece that gives it, which is looked for from a guess on.</summary>
@@ -185,7 +249,9 @@ namespace Guidewire.Core
             return distance;
         }
 
-        private TubeRidges Ridges => _ridges ??= new TubeRidges(this, _tree.Pieces);
+        private TubeRidges Ridges => _ridges ??= new TubeRidges(this, _tree.Pieces, Planes);
+
+        private TubePlanes Planes => _planes ??= new TubePlanes(_knots);
 
         private protected override double FreeUntil(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
             double keep, double resolution, int hint)

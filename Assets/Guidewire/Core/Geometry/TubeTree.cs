@@ -97,6 +97,33 @@ namespace Guidewire.Core
             return s;
         }
 
+        /// <summary>Adds the pieces that hold something within a reach of segment a b, in their order.</summary>
+        public void Collect(in Vector3d a, in Vector3d b, double reach, StructList<int> pieces)
+        {
+            Vector3d middle = 0.5 * (a + b);
+            Collect(0, 0, _pieces.Length, a, b, reach, middle, -reach - 0.5 * Vector3d.Distance(a, b), pieces);
+        }
+
+        private void Collect(int node, int first, int end, in Vector3d a, in Vector3d b, double reach,
+            in Vector3d middle, double least, StructList<int> pieces)
+        {
+            if (Bound(node, middle) < least)
+            {
+                return;
+            }
+            if (end - first == 1)
+            {
+                if (_pieces[first].MayHold(a, b, reach))
+                {
+                    pieces.Add(first);
+                }
+                return;
+            }
+            int half = (first + end) / 2;
+            Collect(2 * node + 1, first, half, a, b, reach, middle, least, pieces);
+            Collect(2 * node + 2, half, end, a, b, reach, middle, least, pieces);
+        }
+
         private void Descend(int node, int first, int end, in Vector3d x, ref int piece, ref double distance)
         {
             if (end - first == 1)

@@ -26,16 +26,44 @@ namespace Guidewire.Core
         /// <summary>Derivative of W along b, 1/units.</summary>
         public readonly Vector3d WeightAlongB;
 
+        /// <summary>Derivative of s along a, 1/units; 0 where the crossing stays where it is.</summary>
+        public readonly Vector3d SlideAlongA;
+
+        /// <summary>Derivative of s along b, 1/units.</summary>
+        public readonly Vector3d SlideAlongB;
+
+        /// <summary>H, 1/units: with S the derivative of s and u = b - a, the second derivative of d is
+        /// [(1 - s)^2 H, s (1 - s) H; s (1 - s) H, s^2 H] + q S^T + S q^T + (u.H u) S S^T,
+        /// q = ((1 - s) H u - n, s H u + n).</summary>
+        public readonly Symmetric3 Curvature;
+
         /// <summary>A crossing with these values.</summary>
         public WallRidge(double position, double distance, in Vector3d normal, double weight,
             in Vector3d weightAlongA, in Vector3d weightAlongB)
+            : this(position, distance, normal, weight, weightAlongA, weightAlongB, default, default, default)
         {
+        }
+
+        private WallRidge(double position, double distance, in Vector3d normal, double weight,
+            in Vector3d weightAlongA, in Vector3d weightAlongB, in Vector3d slideAlongA, in Vector3d slideAlongB,
+            in Symmetric3 curvature)
+        {
+            SlideAlongA = slideAlongA;
+            SlideAlongB = slideAlongB;
+            Curvature = curvature;
             Position = position;
             Distance = distance;
             Normal = normal;
             Weight = weight;
             WeightAlongA = weightAlongA;
             WeightAlongB = weightAlongB;
+        }
+
+        /// <summary>The same with what its second derivative takes.</summary>
+        public WallRidge Sliding(in Vector3d alongA, in Vector3d alongB, in Symmetric3 curvature)
+        {
+            return new WallRidge(Position, Distance, Normal, Weight, WeightAlongA, WeightAlongB, alongA, alongB,
+                curvature);
         }
     }
 }

@@ -74,7 +74,6 @@ namespace Guidewire.Core
         {
             double move = scene.Metres * Math.Abs(parameters.Drive.DisplacementPerStep);
             var contact = new BarrierEnergy(scene.Rod, scene.Walls, scene.Metres, barrier);
-            contact.Reach = Math.Max(contact.Reach, 2.0 * move);
             FrictionEnergy? friction = Array.Exists(scene.Walls, wall => wall.FrictionCoefficient > 0.0)
                 ? new FrictionEnergy(contact, scene.Rod.ElementCount, parameters.Contact.FrictionSpeed) : null;
             return new WallTerms(contact, friction, spring, scene.Supports.HasSpring);

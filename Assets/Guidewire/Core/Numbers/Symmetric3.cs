@@ -72,6 +72,21 @@ namespace Guidewire.Core
                 w * c.Z * c.Z);
         }
 
+        /// <summary>w (c d^T + d c^T).</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public static Symmetric3 Pair(double w, in Vector3d c, in Vector3d d)
+        {
+            return new Symmetric3(2.0 * w * c.X * d.X, w * (c.X * d.Y + c.Y * d.X), 2.0 * w * c.Y * d.Y,
+                w * (c.X * d.Z + c.Z * d.X), w * (c.Y * d.Z + c.Z * d.Y), 2.0 * w * c.Z * d.Z);
+        }
+
+        /// <summary>w A.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public static Symmetric3 operator *(double w, in Symmetric3 a)
+        {
+            return new Symmetric3(w * a._11, w * a._21, w * a._22, w * a._31, w * a._32, w * a._33);
+        }
+
         /// <summary>A b.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public Vector3d Times(in Vector3d b)

@@ -229,26 +229,40 @@ namespace Guidewire.Core
         {
             for (int k = leaf.First; k < leaf.First + leaf.Count; k++)
             {
-                ref readonly Vector3d v0 = ref _corners[3 * k];
-                ref readonly Vector3d v1 = ref _corners[3 * k + 1];
-                ref readonly Vector3d v2 = ref _corners[3 * k + 2];
-                double limit = Math.Min(1.0, impact);
-                double range = RoundedUp * (keep + limit * motion);
-                if (StaysOnOneSide(a0, b0, a1, b1, v0, v1, v2, keep)
-                    || !MayReach(a0, b0, range, v0, v1, v2, out double from, out double to))
+                double time = SweepTriangle(_corners[3 * k], _corners[3 * k + 1], _corners[3 * k + 2],
+                    a0, b0, a1, b1, keep, resolution, motion, ref impact);
+                if (time < ContactShape.NoImpact)
                 {
-                    continue;
-                }
-                double time = SweptTest.Impact(
-                    new TriangleBody(v0, v1, v2), Vector3d.Lerp(a0, b0, from), Vector3d.Lerp(a0, b0, to),
-                    Vector3d.Lerp(a1, b1, from), Vector3d.Lerp(a1, b1, to), keep, resolution, limit);
-                if (time < impact)
-                {
-                    impact = time;
-                    range = RoundedUp * (keep + time * motion);
+                    double range = RoundedUp * (keep + time * motion);
                     search.Squared = range * range;
                 }
             }
+        }
+
+        /// <summary>Lowers the fraction of the motion of segment a b during which it stays at least
+        /// <paramref name="keep"/> from a triangle, where the triangle asks for it; returns the lower one, or
+        /// <see cref="ContactShape.NoImpact"/>.</summary>
+        /// <param name="motion">No end of the segment goes farther.</param>
+        public static double SweepTriangle(in Vector3d v0, in Vector3d v1, in Vector3d v2, in Vector3d a0,
+            in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep, double resolution, double motion,
+            ref double impact)
+        {
+            double limit = Math.Min(1.0, impact);
+            double range = RoundedUp * (keep + limit * motion);
+            if (StaysOnOneSide(a0, b0, a1, b1, v0, v1, v2, keep)
+                || !MayReach(a0, b0, range, v0, v1, v2, out double from, out double to))
+            {
+                return ContactShape.NoImpact;
+            }
+            double time = SweptTest.Impact(
+                new TriangleBody(v0, v1, v2), Vector3d.Lerp(a0, b0, from), Vector3d.Lerp(a0, b0, to),
+                Vector3d.Lerp(a1, b1, from), Vector3d.Lerp(a1, b1, to), keep, resolution, limit);
+            if (time < impact)
+            {
+                impact = time;
+                return time;
+            }
+            return ContactShape.NoImpact;
         }
 
         private Vector3d SumOfAreas(int first, int count)

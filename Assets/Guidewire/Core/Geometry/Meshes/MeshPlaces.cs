@@ -31,12 +31,26 @@ namespace Guidewire.Core
         /// them.</summary>
         public void Find(in Vector3d a, in Vector3d b, double range, StructList<WallPlace> places)
         {
+            _triangles.Clear();
+            _mesh.Tree.Within(a, b, range, _triangles);
+            AddPlaces(a, b, range, places);
+        }
+
+        /// <summary>The same for a point, by the triangles near it.</summary>
+        public void Find(in Vector3d x, double range, MeshNearby nearby, FeatureRange among,
+            StructList<WallPlace> places)
+        {
+            _triangles.Clear();
+            nearby.Choose(x, x, range, among, _triangles);
+            AddPlaces(x, x, range, places);
+        }
+
+        private void AddPlaces(in Vector3d a, in Vector3d b, double range, StructList<WallPlace> places)
+        {
             int first = places.Count;
             _nearest = double.PositiveInfinity;
             _isBehind = false;
-            _triangles.Clear();
             _features.Clear();
-            _mesh.Tree.Within(a, b, range, _triangles);
             double limit = range * range;
             for (int i = 0; i < _triangles.Count; i++)
             {

@@ -40,6 +40,20 @@ namespace Guidewire.Core
         {
             _triangles.Clear();
             _mesh.Tree.Within(a, b, range, _triangles);
+            AddRidges(a, b, range, ridges);
+        }
+
+        /// <summary>The same by the triangles near the segment.</summary>
+        public void Find(in Vector3d a, in Vector3d b, double range, MeshNearby nearby, FeatureRange among,
+            StructList<WallRidge> ridges)
+        {
+            _triangles.Clear();
+            nearby.Choose(a, b, range, among, _triangles);
+            AddRidges(a, b, range, ridges);
+        }
+
+        private void AddRidges(in Vector3d a, in Vector3d b, double range, StructList<WallRidge> ridges)
+        {
             for (int i = 0; i < _triangles.Count; i++)
             {
                 int triangle = _triangles[i];
@@ -79,7 +93,20 @@ namespace Guidewire.Core
                 slope = (weight * rate * -2.0 * cosine / size) * (along - cosine * direction);
                 weight *= share * (2.0 - share);
             }
-            ridges.Add(new WallRidge(s, distance, normal, weight, -slope, slope));
+            var ridge = new WallRidge(s, distance, normal, weight, -slope, slope);
+            ridges.Add(s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0 ? Sliding(ridge, u, along) : ridge);
+        }
+
+        // Between the ends of both the crossing slides to where the distance along the segment stays least.
+        private static WallRidge Sliding(in WallRidge ridge, in Vector3d u, in Vector3d along)
+        {
+            double s = ridge.Position;
+            Vector3d n = ridge.Normal;
+            Vector3d across = Vector3d.Cross(n, along);
+            double rate = Vector3d.Dot(across, u) / ridge.Distance;
+            double perSecond = -ridge.Distance / (Vector3d.Dot(across, u) * Vector3d.Dot(across, u));
+            return ridge.Sliding(perSecond * ((1.0 - s) * rate * across - n), perSecond * (s * rate * across + n),
+                Symmetric3.Outer(1.0 / ridge.Distance, across));
         }
 
         // By which the faces on both sides of an edge turn towards the free side; 0 in a valley.

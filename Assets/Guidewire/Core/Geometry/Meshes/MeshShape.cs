@@ -11,11 +11,13 @@ namespace Guidewire.Core
     /// rim.</remarks>
     public sealed class MeshShape : ContactShape
     {
+        private const double MostReach = 0.7;   // of the range
         private readonly TriangleMesh _mesh;
         private readonly MeshGeometry _wall;
         private readonly MeshGeometry _closed;
         private MeshPlaces? _places;
         private MeshRidges? _ridges;
+        private MeshNearby? _nearby;
 
         /// <summary>The wall at the place where its file has it.</summary>
         public MeshShape(TriangleMesh mesh)
@@ -55,6 +57,7 @@ namespace Guidewire.Core
         public void Place(in Placement placement)
         {
             _wall.Place(placement);
+            _nearby = null;
             if (_closed != _wall)
             {
                 _closed.Place(placement);
@@ -97,6 +100,51 @@ namespace Guidewire.Core
             _ridges ??= new MeshRidges(_wall);
             _ridges.Find(a, b, range, ridges);
         }
+
+        /// <summary>The triangles within the range; none where the reach makes most of it: then the hierarchy is
+        /// quicker.</summary>
+        internal override double FindFeatures(in Vector3d a, in Vector3d b, double range, double reach, ref int hint,
+            StructList<int> features)
+        {
+            return reach > MostReach * range ? QuickDistance(a, b, range, ref hint)
+                : Nearby.Find(a, b, range, features);
+        }
+
+        /// <inheritdoc/>
+        internal override void FindPlaces(in Vector3d x, double range, FeatureRange features,
+            StructList<WallPlace> places)
+        {
+            _places ??= new MeshPlaces(_wall);
+            if (features.From == features.To)
+            {
+                _places.Find(x, x, range, places);
+                return;
+            }
+            _places.Find(x, range, Nearby, features, places);
+        }
+
+        /// <inheritdoc/>
+        internal override void FindRidges(in Vector3d a, in Vector3d b, double range, FeatureRange features,
+            StructList<WallRidge> ridges)
+        {
+            _ridges ??= new MeshRidges(_wall);
+            if (features.From == features.To)
+            {
+                _ridges.Find(a, b, range, ridges);
+                return;
+            }
+            _ridges.Find(a, b, range, Nearby, features, ridges);
+        }
+
+        /// <inheritdoc/>
+        internal override double FreeShare(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
+            double resolution, int hint, FeatureRange features)
+        {
+            return features.From == features.To ? FreeUntil(a0, b0, a1, b1, keep, resolution, hint)
+                : Nearby.Sweep(a0, b0, a1, b1, keep, resolution, features);
+        }
+
+        private MeshNearby Nearby => _nearby ??= new MeshNearby(_wall);
 
         /// <summary>Of the balls that touch the wall in the middle of a triangle and lie in the lumen.</summary>
         internal override double NarrowestRadius(double above)

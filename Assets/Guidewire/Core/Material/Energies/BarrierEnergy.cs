@@ -7,42 +7,41 @@ namespace Guidewire.Core
     /// <remarks>The wire's surface is that of capsules, of each element's own radius; at a node the larger of its two
     /// elements'. Nodes meet walls that are flat or hollow before the elements between them do; what bulges into the
     /// free side may come between two nodes, and the elements meet it there. An element's contact at s acts on its two
-    /// nodes with weights 1 - s and s. A node's second derivative is exact, without its negative part; an element's is
-    /// b'' times the square of the gap's derivative.
+    /// nodes with weights 1 - s and s. A node's second derivative is exact, without its negative part; an element's
+    /// has b'' times the square of the gap's derivative and, where asked for, all but that of the ridge's
+    /// weight.
     ///
-    /// Walls are in units, all else in metres. Where the wire was when it was last looked for walls, elements farther
-    /// from them than the barrier's distance and the way that they have gone since are passed over; that changes no
-    /// value. What one shape comes to is kept until another is asked for.</remarks>
+    /// Walls are in units, all else in metres. Elements that are far from walls are passed over
+    /// (<see cref="NearWalls"/>); that changes no value. What one shape comes to is kept until another is asked
+    /// for.</remarks>
     internal sealed class BarrierEnergy : EnergyTerm
     {
-        private const double LeftOfGap = 0.05;    // that a step leaves at least
+        private const double LeftOfGap = 0.3;     // that a step leaves at least
+        private const double MostLeft = 0.2;      // of the barrier's distance
         private const double Resolved = 1e-3;     // of the distance that is kept: an approach that is none
         private const double ResolvedOfWay = 0.05;    // the same, of the way to it
         private const double QuickShare = 0.9;    // of a gap that is only about right
-        private const double SureOfQuick = 0.9;   // of a quick distance there is surely room
 
         private readonly ContactShape[] _walls;
         private readonly double _units;           // per metre
         private readonly double[] _nodeRadius;    // m
         private readonly double[] _elementRadius;
         private readonly Barrier _barrier;
+        private readonly NearWalls _near;
         private readonly Vector3d[] _x;           // of the shape at hand, units
-        private readonly Vector3d[] _reference;   // where the wire was last looked for walls, units
-        private readonly double[] _room;          // by wall and element: from the reference to the wall, units
-        private readonly bool[] _isNear;          // the same: whether the barrier may act within the reach
-        private readonly int[] _hint;
+        private readonly Vector3d[] _to;          // where its nodes go, units
         private readonly double[] _nodeGap;       // by wall and node, m, no more than the barrier's distance
         private readonly double[] _ridgeGap;      // by wall and element, between its nodes
         private readonly Vector3d[] _gradient;    // of the shape at hand, by node, N
         private readonly Symmetric3[] _own;       // (x_i, x_i), N/m
-        private readonly Symmetric3[] _coupling;  // (x_i, x_i+1)
+        private readonly Symmetric3[] _coupling;  // (x_i+1, x_i)
+        private readonly Symmetric3[] _ownBending;      // what elements' contacts add by their second derivatives
+        private readonly Symmetric3[] _couplingBending;
+        private readonly Vector3d[] _couplingTurn;      // the same, t of the part v -> t x v
         private readonly Vector3d[] _resultant;   // of each wall on the wire, N
         private readonly StructList<WallPlace> _places = new StructList<WallPlace>(16);
         private readonly StructList<WallRidge> _ridges = new StructList<WallRidge>(16);
         private readonly StructList<WallContact> _contacts = new StructList<WallContact>(64);
-        private double _leastReach;               // units
-        private double _reach;                    // since the wire was last looked for walls
-        private bool _hasReference;
         private bool _isKnown;
         private double _value;
 
@@ -64,20 +63,28 @@ namespace Guidewire.Core
                 _nodeRadius[j + 1] = rod.Radius[j];
             }
             _barrier = barrier;
-            _leastReach = Math.Max(4.0 * barrier.Distance, rod.Radius[n - 1]) * _units;
             _x = new Vector3d[n + 1];
-            _reference = new Vector3d[n + 1];
-            _room = new double[walls.Length * n];
-            _isNear = new bool[walls.Length * n];
-            _hint = new int[walls.Length * n];
-            Array.Fill(_hint, -1);
+            _to = new Vector3d[n + 1];
+            var range = new double[n];
+            for (int j = 0; j < n; j++)
+            {
+                range[j] = _units * (Math.Max(_nodeRadius[j], _nodeRadius[j + 1]) + barrier.Distance);
+            }
+            _near = new NearWalls(walls, range, _units * Math.Max(4.0 * barrier.Distance, rod.Radius[n - 1]));
             _nodeGap = new double[walls.Length * (n + 1)];
             _ridgeGap = new double[walls.Length * n];
             _gradient = new Vector3d[n + 1];
             _own = new Symmetric3[n + 1];
             _coupling = new Symmetric3[n];
+            _ownBending = new Symmetric3[n + 1];
+            _couplingBending = new Symmetric3[n];
+            _couplingTurn = new Vector3d[n];
             _resultant = new Vector3d[walls.Length];
         }
+
+        /// <summary>Whether the second derivatives of elements' contacts have the part that goes with their force,
+        /// which need not be positive.</summary>
+        public bool HasBending { get; set; } = true;
 
         /// <summary>The walls, in units.</summary>
         public ContactShape[] Walls => _walls;
@@ -85,19 +92,23 @@ namespace Guidewire.Core
         /// <summary>b.</summary>
         public Barrier Barrier => _barrier;
 
-        /// <summary>The wire is looked for walls anew after this way, m; by default 4 times the barrier's
-        /// distance or the wire's radius.</summary>
-        public double Reach
-        {
-            get => _leastReach / _units;
-            set => _leastReach = value * _units;
-        }
+        /// <summary>Whether a wall pushes the wire in the shape last looked at.</summary>
+        public bool Touches => _contacts.Count > 0;
 
         /// <summary>Where walls push the wire in a shape, wall by wall and along the wire.</summary>
         public StructList<WallContact> ContactsOf(RodShape shape)
         {
             Look(shape);
             return _contacts;
+        }
+
+        /// <summary>Units in a metre.</summary>
+        public double UnitsPerMetre => _units;
+
+        /// <summary>Radius of node i, the larger of its two elements', m.</summary>
+        public double RadiusOfNode(int i)
+        {
+            return _nodeRadius[i];
         }
 
         /// <summary>Radius of element j, m.</summary>
@@ -120,14 +131,7 @@ namespace Guidewire.Core
         /// looked at.</summary>
         public double ClearanceOf(int j)
         {
-            int n = _elementRadius.Length;
-            double room = double.PositiveInfinity;
-            for (int w = 0; w < _walls.Length; w++)
-            {
-                room = Math.Min(room, _room[w * n + j]);
-            }
-            return room - Math.Max(Vector3d.Distance(_x[j], _reference[j]),
-                Vector3d.Distance(_x[j + 1], _reference[j + 1]));
+            return _near.ClearanceOf(_x, j);
         }
 
         /// <inheritdoc/>
@@ -163,58 +167,75 @@ namespace Guidewire.Core
             for (int i = from; i < end; i++)
             {
                 ref RodBlock b = ref blocks[i];
-                Symmetric3 a = _own[i];
+                Symmetric3 a = HasBending ? _own[i] + _ownBending[i] : _own[i];
                 b.A11 += a.A11; b.A21 += a.A21; b.A22 += a.A22;
                 b.A31 += a.A31; b.A32 += a.A32; b.A33 += a.A33;
                 if (i < _coupling.Length)
                 {
-                    Symmetric3 d = _coupling[i];
-                    b.D11 += d.A11; b.D12 += d.A21; b.D13 += d.A31;
-                    b.D21 += d.A21; b.D22 += d.A22; b.D23 += d.A32;
-                    b.D31 += d.A31; b.D32 += d.A32; b.D33 += d.A33;
+                    Symmetric3 d = HasBending ? _coupling[i] + _couplingBending[i] : _coupling[i];
+                    Vector3d t = HasBending ? _couplingTurn[i] : Vector3d.Zero;
+                    b.D11 += d.A11; b.D12 += d.A21 - t.Z; b.D13 += d.A31 + t.Y;
+                    b.D21 += d.A21 + t.Z; b.D22 += d.A22; b.D23 += d.A32 - t.X;
+                    b.D31 += d.A31 - t.Y; b.D32 += d.A32 + t.X; b.D33 += d.A33;
                 }
             }
         }
 
-        /// <summary>Leaves at least 5 % of every gap, elements' among them, on the straight way of all nodes.</summary>
+        /// <summary>Leaves at least 30 % of every gap, or a fifth of the barrier's distance, on the straight way of all
+        /// nodes, to elements too. From a gap that is left too small Newton's method comes back by doubling it.
+        /// </summary>
         public override double LargestShare(RodShape shape, RodVector[] direction, double scale)
         {
             Look(shape);
             double step = scale * _units;
-            double longest = 0.0;
             for (int i = 0; i < _x.Length; i++)
             {
-                Vector3d to = _x[i] + Move(direction[i], step);
-                longest = Math.Max(longest, Vector3d.Distance(to, _reference[i]));
+                RodVector d = direction[i];
+                _to[i] = _x[i] + step * new Vector3d(d.X1, d.X2, d.X3);
             }
-            if (!(longest <= _reach))
-            {
-                FindNear(1.1 * longest);
-            }
-            int n = _elementRadius.Length;
+            _near.Cover(_x, _to);
             double share = 1.0;
-            for (int j = 0; j < n; j++)
+            for (int j = 0; j < _elementRadius.Length; j++)
             {
-                Vector3d a = Move(direction[j], step);
-                Vector3d b = Move(direction[j + 1], step);
-                double motion = Math.Sqrt(Math.Max(a.LengthSquared, b.LengthSquared));
+                double motion = Math.Sqrt(Math.Max((_to[j] - _x[j]).LengthSquared,
+                    (_to[j + 1] - _x[j + 1]).LengthSquared));
                 for (int w = 0; w < _walls.Length; w++)
                 {
-                    if (_isNear[w * n + j])
+                    if (_near.IsNear(w, j))
                     {
-                        share = Math.Min(share, ShareOf(w, j, a, b, motion));
+                        share = Math.Min(share, ShareOf(w, j, motion));
                     }
                 }
             }
             return share;
         }
 
-        private static Vector3d Move(in RodVector direction, double step)
+        /// <summary>What is near on the way from one shape to another.</summary>
+        public NearWalls Cover(RodShape shape, RodShape to)
         {
-            return new Vector3d(step * direction.X1, step * direction.X2, step * direction.X3);
+            Look(shape);
+            for (int i = 0; i < _to.Length; i++)
+            {
+                _to[i] = _units * to.X[i];
+            }
+            _near.Cover(_x, _to);
+            return _near;
         }
 
-        private double ShareOf(int w, int j, in Vector3d moveA, in Vector3d moveB, double motion)
+        /// <summary>Gap between node i and wall w in the shape last looked at, m, no more than the barrier's
+        /// distance.</summary>
+        public double NodeGap(int w, int i)
+        {
+            return _nodeGap[w * _x.Length + i];
+        }
+
+        /// <summary>The same between the inside of element j and ridges of the wall.</summary>
+        public double RidgeGap(int w, int j)
+        {
+            return _ridgeGap[w * _elementRadius.Length + j];
+        }
+
+        private double ShareOf(int w, int j, double motion)
         {
             int n = _elementRadius.Length;
             double radius = _units * _elementRadius[j];
@@ -224,25 +245,25 @@ namespace Guidewire.Core
             {
                 return 1.0;
             }
-            ref int hint = ref _hint[w * n + j];
-            Vector3d a = _x[j] + moveA;
-            Vector3d b = _x[j + 1] + moveB;
-            double share = ShareOf(w, j, a, b, radius, gap);
+            ref int hint = ref _near.HintOf(w, j);
+            double share = ShareOf(w, j, radius, gap, hint);
             if (share == 0.0)
             {
                 _walls[w].Nearest(
                     _x[j], _x[j + 1], double.PositiveInfinity, ref hint, out SurfaceContact contact);
                 gap = contact.Distance - radius;
-                share = ShareOf(w, j, a, b, radius, gap);
+                share = ShareOf(w, j, radius, gap, hint);
             }
             return Math.Min(1.0, share);
         }
 
-        private double ShareOf(int w, int j, in Vector3d a, in Vector3d b, double radius, double gap)
+        private double ShareOf(int w, int j, double radius, double gap, int hint)
         {
-            double keep = radius + LeftOfGap * gap;
-            double resolution = Math.Min(Resolved * keep, ResolvedOfWay * (1.0 - LeftOfGap) * gap);
-            return gap > 0.0 ? _walls[w].FreeShare(_x[j], _x[j + 1], a, b, keep, resolution) : 0.0;
+            double left = Math.Min(LeftOfGap * gap, MostLeft * _units * _barrier.Distance);
+            double keep = radius + left;
+            double resolution = Math.Min(Resolved * keep, ResolvedOfWay * (gap - left));
+            return gap > 0.0 ? _walls[w].FreeShare(_x[j], _x[j + 1], _to[j], _to[j + 1], keep, resolution, hint,
+                _near.FeaturesOf(w, j)) : 0.0;
         }
 
         // Finds what the shape comes to, unless it is that of the last call.
@@ -257,50 +278,26 @@ namespace Guidewire.Core
             {
                 return;
             }
-            double farthest = 0.0;
             for (int i = 0; i < _x.Length; i++)
             {
                 _x[i] = _units * shape.X[i];
-                farthest = Math.Max(farthest, (_x[i] - _reference[i]).LengthSquared);
                 _gradient[i] = Vector3d.Zero;
                 _own[i] = default;
+                _ownBending[i] = default;
             }
+            Array.Clear(_couplingBending, 0, _couplingBending.Length);
+            Array.Clear(_couplingTurn, 0, _couplingTurn.Length);
             _contacts.Clear();
             Array.Clear(_coupling, 0, _coupling.Length);
             Array.Clear(_resultant, 0, _resultant.Length);
             _isKnown = true;
             _value = 0.0;
-            if (!_hasReference || !(farthest <= _reach * _reach))
-            {
-                FindNear(_leastReach);
-            }
+            _near.Follow(_x);
             Array.Fill(_nodeGap, _barrier.Distance);
             Array.Fill(_ridgeGap, _barrier.Distance);
             for (int w = 0; w < _walls.Length; w++)
             {
                 AddWall(w);
-            }
-        }
-
-        // Which elements may come near a wall while no node goes farther than the reach.
-        private void FindNear(double reach)
-        {
-            int n = _elementRadius.Length;
-            _reach = Math.Max(_leastReach, reach);
-            _hasReference = true;
-            Array.Copy(_x, _reference, _x.Length);
-            for (int w = 0; w < _walls.Length; w++)
-            {
-                for (int j = 0; j < n; j++)
-                {
-                    int k = w * n + j;
-                    double range = _reach + _units * (Math.Max(_nodeRadius[j], _nodeRadius[j + 1])
-                        + _barrier.Distance);
-                    double distance = SureOfQuick * Math.Abs(
-                        _walls[w].QuickDistance(_x[j], _x[j + 1], range / SureOfQuick, ref _hint[k]));
-                    _isNear[k] = distance <= range;
-                    _room[k] = Math.Min(distance, range);
-                }
             }
         }
 
@@ -310,7 +307,7 @@ namespace Guidewire.Core
             bool wasNear = false;
             for (int j = 0; j <= n; j++)
             {
-                bool isNear = j < n && _isNear[w * n + j];
+                bool isNear = j < n && _near.IsNear(w, j);
                 if (isNear || wasNear)
                 {
                     AddNode(w, j);
@@ -327,7 +324,8 @@ namespace Guidewire.Core
         {
             double radius = _nodeRadius[i];
             _places.Clear();
-            _walls[w].FindPlaces(_x[i], _x[i], _units * (radius + _barrier.Distance), _places);
+            _walls[w].FindPlaces(_x[i], _units * (radius + _barrier.Distance), _near.FeaturesOfNode(w, i),
+                _places);
             Vector3d gradient = Vector3d.Zero;
             Symmetric3 second = default;
             bool mayBeNegative = false;
@@ -373,7 +371,8 @@ namespace Guidewire.Core
             double radius = _elementRadius[j];
             _ridges.Clear();
             ref double nearest = ref _ridgeGap[w * _elementRadius.Length + j];
-            _walls[w].FindRidges(_x[j], _x[j + 1], _units * (radius + _barrier.Distance), _ridges);
+            _walls[w].FindRidges(_x[j], _x[j + 1], _units * (radius + _barrier.Distance), _near.FeaturesOf(w, j),
+                _ridges);
             for (int k = 0; k < _ridges.Count; k++)
             {
                 ref WallRidge ridge = ref _ridges[k];
@@ -403,7 +402,35 @@ namespace Guidewire.Core
                 _own[j] += Symmetric3.Outer(stiffness * r * r, ridge.Normal);
                 _own[j + 1] += Symmetric3.Outer(stiffness * s * s, ridge.Normal);
                 _coupling[j] += Symmetric3.Outer(stiffness * r * s, ridge.Normal);
+                AddBending(j, ridge, _units * ridge.Weight * slope);
+                AddPairs(j, _units * slope, r * ridge.Normal, s * ridge.Normal, ridge.WeightAlongA,
+                    ridge.WeightAlongB);
             }
+        }
+
+        // The force of a ridge times the second derivative of its distance.
+        private void AddBending(int j, in WallRidge ridge, double force)
+        {
+            double s = ridge.Position;
+            double r = 1.0 - s;
+            Symmetric3 h = ridge.Curvature;
+            _ownBending[j] += (force * r * r) * h;
+            _ownBending[j + 1] += (force * s * s) * h;
+            _couplingBending[j] += (force * r * s) * h;
+            Vector3d u = _x[j + 1] - _x[j];
+            Vector3d hu = h.Times(u);
+            double half = 0.5 * Vector3d.Dot(u, hu);
+            AddPairs(j, force, r * hu - ridge.Normal + half * ridge.SlideAlongA,
+                s * hu + ridge.Normal + half * ridge.SlideAlongB, ridge.SlideAlongA, ridge.SlideAlongB);
+        }
+
+        // weight (c d^T + d c^T) of vectors over both nodes of an element.
+        private void AddPairs(int j, double weight, in Vector3d c, in Vector3d cNext, in Vector3d d, in Vector3d dNext)
+        {
+            _ownBending[j] += Symmetric3.Pair(weight, c, d);
+            _ownBending[j + 1] += Symmetric3.Pair(weight, cNext, dNext);
+            _couplingBending[j] += Symmetric3.Pair(0.5 * weight, cNext, d) + Symmetric3.Pair(0.5 * weight, dNext, c);
+            _couplingTurn[j] -= (0.5 * weight) * (Vector3d.Cross(cNext, d) + Vector3d.Cross(dNext, c));
         }
     }
 }

@@ -20,6 +20,39 @@ namespace Guidewire.Core
             return sum;
         }
 
+        /// <summary>The same, term by term.</summary>
+        /// <param name="values">Receives the energy of each term, J.</param>
+        public static double Value(EnergyTerm[] terms, RodShape shape, double[] values, out double magnitude)
+        {
+            for (int k = 0; k < terms.Length; k++)
+            {
+                values[k] = terms[k].Value(shape);
+            }
+            return Sum(values, out magnitude);
+        }
+
+        /// <summary>The same once more, after every term was anchored in the same shape.</summary>
+        public static double AnchoredValue(EnergyTerm[] terms, RodShape shape, double[] values, out double magnitude)
+        {
+            for (int k = 0; k < terms.Length; k++)
+            {
+                values[k] = terms[k].IsAnchored ? terms[k].Value(shape) : values[k];
+            }
+            return Sum(values, out magnitude);
+        }
+
+        private static double Sum(double[] values, out double magnitude)
+        {
+            double sum = 0.0;
+            magnitude = 0.0;
+            foreach (double value in values)
+            {
+                sum += value;
+                magnitude += Math.Abs(value);
+            }
+            return sum;
+        }
+
         /// <summary>Every term counts work from this shape on.</summary>
         public static void Anchor(EnergyTerm[] terms, RodShape shape)
         {

@@ -28,6 +28,9 @@ namespace Guidewire.Core
         /// Only blocks from .. to are touched, the last by what its predecessor leaves on it.</summary>
         public abstract void AddBlocks(RodShape shape, RodBlock[] blocks, RodVector[] gradient, int from, int to);
 
+        /// <summary>Whether <see cref="Anchor"/> changes the value.</summary>
+        public virtual bool IsAnchored => false;
+
         /// <summary>Takes this shape as the point from which work is counted; nothing to do for a true
         /// energy.</summary>
         public virtual void Anchor(RodShape shape)

@@ -23,6 +23,9 @@ namespace Guidewire.Core
         public override bool HasPotential => Force == Vector3d.Zero && !Varies;
 
         /// <inheritdoc/>
+        public override bool IsAnchored => true;
+
+        /// <inheritdoc/>
         public override void Anchor(RodShape shape)
         {
             _anchorPlace = shape.X[shape.ElementCount];

@@ -21,6 +21,9 @@ namespace Guidewire.Core
         public override bool HasPotential => Moment == Vector3d.Zero && !Varies;
 
         /// <inheritdoc/>
+        public override bool IsAnchored => true;
+
+        /// <inheritdoc/>
         public override void Anchor(RodShape shape)
         {
             _anchor = shape.Q[shape.ElementCount - 1];

@@ -142,6 +142,9 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
+        public override bool IsAnchored => true;
+
+        /// <inheritdoc/>
         public override void Anchor(RodShape shape)
         {
             for (int j = 0; j < _anchor.Length; j++)

@@ -57,7 +57,7 @@ namespace Guidewire.Core
             };
             if (terms.Walls != null)
             {
-                _walls = new WallStage(terms, moving);
+                _walls = new WallStage(terms, Inertia, moving);
                 _walls.Newton.Tolerance = tolerance;
                 _walls.Newton.Balance = Solver.Balance;
                 _walls.Newton.MostIterations = mostIterations;

@@ -19,13 +19,18 @@ namespace Guidewire.Core
         private const double Rounding = 1e-13;           // of the energies' magnitudes
         private const double LastPlace = 1.0 / (1L << 52);
         private const double LeastShift = 1e-4;          // of EI/L^2
+        private const double Far = 1e5;                  // from balance: not there after one iteration
+        private const double FreeParts = 5.0;            // L over what is free of a wire that touches walls
         private const int MostCuts = 30;
 
         private readonly MaterialRod _rod;
         private readonly EnergyTerm[] _terms;
+        private readonly BarrierEnergy _barrier;
         private readonly BlockTridiagonal _system;
         private readonly RodVector[] _gradient;
         private readonly RodVector[] _direction;
+        private readonly RodVector[] _forces;
+        private readonly double[] _values;        // of the terms in the shape that was looked at last, J
         private readonly RodShape _trial;
         private readonly double _totalLength;
         private readonly double _mass;
@@ -38,9 +43,12 @@ namespace Guidewire.Core
         {
             _rod = terms.Rod;
             _terms = terms.With(moving);
+            _barrier = terms.Walls!.Barrier;
             _system = new BlockTridiagonal(_rod, terms.Supports);
             _gradient = new RodVector[_system.VectorCount];
             _direction = new RodVector[_system.VectorCount];
+            _forces = new RodVector[_system.VectorCount];
+            _values = new double[_terms.Length];
             _trial = new RodShape(_rod.ElementCount);
             _totalLength = _rod.TotalLength;
             _mass = terms.Mass.Total;
@@ -83,29 +91,32 @@ namespace Guidewire.Core
             double rounding = LastPlace * (shape.X[0].Length + _totalLength)
                 * (10.0 * _axialSpring + _mass / (stageLength * stageLength));
             double left = double.PositiveInfinity;
+            double allowed = 0.0;
             for (int k = 0; k < MostIterations; k++)
             {
-                GradientMeasures measures = _system.Gradient(_terms, shape, _gradient, _direction);
                 double before = left;
-                left = Math.Max(RodVectors.LargestPartialForce(_direction, out double couples),
-                    couples / _totalLength);
-                double allowed = Math.Min(Balance * Math.Max(measures.LargestForce, loads), Tolerance * _bendForce)
-                    + rounding;
-                if (left <= allowed)
+                bool isFar = left > Far * allowed && left <= double.MaxValue;
+                if (!isFar)
                 {
-                    return null;
+                    GradientMeasures measures = _system.Gradient(_terms, shape, _gradient, _direction);
+                    left = Unbalanced();
+                    allowed = Math.Min(Balance * Math.Max(measures.LargestForce, loads),
+                        (_barrier.Touches ? FreeParts * FreeParts : 1.0) * Tolerance * _bendForce) + rounding;
+                    if (left <= allowed)
+                    {
+                        return null;
+                    }
                 }
+                EnergySum.Anchor(_terms, shape);
+                FindDirection(shape);
+                left = isFar ? Unbalanced() : left;
                 if (!(left <= double.MaxValue))
                 {
                     return "a force is not a finite number";
                 }
                 Iterations++;
-                EnergySum.Anchor(_terms, shape);
-                FindDirection(shape);
-                double size = RodStep.Size(_direction, _rod.ElementCount, _totalLength, out double relative);
-                double scale = Math.Min(1.0, Math.Min(LargestTurn / size, LargestRelativeTurn / relative));
-                scale *= EnergySum.LargestShare(_terms, shape, _direction, scale);
-                bool isRounding = !Search(shape, ref scale, size, out bool isHidden);
+                double scale = Scale(shape, out double size);
+                bool isRounding = !Search(shape, k == 0, ref scale, size, out bool isHidden);
                 if (isRounding)
                 {
                     return "no lower energy along the Newton step, " + Text(left) + " N out of balance";
@@ -139,31 +150,63 @@ namespace Guidewire.Core
         private void FindDirection(RodShape shape)
         {
             Factorisations++;
-            if (_system.Factorise(_terms, shape, _gradient, _direction, 0.0) > 0)
+            _barrier.HasBending = true;
+            int negative = _system.Factorise(_terms, shape, _gradient, _direction, 0.0);
+            if (negative > 0)
             {
-                _shift = Math.Max(0.25 * _shift, LeastShift * _bendForce);
+                _barrier.HasBending = false;
                 Factorisations++;
-                while (_system.Factorise(_terms, shape, _gradient, _direction, _shift) > 0
-                    && _shift <= double.MaxValue)
-                {
-                    _shift *= 4.0;
-                    Factorisations++;
-                }
+                negative = _system.Factorise(_terms, shape, _gradient, _direction, 0.0);
+            }
+            if (negative == 0)
+            {
+                _system.Back(_direction);
+                return;
+            }
+            Shift(shape, 0.25);
+        }
+
+        // The largest force on a piece of the rod from its start to any node, or the sum of the couples over L, N.
+        private double Unbalanced()
+        {
+            Array.Copy(_gradient, _forces, _forces.Length);
+            _system.Project(_forces);
+            double force = RodVectors.LargestPartialForce(_forces, out double couples);
+            return Math.Max(force, couples / _totalLength);
+        }
+
+        private void Shift(RodShape shape, double factor)
+        {
+            _shift = Math.Max(factor * _shift, LeastShift * _bendForce);
+            Factorisations++;
+            while (_system.Factorise(_terms, shape, _gradient, _direction, _shift) > 0 && _shift <= double.MaxValue)
+            {
+                _shift *= 4.0;
+                Factorisations++;
             }
             _system.Back(_direction);
         }
 
+        // How much of the direction may be tried.
+        private double Scale(RodShape shape, out double size)
+        {
+            size = RodStep.Size(_direction, _rod.ElementCount, _totalLength, out double relative);
+            double scale = Math.Min(1.0, Math.Min(LargestTurn / size, LargestRelativeTurn / relative));
+            return scale * EnergySum.LargestShare(_terms, shape, _direction, scale);
+        }
+
         // Cuts the step until the energy falls enough; the accepted shape is left in the trial.
-        private bool Search(RodShape shape, ref double scale, double size, out bool isHidden)
+        private bool Search(RodShape shape, bool isFirst, ref double scale, double size, out bool isHidden)
         {
             double slope = RodVectors.Dot(_gradient, _direction);
-            double start = EnergySum.Value(_terms, shape, out double magnitude);
+            double start = isFirst ? EnergySum.Value(_terms, shape, _values, out double magnitude)
+                : EnergySum.AnchoredValue(_terms, shape, _values, out magnitude);
             double rounding = Rounding * magnitude;
             isHidden = -slope < 1e3 * rounding && size < 1e-2;
             for (int cut = 0; cut < MostCuts; cut++)
             {
                 RodStep.ApplyStraight(shape, _direction, scale, _trial);
-                double value = EnergySum.Value(_terms, _trial, out _);
+                double value = EnergySum.Value(_terms, _trial, _values, out _);
                 if (value <= start + SufficientDecrease * scale * slope + rounding
                     || (isHidden && value <= double.MaxValue))
                 {

@@ -4,21 +4,21 @@ namespace Guidewire.Core
     /// the walls let it, to the minimum of the stage's energy.</summary>
     internal sealed class WallStage
     {
-        private const double OfGaps = 0.5;  // of the way to the prediction that walls leave
-
         private const int Relags = 1;       // of the pushes that friction goes with
 
         private readonly RodTerms _terms;
         private readonly RodSupports _supports;
+        private readonly WallPrediction _prediction;
         private readonly RodShape _predicted;
         private readonly RodVector[] _direction;
 
         /// <summary>For a rod under terms that hold walls.</summary>
-        public WallStage(RodTerms terms, EnergyTerm[] moving)
+        public WallStage(RodTerms terms, InertiaEnergy inertia, EnergyTerm[] moving)
         {
             int n = terms.Rod.ElementCount;
             _terms = terms;
             _supports = terms.Supports;
+            _prediction = new WallPrediction(terms, inertia);
             _predicted = new RodShape(n);
             _direction = new RodVector[n + 2];
             Newton = new BarrierNewton(terms, moving);
@@ -43,15 +43,23 @@ namespace Guidewire.Core
             spring.Place = start;
             _terms.Walls.Friction?.Lag(shape);
             PlaceEnd(shape, end);
-            _predicted.CopyFrom(shape);
-            RodStep.PlaceElements(_supports, _predicted, orientations, start - lag, end);
-            SetDirection(shape);
-            double share = Newton.ShareOf(shape, _direction);
-            if (!(share > 0.0))
+            int parts = _prediction.Begin(shape, start - lag);
+            for (int k = 1; k <= parts; k++)
             {
-                return "the wire's surface is at a wall at the start of the step";
+                _predicted.CopyFrom(shape);
+                _prediction.Set((double)k / parts, orientations, shape, _predicted);
+                SetDirection(shape);
+                double share = Newton.ShareOf(shape, _direction);
+                if (!(share > 0.0) && k == 1)
+                {
+                    return "the wire's surface is at a wall at the start of the step";
+                }
+                RodStep.ApplyStraight(shape, _direction, share, shape);
+                if (share < 1.0)
+                {
+                    break;
+                }
             }
-            RodStep.ApplyStraight(shape, _direction, share < 1.0 ? OfGaps * share : 1.0, shape);
             string? failure = Newton.Solve(shape, stageLength, loads);
             for (int k = 0; k < Relags && failure == null && _terms.Walls.Friction != null; k++)
             {

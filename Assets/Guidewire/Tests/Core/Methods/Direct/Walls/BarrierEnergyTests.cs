@@ -94,6 +94,102 @@ namespace Guidewire.Core.Tests
             Assert.That(tried, Is.GreaterThanOrEqualTo(5), "too few wires touch the wall");
         }
 
+        [TestCase("wavy tube")]
+        [TestCase("bumpy ball")]
+        public void SecondDerivative_OfARidgesDistance_IsItsDifference(string name)
+        {
+            const double step = 1e-4;
+            ContactShape wall = TestShapes.Make(name);
+            var random = new RandomGeometry(77);
+            int tried = 0;
+            for (int i = 0; i < 3000 && tried < 50; i++)
+            {
+                Vector3d a = random.Point();
+                Vector3d b = a + random.Point();
+                Vector3d da = random.Direction();
+                Vector3d db = random.Direction();
+                if (RidgesOf(wall, a, b).Count == 1 && RidgesOf(wall, a, b)[0].SlideAlongA != Vector3d.Zero
+                    && RidgesOf(wall, a, b)[0].Weight > 0.05)
+                {
+                    WallRidge ridge = RidgesOf(wall, a, b)[0];
+                    StructList<WallRidge> above = RidgesOf(wall, a + step * da, b + step * db);
+                    StructList<WallRidge> below = RidgesOf(wall, a - step * da, b - step * db);
+                    if (above.Count != 1 || below.Count != 1)
+                    {
+                        continue;
+                    }
+                    double s = ridge.Position;
+                    Vector3d h = ridge.Curvature.Times(b - a);
+                    Vector3d move = (1.0 - s) * da + s * db;
+                    double slide = Vector3d.Dot(ridge.SlideAlongA, da) + Vector3d.Dot(ridge.SlideAlongB, db);
+                    double exact = Vector3d.Dot(move, ridge.Curvature.Times(move))
+                        + 2.0 * slide * (Vector3d.Dot(h, move) + Vector3d.Dot(ridge.Normal, db - da))
+                        + slide * slide * Vector3d.Dot(b - a, h);
+                    double difference = (above[0].Distance - 2.0 * ridge.Distance + below[0].Distance)
+                        / (step * step);
+                    Assert.That(exact, Is.EqualTo(difference).Within(0.02 * Math.Abs(exact) + 1e-3), "case " + i);
+                    tried++;
+                }
+            }
+            Assert.That(tried, Is.GreaterThanOrEqualTo(20), "too few ridges");
+        }
+
+        [Test]
+        public void Features_ChangeNoAnswer([ValueSource(typeof(TestShapes), nameof(TestShapes.Names))] string name)
+        {
+            const double range = 0.3;
+            ContactShape wall = TestShapes.Make(name);
+            var random = new RandomGeometry(78);
+            for (int i = 0; i < 500; i++)
+            {
+                Vector3d a = random.Point();
+                Vector3d b = a + 0.5 * random.Point();
+                double reach = random.Number(0.0, 0.5);
+                var features = new StructList<int>(8);
+                int hint = -1;
+                wall.FindFeatures(a, b, range + reach, reach, ref hint, features);
+                var all = new FeatureRange(features, 0, features.Count);
+                a += reach * random.Direction();
+                b += reach * random.Direction();
+                if (!wall.Contains(a) || !wall.Contains(b))
+                {
+                    continue;
+                }
+                var places = new StructList<WallPlace>(8);
+                var exact = new StructList<WallPlace>(8);
+                wall.FindPlaces(a, range, all, places);
+                wall.FindPlaces(a, a, range, exact);
+                Assert.That(places.Count, Is.EqualTo(exact.Count), "case " + i);
+                double sum = 0.0;
+                for (int k = 0; k < places.Count; k++)
+                {
+                    sum += places[k].Weight * places[k].Contact.Distance
+                        - exact[k].Weight * exact[k].Contact.Distance;
+                }
+                Assert.That(sum, Is.EqualTo(0.0).Within(1e-12), "case " + i);
+                var ridges = new StructList<WallRidge>(8);
+                wall.FindRidges(a, b, range, all, ridges);
+                StructList<WallRidge> found = RidgesOf(wall, a, b);
+                sum = 0.0;
+                for (int k = 0; k < ridges.Count; k++)
+                {
+                    sum += ridges[k].Distance <= range && ridges[k].Distance > 0.0 ? ridges[k].Weight : 0.0;
+                }
+                for (int k = 0; k < found.Count; k++)
+                {
+                    sum -= found[k].Distance <= range && found[k].Distance > 0.0 ? found[k].Weight : 0.0;
+                }
+                Assert.That(sum, Is.EqualTo(0.0).Within(1e-12), "case " + i);
+            }
+        }
+
+        private static StructList<WallRidge> RidgesOf(ContactShape wall, in Vector3d a, in Vector3d b)
+        {
+            var ridges = new StructList<WallRidge>(8);
+            wall.FindRidges(a, b, 0.3, ridges);
+            return ridges;
+        }
+
         [Test]
         public void LargestShare_LeavesEveryGapOpen([ValueSource(typeof(TestShapes), nameof(TestShapes.Names))]
             string name)

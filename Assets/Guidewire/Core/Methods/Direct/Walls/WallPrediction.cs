@@ -1,0 +1,161 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>Where a wire between walls would come to in a stage: it goes on along itself as far as its first node
+    /// does, changes its shape as in the time before, and is pushed back where it would come too near a wall.</summary>
+    /// <remarks>With c(s) the curve through the nodes and p the way along it, x_i -> c(s_i + p) + x_i - c'(s_i + p'),
+    /// where ' was a stage before, x' = 2 x - x~ with x~ where the nodes would go without forces: where p is 0, that is
+    /// free flight, and a wire that slides along its walls keeps its shape. Free flight alone would leave the curve by
+    /// p^2/2 of its curvature, and lengthen elements that turn. Each element turns with its chord, and about it by its
+    /// spin.</remarks>
+    internal sealed class WallPrediction
+    {
+        private const int MostParts = 16;
+        private const double OfElement = 0.5;
+        private readonly RodSupports _supports;
+        private readonly WallPush _push;
+        private readonly InertiaEnergy _inertia;
+        private readonly Vector3d[] _past;       // x'
+        private readonly Vector3d[] _before;     // x
+        private readonly Vector3d[] _change;     // x - c'(s + p')
+        private readonly Vector3d[] _place;
+        private readonly double[] _at;           // s_i, m
+        private readonly double _shortest;       // element, m
+        private Vector3d _start;
+        private bool _isHeld;
+        private double _way;                     // p, m
+
+        /// <summary>For a rod under terms that hold walls.</summary>
+        public WallPrediction(RodTerms terms, InertiaEnergy inertia)
+        {
+            _supports = terms.Supports;
+            _push = new WallPush(terms.Walls!.Barrier);
+            _inertia = inertia;
+            _past = new Vector3d[terms.Rod.ElementCount + 1];
+            _before = new Vector3d[_past.Length];
+            _change = new Vector3d[_past.Length];
+            _place = new Vector3d[_past.Length];
+            _at = new double[_past.Length];
+            _shortest = double.PositiveInfinity;
+            for (int j = 0; j < terms.Rod.ElementCount; j++)
+            {
+                _at[j + 1] = _at[j] + terms.Rod.Length[j];
+                _shortest = Math.Min(_shortest, terms.Rod.Length[j]);
+            }
+        }
+
+        /// <summary>Looks at a shape from which predictions set out.</summary>
+        /// <param name="shape">Where the wire is.</param>
+        /// <param name="start">Where node 0 is to be, m.</param>
+        /// <returns>In how many parts the way should be taken: in each a node goes less than half an element along the
+        /// curve, so that straight ways of the nodes do not leave it by much.</returns>
+        public int Begin(RodShape shape, in Vector3d start)
+        {
+            int n = shape.ElementCount;
+            for (int i = 0; i <= n; i++)
+            {
+                _before[i] = shape.X[i];
+                _past[i] = 2.0 * shape.X[i] - _inertia.FreePositions[i];
+            }
+            Vector3d along = shape.Q[0].Director3;
+            _isHeld = _supports.Proximal != ProximalEnd.Free;
+            _start = start;
+            _way = Vector3d.Dot((_isHeld ? start : _inertia.FreePositions[0]) - shape.X[0], along);
+            int at = 0;
+            double wayBefore = Vector3d.Dot(shape.X[0] - _past[0], along);
+            for (int i = 0; i <= n; i++)
+            {
+                _change[i] = shape.X[i] - PlaceOn(_past, _at[i] + wayBefore, ref at);
+            }
+            return (int)Math.Min(MostParts, Math.Ceiling(Math.Max(1.0, Math.Abs(_way) / (OfElement * _shortest))));
+        }
+
+        /// <summary>Sets the prediction.</summary>
+        /// <param name="share">Of the stage's time.</param>
+        /// <param name="orientations">The elements' by their spins, of which the turn about the element counts.</param>
+        /// <param name="shape">Where the wire is now.</param>
+        /// <param name="predicted">Receives it; its last node, where that is held, and its frames are kept.</param>
+        public void Set(double share, Quaterniond[] orientations, RodShape shape, RodShape predicted)
+        {
+            int n = shape.ElementCount;
+            int last = _supports.Distal == DistalEnd.Free ? n : n - 1;
+            int at = 0;
+            for (int i = 0; i <= last; i++)
+            {
+                _place[i] = PlaceOn(_before, _at[i] + share * _way, ref at) + share * _change[i];
+            }
+            predicted.X[0] = _isHeld ? Vector3d.Lerp(_before[0], _start, share) : _place[0];
+            for (int i = 1; i <= last; i++)
+            {
+                double length = Vector3d.Distance(_before[i - 1], _before[i]);
+                predicted.X[i] = predicted.X[i - 1] + length * Vector3d.Normalize(_place[i] - _place[i - 1]);
+            }
+            _push.Apply(shape, predicted, last);
+            for (int j = 0; j < n; j++)
+            {
+                Vector3d before = shape.X[j + 1] - shape.X[j];
+                Vector3d after = predicted.X[j + 1] - predicted.X[j];
+                Vector3d spin = RotationVector.Log(shape.Q[j].Conjugate * orientations[j]);
+                predicted.Q[j] = Between(before, after) * shape.Q[j]
+                    * RotationVector.Exp(new Vector3d(0.0, 0.0, spin.Z));
+            }
+        }
+
+        // The place at s on the curve through nodes, from the element on that was looked at last: cubic between two of
+        // them, with the slopes of parabolas through three; behind the ends on the parabola there, at most an element
+        // or two.
+        private Vector3d PlaceOn(Vector3d[] x, double s, ref int j)
+        {
+            int n = x.Length - 1;
+            while (j + 1 < n && s > _at[j + 1])
+            {
+                j++;
+            }
+            while (j > 0 && s < _at[j])
+            {
+                j--;
+            }
+            double length = _at[j + 1] - _at[j];
+            double u = (s - _at[j]) / length;
+            Vector3d chord = x[j + 1] - x[j];
+            Vector3d first = length * SlopeAt(x, j);
+            Vector3d second = length * SlopeAt(x, j + 1);
+            if (u < 0.0)
+            {
+                return x[j] + u * first;
+            }
+            if (u > 1.0)
+            {
+                double over = u - 1.0;
+                return x[j + 1] + over * second + Math.Min(over * over, 0.5 * over) * (second - chord);
+            }
+            return x[j] + u * chord + (u * (1.0 - u)) * ((1.0 - u) * (first - chord) - u * (second - chord));
+        }
+
+        private Vector3d SlopeAt(Vector3d[] x, int i)
+        {
+            int n = x.Length - 1;
+            if (n == 1)
+            {
+                return (x[1] - x[0]) / (_at[1] - _at[0]);
+            }
+            int middle = Math.Min(Math.Max(i, 1), n - 1);
+            double before = _at[middle] - _at[middle - 1];
+            double after = _at[middle + 1] - _at[middle];
+            Vector3d one = (x[middle] - x[middle - 1]) / before;
+            Vector3d two = (x[middle + 1] - x[middle]) / after;
+            Vector3d bend = (two - one) / (before + after);
+            return one + (2.0 * _at[i] - _at[middle] - _at[middle - 1]) * bend;
+        }
+
+        // The shortest turn from one direction to another.
+        private static Quaterniond Between(in Vector3d from, in Vector3d to)
+        {
+            Vector3d across = Vector3d.Cross(from, to);
+            double along = Vector3d.Dot(from, to) + from.Length * to.Length;
+            return along > 0.0 ? Quaterniond.Normalize(new Quaterniond(across.X, across.Y, across.Z, along))
+                : Quaterniond.Identity;
+        }
+    }
+}
