@@ -10,8 +10,6 @@ namespace Guidewire.Core
         // A step in which a disturbance would grow by much (a thrust beyond buckling) may end in any shape.
         private const string Shorter = "; in a motion a shorter timeStep, or a timeStepError, may do";
 
-        private const double OddStretch = 0.01;    // of the length, which no wire in a vessel reaches
-
         private readonly MaterialScene _scene;
         private readonly RodDynamics _dynamics;
         private readonly MaterialDrive _drive;
@@ -68,7 +66,7 @@ namespace Guidewire.Core
             {
                 Failure = "the step to t = " + _dynamics.Time.ToString("G6",
                     CultureInfo.InvariantCulture) + " s has no solution: "
-                    + (_scene.Joints.FindTurned(_dynamics.Shape, _dynamics.Time) ?? failure) + Shorter;
+                    + (_scene.Joints.FindTurned(_dynamics.Shape, _dynamics.Time) ?? failure) + Remedy;
                 return;
             }
             _ends.Count(_dynamics.Shape, _dynamics.ProximalTurn, _dynamics.DistalTurn, _timeStep);
@@ -79,7 +77,7 @@ namespace Guidewire.Core
                 return;
             }
             string? lost = _scene.Joints.FindLost(_dynamics.Shape, _dynamics.Time);
-            Failure = lost == null ? null : lost + Shorter;
+            Failure = lost == null ? null : lost + Remedy;
             SteadyState = _rest.FindRest(_dynamics.Time);
             PredictionError = Vector3d.Distance(free, _dynamics.Shape.X[last]) / _scene.Metres;
             if (Contacts != null)
@@ -91,6 +89,15 @@ namespace Guidewire.Core
             _scene.Write(state, _dynamics.Shape, _dynamics.Velocities, _dynamics.Spins);
         }
 
+        private string Remedy
+        {
+            get
+            {
+                string? advice = _dynamics.Terms.Walls?.Advice;
+                return advice == null ? Shorter : "; " + advice;
+            }
+        }
+
         /// <inheritdoc/>
         public override StressRecord? Stress()
         {
@@ -99,31 +106,6 @@ namespace Guidewire.Core
             terms.SetTime(_scene.Schedule, _dynamics.Time);
             _stress.Take(terms, _dynamics.Shape, terms.Mass.KineticEnergy(_dynamics.Velocities, _dynamics.Spins));
             return _stress;
-        }
-
-        /// <summary>Between walls a drive can press a wire together as no wire of metal allows.</summary>
-        public override string? AccuracyWarning
-        {
-            get
-            {
-                double change = LengthOverRest - 1.0;
-                return _walls == null || Math.Abs(change) <= OddStretch ? null : string.Format(
-                    CultureInfo.InvariantCulture, "the wire is {0:0.0} % {1} than at rest", 100.0 * Math.Abs(change),
-                    change < 0.0 ? "shorter" : "longer");
-            }
-        }
-
-        private double LengthOverRest
-        {
-            get
-            {
-                double length = 0.0;
-                for (int j = 0; j < _dynamics.Shape.ElementCount; j++)
-                {
-                    length += Vector3d.Distance(_dynamics.Shape.X[j], _dynamics.Shape.X[j + 1]);
-                }
-                return length / _scene.Rod.TotalLength;
-            }
         }
 
         /// <inheritdoc/>
