@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
@@ -10,17 +11,19 @@ namespace Guidewire.Core
         private readonly TimeStepper _stepper;
         private readonly StopRule _stopRule;
         private readonly StepClock _clock;
+        private readonly RunWarnings _warnings;
         private readonly RodStart _start;    // a place where the wire may be built, which not every later one is
         private string? _ownReason;
         private string? _warning;
 
-        private Simulation(MethodTraits method, MethodStart start, MethodParameters parameters)
+        private Simulation(MethodTraits method, MethodStart start, SimulationParameters parameters)
         {
+            _warnings = new RunWarnings(parameters);
             _hasMaterial = method.TakesMaterial;
             State = start.State;
             _stepper = start.Stepper;
-            _stopRule = new StopRule(parameters.MaxSimulationSteps);
-            _clock = new StepClock(parameters.TimeStep);
+            _stopRule = new StopRule(parameters.Method.MaxSimulationSteps);
+            _clock = new StepClock(parameters.Method.TimeStep);
             _start = new RodStart((Vector3d[])State.Positions.Clone(), (Quaterniond[])State.Orientations.Clone(),
                 (Vector3d[])State.Velocities.Clone(), (Vector3d[])State.AngularVelocities.Clone());
         }
@@ -44,6 +47,10 @@ namespace Guidewire.Core
         /// runs.</summary>
         public string Reason => (_ownReason ?? _stopRule.Reason) + (_warning == null ? "" : ", but " + _warning);
 
+        /// <summary>What is not as it should be at the run's end, one line each; empty while it runs.</summary>
+        public IReadOnlyList<string> Warnings => Outcome == Outcome.Running ? Array.Empty<string>()
+            : _warnings.Of(State, Contacts);
+
         /// <summary>First step of the steady state, or -1.</summary>
         public int SteadyStateStep => _stopRule.SteadyStateStep;
 
@@ -63,7 +70,7 @@ namespace Guidewire.Core
             }
             MethodTraits method = MethodTable.Of(parameters.Method.Solver);
             MethodStart start = method.Build(parameters, new Scene(parameters));
-            var simulation = new Simulation(method, start, parameters.Method);
+            var simulation = new Simulation(method, start, parameters);
             if (start.Failure != null)
             {
                 simulation.End(Outcome.Failed, start.Failure);

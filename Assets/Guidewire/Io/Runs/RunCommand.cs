@@ -51,11 +51,9 @@ namespace Guidewire.Io
             };
             Folder = run.Folder;
             MaxSteps = handler.Values.Simulation.Method.MaxSimulationSteps;
-            foreach (string warning in handler.Warnings)
-            {
-                Error("warning: " + warning);
-            }
+            Warn(handler.Warnings);
             RunResult result = run.Execute(line.Force ? Existing.Replace : Existing.Keep);
+            Warn(result.Warnings);
             string ending = result.Word + ": " + result.Reason;
             if (result.KeptEarlier)
             {
@@ -75,6 +73,14 @@ namespace Guidewire.Io
                 Say(ending + (result.KeptEarlier ? "" : " -> " + run.Folder));
             }
             return ExitCodes.Of(result.Outcome);
+        }
+
+        private void Warn(IReadOnlyList<string> warnings)
+        {
+            foreach (string warning in warnings)
+            {
+                Error("warning: " + warning);
+            }
         }
     }
 }

@@ -1,3 +1,5 @@
+using System;
+using System.Collections.Generic;
 using Guidewire.Core;
 
 namespace Guidewire.Io
@@ -21,6 +23,9 @@ namespace Guidewire.Io
 
         /// <summary>Why, in one line.</summary>
         public string Reason { get; }
+
+        /// <summary>What is not as it should be at its end, one line each.</summary>
+        public IReadOnlyList<string> Warnings { get; internal set; } = Array.Empty<string>();
 
         /// <summary>True when an earlier result of the same parameters stood in for it.</summary>
         public bool Reused { get; }

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Linq;
 using System.Runtime.InteropServices;
 using System.Security.Cryptography;
 using System.Text;
@@ -55,7 +56,7 @@ namespace Guidewire.Io
                     simulation.Contacts?.WallForces ?? Array.Empty<Vector3d>(), force => Vector(force))),
                 ["timed"] = repeat.HasValue,
                 ["repeat"] = repeat,
-                ["warnings"] = new JArray(handler.Warnings),
+                ["warnings"] = new JArray(handler.Warnings.Concat(simulation.Warnings)),
                 ["ignored"] = new JArray(handler.Ignored),
                 ["notes"] = new JArray(notes),
                 ["log"] = log,

@@ -81,7 +81,10 @@ namespace Guidewire.Io
                 Progress?.Invoke(simulation, results.Elapsed);
             }
             results.Finish(simulation);
-            return new RunResult(simulation.Outcome, simulation.Reason, false, results.KeptEarlier);
+            return new RunResult(simulation.Outcome, simulation.Reason, false, results.KeptEarlier)
+            {
+                Warnings = simulation.Warnings,
+            };
         }
     }
 }

@@ -9,8 +9,11 @@ namespace Guidewire.Core
         /// <summary>Those of a rod.</summary>
         /// <param name="friction">Null where no wall rubs.</param>
         /// <param name="holdsStart">Whether a support holds node 0.</param>
-        public WallTerms(BarrierEnergy barrier, FrictionEnergy? friction, SupportSpring spring, bool holdsStart)
+        /// <param name="advice">See <see cref="Advice"/>.</param>
+        public WallTerms(BarrierEnergy barrier, FrictionEnergy? friction, SupportSpring spring, bool holdsStart,
+            string? advice = null)
         {
+            Advice = advice;
             Barrier = barrier;
             Friction = friction;
             Spring = spring;
@@ -26,6 +29,9 @@ namespace Guidewire.Core
             }
             All = all.ToArray();
         }
+
+        /// <summary>What to change about the barrier where a step has no solution, in one phrase, or null.</summary>
+        public string? Advice { get; }
 
         /// <summary>Contact.</summary>
         public BarrierEnergy Barrier { get; }

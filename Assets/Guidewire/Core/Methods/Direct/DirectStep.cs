@@ -10,8 +10,6 @@ namespace Guidewire.Core
         // A step in which a disturbance would grow by much (a thrust beyond buckling) may end in any shape.
         private const string Shorter = "; in a motion a shorter timeStep, or a timeStepError, may do";
 
-        private const double OddStretch = 0.01;    // of the length, which no wire in a vessel reaches
-
         private readonly MaterialScene _scene;
         private readonly RodDynamics _dynamics;
         private readonly MaterialDrive _drive;
@@ -84,7 +82,7 @@ namespace Guidewire.Core
             {
                 Failure = "the step to t = " + _dynamics.Time.ToString("G6",
                     CultureInfo.InvariantCulture) + " s has no solution: "
-                    + (_scene.Joints.FindTurned(_dynamics.Shape, _dynamics.Time) ?? failure) + Shorter;
+                    + (_scene.Joints.FindTurned(_dynamics.Shape, _dynamics.Time) ?? failure) + Remedy;
                 return false;
             }
             _ends.Count(_dynamics.Shape, HubTurn, _dynamics.DistalTurn, _timeStep);
@@ -95,7 +93,7 @@ namespace Guidewire.Core
                 return false;
             }
             string? lost = _scene.Joints.FindLost(_dynamics.Shape, _dynamics.Time);
-            Failure = lost == null ? null : lost + Shorter;
+            Failure = lost == null ? null : lost + Remedy;
             SteadyState = _rest.FindRest(_dynamics.Time);
             PredictionError = Vector3d.Distance(free, _dynamics.Shape.X[last]) / _scene.Metres;
             if (Contacts != null)
@@ -113,6 +111,15 @@ namespace Guidewire.Core
 
         // A frame in a sheath is held where the wire is; a spring beyond it turns with the hub.
         private double HubTurn => _dynamics.ProximalTurn + _scene.Schedule.HubAhead(_dynamics.Time);
+
+        private string Remedy
+        {
+            get
+            {
+                string? advice = _dynamics.Terms.Walls?.Advice;
+                return advice == null ? Shorter : "; " + advice;
+            }
+        }
 
         /// <inheritdoc/>
         public override StressRecord? Stress()
@@ -138,35 +145,11 @@ namespace Guidewire.Core
             return _hub;
         }
 
-        /// <summary>Between walls a drive can press a wire together as no wire of metal allows, and a hub that gives
-        /// way does less than it is asked.</summary>
-        public override string? AccuracyWarning
-        {
-            get
-            {
-                double change = LengthOverRest - 1.0;
-                string? odd = _walls == null || Math.Abs(change) <= OddStretch ? null : string.Format(
-                    CultureInfo.InvariantCulture, "the wire is {0:0.0} % {1} than at rest", 100.0 * Math.Abs(change),
-                    change < 0.0 ? "shorter" : "longer");
-                string? slip = _drive.Slip == 0.0 ? null : string.Format(CultureInfo.InvariantCulture,
-                    "the hub did not make {0:G3} m of its way: it gave way at hubForceLimit, or the wire in its sheath"
-                    + " came to an end", _drive.Slip);
-                return odd == null ? slip : slip == null ? odd : odd + ", and " + slip;
-            }
-        }
-
-        private double LengthOverRest
-        {
-            get
-            {
-                double length = 0.0;
-                for (int j = 0; j < _dynamics.Shape.ElementCount; j++)
-                {
-                    length += Vector3d.Distance(_dynamics.Shape.X[j], _dynamics.Shape.X[j + 1]);
-                }
-                return length / _scene.Rod.TotalLength;
-            }
-        }
+        /// <summary>A hub that gives way does less than it is asked.</summary>
+        public override string? AccuracyWarning => _drive.Slip == 0.0 ? null : string.Format(
+            CultureInfo.InvariantCulture,
+            "the hub did not make {0:G3} m of its way: it gave way at hubForceLimit, or the wire in its sheath came to"
+            + " an end", _drive.Slip);
 
         /// <inheritdoc/>
         public override SolverReport? Report()

@@ -1,4 +1,5 @@
 using System;
+using System.Globalization;
 
 namespace Guidewire.Core
 {
@@ -19,6 +20,35 @@ namespace Guidewire.Core
         private const double LeastOfRadius = 0.01;
         private const double OfClearance = 0.5;
         private const double OverBendStiffness = 10.0;
+        private const double LeastOfRule = 0.01;    // EI/l^3/10, with which gaps close to nothing
+        private const double MostOfRule = 1e8;
+        private const double MostDistance = 20.0;   // times the rule's
+
+        /// <summary>What to change about a barrier with which a step has no solution, in one phrase, or null where the
+        /// barrier is as good as that of the rule.</summary>
+        /// <param name="given">That at hand.</param>
+        /// <param name="ruled">That of the rule.</param>
+        public static string? Advice(in Barrier given, in Barrier ruled)
+        {
+            if (given.Stiffness < LeastOfRule * ruled.Stiffness)
+            {
+                return string.Format(CultureInfo.InvariantCulture, "contactStiffness = {0:G3} N/m is too soft for the"
+                    + " wire, {1:G3} N/m is by rule", given.Stiffness, ruled.Stiffness);
+            }
+            if (given.Stiffness > MostOfRule * ruled.Stiffness)
+            {
+                return string.Format(CultureInfo.InvariantCulture, "contactStiffness = {0:G3} N/m is beyond what"
+                    + " numbers resolve beside the wire's, {1:G3} N/m is by rule", given.Stiffness, ruled.Stiffness);
+            }
+            if (given.Distance < LeastOfRule * ruled.Distance)
+            {
+                return string.Format(CultureInfo.InvariantCulture, "contactDistance = {0:G3} m is too short for the"
+                    + " wire and its motion in a step, {1:G3} m is by rule", given.Distance, ruled.Distance);
+            }
+            return given.Distance <= MostDistance * ruled.Distance ? null : string.Format(
+                CultureInfo.InvariantCulture, "contactDistance = {0:G3} m is too long for the wire and its walls,"
+                + " {1:G3} m is by rule", given.Distance, ruled.Distance);
+        }
 
         /// <summary>The barrier of a rod between walls.</summary>
         /// <param name="contact">What is not 0 there counts.</param>

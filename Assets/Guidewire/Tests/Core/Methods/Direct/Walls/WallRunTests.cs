@@ -43,8 +43,8 @@ namespace Guidewire.Core.Tests
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
             double change = (run.State.Positions[30].Z - run.State.Positions[0].Z) / 300.0 - 1.0;
             Assert.That(change, Is.LessThan(-0.02));
-            Assert.That(run.Reason, Does.EndWith(string.Format(System.Globalization.CultureInfo.InvariantCulture,
-                ", but the wire is {0:0.0} % shorter than at rest", -100.0 * change)));
+            Assert.That(run.Warnings, Does.Contain(string.Format(System.Globalization.CultureInfo.InvariantCulture,
+                "the wire is {0:0.0} % shorter than at rest", -100.0 * change)));
         }
 
         [Test]
@@ -171,6 +171,31 @@ namespace Guidewire.Core.Tests
             Assert.That(error!.Message, Does.Contain("rod element 0"));
             Assert.That(error.Message, Does.Contain("radius 3.2 units, reaches 0.2 units into the wall"));
             Assert.That(error.Message, Does.Contain("the vessel's radius is 3 units where it is narrowest"));
+        }
+
+        [TestCase(1e-300, 0.0, "contactStiffness = 1E-300 N/m is too soft")]
+        [TestCase(1e300, 0.0, "contactStiffness = 1E+300 N/m is beyond")]
+        [TestCase(0.0, 1e-12, "contactDistance = 1E-12 m is too short")]
+        [TestCase(0.0, 1.0, "contactDistance = 1 m is too long")]
+        public void BarrierThatCannotWork_IsNamedWhereAStepHasNoSolution(double stiffness, double distance,
+            string named)
+        {
+            SimulationParameters parameters = WallScenes.Arch(30, 0.01, 50.0, 100.0);
+            parameters.Contact.ContactStiffness = stiffness;
+            parameters.Contact.ContactDistance = distance;
+            Simulation run = Wires.Run(parameters);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Failed), run.Reason);
+            Assert.That(run.Reason, Does.Contain(named));
+        }
+
+        [Test]
+        public void DriveThatFallsShort_IsWarnedOf()
+        {
+            Simulation run = Wires.Run(WallScenes.Arch(30, 0.01, 5000.0, 400.0));
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Assert.That(run.Contacts!.DriveShortfall, Is.GreaterThan(1e-3 * run.Contacts.DriveAsked));
+            Assert.That(run.Warnings, Has.Some.StartWith("the drive fell short: of 400 units"));
+            Assert.That(Wires.Run(WallScenes.Arch(30, 0.01, 50.0, 10.0)).Warnings, Is.Empty);
         }
 
         [Test]

@@ -1,0 +1,68 @@
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+
+namespace Guidewire.Core
+{
+    /// <summary>What is not as it should be at the end of a run, whatever the method: wire beyond walls, a wire of
+    /// another length, a drive that did not get its way.</summary>
+    internal sealed class RunWarnings
+    {
+        private const double OddStretch = 0.01;     // of the length, which no wire of metal survives
+        private const double OddShortfall = 1e-3;   // of what the drive asked
+
+        private readonly double _length;            // at rest, units
+        private readonly double _depth;             // that contact allows, units
+
+        /// <summary>For runs of these parameters.</summary>
+        public RunWarnings(SimulationParameters parameters)
+        {
+            _length = parameters.Scene.GuidewireLength;
+            // Gains let a wall into the wire up to its core line.
+            _depth = MethodTable.Of(parameters.Method.Solver).TakesMaterial ? 0.0 : parameters.Contact.SphereRadius;
+        }
+
+        /// <summary>One line for each.</summary>
+        /// <param name="contacts">Null where there are no walls.</param>
+        public IReadOnlyList<string> Of(RodState state, ContactRecord? contacts)
+        {
+            var lines = new List<string>();
+            if (contacts != null && contacts.Passages > 0)
+            {
+                lines.Add(Text("{0} points of the wire passed a wall", contacts.Passages));
+            }
+            if (contacts != null && contacts.MaxPenetration > _depth)
+            {
+                lines.Add(Text("a wall reached {0:G3} units into the wire, {1:G3} units are allowed",
+                    contacts.MaxPenetration, _depth));
+            }
+            double change = LengthOf(state) / _length - 1.0;
+            if (Math.Abs(change) > OddStretch)
+            {
+                lines.Add(Text("the wire is {0:0.0} % {1} than at rest", 100.0 * Math.Abs(change),
+                    change < 0.0 ? "shorter" : "longer"));
+            }
+            if (contacts != null && contacts.DriveShortfall > OddShortfall * contacts.DriveAsked)
+            {
+                lines.Add(Text("the drive fell short: of {0:G4} units that it asked of the first sphere {1:G3} are"
+                    + " missing", contacts.DriveAsked, contacts.DriveShortfall));
+            }
+            return lines;
+        }
+
+        private static double LengthOf(RodState state)
+        {
+            double length = 0.0;
+            for (int i = 1; i < state.SphereCount; i++)
+            {
+                length += Vector3d.Distance(state.Positions[i - 1], state.Positions[i]);
+            }
+            return length;
+        }
+
+        private static string Text(string format, params object[] values)
+        {
+            return string.Format(CultureInfo.InvariantCulture, format, values);
+        }
+    }
+}
