@@ -79,6 +79,8 @@ def parse(argv: list[str]) -> argparse.Namespace:
     figures.add_argument("ids", metavar="ID", nargs="*", help="such as 4.5; all where none is given")
     figures.add_argument("--out", type=_path, default=Path("results"),
                          help="folder above the studies' (results); the pictures stand in its 'figures'")
+    figures.add_argument("--quick", action="store_true", help="few values of each study and few checks, in 'quick' below "
+                                                              "the folder: does everything work?")
     _add_workers(figures)
     figures.set_defaults(action=_figures, packages=DRAWING + SWEEPING)
 
@@ -281,20 +283,21 @@ def _study_of(arguments: argparse.Namespace) -> Study:
 def _figures(arguments: argparse.Namespace) -> int:
     from experiments import gallery
 
-    known = gallery.SPECS
+    catalogue = gallery.QUICK if arguments.quick else gallery.FULL
+    out = arguments.out / "quick" if arguments.quick else arguments.out
+    known = catalogue.specs
     unknown = [name for name in arguments.ids if name not in known]
     if unknown:
         raise PreparationError(f"there is no figure {unknown[0]}; there are {', '.join(known)}")
     ids = arguments.ids or list(known)
-    studies = {name for figure in ids for name in known[figure].studies}
+    needed = {name for figure in ids for name in known[figure].studies}
     checking.check_out(arguments.out)
     means = _means_of(arguments, _build_runner(), "figures")
-    asked: list[tuple[Source, Path]] = [(STUDIES[name], arguments.out) for name in STUDIES if name in studies]
-    asked += [(check, arguments.out / name) for name, checks in gallery.CHECKED.items() if name in studies
-              for check in checks]
-    result = _make(asked, arguments.out, means)
-    folders = {name: (arguments.out / name).resolve() for name in studies}
-    code = _tell(gallery.draw(ids, folders, arguments.out / "figures"))
+    asked: list[tuple[Source, Path]] = [(study, out) for name, study in catalogue.studies.items() if name in needed]
+    asked += [(check, out / name) for name, checks in catalogue.checked.items() if name in needed for check in checks]
+    result = _make(asked, out, means)
+    folders = {name: (out / name).resolve() for name in needed}
+    code = _tell(gallery.draw(ids, folders, out / "figures", catalogue))
     return FAILED if result.failures else code
 
 

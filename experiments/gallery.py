@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache, partial
 from pathlib import Path
 from typing import Any
@@ -13,20 +13,23 @@ from matplotlib.figure import Figure
 
 from analysis.chart import figure as chart
 from analysis.chart import material, page, tables, walls
-from analysis.chart.points import Charted, check_of
+from analysis.chart.points import Charted, Problem, check_of, in_short
 from analysis.figures import FIGURES, FigureSpec
 from analysis.figures.wording import number
 from analysis.logs import LogError, read_log
 from analysis.relaxation import RelaxationError
 from analysis.runs import read_runs
 from analysis.tables import measure_relaxation
-from analysis.validation.check import Check, Finding, Result, replay
+from analysis.validation.check import Check, Finding, Found, Result, replay
 from analysis.validation.integrators import INTEGRATORS
 from analysis.validation.report import (
-    ROWS, Report, as_csv, as_markdown, draw_finding, draw_overview, picture_name, read_report,
+    FAST, ROWS, Report, as_csv, as_markdown, draw_finding, draw_overview, picture_name, read_report,
 )
 from studies.bisection import FRONTIER
+from studies.builtin import STUDIES
 from studies.keys import RESULTS
+from studies.quick import shortened
+from studies.table import Study
 
 INDEX = "index.md"
 VALIDATION = "validation"
@@ -36,35 +39,39 @@ CHART = "chart"
 _Beside = Callable[[Mapping[str, Path], Path], None]  # writes one file from the runs of a figure's studies
 
 
-@lru_cache(maxsize=1)
-def _validation(folder: Path) -> Report:
-    """The report is drawn as one figure and written with its tables; its references are computed once for both."""
-    return read_report(folder)
+@dataclass(frozen=True)
+class Catalogue:
+    """The figures that can be asked for.
 
+    Attributes
+    ----------
+    specs : mapping of str to FigureSpec
+        By their numbers.
+    checked : mapping of str to tuple of Check
+        Of the figures that are drawn from checks, the checks of each.
+    studies : mapping of str to Study
+        That the others are drawn from.
+    """
 
-def _draw_validation(folders: Mapping[str, Path]) -> tuple[Figure, str]:
-    return draw_overview(_validation(folders[VALIDATION]))
+    specs: Mapping[str, FigureSpec]
+    checked: Mapping[str, Sequence[Check]]
+    studies: Mapping[str, Study] = field(default_factory=lambda: STUDIES)
 
 
 @lru_cache(maxsize=None)
-def _finding(check: Check, folder: Path) -> Finding:
+def _validation(folder: Path, checks: tuple[Check, ...]) -> Report:
+    """The report is drawn as one figure and written with its tables; its references are computed once for both."""
+    return read_report(folder, checks)
+
+
+@lru_cache(maxsize=None)
+def _finding(check: Check[Found], folder: Path) -> Found:
     return replay(check, folder)
 
 
 def _draw_check(check: Check, folders: Mapping[str, Path]) -> tuple[Figure, str]:
     finding = _finding(check, folders[check.name])
     return draw_finding(finding), finding.caption
-
-
-CHECKED: dict[str, tuple[Check, ...]] = {
-    VALIDATION: ROWS,
-    CHART: tuple(check_of(problem) for problem in (*material.PROBLEMS, *walls.PROBLEMS)),
-    INTEGRATORS.name: (INTEGRATORS,),
-}
-
-
-def _charted(folders: Mapping[str, Path]) -> list[Charted]:
-    return [_finding(check, folders[CHART]) for check in CHECKED[CHART]]
 
 
 def _text_of(make: Callable[[Any], str], read: Callable[[Mapping[str, Path]], Any]) -> _Beside:
@@ -77,38 +84,56 @@ def _picture_of(draw: Callable[[Any], Figure], read: Callable[[Mapping[str, Path
     return lambda folders, path: _save(draw(read(folders)), path)
 
 
-def _report_of(folders: Mapping[str, Path]) -> Report:
-    return _validation(folders[VALIDATION])
+def _validation_spec(checks: tuple[Check, ...]) -> FigureSpec:
+    def read(folders: Mapping[str, Path]) -> Report:
+        return _validation(folders[VALIDATION], checks)
+
+    def row_picture(check: Check) -> _Beside:
+        def save(folders: Mapping[str, Path], path: Path) -> None:
+            findings = read(folders).findings
+            if check in findings:
+                _save(draw_finding(findings[check]), path)
+
+        return save
+
+    return FigureSpec(
+        VALIDATION, "validation of the material rod", (VALIDATION,), lambda folders: draw_overview(read(folders)), {
+            f"{VALIDATION}/validation.md": _text_of(as_markdown, read),
+            f"{VALIDATION}/validation.csv": _text_of(as_csv, read),
+            **{f"{VALIDATION}/{picture_name(check)}": row_picture(check) for check in checks},
+        }, lambda folders: failed_gates(read(folders).results))
 
 
-def _row_picture(check: Check) -> _Beside:
-    """Draws a row of the validation, where it has its runs."""
-    def save(folders: Mapping[str, Path], path: Path) -> None:
-        findings = _report_of(folders).findings
-        if check in findings:
-            _save(draw_finding(findings[check]), path)
+def _chart_spec(checks: tuple[Check[Charted], ...]) -> FigureSpec:
+    def read(folders: Mapping[str, Path]) -> list[Charted]:
+        return [_finding(check, folders[CHART]) for check in checks]
 
-    return save
+    return FigureSpec(CHART, "error against cost", (CHART,), lambda folders: chart.draw_costs(read(folders)), {
+        "figure-chart-steps.png": _picture_of(lambda found: chart.draw_steps(found)[0], read),
+        "figure-chart-summary.png": _picture_of(chart.draw_summary, read),
+        "chart.html": _text_of(page.as_page, read),
+        "chart.csv": _text_of(tables.as_csv, read),
+        "chart.md": _text_of(tables.as_markdown, read),
+        "chart-best.md": _text_of(tables.best_as_markdown, read),
+    })
 
 
-SPECS: dict[str, FigureSpec] = {
-    **FIGURES,
-    VALIDATION: FigureSpec(VALIDATION, "validation of the material rod", (VALIDATION,), _draw_validation, {
-        f"{VALIDATION}/validation.md": _text_of(as_markdown, _report_of),
-        f"{VALIDATION}/validation.csv": _text_of(as_csv, _report_of),
-        **{f"{VALIDATION}/{picture_name(check)}": _row_picture(check) for check in ROWS},
-    }),
-    CHART: FigureSpec(CHART, "error against cost", (CHART,), lambda folders: chart.draw_costs(_charted(folders)), {
-        "figure-chart-steps.png": _picture_of(lambda found: chart.draw_steps(found)[0], _charted),
-        "figure-chart-summary.png": _picture_of(chart.draw_summary, _charted),
-        "chart.html": _text_of(page.as_page, _charted),
-        "chart.csv": _text_of(tables.as_csv, _charted),
-        "chart.md": _text_of(tables.as_markdown, _charted),
-        "chart-best.md": _text_of(tables.best_as_markdown, _charted),
-    }),
-    INTEGRATORS.name: FigureSpec(INTEGRATORS.name, INTEGRATORS.title, (INTEGRATORS.name,),
-                                 partial(_draw_check, INTEGRATORS)),
-}
+def _check_spec(check: Check[Finding]) -> FigureSpec:
+    return FigureSpec(check.name, check.title, (check.name,), partial(_draw_check, check), {}, lambda folders: (
+        failed_gates([(check, result) for result in _finding(check, folders[check.name]).results])))
+
+
+def _catalogue(rows: Sequence[Check], problems: Sequence[Problem], studies: Mapping[str, Study]) -> Catalogue:
+    checked = {VALIDATION: tuple(rows), CHART: tuple(check_of(problem) for problem in problems),
+               INTEGRATORS.name: (INTEGRATORS,)}
+    specs = (_validation_spec(checked[VALIDATION]), _chart_spec(checked[CHART]), _check_spec(INTEGRATORS))
+    return Catalogue({**FIGURES, **{spec.id: spec for spec in specs}}, checked, studies)
+
+
+_PROBLEMS = (*material.PROBLEMS, *walls.PROBLEMS)
+FULL = _catalogue(ROWS, _PROBLEMS, STUDIES)
+QUICK = _catalogue(FAST, [in_short(problem) for problem in _PROBLEMS],
+                   {name: shortened(study) for name, study in STUDIES.items()})
 
 
 @dataclass(frozen=True)
@@ -121,12 +146,12 @@ class Gallery:
     failed_gates: tuple[str, ...] = ()
 
 
-def draw(ids: Sequence[str], folders: Mapping[str, Path], out: Path) -> Gallery:
+def draw(ids: Sequence[str], folders: Mapping[str, Path], out: Path, catalogue: Catalogue = FULL) -> Gallery:
     """Draw figures from studies that were run, as many as can be drawn.
 
     Parameters
     ----------
-    ids : keys of `SPECS`.
+    ids : keys of the catalogue's specs.
     folders : study name to its folder, for every study that these figures need.
     out : folder for `figure-<id>.png`, `figure-<id>.txt` (the caption) and index.md.
 
@@ -138,18 +163,20 @@ def draw(ids: Sequence[str], folders: Mapping[str, Path], out: Path) -> Gallery:
     out.mkdir(parents=True, exist_ok=True)
     problems, gates = [], []
     for name in ids:
+        spec = catalogue.specs[name]
+        own = {study: folders[study] for study in spec.studies}
         try:
-            figure, caption = SPECS[name].draw({study: folders[study] for study in SPECS[name].studies})
+            figure, caption = spec.draw(own)
         except (LogError, RelaxationError) as error:
             problems.append(f"figure {name} cannot be drawn: {error}")
             continue
         _save(figure, out / f"figure-{name}.png")
         (out / f"figure-{name}.txt").write_text(caption + "\n", encoding="utf-8")
-        for file, write in SPECS[name].beside.items():
-            write(folders, out / file)
-        gates += failed_gates(_results(name, folders))
+        for file, write in spec.beside.items():
+            write(own, out / file)
+        gates += spec.gates(own)
     index = out / INDEX
-    index.write_text(_index(out), encoding="utf-8")
+    index.write_text(_index(out, catalogue), encoding="utf-8")
     return Gallery(index, tuple(problems), tuple(gates))
 
 
@@ -157,13 +184,6 @@ def failed_gates(results: Sequence[tuple[Check, Result]]) -> list[str]:
     """One line for each result that is beyond its gate."""
     return [f"{check.title}: {r.solver}, {r.what}: error {number(r.error, 2)} is above its gate {number(r.gate, 2)}"
             for check, r in results if r.passed is False]
-
-
-def _results(name: str, folders: Mapping[str, Path]) -> list[tuple[Check, Result]]:
-    """What a figure's checks found; nothing for a figure of a study."""
-    if name == VALIDATION:
-        return _validation(folders[VALIDATION]).results
-    return [(check, result) for check in CHECKED.get(name, ()) for result in _finding(check, folders[name]).results]
 
 
 def describe_default_run(study: Path) -> list[str]:
@@ -191,21 +211,21 @@ def _save(figure: Figure, path: Path) -> None:
     pyplot.close(figure)
 
 
-def _index(out: Path) -> str:
+def _index(out: Path, catalogue: Catalogue) -> str:
     """Every picture with its caption, and links to what stands beside it and to the tables of its runs."""
     parts = ["# Figures\n"]
-    for name, spec in SPECS.items():
+    for name, spec in catalogue.specs.items():
         caption = out / f"figure-{name}.txt"
         if caption.exists():
             text = caption.read_text(encoding="utf-8").strip()
             parts.append(f"## Figure {name}: {spec.title}\n\n![{spec.title}](figure-{name}.png)\n\n{text}\n")
-            links = [file for file in (*spec.beside, *_tables_of(spec)) if (out / file).exists()]
+            links = [file for file in (*spec.beside, *_tables_of(spec, catalogue)) if (out / file).exists()]
             if links:
                 parts.append("".join(f"- [{file.removeprefix('../')}]({file})\n" for file in links))
     return "\n".join(parts)
 
 
-def _tables_of(spec: FigureSpec) -> list[str]:
+def _tables_of(spec: FigureSpec, catalogue: Catalogue) -> list[str]:
     """Where the tables of its runs are, from the folder of the pictures."""
-    checks = [f"{study}/{check.name}" for study in spec.studies for check in CHECKED.get(study, ())]
+    checks = [f"{study}/{check.name}" for study in spec.studies for check in catalogue.checked.get(study, ())]
     return [f"../{folder}/{table}" for folder in (*spec.studies, *checks) for table in (RESULTS, FRONTIER)]

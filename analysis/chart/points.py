@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Generator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 
 import numpy as np
@@ -180,6 +180,18 @@ def pareto(points: Sequence[Point], cost: Cost = seconds) -> list[Point]:
 def case(key: str, method: str, overrides: Mapping[str, object], start: Mapping[str, object] | None = None) -> Case:
     """A run of a method with as many timed repeats as the method is worth."""
     return Case(key, {"solver": method, **overrides}, _REPEATS.get(method, 1), start)
+
+
+def in_short(problem: Problem) -> Problem:
+    """The problem with the first two settings of the methods that are timed often, and one of the others; once."""
+    def ask() -> Asking[Asked]:
+        asked = yield from problem.ask()
+        own = [[setting for setting in asked.settings if setting.method == method] for method in METHODS]
+        kept = [setting for mine in own for setting in mine[:2 if mine and mine[0].method in _REPEATS else 1]]
+        once = [replace(setting, case=replace(setting.case, repeats=1)) for setting in kept]
+        return replace(asked, settings=once)
+
+    return replace(problem, ask=ask)
 
 
 def check_of(problem: Problem) -> Check[Charted]:

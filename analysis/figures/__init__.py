@@ -39,7 +39,9 @@ class FigureSpec:
         where a file cannot be read or no run lasts as long as its reference, and analysis.relaxation.RelaxationError
         where nothing relaxes.
     beside : mapping of str to callable
-        Further files of the picture's folder, by name: from the same mapping to what writes one to a path.
+        Further files of the picture's folder, by name: each writes, from the same mapping, the file at a path.
+    gates : callable
+        From the same mapping to one line for each number that is beyond its gate.
     """
 
     id: str
@@ -47,6 +49,7 @@ class FigureSpec:
     studies: tuple[str, ...]
     draw: Callable[[Mapping[str, Path]], Drawn]
     beside: Mapping[str, Callable[[Mapping[str, Path], Path], None]] = field(default_factory=dict)
+    gates: Callable[[Mapping[str, Path]], list[str]] = lambda _: []
 
 
 def _draw_default(draw: Callable[[default_run.RunTable], Drawn], options: dict, studies: Mapping[str, Path]) -> Drawn:
@@ -131,6 +134,7 @@ FIGURES: dict[str, FigureSpec] = {
                    partial(_draw_rows, draw_drives, read_drives, "drives")),
         FigureSpec("twist", "tip angle against base angle", ("twist",),
                    partial(_draw_rows, draw_twist, read_twists, "twist")),
-        FigureSpec("stability", "where methods fail", stability.STUDIES, stability.draw_stability),
+        FigureSpec("stability", "where methods fail", stability.STUDIES, stability.draw_stability, {},
+                   stability.failed_gates),
     )
 }

@@ -1,5 +1,7 @@
 """Pictures, captions and the index beside them; and that every figure's study can be run."""
 
+import re
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -9,7 +11,9 @@ from analysis.figures import FIGURES, FigureSpec
 from analysis.logs import LogError
 from analysis.validation.check import Check, Finding, Result
 from experiments import commands, gallery
+from experiments.gallery import Catalogue
 from studies.builtin import STUDIES
+from studies.keys import RESULTS
 
 
 def spec(name, studies=("default",)):
@@ -20,13 +24,15 @@ def spec(name, studies=("default",)):
     return FigureSpec(name, f"title of {name}", studies, draw)
 
 
+TWO = Catalogue({"1.1": spec("1.1"), "1.2": spec("1.2")}, {})
+
+
 def test_every_study_that_a_figure_needs_can_be_run():
     assert {study for figure in FIGURES.values() for study in figure.studies} <= set(STUDIES)
 
 
-def test_a_figure_is_a_picture_a_caption_and_a_place_in_the_index(tmp_path, monkeypatch):
-    monkeypatch.setattr(gallery, "SPECS", {"1.1": spec("1.1"), "1.2": spec("1.2")})
-    drawn = gallery.draw(["1.2"], {"default": Path("a"), "other": Path("b")}, tmp_path / "out")
+def test_a_figure_is_a_picture_a_caption_and_a_place_in_the_index(tmp_path):
+    drawn = gallery.draw(["1.2"], {"default": Path("a"), "other": Path("b")}, tmp_path / "out", TWO)
     index = drawn.index
     assert drawn.problems == () and index == tmp_path / "out" / "index.md"
     assert (tmp_path / "out" / "figure-1.2.png").read_bytes().startswith(b"\x89PNG")
@@ -35,22 +41,19 @@ def test_a_figure_is_a_picture_a_caption_and_a_place_in_the_index(tmp_path, monk
     assert "1.1" not in index.read_text()
 
 
-def test_the_index_keeps_figures_drawn_earlier_in_the_order_of_their_numbers(tmp_path, monkeypatch):
-    monkeypatch.setattr(gallery, "SPECS", {"1.1": spec("1.1"), "1.2": spec("1.2")})
+def test_the_index_keeps_figures_drawn_earlier_in_the_order_of_their_numbers(tmp_path):
     for name in ("1.2", "1.1"):
-        drawn = gallery.draw([name], {"default": Path("a")}, tmp_path)
+        drawn = gallery.draw([name], {"default": Path("a")}, tmp_path, TWO)
     text = drawn.index.read_text()
     assert text.index("figure-1.1.png") < text.index("figure-1.2.png")
 
 
-def test_a_figure_that_cannot_be_drawn_is_told_and_the_others_are_drawn(tmp_path, monkeypatch):
+def test_a_figure_that_cannot_be_drawn_is_told_and_the_others_are_drawn(tmp_path):
     def broken(folders):
         raise LogError("study.json: no such file")
 
-    monkeypatch.setattr(gallery, "SPECS", {
-        "1.1": FigureSpec("1.1", "broken", ("default",), broken), "1.2": spec("1.2"),
-    })
-    drawn = gallery.draw(["1.1", "1.2"], {"default": Path("a")}, tmp_path)
+    both = Catalogue({"1.1": FigureSpec("1.1", "broken", ("default",), broken), "1.2": spec("1.2")}, {})
+    drawn = gallery.draw(["1.1", "1.2"], {"default": Path("a")}, tmp_path, both)
     assert drawn.problems == ("figure 1.1 cannot be drawn: study.json: no such file",)
     assert (tmp_path / "figure-1.2.png").exists() and not (tmp_path / "figure-1.1.png").exists()
 
@@ -69,12 +72,33 @@ def finds(*errors):
     ((0.001, 0.01), 0, []), ((0.02, 0.001), 1, ["bars: direct 0, tip: error 0.020 is above its gate 0.010"]),
     ((float("nan"),), 1, ["bars: direct 0, tip: error not finite is above its gate 0.010"]),
 ])
-def test_a_gate_that_fails_is_printed_at_the_end_with_exit_code_1(tmp_path, monkeypatch, capsys, errors, code, lines):
+def test_a_gate_that_fails_is_printed_at_the_end_with_exit_code_1(tmp_path, capsys, errors, code, lines):
     check = finds(*errors)
-    monkeypatch.setattr(gallery, "CHECKED", {"bars": (check,)})
-    monkeypatch.setattr(gallery, "SPECS", {"bars": FigureSpec(
-        "bars", "bars", ("bars",), lambda folders: gallery._draw_check(check, folders))})
-    drawn = gallery.draw(["bars"], {"bars": tmp_path}, tmp_path / "out")
+    bars = Catalogue({"bars": gallery._check_spec(check)}, {"bars": (check,)})
+    drawn = gallery.draw(["bars"], {"bars": tmp_path}, tmp_path / "out", bars)
     assert drawn.problems == () and list(drawn.failed_gates) == lines
     assert commands._tell(drawn) == code
     assert capsys.readouterr().err.splitlines() == [f"guidewire: beyond its gate: {line}" for line in lines]
+
+
+def test_the_index_links_what_stands_beside_a_picture_and_the_tables_of_its_runs(tmp_path):
+    def table(folders, path):
+        path.write_text(f"made from {folders['default'].name}")
+
+    made = replace(spec("1.1"), beside={"table.csv": table})
+    (tmp_path / "default").mkdir()
+    (tmp_path / "default" / RESULTS).write_text("")
+    out = tmp_path / "figures"
+    text = gallery.draw(["1.1"], {"default": tmp_path / "default"}, out, Catalogue({"1.1": made}, {})).index.read_text()
+    links = re.findall(r"\]\(([^)]+)\)", text)
+    assert links == ["figure-1.1.png", "table.csv", "../default/runs.csv"]
+    assert all((out / link).exists() for link in links) and (out / "table.csv").read_text() == "made from default"
+
+
+def test_the_quick_catalogue_has_every_figure_and_fewer_runs():
+    assert list(gallery.QUICK.specs) == list(gallery.FULL.specs)
+    for name, study in STUDIES.items():
+        short = gallery.QUICK.studies[name].grid
+        assert short.count <= study.grid.count
+        if study.grid.count > 40:
+            assert short.count < study.grid.count

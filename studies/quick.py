@@ -1,0 +1,33 @@
+"""Studies in short: the first, a middle and the last value of each axis, one timed repeat at most, a fifth of the in-game
+time, two variants of a bisection. Enough to draw every figure, too little to read one off."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from studies.bisection import Bisection
+from studies.table import Axis, Grid, Rows, Study
+
+_BISECTED_VARIANTS = 2
+_DURATION = 0.2  # of that of the study
+
+
+def shortened(study: Study) -> Study:
+    """The study in short; it has the same name."""
+    table = study.grid
+    if isinstance(table, Bisection):
+        variants = dict(list(table.grid.variants.items())[:_BISECTED_VARIANTS])
+        return replace(study, grid=replace(table, grid=replace(_thinned(table.grid), variants=variants)))
+    return replace(study, grid=_thinned(table)) if isinstance(table, Grid) else study
+
+
+def _thinned(grid: Grid) -> Grid:
+    duration = None if grid.duration is None else _DURATION * grid.duration
+    return replace(grid, axes=tuple(_thinned_axis(axis) for axis in grid.axes), repeats=min(1, grid.repeats),
+                   duration=duration)
+
+
+def _thinned_axis(axis: Axis | Rows) -> Axis | Rows:
+    if isinstance(axis, Rows) or len(axis.values) <= 3:
+        return axis
+    return Axis(axis.key, (axis.values[0], axis.values[len(axis.values) // 2], axis.values[-1]))
