@@ -16,7 +16,7 @@ from experiments import prepare
 
 _LENT = {  # name to where it stands; looked up when it is asked for, because it needs numpy
     "Session": "experiments.session", "SessionError": "experiments.session", "State": "experiments.session",
-    "read_run": "analysis.runs", "Run": "analysis.runs",
+    "read_run": "analysis.runs", "read_runs": "analysis.runs", "Run": "analysis.runs",
     "read_log": "analysis.logs", "read_entries": "analysis.logs", "PositionLog": "analysis.logs",
     "LogError": "analysis.logs",
 }

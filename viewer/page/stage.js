@@ -106,7 +106,7 @@ export class Stage {
     const upward = Math.tan((0.5 * this._camera.fov * Math.PI) / 180);
     const aspect = this._canvas.clientWidth / Math.max(this._panes.length, 1) / Math.max(this._canvas.clientHeight, 1);
     const distance = (0.5 * size) / Math.sin(Math.atan(upward * Math.min(aspect || 1, 1)));
-    this._camera.position.copy(this._controls.target).addScaledVector(new Vector3(0.96, 0.28, 0), distance);
+    this._camera.position.copy(this._controls.target).addScaledVector(new Vector3(-0.96, 0.28, 0), distance);
     this._controls.update();
     this.ask();
   }

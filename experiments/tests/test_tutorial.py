@@ -1,0 +1,63 @@
+"""docs/tutorial.md: what a reader is told to save and every command, in the page's order, with runs of a few steps."""
+
+import csv
+import os
+import re
+import shlex
+
+from PIL import Image
+
+import viewer.command  # a part of it is replaced by name
+from experiments import commands
+from experiments.prepare import ROOT
+from experiments.testing import FULL_CAMPAIGNS
+from studies.study_file import read_study_file
+from test_view import serving
+
+PAGE = (ROOT / "docs" / "tutorial.md").read_text(encoding="utf-8")
+# Where campaigns do not run in full, what takes a second and has tests of its own is left out.
+FULL = FULL_CAMPAIGNS in os.environ
+SLOW = ("render results/turned", "sweep turns.json", "python table.py")
+SHORTER = {'"maxSimulationSteps": 240': '"maxSimulationSteps": 4', '"numberRodElements": 40': '"numberRodElements": 9',
+           '"numberRodElements": 10': '"numberRodElements": 3'}
+
+
+def test_every_command_of_the_tutorial_works_in_its_order(runner_command, tmp_path, monkeypatch, capfd):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("viewer.command.three", lambda tell: {})  # nothing to install; the page has tests of its own
+    (tmp_path / "params").symlink_to(ROOT / "params")
+    saved = re.findall(r"[Ss]ave this as `([\w.]+)`:\n\n```\w*\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
+    assert [name for name, _ in saved] == ["wire.json", "curves.py", "turns.json", "table.py"]
+    for name, text in saved:
+        for whole, short in SHORTER.items():
+            assert name != "wire.json" or whole in text
+            text = text.replace(whole, short)
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    lines = re.findall(r"^python3 guidewire\.py (.*)$", PAGE, re.MULTILINE)
+    said = {}
+    for line in lines:
+        words = shlex.split(line)
+        if not FULL and line.startswith(SLOW):
+            continue
+        if words[0] == "view" and "--html" not in words:
+            with serving(tmp_path, *words[1:]) as (address, _):
+                said[line] = address
+        else:
+            code = commands.run(commands.parse(words))
+            said[line], errors = capfd.readouterr()
+            assert code == 0, f"{line}: {errors}"
+    assert len(lines) == 8 and len(said) == (8 if FULL else 5)
+    assert said["run wire.json --out results/straight"].startswith("finished: all 4 steps are done")
+    for name in ("turned.png", "curves.png") if FULL else ("curves.png",):
+        with Image.open(tmp_path / "results" / name) as picture:
+            assert picture.size[0] > 600
+    assert "data-recording" in (tmp_path / "results" / "turns.html").read_text(encoding="utf-8")
+    study = read_study_file(tmp_path / "turns.json", None)
+    assert study.logs and [len(axis.values) for axis in study.grid.axes] == [3, 2]
+    if not FULL:
+        return
+    with open(tmp_path / "results" / "turns" / "runs.csv", newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == 6 and {row["outcome"] for row in rows} == {"finished"}
+    assert {"twistPerStep", "wireRadius", "largestContactForce", "solver.proximalForce"} <= set(rows[0])
+    assert said["python table.py"].count("N\n") == 6
