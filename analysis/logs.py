@@ -1,7 +1,7 @@
 """Reads position logs of any size in one pass.
 
-A log of format json is one JSON object, ``{"0": {"totalTime", "elapsedMilliseconds", "delta", "sphere": {"0": {"x", ...}}}, ...}``.
-It may stand on one line or on many. Only one entry is decoded at a time and only what was asked for is kept, so that
+A log of format json is one JSON object, ``{"0": {"totalTime", "elapsedMilliseconds", "delta", "sphere": {"0": {"x",
+...}}}, ...}``. It may stand on one line or on many. Only one entry is decoded at a time and only what was asked for is kept, so that
 memory is set by the request and not by the file. Logs of format npz (logFormat) have an array for each quantity, which
 analysis.array_logs reads; what stands here gives the same of both.
 """
@@ -195,7 +195,8 @@ def _read_arrays(source: Path, spheres: str | Sequence[int], every: int, velocit
         raise LogError(f"{source}: no step left after thinning")
     whole = slice(None) if kept.size == steps.size else kept
     logged, positions = log.spheres, log["positions"]
-    asked = logged if spheres == "all" else logged[-1:] if spheres == "last" else np.sort(np.asarray(spheres, dtype=int))
+    chosen = {"all": logged, "last": logged[-1:]}
+    asked = chosen[spheres] if isinstance(spheres, str) else np.sort(np.asarray(spheres, dtype=int))
     missing = np.setdiff1d(asked, logged)
     if missing.size:
         raise LogError(f"{source}: step {steps[0]} lacks sphere {missing[0]}")

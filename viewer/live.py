@@ -207,7 +207,8 @@ class LiveRun:
         if scene not in self._scenes:
             raise ValueError("no such scene")
         self._problem = ""
-        await self._in_thread(lambda: self._open(scene))
+        by_hand = bool(message.get("hand", True))
+        await self._in_thread(lambda: self._open(scene, by_hand))
 
     async def _do_set(self, message: Mapping[str, Any]) -> None:
         key, value = message["key"], message["value"]
@@ -219,14 +220,11 @@ class LiveRun:
         await self._in_thread(lambda: self._session.change(**{key: value}))
         self._cost = 0.0
 
-    def _open(self, scene: str) -> None:
+    def _open(self, scene: str, by_hand: bool = True) -> None:
         self._close_session()
         with warnings.catch_warnings(record=True) as said:
             warnings.simplefilter("always")
-            session = Session(self._scenes[scene])
-            if session.hand:
-                session.close()
-                session = Session(self._scenes[scene], **_ENDLESS)
+            session = _start(self._scenes[scene], by_hand)
         self._session, self._scene = session, scene
         self._is_paused = not session.hand  # a wire that waits for a hand is at rest
         self._warnings = list(dict.fromkeys(str(one.message) for one in said))
@@ -312,6 +310,16 @@ _DO: Mapping[str, Callable[[LiveRun, Mapping[str, Any]], Awaitable[None]]] = {
     "hand": LiveRun._do_hand, "pause": LiveRun._do_pause, "step": LiveRun._do_step, "reset": LiveRun._do_reset,
     "pace": LiveRun._do_pace, "open": LiveRun._do_open, "set": LiveRun._do_set,
 }
+
+
+def _start(scene: Path, by_hand: bool) -> Session:
+    """A session that a hand steers without end, or where that cannot be, or is not asked for, the file's own run."""
+    if by_hand:
+        try:
+            return Session(scene, hand=True, **_ENDLESS)
+        except SessionError:
+            pass  # what is wrong with the file itself is said below
+    return Session(scene, hand=False)
 
 
 async def _say_goodbye(socket: web.WebSocketResponse) -> None:

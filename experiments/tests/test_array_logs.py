@@ -1,4 +1,4 @@
-"""Logs of format npz, written by the real runner: they hold what the text holds, and what a killed run leaves is read."""
+"""Logs of format npz, of the real runner: they hold what the text holds, and what a killed run leaves is read."""
 
 import json
 import os
@@ -137,7 +137,8 @@ def test_an_interrupted_run_leaves_a_whole_log(runner_command, tmp_path):
 def test_a_full_disk_is_said(runner_command, tmp_path):
     os.symlink("/dev/full", tmp_path / "positions.npz.partial")
     done = subprocess.run([*runner_command, "-parameters", str(ROOT / "params/default.json"), "-out", str(tmp_path),
-                           "-logFormat", "npz", "-maxSimulationSteps", "3"], capture_output=True, text=True, check=False)
+                           "-logFormat", "npz", "-maxSimulationSteps", "3"], capture_output=True, text=True,
+                          check=False)
     assert done.returncode == 5 and done.stderr.count("\n") == 1 and "the log could not be written" in done.stderr
     assert read_run_summary(tmp_path)["log"] == "positions.npz.partial"
 

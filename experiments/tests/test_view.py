@@ -203,8 +203,11 @@ def test_a_hand_pauses_steps_changes_and_opens_scenes(live):
         await page.send_json({"do": "open", "scene": "cantilever.json"})
         status = await hear(page, lambda status: status["scene"] == "cantilever.json")
         assert not status["isSteered"] and status["isPaused"] and status["values"]["solver"] == "direct"
+        await page.send_json({"do": "open", "scene": "scene.json", "hand": False})
+        status = await hear(page, lambda status: status["scene"] == "scene.json")
+        assert not status["isSteered"] and status["isPaused"]
         await page.send_json({"do": "open", "scene": "scene.json"})
-        await hear(page, lambda status: status["scene"] == "scene.json")
+        await hear(page, lambda status: status["isSteered"])
 
     with_pages(live[0], talk)
 

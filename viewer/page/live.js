@@ -147,7 +147,7 @@ export class Live {
     if (!this.status) return "";
     if (!this.status.hand) return this.status.isFree ? "nobody has the hand" : "looking on: another page has the hand";
     if (this.status.isPaused) return "paused";
-    return this.status.isSteered ? "" : "moved by its file's drive: this method is not steered by hand";
+    return this.status.isSteered ? "" : "moved by its file's drive";
   }
 
   /** @param {Status} status */
@@ -167,7 +167,9 @@ export class Live {
       ...(status.isSteered
         ? [held("push", "w"), held("pull", "s"), held("turn left", "a"), held("turn right", "d")] : []),
       button(status.isPaused ? "go on" : "pause", { do: "pause", value: !status.isPaused }),
-      button("step", { do: "step" }), button("start anew", { do: "reset" }), paces, scenes,
+      button("step", { do: "step" }), button("start anew", { do: "reset" }),
+      button(status.isSteered ? "file's drive" : "by hand",
+        { do: "open", scene: status.scene, hand: !status.isSteered }), paces, scenes,
     ] : [button("take the hand", { do: "take" })]));
     if (byId("controls").contains(document.activeElement)) return; // a value that is being typed
     byId("controls").replaceChildren(...(isOurs ? Object.entries(status.values).map(([key, value]) => {

@@ -1,6 +1,6 @@
 // @ts-check
 import {
-  BackSide, BufferAttribute, BufferGeometry, DoubleSide, FrontSide, Group, LineBasicMaterial, LineSegments, Mesh,
+  BackSide, BufferAttribute, BufferGeometry, DoubleSide, FrontSide, Group, Line, LineBasicMaterial, LineSegments, Mesh,
   MeshLambertMaterial,
 } from "three";
 
@@ -25,11 +25,16 @@ export class Model {
     this.tube = new Tube(spheres - 1);
     const wire = new Mesh(this.tube.geometry, new MeshLambertMaterial({ vertexColors: true }));
     wire.frustumCulled = false;
+    // Where the wire is thinner than a point of the screen it is still seen.
+    this._line = new Line(new BufferGeometry(), new LineBasicMaterial({ vertexColors: true }));
+    this._line.geometry.setAttribute("position", new BufferAttribute(new Float32Array(3 * spheres), 3));
+    this._line.geometry.setAttribute("color", new BufferAttribute(new Float32Array(3 * spheres), 3));
+    this._line.frustumCulled = false;
     this.arrows = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ color: 0x7fe07f }));
     this.arrows.geometry.setAttribute("position", new BufferAttribute(new Float32Array(6 * spheres), 3));
     this.arrows.frustumCulled = false;
     for (const wall of recording.walls) this.walls.add(...surfaces(wall));
-    this.group.add(wire, this.arrows, this.walls);
+    this.group.add(wire, this._line, this.arrows, this.walls);
     /** Name of the channel that colours the wire; "" for none. */
     this.colour = "";
     this.thickness = 1;
@@ -54,6 +59,8 @@ export class Model {
     this.frame = frame;
     const positions = this.recording.at("positions", frame);
     this.tube.place(positions, this.recording.radius * this.thickness);
+    this._line.geometry.getAttribute("position").array.set(positions);
+    this._line.geometry.getAttribute("position").needsUpdate = true;
     this._paint(full);
     this._point(positions);
   }
@@ -66,7 +73,7 @@ export class Model {
   /** Lets go of what the picture's memory holds of it. */
   dispose() {
     this.group.traverse((part) => {
-      if (part instanceof Mesh || part instanceof LineSegments) {
+      if (part instanceof Mesh || part instanceof Line) {
         part.geometry.dispose();
         part.material.dispose();
       }
@@ -77,19 +84,31 @@ export class Model {
   _paint(shared) {
     const channel = this.colour ? this.recording.channels.get(this.colour) : undefined;
     if (!channel) {
-      this.tube.paint((_, colour) => colour.splice(0, 3, ...PLAIN));
+      this._paintWith((_, colour) => colour.splice(0, 3, ...PLAIN));
       return;
     }
     const values = this.recording.at(channel.name, this.frame);
     const full = shared ?? this.full(channel.name);
     const colours = this._ramps[channel.isSigned ? 1 : 0];
     const last = values.length - 1;
-    this.tube.paint((along, colour) => {
+    this._paintWith((along, colour) => {
       const j = Math.min(Math.floor(along), last);
       const next = channel.place === "sphere" ? values[Math.min(j + 1, last)] : values[j];
       const k = 3 * row(values[j] + (along - j) * (next - values[j]), full, channel.isSigned);
       for (let part = 0; part < 3; part++) colour[part] = colours[k + part];
     });
+  }
+
+  /** @param {(along: number, colour: number[]) => void} colourAt as of `Tube.paint` */
+  _paintWith(colourAt) {
+    this.tube.paint(colourAt);
+    const colours = this._line.geometry.getAttribute("color");
+    const colour = [0, 0, 0];
+    for (let i = 0; i <= this.tube.elements; i++) {
+      colourAt(i, colour);
+      colours.array.set(colour, 3 * i);
+    }
+    colours.needsUpdate = true;
   }
 
   /** @param {Float64Array} positions */
