@@ -93,7 +93,8 @@ def set_stage(run: Run, log: PositionLog, walls: Sequence[Surface], view: View) 
     view : where to look from.
     """
     middle, diagonal = extent(log)
-    radius = max(_radius(run), _THINNEST * diagonal)
+    seen = diagonal if view.distance is None else min(diagonal, view.distance)
+    radius = max(_radius(run), _THINNEST * seen)
     camera = Camera(
         tuple(middle) if view.target is None else view.target,
         1.05 * (diagonal + 4.0 * radius) if view.distance is None else view.distance, view.yaw, view.pitch)

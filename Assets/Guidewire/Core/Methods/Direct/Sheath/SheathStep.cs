@@ -12,7 +12,8 @@ namespace Guidewire.Core
     {
         private const double Early = 0.1;       // of an element's length, by which it comes in early
         private const double Late = 0.3;        // and goes late
-        private const double LargestTurn = 1.0; // radians of the first element against its frame
+        private const double LargestTurn = 0.3; // radians of the first element against its frame
+        private const double Ahead = 2.4;       // radians by which the frame is ahead of a wire that jumps round
         private const int LeastElements = 2;
 
         private readonly SimulationParameters _parameters;
@@ -59,7 +60,24 @@ namespace Guidewire.Core
         public override void Advance(RodState state)
         {
             MoveWindow();
+            RodSchedule schedule = _whole.Schedule;
+            (double, double, double) drive = _whole.Drive.Way;
+            (Vector3d place, double since) = (schedule.ProximalPosition, schedule.ProximalTime);
+            double time = _dynamics.Time;
+            double torque = Torque();
             bool isDone = _inner.Step();
+            if (_inner.Failure != null && torque != 0.0)
+            {
+                // A tip that has stuck jumps round by as much as is wound up; its joint to the frame tells half a
+                // turn, and so the frame goes ahead.
+                _whole.Drive.Way = drive;
+                schedule.ProximalPosition = place;
+                schedule.ProximalTime = since;
+                double turned = RotationVector.Log(_setup.Frame(_frameTurn).Conjugate * _shape.Q[_window.First]).Z;
+                _frameTurn += turned - Math.Sign(torque) * Ahead;
+                Build(time, _inner);
+                isDone = _inner.Step();
+            }
             Failure = _inner.Failure;
             Divergence = _inner.Divergence;
             SteadyState = _inner.SteadyState;

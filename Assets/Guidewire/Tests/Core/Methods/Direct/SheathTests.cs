@@ -133,6 +133,33 @@ namespace Guidewire.Core.Tests
             Assert.That(hub.Turn - first, Is.EqualTo(30.5 * 0.01 * hub.Torque / stiffness).Within(1e-6));
         }
 
+        [Test, Category("Long")]
+        public void TipThatJumpsRound_LosesNoTurn()
+        {
+            // So long a wire winds up by more than half a turn before its tip gives way in the bend.
+            SimulationParameters parameters = Sheathed(250, 2.5, 90.0);
+            parameters.Drive.Table = new DriveTable(new TimeTable(new[] { 0.0, 1.5 }, new[] { 0.0, 0.06 }),
+                new TimeTable(new[] { 1.5, 4.0 }, new[] { 0.0, 3.0 * Math.PI }));
+            parameters.Method.TimeStep = 0.01;
+            parameters.Method.MaxSimulationSteps = 420;
+            Simulation run = Simulation.Create(parameters);
+            double largest = 0.0;
+            double before = 0.0;
+            while (run.Outcome == Outcome.Running)
+            {
+                run.Step();
+                HubRecord hub = run.Hub()!;
+                largest = Math.Max(largest, Math.Abs(hub.Turn + hub.Twist - before));
+                before = hub.Turn + hub.Twist;
+                double stiffness = CrossSection.At(parameters.Material, 0.0).TwistStiffness;
+                double sheathed = 2.5 - hub.LengthInBody!.Value;
+                Assert.That(-hub.Twist, Is.EqualTo(hub.Torque * sheathed / stiffness).Within(1.5),
+                    "what is wound up is the torque's, at step " + run.StepCount);
+            }
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Assert.That(largest, Is.GreaterThan(Math.PI), "it jumped");
+        }
+
         [Test]
         public void HubStopsWhereTheWireEnds_AndWhereTheTipIsBackInTheSheath([Values(-1.0, 1.0)] double way)
         {
