@@ -109,6 +109,7 @@ namespace Guidewire.Unity.Tests
             Assert.That(Stage.Loop.Problem, Does.StartWith("failed: the step to t = "));
             Stage.Frames(1);
             Assert.That(Engine.Find<Hud>().Text, Does.Contain("STOPPED: failed"));
+            Stage.Loop.Choose("params/insertion-accurate.json", new[] { "insertionSpeed=0" }, "", true);
             Stage.Tap(KeyCode.R);
             Assert.That(Stage.Loop.Problem, Is.EqualTo(""));
             Assert.That(Stage.Loop.Session!.Simulation.Outcome, Is.EqualTo(Outcome.Running));
