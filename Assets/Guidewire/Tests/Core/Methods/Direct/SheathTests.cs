@@ -111,6 +111,8 @@ namespace Guidewire.Core.Tests
             Assert.That(other.State.Orientations, Is.EqualTo(run.State.Orientations));
             Assert.That(other.Hub()!.Force, Is.EqualTo(run.Hub()!.Force));
             Assert.That(other.Contacts!.DriveAsked, Is.EqualTo(run.Contacts!.DriveAsked));
+            parameters.Scene.Sheath = null;
+            Assert.That(() => run.Continue(parameters), Throws.ArgumentException.With.Message.StartsWith("sheath"));
         }
 
         [Test]
