@@ -150,8 +150,8 @@ namespace Guidewire.Core
             }
             if ((parameters.Scene.Sheath != null) != _hasSheath)
             {
-                throw new ArgumentException("sheath needs to be there, or not, as it was: this run goes on with the wire"
-                    + " that it has");
+                throw new ArgumentException("sheath needs to be there, or not, as it was: this run goes on with the"
+                    + " wire that it has");
             }
             var snapshot = new Snapshot();
             Exchange(snapshot);
