@@ -206,7 +206,6 @@ namespace Guidewire.Core
             Array.Copy(_dynamics.Spins, 0, _spins, first, shape.Q.Length);
             double push = AxialForce();
             double torque = Torque();
-            double hub = _whole.Schedule.ProximalTurnAt(_dynamics.Time);
             double place = _window.Outside(_shape.X[first]);
             for (int j = first - 1; j >= 0; j--)
             {
@@ -215,10 +214,17 @@ namespace Guidewire.Core
                 _velocities[j] = Vector3d.Dot(_velocities[first], _setup.Axis) * _setup.Axis;
                 _spins[j] = new Vector3d(0.0, 0.0, _spins[first].Z);
             }
+            // Most joints are alike: sines are dear beside the rest.
+            Quaterniond frame = _setup.Frame(_whole.Schedule.ProximalTurnAt(_dynamics.Time));
+            Quaterniond turned = Quaterniond.Identity;
+            double before = 0.0;
             for (int j = 0; j < first; j++)
             {
-                hub += TurnOfJoint(j, torque);
-                _shape.Q[j] = _setup.Frame(hub);
+                double turn = TurnOfJoint(j, torque);
+                turned = turn == before ? turned : Quaterniond.FromAxisAngle(Vector3d.UnitZ, turn);
+                before = turn;
+                frame = frame * turned;
+                _shape.Q[j] = frame;
             }
             Contacts!.Take(_inner.Contacts!, first);
         }
