@@ -37,13 +37,14 @@ class View:
     """Where a picture is seen from; None is chosen so that all is seen that the wire passes.
 
     target : point in the middle, units; distance : of the camera from it, units; yaw, pitch : degrees, 0 and 0 look
-    along +z, yaw -90 looks along -x, pitch 90 down.
+    along +z, yaw -90 looks along -x, pitch 90 down; radius : of the wire as it is drawn, units.
     """
 
     target: tuple[float, float, float] | None = None
     distance: float | None = None
     yaw: float = -90.0
     pitch: float = 15.0
+    radius: float | None = None
 
 
 @dataclass(frozen=True)
@@ -78,7 +79,8 @@ def set_stage(run: Run, log: PositionLog, walls: Sequence[Surface], view: View) 
     view : where to look from.
     """
     middle, diagonal = extent(log)
-    radius = max(_radius(run), _THINNEST * diagonal)
+    seen = diagonal if view.distance is None else min(diagonal, view.distance)
+    radius = view.radius or max(_radius(run), _THINNEST * seen)
     camera = Camera(
         tuple(middle) if view.target is None else view.target,
         1.05 * (diagonal + 4.0 * radius) if view.distance is None else view.distance, view.yaw, view.pitch)

@@ -108,6 +108,8 @@ def parse(argv: list[str]) -> argparse.Namespace:
     render.add_argument("--yaw", type=_finite, default=-90.0, metavar="DEGREES",
                         help="0 looks along z, -90 against x (-90)")
     render.add_argument("--pitch", type=_finite, default=15.0, metavar="DEGREES", help="90 looks down, against y (15)")
+    render.add_argument("--radius", type=_above_zero, metavar="R",
+                        help="of the wire in the picture, units (its own, or so much that it is seen)")
     render.set_defaults(action=_render, packages=DRAWING)
 
     view = commands.add_parser("view", help="a page in the browser: a scene under your hand, or what runs left")
@@ -359,7 +361,7 @@ def _render(arguments: argparse.Namespace) -> int:
         checking.check_out(out.parent)
         surfaces = walls.read_walls(_build_runner, run, middle, max(diagonal, 1.0))
         view = render.View(tuple(arguments.target) if arguments.target else None, arguments.distance, arguments.yaw,
-                           arguments.pitch)
+                           arguments.pitch, arguments.radius)
         out.parent.mkdir(parents=True, exist_ok=True)
         if out.suffix == ".gif":
             render.save_film(render.draw_film(run, log, surfaces, view, arguments.frames), out)

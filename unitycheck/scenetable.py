@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 # A wire that is steered by hand goes on until it is stopped: no displacement at the start, no end.
-STEERED = ("drive=hold", "displacement=0", "deltaThreshold=0", "maxSimulationSteps=1000000000")
+ENDLESS = ("deltaThreshold=0", "maxSimulationSteps=1000000000")
+STEERED = ("drive=hold", "displacement=0", *ENDLESS)
 
 
 @dataclass(frozen=True)
@@ -16,6 +17,8 @@ class Scene:
     name: str
     parameters: str
     overrides: tuple[str, ...] = ()
+    alternative: str = ""
+    alternative_overrides: tuple[str, ...] = ()
     is_steered: bool = False
     target: tuple[float, float, float] = (0.0, 0.0, 30.0)
     distance: float = 420.0
@@ -26,7 +29,8 @@ class Scene:
 
 
 SCENES = (
-    Scene("Insertion", "params/insertion.json", STEERED, is_steered=True, target=(0.0, 45.0, -20.0), distance=430.0,
+    Scene("Insertion", "params/insertion.json", STEERED, "params/insertion-accurate.json",
+          ("insertionSpeed=0", *ENDLESS), is_steered=True, target=(0.0, 45.0, -20.0), distance=430.0,
           colouring=2),
     Scene("Longitudinal", "params/longitudinal.json", pace=0.2, colouring=1),
     Scene("Transversal", "params/transversal.json", pace=0.2, colouring=2),

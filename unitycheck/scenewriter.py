@@ -174,7 +174,8 @@ def scene_text(scene: Scene) -> str:
         _game_object(300, "Simulation", [301, 302, 303, 304], "Untagged"),
         _transform(301, 300, upright, _ZERO),
         _script(302, 300, "Loop/SimulationLoop", {
-            "_parameterFile": scene.parameters, "_overrides": list(scene.overrides), "_pace": scene.pace,
+            "_parameterFile": scene.parameters, "_overrides": list(scene.overrides),
+            "_alternativeFile": scene.alternative, "_alternativeOverrides": list(scene.alternative_overrides), "_pace": scene.pace,
             "_isSteered": scene.is_steered}),
         _script(303, 300, "Loop/KeyboardControl", {
             "_loop": loop, "_wire": wire, "_contacts": contacts, "_hud": hud, "_camera": camera}),

@@ -179,6 +179,7 @@ def test_an_obstacle_before_the_wire_tints_it_and_the_vessel_lies_behind() -> No
 def test_the_wire_has_its_own_radius_unless_that_is_too_thin_to_be_seen(parameters: dict, radius: float) -> None:
     run, log = make_run(**parameters)
     assert render.set_stage(run, log, [], render.View()).radius == pytest.approx(radius)
+    assert render.set_stage(run, log, [], render.View(radius=3.0)).radius == 3.0
 
 
 @pytest.mark.parametrize("value, rounded", [(0.01, 0.01), (0.011, 0.02), (3.0, 5.0), (70.0, 100.0)])

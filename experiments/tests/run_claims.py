@@ -26,7 +26,7 @@ SUMMARY_KEYS = {
 }
 # What need not apply: null there is no number that got lost.
 MAY_BE_NULL = {
-    "driveAsked", "hub", "repeat", "largestError", "timeStepError", "stableSubstep", "energy", "equilibriumResidual",
+    "driveAsked", "hub", "lengthInBody", "spheresInBody", "repeat", "largestError", "timeStepError", "stableSubstep", "energy", "equilibriumResidual",
     "smallestEigenvalue", "proximalForce", "proximalMoment", "distalForce", "distalMoment",
     "wallIterations", "halvedSteps", "contactDistance", "contactStiffness",
 }

@@ -8,6 +8,7 @@ namespace Guidewire.Core
     public sealed class Simulation
     {
         private readonly bool _hasMaterial;
+        private readonly bool _hasSheath;
         private readonly TimeStepper _stepper;
         private readonly StopRule _stopRule;
         private readonly StepClock _clock;
@@ -16,10 +17,11 @@ namespace Guidewire.Core
         private string? _ownReason;
         private string? _warning;
 
-        private Simulation(MethodTraits method, MethodStart start, SimulationParameters parameters)
+        private Simulation(MethodStart start, SimulationParameters parameters)
         {
             _warnings = new RunWarnings(parameters);
-            _hasMaterial = method.TakesMaterial;
+            _hasMaterial = MethodTable.Of(parameters.Method.Solver).TakesMaterial;
+            _hasSheath = parameters.Scene.Sheath != null;
             State = start.State;
             _stepper = start.Stepper;
             _stopRule = new StopRule(parameters.Method.MaxSimulationSteps);
@@ -70,7 +72,7 @@ namespace Guidewire.Core
             }
             MethodTraits method = MethodTable.Of(parameters.Method.Solver);
             MethodStart start = method.Build(parameters, new Scene(parameters));
-            var simulation = new Simulation(method, start, parameters);
+            var simulation = new Simulation(start, parameters);
             if (start.Failure != null)
             {
                 simulation.End(Outcome.Failed, start.Failure);
@@ -145,13 +147,18 @@ namespace Guidewire.Core
         /// cref="SceneParameters.InitialState"/> and <see cref="DriveParameters.Displacement"/> are not looked at: the
         /// start is over.</param>
         /// <exception cref="ArgumentException">As <see cref="Create"/>; another number of elements; gains that go on as
-        /// a material, or the reverse.</exception>
+        /// a material, or the reverse; a sheath where there was none, or the reverse.</exception>
         public Simulation Continue(SimulationParameters parameters)
         {
             if (MethodTable.Of(parameters.Method.Solver).TakesMaterial != _hasMaterial)
             {
                 throw new ArgumentException("solver needs to be one for " + (_hasMaterial ? "a material" : "gains")
                     + ": this run goes on with the wire that it has");
+            }
+            if ((parameters.Scene.Sheath != null) != _hasSheath)
+            {
+                throw new ArgumentException("sheath needs to be there, or not, as it was: this run goes on with the"
+                    + " wire that it has");
             }
             var snapshot = new Snapshot();
             Exchange(snapshot);

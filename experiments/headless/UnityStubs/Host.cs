@@ -56,6 +56,7 @@ namespace UnityEngine
         F = 102,
         G = 103,
         H = 104,
+        M = 109,
         N = 110,
         R = 114,
         S = 115,

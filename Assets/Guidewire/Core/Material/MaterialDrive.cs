@@ -43,6 +43,13 @@ namespace Guidewire.Core
         /// <summary>How far the drive has turned the clamp since the start, rad.</summary>
         public double Turn { get; private set; }
 
+        /// <summary>All three, to take a step again.</summary>
+        public (double Insertion, double Turn, double Slip) Way
+        {
+            get => (Insertion, Turn, Slip);
+            set => (Insertion, Turn, Slip) = value;
+        }
+
         /// <summary>The farthest that it may move node 0, m.</summary>
         public double MostInsertion { get; set; } = double.PositiveInfinity;
 

@@ -30,16 +30,18 @@ namespace Guidewire.Io
             {
                 columns[c] = new List<double>();
             }
+            bool mayBeHead = true;
             for (int i = 0; i < lines.Length; i++)
             {
                 if (lines[i].Trim().Length == 0 || lines[i].StartsWith("#", StringComparison.Ordinal))
                 {
                     continue;
                 }
-                if (!TryRow(lines[i].Split(','), columns) && (i > 0 || !IsHead(lines[i], count)))
+                if (!TryRow(lines[i].Split(','), columns) && (!mayBeHead || !IsHead(lines[i], count)))
                 {
                     throw new ParameterException(where + file + ": line " + (i + 1) + " needs " + needed);
                 }
+                mayBeHead = false;
             }
             return columns;
         }

@@ -26,6 +26,12 @@ namespace Guidewire.Runtime
         [Tooltip("Folder that takes positions.json, parameters.json and summary.json; empty: the run is not logged.")]
         [SerializeField] private string _logFolder = "";
 
+        [Tooltip("Parameter file that a key takes in this one's place, and back; empty: none.")]
+        [SerializeField] private string _alternativeFile = "";
+
+        [Tooltip("KEY=VALUE, one a line: parameters that count instead of that file's.")]
+        [SerializeField] private string[] _alternativeOverrides = Array.Empty<string>();
+
         [Header("Pace")]
         [Tooltip("In-game seconds a second of real time.")]
         [SerializeField, Range(0.01f, 10f)] private float _pace = 1f;
@@ -91,6 +97,19 @@ namespace Guidewire.Runtime
             _parameterFile = parameterFile;
             _overrides = overrides;
             _logFolder = logFolder;
+        }
+
+        /// <summary>Takes the alternative's parameters in place of the present ones, and builds the wire anew; does
+        /// nothing where there is no alternative.</summary>
+        public void TakeAlternative()
+        {
+            if (_alternativeFile.Length == 0)
+            {
+                return;
+            }
+            (_parameterFile, _alternativeFile) = (_alternativeFile, _parameterFile);
+            (_overrides, _alternativeOverrides) = (_alternativeOverrides, _overrides);
+            Load();
         }
 
         /// <summary>Builds the wire anew from the parameter file.</summary>

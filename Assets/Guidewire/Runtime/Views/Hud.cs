@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using System.Globalization;
 using System.Text;
@@ -124,16 +125,29 @@ namespace Guidewire.Runtime
             ContactRecord? contacts = simulation.Contacts;
             if (contacts != null)
             {
-                Append("walls push with {0:0.00e+0}, the hand with {1:0.00e+0} mass unit unit/s\u00b2",
-                    contacts.Total.Length, contacts.Reaction.Length);
+                Append("walls push with {0:0.00e+0}, the hand with {1:0.00e+0} {2}", contacts.Total.Length,
+                    contacts.Reaction.Length, HasMaterial(session) ? "N" : "mass unit unit/s\u00b2");
                 Append("asked of sphere 0: {0:0.0} units, not given: {1:0.0}   passages {2}", contacts.DriveAsked,
                     contacts.DriveShortfall, contacts.Passages);
+            }
+            HubRecord? hub = simulation.Hub();
+            if (hub != null)
+            {
+                Append("hub: {0:0.0} mm in, turned by {1:0} degrees", 1e3 * hub.Insertion,
+                    180.0 / Math.PI * hub.Turn);
+                Append("push {0:0.0} mN, torque {1:0.000} mN m", 1e3 * hub.Force, 1e3 * hub.Torque);
+                Append("largest curvature {0:0.0} 1/m", hub.LargestCurvature);
             }
             if (_wire.Colouring != Colouring.Plain)
             {
                 Append("colour: {0}, red at {1} {2}", _wire.Colouring.ToString().ToLowerInvariant(), _wire.Range,
                     Units[(int)_wire.Colouring]);
             }
+        }
+
+        private static bool HasMaterial(SimulationSession session)
+        {
+            return MethodTable.Of(session.Parameters.Method.Solver).TakesMaterial;
         }
 
         private void Append(string format, params object[] values)

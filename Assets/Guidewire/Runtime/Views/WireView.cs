@@ -20,7 +20,9 @@ namespace Guidewire.Runtime
         [Tooltip("Corners of a ring.")]
         [SerializeField, Range(3, 32)] private int _sides = 12;
 
-        [Tooltip("Radius of the tube over sphereRadius.")]
+        private const double ThinnestOfLength = 1.0 / 300.0;
+
+        [Tooltip("Radius of the tube over sphereRadius, or over the radius of a wire with a material.")]
         [SerializeField, Range(0.05f, 1f)] private float _thickness = 1f;
 
         [SerializeField] private Colouring _colouring = Colouring.Plain;
@@ -73,7 +75,7 @@ namespace Guidewire.Runtime
                 return;
             }
             RodState state = session.Simulation.State;
-            float radius = _thickness * (float)session.Parameters.Contact.SphereRadius;
+            float radius = _thickness * (float)Radius(session.Parameters);
             if (_generation != _loop.Generation)
             {
                 Build(state);
@@ -155,6 +157,17 @@ namespace Guidewire.Runtime
                 default:
                     return 0.0;
             }
+        }
+
+        // What meets walls, units; of a material at least so much that it is seen.
+        private static double Radius(SimulationParameters parameters)
+        {
+            if (!MethodTable.Of(parameters.Method.Solver).TakesMaterial)
+            {
+                return parameters.Contact.SphereRadius;
+            }
+            double own = parameters.Material.WireRadius / parameters.Scene.MetresPerUnit;
+            return System.Math.Max(own, ThinnestOfLength * parameters.Scene.GuidewireLength);
         }
 
         private void DrawSpheres(RodState state, float radius)

@@ -205,7 +205,7 @@ namespace Guidewire.Core.Tests
             const string Scene = "{\"solver\": \"direct\", \"drive\": \"displace\", \"proximalEnd\": \"clamped\","
                 + " \"driveFile\": \"hub.csv\"}";
             string file = Path.Combine(_folder, "hub.csv");
-            File.WriteAllText(file, "time,insertion,rotation\n# a turn\n0,0,0\n2,0.04,6\n");
+            File.WriteAllText(file, "# the hub\ntime,insertion,rotation\n# a turn\n0,0,0\n2,0.04,6\n");
             ParameterHandler handler = Load(Scene);
             Assert.That(handler.Values.Simulation.Drive.Table!.Insertion.At(0.5), Is.EqualTo(0.01));
             Assert.That(handler.Values.Simulation.Drive.Table.Rotation.At(3.0), Is.EqualTo(6.0));

@@ -12,7 +12,8 @@ namespace Guidewire.Core
     {
         private const double Early = 0.1;       // of an element's length, by which it comes in early
         private const double Late = 0.3;        // and goes late
-        private const double LargestTurn = 1.0; // radians of the first element against its frame
+        private const double LargestTurn = 0.3; // radians of the first element against its frame
+        private const double Ahead = 2.4;       // radians by which the frame is ahead of a wire that jumps round
         private const int LeastElements = 2;
 
         private readonly SimulationParameters _parameters;
@@ -59,7 +60,24 @@ namespace Guidewire.Core
         public override void Advance(RodState state)
         {
             MoveWindow();
+            RodSchedule schedule = _whole.Schedule;
+            (double, double, double) drive = _whole.Drive.Way;
+            (Vector3d place, double since) = (schedule.ProximalPosition, schedule.ProximalTime);
+            double time = _dynamics.Time;
+            double torque = Torque();
             bool isDone = _inner.Step();
+            if (_inner.Failure != null && torque != 0.0)
+            {
+                // A tip that has stuck jumps round by as much as is wound up; its joint to the frame tells half a
+                // turn, and so the frame goes ahead.
+                _whole.Drive.Way = drive;
+                schedule.ProximalPosition = place;
+                schedule.ProximalTime = since;
+                double turned = RotationVector.Log(_setup.Frame(_frameTurn).Conjugate * _shape.Q[_window.First]).Z;
+                _frameTurn += turned - Math.Sign(torque) * Ahead;
+                Build(time, _inner);
+                isDone = _inner.Step();
+            }
             Failure = _inner.Failure;
             Divergence = _inner.Divergence;
             SteadyState = _inner.SteadyState;
@@ -188,7 +206,6 @@ namespace Guidewire.Core
             Array.Copy(_dynamics.Spins, 0, _spins, first, shape.Q.Length);
             double push = AxialForce();
             double torque = Torque();
-            double hub = _whole.Schedule.ProximalTurnAt(_dynamics.Time);
             double place = _window.Outside(_shape.X[first]);
             for (int j = first - 1; j >= 0; j--)
             {
@@ -197,10 +214,17 @@ namespace Guidewire.Core
                 _velocities[j] = Vector3d.Dot(_velocities[first], _setup.Axis) * _setup.Axis;
                 _spins[j] = new Vector3d(0.0, 0.0, _spins[first].Z);
             }
+            // Most joints are alike: sines are dear beside the rest.
+            Quaterniond frame = _setup.Frame(_whole.Schedule.ProximalTurnAt(_dynamics.Time));
+            Quaterniond turned = Quaterniond.Identity;
+            double before = 0.0;
             for (int j = 0; j < first; j++)
             {
-                hub += TurnOfJoint(j, torque);
-                _shape.Q[j] = _setup.Frame(hub);
+                double turn = TurnOfJoint(j, torque);
+                turned = turn == before ? turned : Quaterniond.FromAxisAngle(Vector3d.UnitZ, turn);
+                before = turn;
+                frame = frame * turned;
+                _shape.Q[j] = frame;
             }
             Contacts!.Take(_inner.Contacts!, first);
         }

@@ -71,7 +71,7 @@ namespace Guidewire.Core.Tests
                 double jump = Math.Abs(hub.Force - force);
                 double turn = Math.Abs(hub.Torque - torque);
                 bool enters = hub.SpheresInBody != before;
-                if (run.StepCount > 100)
+                if (run.StepCount > 50)
                 {
                     entries += enters ? 1 : 0;
                     usual = enters ? usual : Math.Max(usual, jump);
@@ -111,6 +111,8 @@ namespace Guidewire.Core.Tests
             Assert.That(other.State.Orientations, Is.EqualTo(run.State.Orientations));
             Assert.That(other.Hub()!.Force, Is.EqualTo(run.Hub()!.Force));
             Assert.That(other.Contacts!.DriveAsked, Is.EqualTo(run.Contacts!.DriveAsked));
+            parameters.Scene.Sheath = null;
+            Assert.That(() => run.Continue(parameters), Throws.ArgumentException.With.Message.StartsWith("sheath"));
         }
 
         [Test]
@@ -131,6 +133,33 @@ namespace Guidewire.Core.Tests
             Assert.That(-hub.Twist, Is.GreaterThan(0.9 * hub.Torque * sheathed / stiffness));
             double first = 2.0 * Math.Atan2(run.State.Orientations[30].Z, run.State.Orientations[30].W);
             Assert.That(hub.Turn - first, Is.EqualTo(30.5 * 0.01 * hub.Torque / stiffness).Within(1e-6));
+        }
+
+        [Test, Category("Long")]
+        public void TipThatJumpsRound_LosesNoTurn()
+        {
+            // So long a wire winds up by more than half a turn before its tip gives way in the bend.
+            SimulationParameters parameters = Sheathed(150, 1.5, 90.0);
+            parameters.Drive.Table = new DriveTable(new TimeTable(new[] { 0.0, 1.5 }, new[] { 0.0, 0.11 }),
+                new TimeTable(new[] { 1.5, 4.5 }, new[] { 0.0, 3.0 * Math.PI }));
+            parameters.Method.TimeStep = 0.01;
+            parameters.Method.MaxSimulationSteps = 450;
+            Simulation run = Simulation.Create(parameters);
+            double largest = 0.0;
+            double before = 0.0;
+            while (run.Outcome == Outcome.Running)
+            {
+                run.Step();
+                HubRecord hub = run.Hub()!;
+                largest = Math.Max(largest, Math.Abs(hub.Turn + hub.Twist - before));
+                before = hub.Turn + hub.Twist;
+                double stiffness = CrossSection.At(parameters.Material, 0.0).TwistStiffness;
+                double sheathed = 1.5 - hub.LengthInBody!.Value;
+                Assert.That(-hub.Twist, Is.EqualTo(hub.Torque * sheathed / stiffness).Within(1.5),
+                    "what is wound up is the torque's, at step " + run.StepCount);
+            }
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Assert.That(largest, Is.GreaterThan(Math.PI), "it jumped");
         }
 
         [Test]
