@@ -11,10 +11,10 @@ from matplotlib.figure import Figure
 from matplotlib.transforms import Bbox
 
 from analysis.chart.points import (
-    FRAME, METHODS, TICK, Charted, Cost, load_in_words, milliseconds, repeats_in_words, seconds,
+    FRAME, METHODS, TICK, Charted, Cost, milliseconds, repeats_in_words, seconds,
 )
 from analysis.figures.style import add_caption, letter, new_figure, styled
-from analysis.figures.wording import number
+from analysis.figures.wording import beside, number
 from analysis.validation.pictures import SOLVER_MARKERS
 
 COLOURS = dict(zip(METHODS, ("C0", "C1", "C2", "C3")))
@@ -33,7 +33,7 @@ def draw_costs(found: Sequence[Charted]) -> tuple[Figure, str]:
     figure = _panels(found, seconds, _COST, lines)
     caption = (
         "Figure chart. Error against cost of every method on eight problems. Cost: wall time of the steps per simulated "
-        f"second, one thread, median of timed runs made one at a time ({repeats_in_words()}); {_load(found)}. Markers: "
+        f"second, one thread, median of timed runs made one at a time ({repeats_in_words()}), {_load(found)}. Markers: "
         "pbd diamonds, xpbd triangles, explicit squares, direct circles. Thick grey line: the Pareto front, which no "
         "other setting beats in both error and cost; its settings stand beside it where they fit (n elements, time "
         "step or substep, m sweeps), and all of them in the table and on the page beside this picture. Vertical line: real time, 1 s per s. Crosses at the "
@@ -147,7 +147,7 @@ def _write_labels(axes: Axes, labels: Sequence[tuple[float, float, str]],
 
 
 def _load(found: Sequence[Charted]) -> str:
-    return load_in_words([point for charted in found for point in charted.points])
+    return beside([point.others_busy for charted in found for point in charted.points])
 
 
 def _lost(found: Sequence[Charted]) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from pathlib import Path
 
@@ -11,38 +10,8 @@ import pytest
 from analysis.figures import FIGURES, maps
 from analysis.figures.maps import drag_error, kind_of, read_map
 from analysis.runs import Run
-from studies.keys import TABLE
+from analysis.tests.outcomes import SUMMARY
 from studies.maps import MAPS
-from studies.table import Case
-
-SUMMARY = {"outcome": "finished", "passages": 0, "maxPenetration": 0.0, "solver": {}}
-DEFAULTS = {"guidewireLength": 100.0, "numberRodElements": 20, "timeStep": 0.001, "contactDistance": 0.0}
-
-
-def write_map(folder: Path, cases: list[Case], lost: str) -> Path:
-    """Runs whose tips go 10 units, a little farther in each; those of a variant that is lost diverge."""
-    rows = []
-    for k, case in enumerate(cases):
-        place = folder / str(k)
-        place.mkdir(parents=True)
-        (place / "parameters.json").write_text(json.dumps({**DEFAULTS, **case.overrides}))
-        outcome = "diverged" if lost and lost in case.key else "finished"
-        (place / "summary.json").write_text(json.dumps({**SUMMARY, "outcome": outcome}))
-        spheres = [{"0": {"x": 0.0, "y": y, "z": 0.0, "vx": 0, "vy": 0, "vz": 0}} for y in (0.0, 10.0 + 0.001 * k)]
-        (place / "positions.json").write_text(json.dumps({
-            str(step): {"totalTime": 0.1 * step, "elapsedMilliseconds": 0.0, "delta": 0.0, "sphere": sphere}
-            for step, sphere in enumerate(spheres)}))
-        rows.append({"key": case.key, "variant": case.variant, "values": dict(case.values), "parameters": "",
-                     "overrides": dict(case.overrides), "folder": str(k), "repeat": None})
-    (folder / TABLE).write_text(json.dumps({"study": folder.name, "question": "", "runs": rows}))
-    return folder
-
-
-@pytest.fixture(scope="module")
-def folders(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
-    lost = {"map-xpbd": "substeps=25,", "map-joints": "darboux,1.0"}
-    base = tmp_path_factory.mktemp("maps")
-    return {study.name: write_map(base / study.name, study.grid.cases(), lost.get(study.name, "")) for study in MAPS}
 
 
 @pytest.mark.parametrize("changed, error, kind", [
@@ -55,16 +24,16 @@ def test_a_run_is_of_the_worst_class_that_it_can_be(changed: dict, error: float,
     assert kind_of(Run(Path(), {"sphereRadius": 5.0}, {**SUMMARY, **changed}), error) == kind
 
 
-def test_the_figure_draws_every_run_and_says_what_holds(folders: dict[str, Path]) -> None:
-    figure, caption = FIGURES["maps"].draw(folders)
+def test_the_figure_draws_every_run_and_says_what_holds(studies: dict[str, Path]) -> None:
+    figure, caption = FIGURES["maps"].draw(studies)
     for axes, study in zip(figure.axes, MAPS):
         assert len([line for line in axes.lines if line.get_linestyle() == "None"]) == study.grid.count, study.name
     assert "xpbd holds from 50 substeps with m = 1" in caption
     assert "darboux: 3.25 holds, 1 does not" in caption and "rotationVector: 3.25 holds" in caption
 
 
-def test_errors_are_measured_against_the_run_that_is_the_reference(folders: dict[str, Path]) -> None:
-    cells = read_map("map-heavy-tip", folders["map-heavy-tip"])
+def test_errors_are_measured_against_the_run_that_is_the_reference(studies: dict[str, Path]) -> None:
+    cells = read_map("map-heavy-tip", studies["map-heavy-tip"])
     assert [cell.error for cell in cells if cell.y == "direct"] == [0.0] * 4
     assert cells[1].error == pytest.approx(0.001 / 10.0)
 
