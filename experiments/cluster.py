@@ -139,7 +139,8 @@ class Cluster:
         size = max(1, min(_CHECKED, -(-len(jobs) // (_IN_HAND * max(1, self.places)))))
         try:
             checked = [found for part in self._client.gather([
-                self._client.submit(self._works[1], self._plugin, self._command, worker.to_text(jobs[k:k + size]), pure=False)
+                self._client.submit(self._works[1], self._plugin, self._command, worker.to_text(jobs[k:k + size]),
+                                    pure=False)
                 for k in range(0, len(jobs), size)
             ]) for found in part]
         except KilledWorker as error:

@@ -90,7 +90,8 @@ MAPS: tuple[Study, ...] = (
     )),
     _study("map-drag", "how strong may a drag be?", "cantilever", Grid(
         (Axis("massDamping", (1.0, 1e2, 1e4, 1e6, 1e7, 1e8)),), {**_SWAYING, "maxSimulationSteps": 10}, {
-            "direct": {}, "xpbd": {"solver": "xpbd", "substeps": 400}, "explicit": {"solver": "explicit", "substeps": 6000},
+            "direct": {}, "xpbd": {"solver": "xpbd", "substeps": 400},
+            "explicit": {"solver": "explicit", "substeps": 6000},
         },
     )),
 )

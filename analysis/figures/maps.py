@@ -90,7 +90,8 @@ _VIEWS = (
           lambda _: "barycentric,push-1", ((1.0, "radius"),)),
     _View("map-slender", "pbd: long elements in a bend",
           lambda run: run.number("guidewireLength") / run.number("numberRodElements") / RADIUS, lambda run: run.variant,
-          ("element length over the radius (1)", "what touches a wall (-)"), lambda _: "barycentric,numberRodElements=40"),
+          ("element length over the radius (1)", "what touches a wall (-)"),
+          lambda _: "barycentric,numberRodElements=40"),
     _View("map-gap", "direct: fall onto a plane", lambda run: 1e3 * run.number("timeStep"),
           lambda run: 1e6 * run.number("contactDistance"), ("time step (ms)", "contact distance (µm)"),
           lambda _: "step-1,contactDistance=1e-06"),
@@ -210,15 +211,16 @@ def _caption(found: Mapping[str, Sequence[Cell]]) -> str:
                 for m in sorted({cell.y for cell in swept})}
     worst = {name: max((cell.error for cell in heavy if cell.y == name), default=np.nan)
              for name in dict.fromkeys(cell.y for cell in heavy)}
-    off = max(abs(cell.error / drag_error(cell.x) - 1.0) for cell in drag if cell.y != "direct" and cell.x > _DRAG_LIMIT)
+    off = max(abs(cell.error / drag_error(cell.x) - 1.0) for cell in drag
+              if cell.y != "direct" and cell.x > _DRAG_LIMIT)
     return (
         "Figure maps. Where methods hold and where they fail. Inaccurate: the tip is off by more than "
         f"{percent(INACCURATE)} of the way that the reference's tip goes; penetrating: deeper than "
-        f"{percent(_PENETRATING)} of the radius. (a) The same push of 100 units in a bent lumen in fewer, longer steps, "
-        f"against the shortest: barycentric {_kinds(push, 'barycentric')}; seed {_kinds(push, 'seed')}; none "
+        f"{percent(_PENETRATING)} of the radius. (a) The same push of 100 units in a bent lumen in fewer, longer "
+        f"steps, against the shortest: barycentric {_kinds(push, 'barycentric')}; seed {_kinds(push, 'seed')}; none "
         f"{_kinds(push, 'none')}. No step is too long for the walls, because its way is gone in parts of at most a "
-        "radius, each swept; beyond a radius the wire has too few steps in which to follow. The published rule lets the "
-        "wire in at any step. (b) Elements of up to five radii in the same bend, against the shortest: barycentric "
+        "radius, each swept; beyond a radius the wire has too few steps in which to follow. The published rule lets "
+        "the wire in at any step. (b) Elements of up to five radii in the same bend, against the shortest: barycentric "
         f"{_kinds(slender, 'barycentric')}; seed {_kinds(slender, 'seed')}; none {_kinds(slender, 'none')}. No length "
         "passes the wall but with the published rule; all are off, because the stiffness of gains goes with n. (c) A "
         f"wire that falls onto a plane, by contact distance and step: {_kinds(gap)}; no limit is found, barriers keep "
@@ -226,8 +228,8 @@ def _caption(found: Mapping[str, Sequence[Cell]]) -> str:
         f"{_held(joints, 'rotationVector')}; darboux: {_held(joints, 'darboux')}) and twisted between clamps (twist: "
         f"{_held(joints, 'twist')}). Dashed: the softest joint, beside the clamp, turns by 7/6 of an inner one; it "
         f"reaches its limit of {JOINT_LIMIT:g} rad when those are at {number(JOINT_LIMIT / LARGEST_JOINT, 3)}, and "
-        "K sin, the darboux law, has no balance when they are beyond 6/7: both come before π and 1. (e) The last 15 mm "
-        "of a wire under its own weight made heavier, against direct at the same ratio: worst distance "
+        "K sin, the darboux law, has no balance when they are beyond 6/7: both come before π and 1. (e) The last 15 "
+        "mm of a wire under its own weight made heavier, against direct at the same ratio: worst distance "
         + ", ".join(f"{name} {percent(error)}" for name, error in worst.items() if name != "direct")
         + f"; {_kinds(heavy)}. (f) xpbd holds from "
         + ", ".join(f"{k:g} substeps with m = {m:g}" for m, k in substeps.items())

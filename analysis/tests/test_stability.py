@@ -82,6 +82,7 @@ def test_gates_name_frontiers_that_are_elsewhere(studies: dict[str, Path], tmp_p
     assert gates(studies) == []
     (tmp_path / "frontier.csv").write_text(
         "variant,constraintSolverSteps,numberRodElements,key,low,high,fails,note\n"
-        "verlet,100,30,gain,2.09,2.1,diverged,holds below\nverlet,20,30,gain,1.5,1.6,diverged,holds below\n")
+        "verlet,100,30,gain,2.09,2.1,diverged,holds below\n"
+        "verlet,20,30,gain,1.5,1.6,diverged,holds below\n")
     (line,) = gates({**studies, "limit-stretch-across": tmp_path})
     assert "stretch gain, across" in line and "numberRodElements = 30" in line and "above its gate 1.5 %" in line

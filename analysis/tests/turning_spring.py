@@ -23,7 +23,7 @@ TRBDF2 = ((0.0,), (_D, _D), (_W, _W, _D))
 
 
 def largest_energy(scheme: Sequence[Sequence[float]], step: float, steps: int, stiffness: float | None) -> float:
-    """The largest energy on the way over m g L; it starts at 0. `stiffness` is of the spring over the mass, 1/s^2; None:
+    """The largest energy on the way over m g L; it starts at 0. `stiffness` is the spring's over the mass, 1/s^2; None:
     a rod, whose angle is all that there is."""
     rate, derivative, state, energy = _rod() if stiffness is None else _spring(stiffness)
     largest = 0.0
@@ -65,7 +65,8 @@ def _spring(stiffness: float) -> tuple:
 
     def energy(state: np.ndarray) -> float:
         stretch = np.linalg.norm(state[:2]) - LENGTH
-        return float(0.5 * state[2:] @ state[2:] + 0.5 * stiffness * stretch**2 + GRAVITY * state[1]) / (GRAVITY * LENGTH)
+        moving = 0.5 * state[2:] @ state[2:]
+        return float(moving + 0.5 * stiffness * stretch**2 + GRAVITY * state[1]) / (GRAVITY * LENGTH)
 
     return rate, derivative, np.array([LENGTH, 0.0, 0.0, 0.0]), energy
 

@@ -143,8 +143,8 @@ def _release() -> Plan:
 
     caption = (
         "A cantilever let go from its rest shape under F L²/EI = 0.1. Left: motion of the tip. Right: error over 0.2 s "
-        "(RMS of 2001 samples, space and time together) against wall time per simulated second, of direct the median of "
-        f"{_REPEATS} runs made one at a time, {beside(loads)}, of explicit and xpbd of one run beside others; dashed: "
+        "(RMS of 2001 samples, space and time together) against wall time per simulated second, of direct the median "
+        f"of {_REPEATS} runs made one at a time, {beside(loads)}, of explicit and xpbd of one run beside others; dashed: "
         "0.3 %. Reference: "
         f"geometrically exact, modes of the slope, 14 and 10 of them differ by {number(own, 1)}. "
         + "; ".join(f"{r.solver}: {percent(r.error)} at {number(r.cost, 2)}" for r in shown) + ". A "
