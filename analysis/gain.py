@@ -38,6 +38,8 @@ class GainRow:
         By winding numbers; None where that was not done.
     step_time : Spread or None
         Median wall time of a step in each timed repeat, in ms.
+    others_busy : float or None
+        Processors that other programs kept busy beside the repeat that they disturbed most; None where nobody looked.
     """
 
     rule: str
@@ -47,6 +49,7 @@ class GainRow:
     passages: int
     counted_again: int | None
     step_time: Spread | None
+    others_busy: float | None
 
     @property
     def element_length(self) -> float:
@@ -93,7 +96,8 @@ def read_gain(folder: Path, count_again: int = 0) -> GainTable:
     rows = []
     for wire in wires:
         elements = int(wire.run.number("numberRodElements"))
-        repeats = [repeat.measured("medianStepTime") for repeat in study.timed(wire.run.key)]
+        repeats = study.timed(wire.run.key)
+        loads = [repeat.others_busy for repeat in repeats if repeat.others_busy is not None]
         rows.append(GainRow(
             rule=wire.run.value("elementContact"),
             elements=elements,
@@ -101,7 +105,8 @@ def read_gain(folder: Path, count_again: int = 0) -> GainTable:
             mean_distance=distances(wire.motion, finest.motion).mean if wire.end >= finest.end else None,
             passages=int(wire.run.measured("passages")),
             counted_again=_count_again(wire) if elements <= count_again else None,
-            step_time=Spread.of(repeats),
+            step_time=Spread.of([repeat.measured("medianStepTime") for repeat in repeats]),
+            others_busy=max(loads, default=None),
         ))
     rows.sort(key=lambda row: row.elements)
     return GainTable(tuple(rows), next(row for row in rows if row.wire is finest))

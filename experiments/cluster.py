@@ -71,7 +71,10 @@ class Cluster:
         self._cluster: LocalCluster | None = None
         self._plugin = ""
         self._scratch = tempfile.TemporaryDirectory(prefix="guidewire-workers-")
-        dask.config.set({"temporary-directory": self._scratch.name})
+        dask.config.set({
+            "temporary-directory": self._scratch.name,
+            "distributed.diagnostics.computations.ignore-modules": [".*"],  # no sources for a dashboard
+        })
         self._works = (worker.make, worker.check)
         if address is not None:
             for module in _TRAVELLING:
@@ -134,11 +137,11 @@ class Cluster:
         PreparationError : the scheduler is gone, or the runner dies of a check.
         """
         size = max(1, min(_CHECKED, -(-len(jobs) // (_IN_HAND * max(1, self.places)))))
-        plain = [job.to_plain() for job in jobs]
         try:
             checked = [found for part in self._client.gather([
-                self._client.submit(self._works[1], self._plugin, self._command, plain[k:k + size], pure=False)
-                for k in range(0, len(plain), size)
+                self._client.submit(self._works[1], self._plugin, self._command, worker.to_text(jobs[k:k + size]),
+                                    pure=False)
+                for k in range(0, len(jobs), size)
             ]) for found in part]
         except KilledWorker as error:
             raise PreparationError("parameters could not be checked: a worker was lost again and again") from error
@@ -177,7 +180,7 @@ class Cluster:
     def submit(self, command: Sequence[str], jobs: Sequence[Job]) -> Future:
         """Hand out a batch."""
         return self._client.submit(
-            self._works[0], self._plugin, tuple(command), [job.to_plain() for job in jobs], pure=False
+            self._works[0], self._plugin, tuple(command), worker.to_text(jobs), pure=False
         )
 
     def _forget(self) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import difflib
 import json
-import math
 import os
 import subprocess
 import sys
@@ -19,6 +18,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from experiments import building, checking
+from experiments.arguments import Parser, above_zero, assignment, finite, path, positive
 from experiments.prepare import DRAWING, ROOT, SWEEPING, TESTING, VIEWING, PreparationError
 from experiments.runner import INTERNAL_ERROR, INTERRUPTED
 from experiments.sweep import FAILED, Bar, Means, SweepResult, sweep
@@ -34,7 +34,6 @@ if TYPE_CHECKING:
 
 BEYOND_A_GATE = 1  # all that was asked for is there, and a check is not passed
 _RUNS = "runs"  # folder of all runs, in that of the results
-_RUNNER_WORDS = ("parameters", "out", "force", "repeat", "lines", "logFile")  # the runner's own arguments, like -KEY
 _DESCRIPTION = "Simulates guidewires as Cosserat rods, without Unity: runs, sweeps, figures, tests."
 
 
@@ -43,11 +42,11 @@ def parse(argv: list[str]) -> argparse.Namespace:
 
     Exits with 2 and one line on stderr where it cannot be read.
     """
-    parser = _Parser(prog="guidewire.py", description=_DESCRIPTION)
-    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True, parser_class=_Parser)
+    parser = Parser(prog="guidewire.py", description=_DESCRIPTION)
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True, parser_class=Parser)
 
     demo = commands.add_parser("demo", help="build, run the default scene, fit tau, draw Figures 4.1 to 4.4")
-    demo.add_argument("--out", type=_path, default=Path("results/demo"), help="folder for the run and the pictures")
+    demo.add_argument("--out", type=path, default=Path("results/demo"), help="folder for the run and the pictures")
     demo.set_defaults(action=_demo, packages=DRAWING + SWEEPING)
 
     test = commands.add_parser("test", help="all tests; the last line says 'N passed, N failed'")
@@ -56,9 +55,9 @@ def parse(argv: list[str]) -> argparse.Namespace:
 
     run = commands.add_parser("run", help="one run of one parameter file")
     run.add_argument("file", metavar="FILE", type=Path, help="parameter file, such as params/default.json")
-    run.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], type=_assignment, dest="overrides",
+    run.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], type=assignment, dest="overrides",
                      help="a parameter laid over the file; may be given several times")
-    run.add_argument("--out", type=_path, help="folder of the run (results/<name of FILE>); the same run is not made "
+    run.add_argument("--out", type=path, help="folder of the run (results/<name of FILE>); the same run is not made "
                                                "again, and one of other parameters is not replaced")
     run.add_argument("--force", action="store_true",
                      help="replace a complete run that the folder holds, once this one is complete")
@@ -67,7 +66,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
 
     sweep = commands.add_parser("sweep", help="a study's runs; what is done already is not run again")
     sweep.add_argument("study", metavar="STUDY", help=f"{', '.join(STUDIES)}; or a study of your own, a JSON file")
-    sweep.add_argument("--out", type=_path, default=Path("results"), help="folder above the study's (results)")
+    sweep.add_argument("--out", type=path, default=Path("results"), help="folder above the study's (results)")
     sweep.add_argument("--logs", action="store_true", help="every run leaves its log, whatever the study's file says")
     sweep.add_argument("--yes", action="store_true", help="make the runs, however many the study's file asks for")
     _add_workers(sweep)
@@ -77,38 +76,38 @@ def parse(argv: list[str]) -> argparse.Namespace:
     figures = commands.add_parser("figures", help="the thesis's figures and ours, running what is missing; ends with "
                                                   "1 where a check is beyond its gate")
     figures.add_argument("ids", metavar="ID", nargs="*", help="such as 4.5; all where none is given")
-    figures.add_argument("--out", type=_path, default=Path("results"),
+    figures.add_argument("--out", type=path, default=Path("results"),
                          help="folder above the studies' (results); the pictures stand in its 'figures'")
-    figures.add_argument("--quick", action="store_true", help="few values of each study and few checks, in 'quick' below "
-                                                              "the folder: does everything work?")
+    figures.add_argument("--quick", action="store_true",
+                         help="few values of each study and few checks, in 'quick' below the folder: does all work?")
     _add_workers(figures)
     figures.set_defaults(action=_figures, packages=DRAWING + SWEEPING)
 
     advise = commands.add_parser("advise", help="the cheapest settings of a scene that meet an error, found by running")
     advise.add_argument("file", metavar="SCENE", type=Path, help="parameter file, such as params/insertion.json")
     asked = advise.add_mutually_exclusive_group(required=True)
-    asked.add_argument("--error", type=_above_zero, metavar="E",
+    asked.add_argument("--error", type=above_zero, metavar="E",
                        help="RMS distance of the wire from a finer run, over the way that it goes, such as 0.01")
-    asked.add_argument("--budget", type=_above_zero, metavar="MS_PER_STEP",
+    asked.add_argument("--budget", type=above_zero, metavar="MS_PER_STEP",
                        help="wall time that a step may take, ms: the most accurate settings within it")
-    advise.add_argument("--out", type=_path, default=Path("results"),
+    advise.add_argument("--out", type=path, default=Path("results"),
                         help="folder above that of the runs (results); the file and advice.md stand in advice/SCENE")
     _add_workers(advise)
     advise.set_defaults(action=_advise, packages=DRAWING + SWEEPING)
 
     render = commands.add_parser("render", help="a picture or a film of a run, with its vessel and obstacles")
     render.add_argument("folder", type=Path, metavar="RUN", help="folder of a run")
-    render.add_argument("--out", type=_path, metavar="FILE", help="FILE.png or FILE.gif (RUN/render.png)")
-    render.add_argument("--times", type=_finite, nargs="+", metavar="T", default=[],
+    render.add_argument("--out", type=path, metavar="FILE", help="FILE.png or FILE.gif (RUN/render.png)")
+    render.add_argument("--times", type=finite, nargs="+", metavar="T", default=[],
                         help="of a .png: these moments, in s, in one picture, a colour each (the last moment, coloured "
                              "by curvature)")
-    render.add_argument("--frames", type=_positive, default=40, metavar="K", help="of a .gif: pictures at most (40)")
-    render.add_argument("--target", type=_finite, nargs=3, metavar=("X", "Y", "Z"), help="point in the middle, units")
-    render.add_argument("--distance", type=_above_zero, metavar="D", help="of the camera from it, units")
-    render.add_argument("--yaw", type=_finite, default=-90.0, metavar="DEGREES",
+    render.add_argument("--frames", type=positive, default=40, metavar="K", help="of a .gif: pictures at most (40)")
+    render.add_argument("--target", type=finite, nargs=3, metavar=("X", "Y", "Z"), help="point in the middle, units")
+    render.add_argument("--distance", type=above_zero, metavar="D", help="of the camera from it, units")
+    render.add_argument("--yaw", type=finite, default=-90.0, metavar="DEGREES",
                         help="0 looks along z, -90 against x (-90)")
-    render.add_argument("--pitch", type=_finite, default=15.0, metavar="DEGREES", help="90 looks down, against y (15)")
-    render.add_argument("--radius", type=_above_zero, metavar="R",
+    render.add_argument("--pitch", type=finite, default=15.0, metavar="DEGREES", help="90 looks down, against y (15)")
+    render.add_argument("--radius", type=above_zero, metavar="R",
                         help="of the wire in the picture, units (its own, or so much that it is seen)")
     render.set_defaults(action=_render, packages=DRAWING)
 
@@ -116,8 +115,8 @@ def parse(argv: list[str]) -> argparse.Namespace:
     view.add_argument("what", metavar="FILE|RUN", nargs="+", type=Path,
                       help="parameter file: live; folder of a run: a replay; of two: side by side, or one over the "
                            "other")
-    view.add_argument("--html", type=_path, metavar="FILE", help="write the replay into one file that needs no server")
-    view.add_argument("--frames", type=_positive, metavar="K", help="of a run at most (5000; 300 with --html)")
+    view.add_argument("--html", type=path, metavar="FILE", help="write the replay into one file that needs no server")
+    view.add_argument("--frames", type=positive, metavar="K", help="of a run at most (5000; 300 with --html)")
     view.add_argument("--open", action="store_true", help="open the page in a browser")
     view.set_defaults(action=_view, packages=("numpy", *VIEWING))
 
@@ -132,8 +131,8 @@ def parse(argv: list[str]) -> argparse.Namespace:
     modes = commands.add_parser("modes", help="lowest frequencies and shapes of a wire with a material")
     modes.add_argument("file", type=Path, metavar="FILE",
                        help="parameter file; the modes are those about its rest shape")
-    modes.add_argument("--count", type=_positive, default=6, metavar="K", help="how many (6)")
-    modes.add_argument("--out", type=_path, default=Path("results"), metavar="DIR",
+    modes.add_argument("--count", type=positive, default=6, metavar="K", help="how many (6)")
+    modes.add_argument("--out", type=path, default=Path("results"), metavar="DIR",
                        help="takes NAME-modes.png (results)")
     modes.set_defaults(action=_modes, packages=DRAWING)
 
@@ -172,51 +171,6 @@ def run(arguments: argparse.Namespace) -> int:
         trace.write_text(traceback.format_exc(), encoding="utf-8")
         print(f"guidewire: internal error ({type(error).__name__}: {error}): please report {trace}", file=sys.stderr)
         return INTERNAL_ERROR
-
-
-class _Parser(argparse.ArgumentParser):
-    """Says what is wrong in one line, without argparse's usage lines before it."""
-
-    def error(self, message: str) -> None:
-        self.exit(2, f"guidewire: {message} ('{self.prog} --help' lists what is allowed)\n")
-
-
-def _assignment(text: str) -> tuple[str, str]:
-    key, equals, value = text.partition("=")
-    if not key or not equals:
-        raise argparse.ArgumentTypeError(f"'{text}' is not KEY=VALUE")
-    if key in _RUNNER_WORDS:
-        raise argparse.ArgumentTypeError(f"'{key}' is no parameter")
-    return key, value
-
-
-def _path(text: str) -> Path:
-    if not text.strip():
-        raise argparse.ArgumentTypeError("an empty name is no folder")
-    return Path(text)
-
-
-def _positive(text: str) -> int:
-    if not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"'{text}' is not a whole number above 0")
-    return int(text)
-
-
-def _finite(text: str) -> float:
-    try:
-        number = float(text)
-    except ValueError:
-        number = math.nan
-    if not math.isfinite(number):
-        raise argparse.ArgumentTypeError(f"'{text}' is not a number")
-    return number
-
-
-def _above_zero(text: str) -> float:
-    number = _finite(text)
-    if number <= 0.0:
-        raise argparse.ArgumentTypeError(f"'{text}' is not a number above 0")
-    return number
 
 
 def _demo(arguments: argparse.Namespace) -> int:
@@ -447,7 +401,7 @@ def _unity_check(arguments: argparse.Namespace) -> int:
 
 
 def _add_workers(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--jobs", type=_positive, default=os.cpu_count() or 1, metavar="N",
+    parser.add_argument("--jobs", type=positive, default=os.cpu_count() or 1, metavar="N",
                         help="untimed runs at once (one per processor); timed ones are made one at a time")
     parser.add_argument("--cluster", metavar="ADDRESS",
                         help="scheduler of dask, such as tcp://host:8786, whose workers make the runs")

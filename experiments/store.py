@@ -7,6 +7,7 @@ a killed or failed run left: it is made again, in the same place.
 from __future__ import annotations
 
 import json
+import os
 from pathlib import Path
 from typing import Any
 
@@ -27,7 +28,7 @@ def folder_of(runs: Path, address: str, repeat: int | None = None, in_turns: boo
     in_turns : whether it is a cost measured in turns with sweeps.
     """
     name = address[2:] + ("-in-turns" if in_turns else f"-repeat-{repeat}" if repeat is not None else "")
-    return runs / address[:2] / name
+    return runs.joinpath(address[:2], name)
 
 
 def read_whole(folder: Path, log: bool, timed: bool) -> dict[str, Any] | None:
@@ -40,7 +41,8 @@ def read_whole(folder: Path, log: bool, timed: bool) -> dict[str, Any] | None:
     timed : whether the load beside it is needed.
     """
     try:
-        summary = json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
+        with open(os.path.join(folder, SUMMARY), "rb") as file:
+            summary = json.loads(file.read())
     except (OSError, ValueError):
         return None
     if not isinstance(summary, dict) or summary.get("complete") is not True or summary.get("outcome") in _NOT_DONE:

@@ -236,6 +236,7 @@ class _Asked:
         self.lost: list[Answer] = []  # what became of runs that have no result
         self._folder = folder
         self._earlier: list[_Row] = []
+        self._places: dict[str, str] = {}  # folders above those of runs, from that of the tables
         self._lines: list[dict[str, Any]] = []  # of the table, for the rounds before the latest
         self._rounds: Rounds = source.rounds(folder)
         self._keys: set[str] = set()  # without regard to case: names of files are made of them
@@ -261,17 +262,17 @@ class _Asked:
 
     def write_study(self) -> None:
         """Write study.json: what was asked for, and in which folder it is."""
-        rows = [{
+        rows = (json.dumps({
             "key": row.case.key,
             "variant": row.case.variant,
             "values": dict(row.case.values),
             "parameters": self.source.scene,
             "overrides": row.job.request.overrides,
-            "folder": os.path.relpath(row.folder, self._folder).replace(os.sep, "/"),
+            "folder": self._place_of(row),
             "repeat": row.repeat,
-        } for row in (*self._earlier, *self.latest) if not row.refused]
-        table = {"study": self.source.name, "question": self.source.title, "runs": rows}
-        _write(self._folder / TABLE, json.dumps(table, indent=2) + "\n")
+        }) for row in (*self._earlier, *self.latest) if not row.refused)
+        head = f'{{"study": {json.dumps(self.source.name)}, "question": {json.dumps(self.source.title)}, "runs": [\n'
+        _write(self._folder / TABLE, head + ",\n".join(rows) + "\n]}\n")
 
     def write_results(self, answers: Mapping[Path, Answer]) -> None:
         """Write runs.csv: what came of every run, one line each."""
@@ -295,7 +296,14 @@ class _Asked:
         """What came of a run, and last what depends on the machine."""
         flat = dict(_flat("", {name: value for name, value in summary.items() if name not in _SAID}))
         last = {name: flat.pop(name) for name in WALL_TIMES if name in flat}
-        return {**flat, "folder": os.path.relpath(row.folder, self._folder).replace(os.sep, "/"), **last}
+        return {**flat, "folder": self._place_of(row), **last}
+
+    def _place_of(self, row: _Row) -> str:
+        """Folder of a run, from that of the tables."""
+        above, part, name = str(row.folder).rsplit(os.sep, 2)
+        if above not in self._places:
+            self._places[above] = os.path.relpath(above, self._folder).replace(os.sep, "/")
+        return f"{self._places[above]}/{part}/{name}"
 
     def _answer(self, row: _Row, answers: Mapping[Path, Answer]) -> Answer:
         """What became of a run that is not done."""

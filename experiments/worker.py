@@ -25,6 +25,7 @@ from experiments.store import LOAD, read_whole
 _MEASURED_AT_MOST = 3
 
 Plain = Sequence[Any]  # of a job: what every worker can read, whatever code it has
+# Jobs travel as one text: dask looks into lists, for each of their parts, for what it should compute first.
 
 
 @dataclass(frozen=True)
@@ -58,6 +59,16 @@ class Job:
     def is_done(self) -> bool:
         """Whether its folder holds the whole run."""
         return read_whole(self.request.out, self.request.log, self.timed) is not None
+
+
+def to_text(jobs: Sequence[Job]) -> str:
+    """A batch of jobs as it travels."""
+    return json.dumps([job.to_plain() for job in jobs])
+
+
+def of_text(text: str) -> list[Job]:
+    """The batch that has travelled."""
+    return [Job.of(plain) for plain in json.loads(text)]
 
 
 class WorkerProblem(Exception):
@@ -149,24 +160,24 @@ class Runners(WorkerPlugin):
         return answers
 
 
-def make(plugin: str, command: Sequence[str], jobs: Sequence[Plain]) -> dict[str, Any]:
+def make(plugin: str, command: Sequence[str], jobs: str) -> dict[str, Any]:
     """`Runners.make` of the worker that this is run on: `answers`, the `seconds` that they took, and the `problem` of a
     worker that cannot make any, in one line."""
     started = time.monotonic()
     try:
-        answers = get_worker().plugins[plugin].make(command, [Job.of(job) for job in jobs])
+        answers = get_worker().plugins[plugin].make(command, of_text(jobs))
     except WorkerProblem as problem:
         return {"answers": [], "seconds": 0.0, "problem": str(problem)}
     told = [(answer.name, answer.exit_code, answer.outcome, answer.message) for answer in answers]
     return {"answers": told, "seconds": time.monotonic() - started, "problem": ""}
 
 
-def check(plugin: str, command: Sequence[str], jobs: Sequence[Plain]) -> list[Plain]:
+def check(plugin: str, command: Sequence[str], jobs: str) -> list[Plain]:
     """Of each job the address of its run, or exit code and line of why it cannot be made."""
     found = []
     with get_worker().plugins[plugin].runner(command) as runner:
-        for job in jobs:
-            checked = runner.check(Job.of(job).request)
+        for job in of_text(jobs):
+            checked = runner.check(job.request)
             found.append((checked.address,) if isinstance(checked, Checked) else (checked.exit_code, checked.message))
     return found
 

@@ -13,6 +13,7 @@ from typing import Any
 
 from studies.frontiers import FRONTIERS
 from studies.keys import Value
+from studies.maps import MAPS
 from studies.table import Axis, Grid, Study
 
 _TABLE_4_1 = "params/default.json"
@@ -150,5 +151,6 @@ STUDIES: dict[str, Study] = {
             {"straight": {"vessel": _lumen([_BEND[0], [0, 0, 400]])}, "bent": {"vessel": _lumen(_BEND)}},
         )),
         *FRONTIERS,
+        *MAPS,
     )
 }

@@ -1,5 +1,5 @@
-"""Studies in short: the first, a middle and the last value of each axis, one timed repeat at most, a fifth of the in-game
-time, two variants of a bisection. Enough to draw every figure, too little to read one off."""
+"""Studies in short: the first, a middle and the last value of each axis, one timed repeat at most, a fifth of the
+in-game time, two variants of a bisection. Enough to draw every figure, too little to read one off."""
 
 from __future__ import annotations
 

@@ -233,10 +233,13 @@ def _shortlist(keys: Sequence[str], found: Mapping[str, Tried], wish: Wish) -> l
         return good[:_TIMED]
     front: list[str] = []
     for key in sorted((key for key in keys if math.isfinite(found[key].error)), key=lambda key: found[key].error):
-        steps = found[key].parameters["maxSimulationSteps"]
-        if not front or found[key].work / steps < found[front[-1]].work / found[front[-1]].parameters["maxSimulationSteps"]:
+        if not front or _work_of_a_step(found[key]) < _work_of_a_step(found[front[-1]]):
             front.append(key)
     return front
+
+
+def _work_of_a_step(tried: Tried) -> float:
+    return tried.work / tried.parameters["maxSimulationSteps"]
 
 
 def folder_of(out: Path) -> Path:

@@ -28,14 +28,14 @@ def as_markdown(name: str, wish: Wish, advice: Advice) -> str:
         f"{_error(advice.scene)} at {_step(advice.scene)} ms a step. Times are medians of three runs; other programs "
         f"kept {span(_busy(advice), 2)} processors busy beside them.", "",
         "## Parts of the model", "",
-        "Each part that the scene has, left out or halved: how far the answer moves from the file's, and what it costs. "
+        "Each part that the scene has, left out or halved: how far the answer moves from the file's, and its cost. "
         "Work is counted, over that of the file, and does not depend on the machine.", "",
         "| part | answer moves by | error | ms a step | work |", "|---|---|---|---|---|",
         f"| the file as it is | - | {_error(advice.scene)} | {_step(advice.scene)} | 1 |",
         *(f"| {one.trial.name} | {_moved(one)} | {_error(one)} | {_step(one)} | "
           f"{number(one.work / advice.scene.work, 2)} |" for one in advice.parts),
-        "", f"Writing the log of this comparison took {_log(advice.scene)} ms a step more; a run that nobody reads back "
-        "does without (`logSpheres`, `logEvery`).", "",
+        "", f"Writing the log of this comparison took {_log(advice.scene)} ms a step more; a run that nobody reads "
+        "back does without (`logSpheres`, `logEvery`).", "",
         "## Settings that were searched", "",
         "From the least work on; settings without a time were not timed, because they miss the error or others that "
         "meet it need less work." if wish.budget is None else
@@ -50,7 +50,8 @@ def verdict(wish: Wish, advice: Advice) -> str:
     """One line: what to take."""
     taken = advice.taken
     if taken is None:
-        best = min((one for one in advice.searched if math.isfinite(one.error)), key=lambda one: one.error, default=None)
+        finite = [one for one in advice.searched if math.isfinite(one.error)]
+        best = min(finite, key=lambda one: one.error, default=None)
         least = "every setting is lost" if best is None else f"the best has {percent(best.error)} ({best.trial.name})"
         missed = "has so small an error" if wish.budget is None else "keeps within the budget"
         return f"None of the {len(advice.searched)} settings searched {missed}; {least}."

@@ -135,8 +135,8 @@ def _of_gains(scene: Values) -> Iterator[Trial]:
                         if stepped is None or fewer is None:
                             continue
                         swept = _softened(scene, share) if softened else _over(scene, "constraintSolverSteps", share)
-                        changed = {**fewer, **stepped, **(swept or {}),
-                                   **({} if contact in (None, scene["elementContact"]) else {"elementContact": contact})}
+                        touched = {} if contact in (None, scene["elementContact"]) else {"elementContact": contact}
+                        changed = {**fewer, **stepped, **(swept or {}), **touched}
                         yield Trial(_settings({**scene, **changed}), changed)
 
 

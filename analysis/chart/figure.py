@@ -11,10 +11,10 @@ from matplotlib.figure import Figure
 from matplotlib.transforms import Bbox
 
 from analysis.chart.points import (
-    FRAME, METHODS, TICK, Charted, Cost, load_in_words, milliseconds, repeats_in_words, seconds,
+    FRAME, METHODS, TICK, Charted, Cost, milliseconds, repeats_in_words, seconds,
 )
 from analysis.figures.style import add_caption, letter, new_figure, styled
-from analysis.figures.wording import number
+from analysis.figures.wording import beside, number
 from analysis.validation.pictures import SOLVER_MARKERS
 
 COLOURS = dict(zip(METHODS, ("C0", "C1", "C2", "C3")))
@@ -32,11 +32,12 @@ def draw_costs(found: Sequence[Charted]) -> tuple[Figure, str]:
     lines = ((1.0, "real time"),)
     figure = _panels(found, seconds, _COST, lines)
     caption = (
-        "Figure chart. Error against cost of every method on eight problems. Cost: wall time of the steps per simulated "
-        f"second, one thread, median of timed runs made one at a time ({repeats_in_words()}); {_load(found)}. Markers: "
+        "Figure chart. Error against cost of every method on eight problems. Cost: wall time of the steps per "
+        f"simulated second, one thread, median of timed runs made one at a time ({repeats_in_words()}), {_load(found)}. Markers: "
         "pbd diamonds, xpbd triangles, explicit squares, direct circles. Thick grey line: the Pareto front, which no "
         "other setting beats in both error and cost; its settings stand beside it where they fit (n elements, time "
-        "step or substep, m sweeps), and all of them in the table and on the page beside this picture. Vertical line: real time, 1 s per s. Crosses at the "
+        "step or substep, m sweeps), and all of them in the table and on the page beside this picture. Vertical line: "
+        "real time, 1 s per s. Crosses at the "
         f"upper edge: settings without an answer, at what they cost. {_lost(found)}{_references(found)} pbd has no "
         f"material: {_gains(found)} On the bar its stretch gain is that of the springs; in the arch neither stiffness "
         f"nor mass decides the shape. {_absent(found)}"
@@ -52,8 +53,8 @@ def draw_steps(found: Sequence[Charted]) -> tuple[Figure, str]:
     figure = _panels(found, milliseconds, _STEP, lines)
     caption = (
         "Figure chart, against what a loop has to wait for: wall time of one time step, of the same runs. A display of "
-        f"90 Hz has {number(1e3 * FRAME, 3)} ms for a step, a haptic loop of 1 kHz one ms (vertical lines). A step that "
-        "fits keeps its loop on time; whether simulated time then passes as fast as real time, the chart of cost says."
+        f"90 Hz has {number(1e3 * FRAME, 3)} ms for a step, a haptic loop of 1 kHz one ms (vertical lines). A step "
+        "that fits keeps its loop on time; whether simulated time then passes as fast as real time, the chart of cost says."
     )
     add_caption(figure, caption)
     return figure, caption
@@ -147,7 +148,7 @@ def _write_labels(axes: Axes, labels: Sequence[tuple[float, float, str]],
 
 
 def _load(found: Sequence[Charted]) -> str:
-    return load_in_words([point for charted in found for point in charted.points])
+    return beside([point.others_busy for charted in found for point in charted.points])
 
 
 def _lost(found: Sequence[Charted]) -> str:
@@ -164,7 +165,8 @@ def _references(found: Sequence[Charted]) -> str:
 
 def _gains(found: Sequence[Charted]) -> str:
     gains = sorted({charted.gain for charted in found if charted.gain is not None})
-    return (f"its bendStiffness ({', '.join(number(gain, 4) for gain in gains)}) is tuned so that each wire sags as the "
+    told = ", ".join(number(gain, 4) for gain in gains)
+    return (f"its bendStiffness ({told}) is tuned so that each wire sags as the "
             "material does at m = 500, n = 30, dt = 1 ms; other pbd points have the same gains.")
 
 

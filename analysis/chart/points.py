@@ -9,7 +9,6 @@ from functools import partial
 
 import numpy as np
 
-from analysis.figures.wording import number, span
 from analysis.runs import Run, read_repeats
 from analysis.validation.check import Check
 from analysis.validation.scenes import Asking
@@ -228,15 +227,6 @@ def _cost(run: Run) -> float:
     if not steps:
         return run.measured("setUpTime") / run.number("timeStep")
     return run.measured("computationTime") / run.measured("inGameTime")
-
-
-def load_in_words(points: Sequence[Point]) -> str:
-    """What was measured of the machine's load beside timed runs."""
-    busy = [point.others_busy for point in points if point.others_busy is not None]
-    if not busy:
-        return "the load beside them was not measured"
-    return f"other programs kept {span(busy, 2)} processors busy beside a setting's most disturbed repeat " \
-           f"(median {number(float(np.median(busy)), 2)})"
 
 
 def repeats_in_words() -> str:

@@ -142,7 +142,8 @@ def _insertion() -> scenes.Asking[Asked]:
 
     def pushed(n: int, step: float, more: Mapping[str, Any]) -> dict[str, Any]:
         return {
-            "guidewireLength": _ARCH_WIRE.length / scenes.UNIT, "numberRodElements": n, "timeStep": step, "guidewireOffset": -300.0,
+            "guidewireLength": _ARCH_WIRE.length / scenes.UNIT, "numberRodElements": n, "timeStep": step,
+            "guidewireOffset": -300.0,
             "drive": "displace", "displacement": 0.0, "displacementPerStep": _SPEED * step, "vessel": _ARCH,
             "maxSimulationSteps": round(_WAY / _SPEED / step), "logEvery": 1_000_000, **more,
         }
@@ -155,9 +156,10 @@ def _insertion() -> scenes.Asking[Asked]:
     ]
     gains = {"stretchStiffness": 1.0, "bendStiffness": 0.1, "totalMass": 0.01, "damping": 0.1,
              "collisionStiffness": 0.5, "sphereRadius": _ARCH_WIRE.radius / scenes.UNIT}
-    for m, n, step, stiffness in ((20, 30, 1e-2, 0.1), (100, 30, 1e-2, 0.1), (500, 30, 1e-2, 0.1), (500, 30, 1e-2, 0.02),
-                                  (500, 60, 1e-2, 0.1), (500, 60, 1e-2, 0.02), (500, 60, 1e-2, 1.0),
-                                  (100, 60, 2e-3, 0.1)):
+    for m, n, step, stiffness in (
+        (20, 30, 1e-2, 0.1), (100, 30, 1e-2, 0.1), (500, 30, 1e-2, 0.1), (500, 30, 1e-2, 0.02), (500, 60, 1e-2, 0.1),
+        (500, 60, 1e-2, 0.02), (500, 60, 1e-2, 1.0), (100, 60, 2e-3, 0.1),
+    ):
         changed = {"constraintSolverSteps": m, "numberRodElements": n, "timeStep": step}
         words, label = settings.pbd(changed)
         made.append(Setting("pbd", f"{words}, k_B = {stiffness:g}", f"{label} kB{stiffness:g}", case(

@@ -10,7 +10,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from analysis.comparisons import read_comparison, read_reference
-from analysis.figures import default_run, perturbations, stability
+from analysis.figures import default_run, maps, perturbations, stability
 from analysis.figures.contact_rule import draw_contact_rule, read_rests
 from analysis.figures.control import draw_drives, draw_twist, read_drives, read_twists
 from analysis.figures.gain import draw_gain
@@ -136,5 +136,6 @@ FIGURES: dict[str, FigureSpec] = {
                    partial(_draw_rows, draw_twist, read_twists, "twist")),
         FigureSpec("stability", "where methods fail", stability.STUDIES, stability.draw_stability, {},
                    stability.failed_gates),
+        FigureSpec("maps", "outcomes over two parameters", maps.STUDIES, maps.draw_maps),
     )
 }

@@ -10,7 +10,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from analysis.figures.wording import number, percent, relative_spread, span
+from analysis.figures.wording import beside, number, percent, relative_spread, span
 from analysis.slowest_mode import SlowestMode
 from analysis.tables import StudyTable
 
@@ -268,11 +268,9 @@ def _repeats(table: StudyTable) -> str:
     counts = sorted({spread.count for spread in spreads})
     counted = f"{counts[0]}" if len(counts) == 1 else f"{counts[0]} to {counts[-1]}"
     widest = max((spread.highest - spread.lowest) / spread.median for spread in spreads)
-    loads = [row.others_busy for row in table.rows if row.others_busy is not None]
-    beside = (f"while other programs kept at most {number(max(loads), 2)} processors busy" if loads
-              else "and nobody looked what other programs did beside them")
     return (
-        f"Wall times: median and range of {counted} runs, made one at a time, {beside}; the range of the step time is "
+        f"Wall times: median and range of {counted} runs, made one at a time, "
+        f"{beside([row.others_busy for row in table.rows])}; the range of the step time is "
         f"at most {percent(widest)} of the median."
     )
 

@@ -9,7 +9,7 @@ from matplotlib.ticker import MaxNLocator
 
 from analysis.figures.outlines import draw_surroundings
 from analysis.figures.style import add_caption, letter, new_figure, styled
-from analysis.figures.wording import number, percent, span
+from analysis.figures.wording import beside, number, percent, span
 from analysis.gain import RULES, GainRow, GainTable
 
 _COLOURS = {"none": "C1", "barycentric": "C0", "seed": "C3"}
@@ -131,7 +131,8 @@ def _cost(elements: list[GainRow], spheres: list[GainRow]) -> str:
         f"(d) With element contact a step takes {number(first.step_time.median, 2)} ms at n = {first.elements}, "
         f"{number(touching.step_time.median, 2)} at n = {touching.elements} and "
         f"{number(longest.step_time.median, 2)} at "
-        f"n = {longest.elements} (median of the steps, then of {first.step_time.count} runs), in the median of all n "
+        f"n = {longest.elements} (median of the steps, then of {first.step_time.count} runs, made one at a time, "
+        f"{beside([row.others_busy for row in (*elements, *spheres)])}), in the median of all n "
         f"{percent(abs(extra))} {'more' if extra >= 0.0 else 'less'} than with spheres only."
     )
 

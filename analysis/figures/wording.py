@@ -41,3 +41,11 @@ def relative_spread(values: Sequence[float] | np.ndarray) -> float:
     if finite.size == 0:
         return math.nan
     return float((finite.max() - finite.min()) / np.median(finite))
+
+
+def beside(loads: Sequence[float | None]) -> str:
+    """What was measured of the machine beside timed runs, each with the processors that others kept busy."""
+    known = [load for load in loads if load is not None]
+    if not known:
+        return "and nobody looked what other programs did beside them"
+    return f"while other programs kept at most {number(max(known), 2)} processors busy"

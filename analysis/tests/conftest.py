@@ -11,6 +11,7 @@ import pytest
 from analysis.figures import stability
 from analysis.stability import closed_form_along, limit_explicit
 from analysis.tests.chain import Chain, small, write_study
+from analysis.tests.outcomes import write_outcomes
 from analysis.tests.waves import Wave
 from analysis.validation.wire import Wire
 from studies.bisection import FRONTIER
@@ -62,6 +63,7 @@ def studies(tmp_path_factory: pytest.TempPathFactory, default_study: Path) -> di
         folders[name] = write_study(tmp_path_factory.mktemp(name), name, None, list(named.values()), repeats=0,
                                     variants=list(named))
     folders |= write_maps(tmp_path_factory.mktemp("maps"))
+    folders |= write_outcomes(tmp_path_factory.mktemp("outcomes"))
     folders["twist"] = write_study(
         tmp_path_factory.mktemp("twist"), "twist", "constraintSolverSteps", list(TWISTED_WAVES.values()), repeats=0,
         variants=[lumen for lumen, _ in TWISTED_WAVES],

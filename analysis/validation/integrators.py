@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from analysis.figures.wording import number
+from analysis.figures.wording import beside, number
 from analysis.logs import read_entries
 from analysis.runs import Run, read_repeats
 from analysis.validation.check import Check, Finding, Plan, Result
@@ -109,7 +109,8 @@ def _integrators() -> Plan:
             title_fontsize=6,
         )
 
-    return Finding(tuple(results), draw, _caption(results, costs), width=12.0)
+    loads = [repeat.others_busy for case in cases.values() for repeat in read_repeats(runs[case.key], case.repeats)]
+    return Finding(tuple(results), draw, _caption(results, costs, beside(loads)), width=12.0)
 
 
 def _seen(motion: tuple[np.ndarray, np.ndarray], twist: bool) -> np.ndarray:
@@ -131,7 +132,7 @@ def _step_time(run: Run, repeats: int) -> float:
     return 1e-3 * float(np.median([repeat.measured("medianStepTime") for repeat in read_repeats(run, repeats)]))
 
 
-def _caption(results: list[Result], costs: Mapping[tuple[str, str], float]) -> str:
+def _caption(results: list[Result], costs: Mapping[tuple[str, str], float], load: str) -> str:
     of = {(r.what.split(":")[0], r.solver[5:]): r.error for r in results}
     same = [problem for problem in _PROBLEMS if of[problem, "Euler, Euler"] < _ROUNDING]
     sentences = [
@@ -152,7 +153,7 @@ def _caption(results: list[Result], costs: Mapping[tuple[str, str], float]) -> s
         f"{number(of[problem, 'Verlet, Verlet'], 2)} {'rad' if problem.startswith('twist') else 'units'} ({problem})"
         for problem in _PROBLEMS) + ".")
     problem = next(iter(_PROBLEMS))
-    sentences.append("Median time of a step, " + problem + ": " + ", ".join(
+    sentences.append(f"Median time of a step, {problem}, of runs made one at a time, {load}: " + ", ".join(
         f"{method} {number(1e3 * costs[problem, method], 3)} ms" for method in _METHODS) + ".")
     sentences.append(
         "With gains there is no limit in the time step that one of them could be nearer to; the choice of m changes "

@@ -25,8 +25,8 @@ from experiments.testing import FULL_CAMPAIGNS
 from studies.table import Grid, Study
 
 CANTILEVER = {
-    "solver": "direct", "guidewireLength": 300.0, "numberRodElements": 16, "wireRadius": 0.0005, "proximalEnd": "clamped",
-    "gravity": [0, -9.81, 0], "timeStep": 0.002, "deltaThreshold": 0, "maxSimulationSteps": 48,
+    "solver": "direct", "guidewireLength": 300.0, "numberRodElements": 16, "wireRadius": 0.0005,
+    "proximalEnd": "clamped", "gravity": [0, -9.81, 0], "timeStep": 0.002, "deltaThreshold": 0, "maxSimulationSteps": 48,
 }
 ON_PLANE = {
     **CANTILEVER, "integrator": "implicitEuler", "wireRadius": 0.0003, "massDamping": 35, "timeStep": 0.004,
@@ -135,7 +135,8 @@ def test_the_choice_is_the_cheapest_that_meets_the_error_or_the_best_within_the_
 
 
 def test_longer_steps_make_the_same_motion_of_the_drive() -> None:
-    scene = {"timeStep": 0.01, "maxSimulationSteps": 40, "displacementPerStep": 0.5, "twistPerStep": 0.02, "damping": 0.1}
+    scene = {"timeStep": 0.01, "maxSimulationSteps": 40, "displacementPerStep": 0.5, "twistPerStep": 0.02,
+             "damping": 0.1}
     changed = trials._stepped(scene, 4.0)
     assert changed == {"timeStep": 0.04, "maxSimulationSteps": 10, "displacementPerStep": 2.0, "twistPerStep": 0.08,
                        "damping": pytest.approx(1.0 - 0.9**4)}

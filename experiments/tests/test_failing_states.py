@@ -1,4 +1,5 @@
-"""States beyond the frontiers that studies/frontiers.py seeks: a method that fails says so and does not look fine."""
+"""States beyond frontiers and in the maps of outcomes (studies/frontiers.py, studies/maps.py): a method that fails says
+so, by its outcome, its reason or a number of the summary, and does not look fine."""
 
 import json
 from contextlib import closing
@@ -23,3 +24,5 @@ def test_a_state_beyond_a_frontier_is_told(runner, tmp_path, state):
     request = Request(state["name"], ROOT / "params" / state["scene"], tmp_path / "run", state["set"], log=False)
     answer = runner.run(request, 60.0)
     assert (answer.outcome, state["says"] in answer.message) == (state["outcome"], True), answer
+    summary = json.loads((tmp_path / "run" / "summary.json").read_text(encoding="utf-8"))
+    assert all(summary[name] >= least for name, least in state.get("atLeast", {}).items())

@@ -37,16 +37,19 @@ namespace Guidewire.Cli
         {
             var answer = new JObject
             {
-                ["id"] = RunRequest.IdOf(line),
+                ["id"] = null,
                 ["exitCode"] = ExitCodes.BadInput,
                 ["outcome"] = null,
                 ["message"] = "",
                 ["out"] = null,
             };
             string? folder = null;
+            bool isRead = false;
             try
             {
                 RunRequest request = RunRequest.Parse(line);
+                isRead = true;
+                answer["id"] = request.Id;
                 if (request.Session != null)
                 {
                     sessions.Answer(request, answer);
@@ -71,6 +74,10 @@ namespace Guidewire.Cli
             catch (ParameterException error)
             {
                 answer["message"] = error.Message;
+                if (!isRead)
+                {
+                    answer["id"] = RunRequest.IdOf(line);
+                }
             }
             catch (Exception error)
             {

@@ -9,6 +9,7 @@ namespace Guidewire.Cli
     {
         private RunRequest(JObject json)
         {
+            Id = json["id"];
             ParameterFile = (string?)json["parameters"];
             Out = (string?)json["out"];
             Repeat = (int?)json["repeat"];
@@ -25,6 +26,9 @@ namespace Guidewire.Cli
                 Overrides.Add(new KeyValuePair<string, JToken>(property.Name, property.Value));
             }
         }
+
+        /// <summary>What the answer repeats, or null.</summary>
+        public JToken? Id { get; }
 
         /// <summary>The parameter file, or null for the defaults.</summary>
         public string? ParameterFile { get; }

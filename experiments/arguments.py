@@ -1,0 +1,59 @@
+"""Words of the command line: what they are read as, and what is said of those that cannot be."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from pathlib import Path
+
+RUNNER_WORDS = ("parameters", "out", "force", "repeat", "lines", "logFile")  # the runner's own arguments, like -KEY
+
+
+class Parser(argparse.ArgumentParser):
+    """Says what is wrong in one line, without argparse's usage lines before it."""
+
+    def error(self, message: str) -> None:
+        self.exit(2, f"guidewire: {message} ('{self.prog} --help' lists what is allowed)\n")
+
+
+def assignment(text: str) -> tuple[str, str]:
+    """KEY=VALUE as key and text."""
+    key, equals, value = text.partition("=")
+    if not key or not equals:
+        raise argparse.ArgumentTypeError(f"'{text}' is not KEY=VALUE")
+    if key in RUNNER_WORDS:
+        raise argparse.ArgumentTypeError(f"'{key}' is no parameter")
+    return key, value
+
+
+def path(text: str) -> Path:
+    """A folder or file."""
+    if not text.strip():
+        raise argparse.ArgumentTypeError("an empty name is no folder")
+    return Path(text)
+
+
+def positive(text: str) -> int:
+    """A whole number from 1."""
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a whole number above 0")
+    return int(text)
+
+
+def finite(text: str) -> float:
+    """A number."""
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    if not math.isfinite(number):
+        raise argparse.ArgumentTypeError(f"'{text}' is not a number")
+    return number
+
+
+def above_zero(text: str) -> float:
+    """A number above 0."""
+    number = finite(text)
+    if number <= 0.0:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a number above 0")
+    return number
