@@ -190,7 +190,12 @@ namespace Guidewire.Io
                     first = false;
                 }
             }
-            Append("}}");
+            Append("}");
+            for (int w = 0; w < contacts.WallForces.Length; w++)
+            {
+                Append(w == 0 ? ", \"wall\": {\"0\": " : ", \"" + w + "\": ", contacts.WallForces[w]);
+            }
+            Append(contacts.WallForces.Length > 0 ? "}}" : "}");
         }
 
         private void Append(string name, in Vector3d value)

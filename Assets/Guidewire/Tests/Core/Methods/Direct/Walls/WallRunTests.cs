@@ -25,6 +25,63 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        [Category("Long")]
+        public void ThinCantilever_LiesOnAPlane_FromWhereTheBoundaryValueProblemSays()
+        {
+            // r = 0.1 mm over a plane 20 mm below its axis: EI theta'' = (F - w (a - s)) cos(theta) between the clamp
+            // and the place a where it begins to lie, theta = theta' = 0 there and a fall of 20 mm; by collocation to
+            // 1e-10 a = 242.143 mm, and with the push F there the plane carries F + w (L - a) = 0.275078 mN.
+            const double force = 2.75078e-4;
+            const double liftOff = 242.143;
+            SimulationParameters parameters = WallScenes.OverPlane(120, 0.1e-3);
+            parameters.Contact.ContactDistance = 1e-5;
+            parameters.Scene.Walls = new ContactShape[]
+            {
+                new PlaneShape(new Vector3d(0.0, -20.11, 0.0), Vector3d.UnitY),
+            };
+            Simulation run = Wires.Run(parameters);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Converged), run.Reason);
+            Assert.That(run.Contacts!.Total.Y, Is.EqualTo(force).Within(0.01 * force));
+            int first = Array.FindIndex(run.Contacts.Forces, push => push.Y > 0.01 * force);
+            Assert.That(300.0 * first / 120, Is.EqualTo(liftOff).Within(0.01 * 300.0));
+        }
+
+        [Test]
+        public void Forces_BalanceTheChangeOfMomentum_InEveryStep()
+        {
+            SimulationParameters parameters = WallScenes.Arch(30, 0.01, 50.0, 100.0);
+            parameters.Scene.Walls[0].FrictionCoefficient = 0.1;
+            Simulation run = Simulation.Create(parameters);
+            double mass = 6450.0 * Math.PI * 0.16e-6 * 0.3;
+            double peak = 0.0;
+            double worst = 0.0;
+            Vector3d before = Vector3d.Zero;
+            while (run.Outcome == Outcome.Running)
+            {
+                run.Step();
+                Vector3d momentum = Vector3d.Zero;
+                for (int i = 0; i <= 30; i++)
+                {
+                    // Half of each element beside the node.
+                    momentum += (1e-3 * mass / 30.0 * (i == 0 || i == 30 ? 0.5 : 1.0)) * run.State.Velocities[i];
+                }
+                // Of what is asked of a node at rest at the start, one step is no motion by implicit stages alone.
+                if (run.StepCount > 1)
+                {
+                    Vector3d change = (momentum - before) / 0.01;
+                    Vector3d given = run.Contacts!.Total + run.Contacts.Reaction;
+                    peak = Math.Max(peak, Math.Max(run.Contacts.Total.Length, run.Contacts.Reaction.Length));
+                    worst = Math.Max(worst, Vector3d.Distance(change, given));
+                }
+                before = momentum;
+            }
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Assert.That(run.Report()!.HalvedSteps, Is.EqualTo(0.0));
+            Assert.That(peak, Is.GreaterThan(0.1));
+            Assert.That(worst, Is.LessThan(1e-6 * peak));
+        }
+
+        [Test]
         public void WireThatIsPressedTogetherBetweenWalls_SaysByHowMuch()
         {
             // 12 mm against the end of a tube that lets it bend nowhere.
