@@ -15,6 +15,9 @@ import numpy as np
 
 _STRESS = ("kineticEnergy", "elasticEnergy", "potentialEnergy", "curvature", "couple", "strain", "force",
            "angularVelocity")
+_HUB = {"hubInsertion": "insertion", "hubTurn": "turn", "hubForce": "force", "hubTorque": "torque",
+        "tipDirection": "tipDirection", "twist": "twist", "largestCurvature": "largestCurvature",
+        "lengthInBody": "lengthInBody"}
 _NEEDED = ("step", "totalTime", "elapsedMilliseconds", "delta", "firstSphere", "positions", "velocities")
 
 
@@ -78,11 +81,18 @@ class ArrayLog:
                                         for j, q in enumerate(columns["orientations"][k].tolist())}
             if "curvature" in columns:
                 entry["stress"] = {name: columns[name][k].tolist() for name in _STRESS}
+            if "inBody" in columns:
+                entry["inBody"] = int(columns["inBody"][k])
+            if "hubForce" in columns:
+                entry["hub"] = {key: _vector(columns[name][k]) if name == "tipDirection" else columns[name][k].item()
+                                for name, key in _HUB.items() if name in columns}
             if "contactForces" in columns:
                 entry["contact"] = {
                     "total": _vector(columns["contactTotal"][k]), "reaction": _vector(columns["reaction"][k]),
                     "sphere": {str(i): _vector(force) for i, force in enumerate(columns["contactForces"][k])
                                if force.any()}}
+            if "wallForces" in columns:
+                entry["contact"]["wall"] = {str(w): _vector(force) for w, force in enumerate(columns["wallForces"][k])}
             yield step, entry
 
 

@@ -23,7 +23,11 @@ VESSEL = {"guidewireLength": 60, "numberRodElements": 6, "guidewireOffset": -60,
           "vessel": {"shape": "tube", "knots": [[0, 0, -70], [0, 0, 0], [0, 30, 30]], "radius": 4}}
 MATERIAL = {"solver": "direct", "proximalEnd": "clamped", "numberRodElements": 5, "gravity": [0, -9.81, 0],
             "maxSimulationSteps": 7, "deltaThreshold": 0, "logStrains": True}
-SCENES = {"gains, contacts and orientations": VESSEL, "every third step": {**VESSEL, "logEvery": 3},
+HUB = {**MATERIAL, "gravity": [0, 0, 0], "guidewireLength": 60, "numberRodElements": 12, "guidewireOffset": -55,
+       "drive": "displace", "insertionSpeed": 0.01, "logHub": True, "logContacts": True,
+       "vessel": {"shape": "tube", "knots": [[0, 0, -10], [0, 0, 40], [0, 20, 80]], "radius": 4}}
+SCENES = {"the hub and each wall": HUB, "a sheath": {**HUB, "sheath": {"exit": [0, 0, 0], "direction": [0, 0, 1]}},
+          "gains, contacts and orientations": VESSEL, "every third step": {**VESSEL, "logEvery": 3},
           "the last sphere": {**VESSEL, "logSpheres": "last"}, "strains": MATERIAL,
           "no steps": {"maxSimulationSteps": 0, "numberRodElements": 2}}
 

@@ -47,10 +47,14 @@ namespace Guidewire.Io
             RodState state = simulation.State;
             StressRecord? stress = _parameters.LogStrains ? simulation.Stress() : null;
             ContactRecord? contacts = _parameters.LogContacts ? simulation.Contacts : null;
+            HubRecord? hub = _parameters.LogHub || _parameters.Sheath != null ? simulation.Hub() : null;
             int first = _parameters.LogSpheres == LoggedSpheres.Last ? state.ElementCount : 0;
             if (_count == 0)
             {
-                Begin(state, first, stress != null, contacts != null);
+                Begin(state, first, stress != null);
+                AddHub(hub);
+                AddContacts(state, contacts);
+                WriteHeader();
             }
             if (_length + _rowLength > _block.Length)
             {
@@ -84,11 +88,13 @@ namespace Guidewire.Io
                 Put(stress.Force, 0);
                 Put(state.AngularVelocities, 0);
             }
+            Put(hub);
             if (contacts != null)
             {
                 Put(contacts.Forces, 0);
                 Put(contacts.Total);
                 Put(contacts.Reaction);
+                Put(contacts.WallForces, 0);
             }
             _count++;
             if (elapsed - _flushed > FlushAfter)
@@ -134,7 +140,7 @@ namespace Guidewire.Io
             _rows.Dispose();
         }
 
-        private void Begin(RodState state, int first, bool hasStress, bool hasContacts)
+        private void Begin(RodState state, int first, bool hasStress)
         {
             int spheres = state.SphereCount;
             int elements = state.ElementCount;
@@ -160,12 +166,48 @@ namespace Guidewire.Io
                 Add("force", _number, elements, 3);
                 Add("angularVelocity", _number, elements, 3);
             }
-            if (hasContacts)
+        }
+
+        private void AddHub(HubRecord? hub)
+        {
+            if (_parameters.Sheath != null)
             {
-                Add("contactForces", _number, spheres, 3);
-                Add("contactTotal", _number, 3);
-                Add("reaction", _number, 3);
+                Add("inBody", Whole);
             }
+            if (hub == null || !_parameters.LogHub)
+            {
+                return;
+            }
+            Add("hubInsertion", _number);
+            Add("hubTurn", _number);
+            Add("hubForce", _number);
+            Add("hubTorque", _number);
+            Add("tipDirection", _number, 3);
+            Add("twist", _number);
+            Add("largestCurvature", _number);
+            if (hub.LengthInBody != null)
+            {
+                Add("lengthInBody", _number);
+            }
+        }
+
+        private void AddContacts(RodState state, ContactRecord? contacts)
+        {
+            if (contacts == null)
+            {
+                return;
+            }
+            Add("contactForces", _number, state.SphereCount, 3);
+            Add("contactTotal", _number, 3);
+            Add("reaction", _number, 3);
+            if (contacts.WallForces.Length > 0)
+            {
+                Add("wallForces", _number, contacts.WallForces.Length, 3);
+            }
+        }
+
+        private void WriteHeader()
+        {
             _block = new byte[Math.Max(Block, _rowLength)];
             var fields = new List<string>();
             foreach (Column column in _columns)
@@ -256,6 +298,29 @@ namespace Guidewire.Io
                 text.Append(size).Append(',');
             }
             return text.Append(')').ToString();
+        }
+
+        private void Put(HubRecord? hub)
+        {
+            if (_parameters.Sheath != null)
+            {
+                Put(hub?.SpheresInBody ?? 0);
+            }
+            if (hub == null || !_parameters.LogHub)
+            {
+                return;
+            }
+            Put(hub.Insertion);
+            Put(hub.Turn);
+            Put(hub.Force);
+            Put(hub.Torque);
+            Put(hub.TipDirection);
+            Put(hub.Twist);
+            Put(hub.LargestCurvature);
+            if (hub.LengthInBody is double length)
+            {
+                Put(length);
+            }
         }
 
         private void Put(Vector3d[] values, int first)

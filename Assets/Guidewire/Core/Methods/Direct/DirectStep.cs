@@ -43,6 +43,10 @@ namespace Guidewire.Core
             {
                 _watch = new WallWatch(scene.Rod, walls, scene.Metres);
                 _walls = new WallSteps(dynamics, scene.Schedule, _watch);
+                if (record != null)
+                {
+                    record.WallForces = walls.Barrier.Resultants;
+                }
             }
             _ends = new HeldEnds(dynamics.Terms, scene.Schedule);
             FollowEnds();
