@@ -94,7 +94,7 @@ _VIEWS = (
           lambda _: "barycentric,numberRodElements=40"),
     _View("map-gap", "direct: fall onto a plane", lambda run: 1e3 * run.number("timeStep"),
           lambda run: 1e6 * run.number("contactDistance"), ("time step (ms)", "contact distance (µm)"),
-          lambda _: "step-1,contactDistance=1e-06"),
+          lambda _: "step-1,contactDistance=1e-07"),
     _View("map-joints", "direct: turn of a joint", lambda run: float(run.variant.split(",")[1]), _variant(0),
           ("turn of an inner joint (rad)", "law, and what turns (-)"), None,
           ((JOINT_LIMIT / LARGEST_JOINT, "joint's limit"), (1.0 / LARGEST_JOINT, "darboux"))),

@@ -12,6 +12,7 @@ from analysis.figures.maps import drag_error, kind_of, read_map
 from analysis.runs import Run
 from analysis.tests.outcomes import SUMMARY
 from studies.maps import MAPS
+from studies.quick import shortened
 
 
 @pytest.mark.parametrize("changed, error, kind", [
@@ -47,3 +48,12 @@ def test_a_fall_that_is_damped_between_steps_is_too_fast_by_the_closed_form() ->
             speed = moved * math.exp(-drag)
         assert moved / (1.0 / drag) - 1.0 == pytest.approx(drag_error(drag), rel=1e-9)
     assert drag_error(maps._DRAG_LIMIT) == pytest.approx(maps.INACCURATE, rel=1e-3)
+
+
+@pytest.mark.parametrize("short", [False, True])
+def test_every_map_has_the_runs_that_others_are_measured_against(short: bool) -> None:
+    for view, study in zip(maps._VIEWS, MAPS):
+        cases = (shortened(study) if short else study).grid.cases()
+        for case in cases if view.reference is not None else ():
+            run = Run(Path(), case.overrides, None, case.key, None, case.variant, case.values)
+            assert view.reference(run) in {other.key for other in cases}, study.name
