@@ -241,12 +241,17 @@ def small_disk(scratch):
     subprocess.run(["umount", str(disk)], check=True)
 
 
+def without_warnings(complaint):
+    """Lines but those on the wire at the end: where a run breaks off it may just swing beyond its length."""
+    return [line for line in complaint.splitlines() if not line.startswith("guidewire: warning: the wire is ")]
+
+
 def test_a_disk_that_fills_ends_a_run_as_failed_and_says_so(start, scratch, small_disk):
     out = small_disk / "out"
     process = start(scene_of(scratch), out)
     _, complaint = process.communicate(timeout=60)
     assert process.returncode == 5
-    lines = complaint.splitlines()
+    lines = without_warnings(complaint)
     assert len(lines) == 1 and lines[0].startswith("guidewire: failed: ") and "space" in lines[0].lower()
     assert not (out / "positions.json").exists()
     if (out / "summary.json").exists():
@@ -260,7 +265,7 @@ def test_a_disk_that_fills_leaves_an_earlier_result_whole(start, scratch, small_
     before = contents(out)
     process = start(scene_of(scratch), out, "--force")
     _, complaint = process.communicate(timeout=60)
-    assert process.returncode == 5 and "is kept" in complaint and complaint.count("\n") == 1
+    assert process.returncode == 5 and "is kept" in complaint and len(without_warnings(complaint)) == 1
     assert contents(out) == before
 
 

@@ -143,7 +143,8 @@ namespace Guidewire.Core
 
         /// <summary>The same, and features of the wall (whatever a shape takes for them) that queries of points and
         /// parts of the segment may come to while nothing of it goes farther than <paramref name="reach"/>, units: they
-        /// are added to a list, by which such queries are quicker. None where a shape has none.</summary>
+        /// are added to a list, by which such queries are quicker. None where a shape has none. The distance may be too
+        /// small, never too large beyond what a quick one is.</summary>
         internal virtual double FindFeatures(in Vector3d a, in Vector3d b, double range, double reach, ref int hint,
             StructList<int> features)
         {

@@ -101,13 +101,12 @@ namespace Guidewire.Core
             _ridges.Find(a, b, range, ridges);
         }
 
-        /// <summary>The triangles within the range; none where the reach makes most of it: then the hierarchy is
-        /// quicker.</summary>
+        /// <summary>The triangles within the range; none, and no distance, where the reach makes most of it: then the
+        /// hierarchy is quicker.</summary>
         internal override double FindFeatures(in Vector3d a, in Vector3d b, double range, double reach, ref int hint,
             StructList<int> features)
         {
-            return reach > MostReach * range ? QuickDistance(a, b, range, ref hint)
-                : Nearby.Find(a, b, range, features);
+            return reach > MostReach * range ? 0.0 : Nearby.Find(a, b, range, features);
         }
 
         /// <inheritdoc/>
