@@ -34,7 +34,9 @@ def assert_refused(command, folder, scene, *words):
 def warnings_of(command, folder, scene):
     code, lines, out = run(command, folder, scene)
     assert code == 0, lines
-    return json.loads((out / "summary.json").read_text())["warnings"]
+    warnings = json.loads((out / "summary.json").read_text())["warnings"]
+    # These runs end while the first displacement still presses the wire together.
+    return [line for line in warnings if not line.startswith("the wire is ")]
 
 
 def mesh(file, **more):

@@ -49,8 +49,9 @@ namespace Guidewire.Core
         /// runs.</summary>
         public string Reason => (_ownReason ?? _stopRule.Reason) + (_warning == null ? "" : ", but " + _warning);
 
-        /// <summary>What is not as it should be at the run's end, one line each; empty while it runs.</summary>
-        public IReadOnlyList<string> Warnings => Outcome == Outcome.Running ? Array.Empty<string>()
+        /// <summary>What is not as it should be at the run's end, one line each; empty while it runs, and where no step
+        /// was made.</summary>
+        public IReadOnlyList<string> Warnings => Outcome == Outcome.Running || StepCount == 0 ? Array.Empty<string>()
             : _warnings.Of(State, Contacts);
 
         /// <summary>First step of the steady state, or -1.</summary>
