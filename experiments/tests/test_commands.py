@@ -64,7 +64,8 @@ def test_a_run_of_what_is_built_starts_no_compiler_and_says_nothing_of_it(runner
     log = ROOT / "results" / "build.log"
     before = log.stat().st_mtime_ns
     scene = ROOT / "params" / "default.json"
-    done = guidewire("run", scene, "--set", "maxSimulationSteps=2", "--out", tmp_path / "out")
+    done = guidewire(
+        "run", scene, "--set", "maxSimulationSteps=2", "--set", "displacement=1", "--out", tmp_path / "out")
     assert (done.returncode, done.stderr) == (0, "")
     assert log.stat().st_mtime_ns == before
 

@@ -202,7 +202,7 @@ def test_a_hand_pauses_steps_changes_and_opens_scenes(live):
         assert "solver" in (await hear(page, lambda status: "solver" in status["problem"]))["problem"]
         await page.send_json({"do": "open", "scene": "cantilever.json"})
         status = await hear(page, lambda status: status["scene"] == "cantilever.json")
-        assert not status["isSteered"] and status["isPaused"] and status["values"]["solver"] == "direct"
+        assert status["isSteered"] and not status["isPaused"] and status["values"]["solver"] == "direct"
         await page.send_json({"do": "open", "scene": "scene.json", "hand": False})
         status = await hear(page, lambda status: status["scene"] == "scene.json")
         assert not status["isSteered"] and status["isPaused"]

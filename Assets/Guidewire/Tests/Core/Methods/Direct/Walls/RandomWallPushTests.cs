@@ -19,7 +19,7 @@ namespace Guidewire.Core.Tests
         [Category("Long")]
         public void Wire_IsNeverOutside_AndEveryRunHasAnEnd()
         {
-            string[] asked = (Environment.GetEnvironmentVariable(Asked) ?? "0:0").Split(':');
+            string[] asked = (Environment.GetEnvironmentVariable(Asked) ?? "0:0").Split(new[] { ':' });
             int first = int.Parse(asked[0], CultureInfo.InvariantCulture);
             int runs = int.Parse(asked[1], CultureInfo.InvariantCulture);
             runs = runs > 0 ? runs : RandomGeometry.Cases(80);
