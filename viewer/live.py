@@ -114,11 +114,14 @@ class LiveRun:
             try:
                 state = await self._in_thread(lambda: session.step(push * dt * steps, turn * dt * steps, steps))
             except SessionError as error:
-                await self._fail(error)
+                if self._session is session:
+                    await self._fail(error)
+                continue
+            if self._session is not session:    # another scene was opened meanwhile
                 continue
             cost = (time.monotonic() - began) / steps
             self._cost = cost if self._cost == 0.0 else self._cost + _SMOOTHING * (cost - self._cost)
-            await self._show(mark, state)
+            await self._show(mark, session, state)
             if state.outcome is not None:
                 self._is_paused = True
                 await self._tell()
@@ -243,11 +246,10 @@ class LiveRun:
             raise web.HTTPNotFound()
         return Recording(
             self._scene, "", self._warnings, facts_of(session.parameters, None), radius_of(session.parameters),
-            self._channels(session.state), name_walls(session.parameters, self._walls),
+            self._channels(session, session.state), name_walls(session.parameters, self._walls),
         )
 
-    def _channels(self, state: State) -> list[Any]:
-        session = self._session
+    def _channels(self, session: Session, state: State) -> list[Any]:
         walls = bool(self._walls)
         real_time = float(session.parameters["timeStep"]) / self._cost if self._cost > 0.0 else math.nan
         one = {
@@ -267,8 +269,9 @@ class LiveRun:
     def _ended(self) -> bool:
         return self._session is None or self._session.state.outcome is not None
 
-    async def _show(self, mark: int, state: State) -> None:
-        frame = np.concatenate([[float(mark)], *(channel.values.ravel() for channel in self._channels(state))])
+    async def _show(self, mark: int, session: Session, state: State) -> None:
+        channels = self._channels(session, state)
+        frame = np.concatenate([[float(mark)], *(channel.values.ravel() for channel in channels)])
         block = frame.astype("<f8").tobytes()
         for page in list(self._pages):
             if page.on_the_way < _MOST_ON_THE_WAY:
