@@ -102,8 +102,8 @@ def suites(program: str, full: bool) -> list[Suite]:
     return [
         _pytest_suite("analysis/tests", ["analysis/tests"], needs_build=False),
         _pytest_suite("unitycheck/tests", _checker_tests(), needs_build=False),
-        _pytest_suite(f"{tests}, the longest", [*not_timed, *longest]),
         _pytest_suite(f"{tests}, the rest", [*not_timed, tests, *(f"--ignore={path}" for path in longest)]),
+        _pytest_suite(f"{tests}, the longest", [*not_timed, *longest]),
         *(_dotnet_suite(program, name, full) for name in DOTNET_TESTS),
         _pytest_suite(f"{tests}, timed", ["-m", "timed", tests], alone=True),
     ]

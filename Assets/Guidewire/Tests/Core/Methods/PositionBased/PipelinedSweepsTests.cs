@@ -8,7 +8,7 @@ namespace Guidewire.Core.Tests
     public sealed class PipelinedSweepsTests
     {
         private const int AllWires = 200;
-        private const int DefaultWires = 10;
+        private const int DefaultWires = 6;
         private const int Steps = 100;
         private const double TimeStep = 0.01;    // s
 
