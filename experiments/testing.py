@@ -3,8 +3,9 @@
 Counts come from result files (TRX, JUnit XML), never from exit codes alone; a runner that left no such file, or an
 empty one, did not run and counts as one failure.
 
-Suites run side by side, one a processor, beside the build where they do not need it. Tests that measure or sleep (the
-marker `timed`) are a suite of their own, which runs last and alone.
+Suites run side by side, one a processor, beside the build where they do not need it; the checker's tests that do have
+the marker `built`. Tests that measure or sleep (the marker `timed`) are a suite of their own, which runs last and
+alone.
 """
 
 from __future__ import annotations
@@ -101,18 +102,13 @@ def suites(program: str, full: bool) -> list[Suite]:
     not_timed = ["-m", "not timed"]
     return [
         _pytest_suite("analysis/tests", ["analysis/tests"], needs_build=False),
-        _pytest_suite("unitycheck/tests", _checker_tests(), needs_build=False),
+        _pytest_suite("unitycheck/tests", ["-m", "not built", "unitycheck/tests"], needs_build=False),
         _pytest_suite(f"{tests}, the rest", [*not_timed, tests, *(f"--ignore={path}" for path in longest)]),
         _pytest_suite(f"{tests}, the longest", [*not_timed, *longest]),
         *(_dotnet_suite(program, name, full) for name in DOTNET_TESTS),
+        _pytest_suite("unitycheck/tests, of what is built", ["-m", "built", "unitycheck/tests"]),
         _pytest_suite(f"{tests}, timed", ["-m", "timed", tests], alone=True),
     ]
-
-
-def _checker_tests() -> list[str]:
-    """Files of the checker's tests; those that wait for the build, or ask the program that it makes, come last."""
-    files = sorted(path.relative_to(ROOT).as_posix() for path in (ROOT / "unitycheck" / "tests").glob("test_*.py"))
-    return sorted(files, key=lambda name: name.endswith(("/test_compiler.py", "/test_mutations.py")))
 
 
 def run_suites(

@@ -130,6 +130,9 @@ def test_what_is_left_out_of_one_suite_is_in_another():
     assert left_out == taken and all((testing.ROOT / path).is_file() for path in taken)
     # Whoever is not timed is in the first two, whoever is timed in the third, whatever the file.
     assert [command[command.index("-m", 2) + 1] for command in commands] == ["not timed", "not timed", "timed"]
+    of_checker = [suite for suite in suites("dotnet", False) if "unitycheck/tests" in suite.command]
+    assert [(suite.command[suite.command.index("-m", 2) + 1], suite.needs_build) for suite in of_checker] == [
+        ("not built", False), ("built", True)]
 
 
 def test_a_unity_check_that_breaks_off_is_a_failure(tmp_path, monkeypatch, capsys):

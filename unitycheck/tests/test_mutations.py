@@ -40,6 +40,7 @@ def test_breakage_is_found_and_named(repository: Project, name: str) -> None:
     assert_named(repository, BREAKAGES[name])
 
 
+@pytest.mark.built
 @pytest.mark.parametrize("name", scenes.READ)
 def test_breakage_is_found_by_the_reader_itself(repository: Project, name: str) -> None:
     if sceneparameters.program(str(repository.root)) is None:
