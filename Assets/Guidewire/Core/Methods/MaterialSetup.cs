@@ -76,10 +76,14 @@ namespace Guidewire.Core
             var contact = new BarrierEnergy(scene.Rod, scene.Walls, scene.Metres, barrier);
             FrictionEnergy? friction = Array.Exists(scene.Walls, wall => wall.FrictionCoefficient > 0.0)
                 ? new FrictionEnergy(contact, scene.Rod.ElementCount, parameters.Contact.FrictionSpeed) : null;
+            // Looked for where it is asked for: the rule measures how narrow a vessel is, all of it.
             ContactParameters given = parameters.Contact;
-            string? advice = given.ContactDistance == 0.0 && given.ContactStiffness == 0.0 ? null
-                : BarrierRule.Advice(barrier, BarrierRule.Of(scene.Rod, new ContactParameters(), scene.Walls,
-                    scene.Metres, move));
+            Func<string?>? advice = null;
+            if (given.ContactDistance != 0.0 || given.ContactStiffness != 0.0)
+            {
+                advice = () => BarrierRule.Advice(barrier, BarrierRule.Of(scene.Rod, new ContactParameters(),
+                    scene.Walls, scene.Metres, move));
+            }
             return new WallTerms(contact, friction, spring, scene.Supports.HasSpring, advice);
         }
 

@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 
 namespace Guidewire.Core
@@ -6,14 +7,16 @@ namespace Guidewire.Core
     /// follows its support.</summary>
     internal sealed class WallTerms
     {
+        private readonly Func<string?>? _advice;
+
         /// <summary>Those of a rod.</summary>
         /// <param name="friction">Null where no wall rubs.</param>
         /// <param name="holdsStart">Whether a support holds node 0.</param>
         /// <param name="advice">See <see cref="Advice"/>.</param>
         public WallTerms(BarrierEnergy barrier, FrictionEnergy? friction, SupportSpring spring, bool holdsStart,
-            string? advice = null)
+            Func<string?>? advice = null)
         {
-            Advice = advice;
+            _advice = advice;
             Barrier = barrier;
             Friction = friction;
             Spring = spring;
@@ -31,7 +34,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>What to change about the barrier where a step has no solution, in one phrase, or null.</summary>
-        public string? Advice { get; }
+        public string? Advice => _advice?.Invoke();
 
         /// <summary>Contact.</summary>
         public BarrierEnergy Barrier { get; }
