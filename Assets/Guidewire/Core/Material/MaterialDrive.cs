@@ -62,6 +62,10 @@ namespace Guidewire.Core
         /// <summary>What of its way the hub has lost by giving way, m.</summary>
         public double Slip { get; private set; }
 
+        /// <summary>What of the way asked for in the present step is beyond where node 0 may be moved, m; the hub loses
+        /// it.</summary>
+        public double Withheld { get; private set; }
+
         /// <summary>What moves node 0 moves it along this axis, of any length but 0.</summary>
         public void GoAlong(in Vector3d axis)
         {
@@ -87,9 +91,11 @@ namespace Guidewire.Core
             double speed = _hand != null ? _metres * _hand.Push / _timeStep
                 : _table != null ? Rate(_table.Insertion, time) : _speed;
             double goes = Math.Min(Math.Max(Insertion + speed * _timeStep, LeastInsertion), MostInsertion) - Insertion;
+            Withheld = 0.0;
             if (Insertion + speed * _timeStep > MostInsertion || Insertion + speed * _timeStep < LeastInsertion)
             {
-                Slip += Math.Abs(speed * _timeStep - goes);
+                Withheld = Math.Abs(speed * _timeStep - goes);
+                Slip += Withheld;
                 speed = goes / _timeStep;
             }
             Axis = _direction.At(shape.X[0], shape.X[1]);

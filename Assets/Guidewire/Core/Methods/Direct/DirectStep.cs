@@ -248,7 +248,7 @@ namespace Guidewire.Core
                 return;
             }
             Vector3d asked = _scene.Schedule.ProximalPositionAt(_dynamics.Time);
-            Contacts!.DriveAsked += Vector3d.Distance(asked, before) / _scene.Metres;
+            Contacts!.DriveAsked += (Vector3d.Distance(asked, before) + _drive.Withheld) / _scene.Metres;
             Contacts.DriveShortfall = (_drive.Slip + Vector3d.Distance(asked, _dynamics.Shape.X[0])) / _scene.Metres;
         }
 

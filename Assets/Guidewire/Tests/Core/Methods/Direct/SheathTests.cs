@@ -90,6 +90,24 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void WireWithdrawnFartherThanItIsOut_IsAskedForMoreThanItGoes()
+        {
+            // 25 mm are out of the sheath, and it is pulled by 60.
+            SimulationParameters parameters = Sheathed(40, 0.2, 25.0);
+            parameters.Drive.InsertionSpeed = -2.0 * Speed;
+            parameters.Method.MaxSimulationSteps = 300;
+            Simulation run = Simulation.Create(parameters);
+            while (run.Outcome == Outcome.Running)
+            {
+                run.Step();
+            }
+            double asked = 1e3 * 2.0 * Speed * 300 * parameters.Method.TimeStep;
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Assert.That(run.Contacts!.DriveAsked, Is.EqualTo(asked).Within(1e-9));
+            Assert.That(-1e3 * run.Hub()!.Insertion + run.Contacts.DriveShortfall, Is.EqualTo(asked).Within(1e-3));
+        }
+
+        [Test]
         public void RunThatIsRestored_TakesTheSameSteps()
         {
             SimulationParameters parameters = Sheathed(40, 0.2, 60.0);
