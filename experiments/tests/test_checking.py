@@ -79,7 +79,8 @@ def test_a_folder_that_cannot_be_is_named_before_a_build(unbuilt, tmp_path, comm
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="root may write everywhere")
 def test_a_folder_of_another_user_is_named_before_a_build(unbuilt):
-    assert "Permission denied" in unbuilt("run", SCENE, "--out", "/root/guidewire")
+    theirs = os.path.join(os.path.expanduser("~root"), "guidewire")
+    assert "Permission denied" in unbuilt("run", SCENE, "--out", theirs)
 
 
 def test_an_empty_name_is_no_folder(capsys):

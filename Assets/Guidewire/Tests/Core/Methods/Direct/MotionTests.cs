@@ -175,14 +175,10 @@ namespace Guidewire.Core.Tests
                 tolerance, 100);
         }
 
-        /// <summary>Error of orientation and angular velocity of one element that nothing holds: a symmetric top with
-        /// I = diag(1, 1, 2). Along its own axes (w1, w2) turns at w3; in space the top is turned by exp(t L/I1) after
-        /// a turn of -w3 t about its own axis, L its angular momentum.</summary>
-        private static double TopError(int steps)
+        /// <summary>One element that hardly resists: a top.</summary>
+        /// <param name="secondInertia">About d2, for each length; that about d1 is 1.</param>
+        internal static MaterialRod Top(double secondInertia)
         {
-            const double Time = 0.05;
-            const double Spin = 40.0;
-            const double Tilt = 15.0;
             var rod = new MaterialRod(1);
             rod.Length[0] = 1.0;
             rod.StretchStiffness[0] = 1e-9;
@@ -192,7 +188,19 @@ namespace Guidewire.Core.Tests
             rod.TwistStiffness[0] = 1.0;
             rod.LineDensity[0] = 1.0;
             rod.RotaryInertia1[0] = 1.0;
-            rod.RotaryInertia2[0] = 1.0;
+            rod.RotaryInertia2[0] = secondInertia;
+            return rod;
+        }
+
+        /// <summary>Error of orientation and angular velocity of one element that nothing holds: a symmetric top with
+        /// I = diag(1, 1, 2). Along its own axes (w1, w2) turns at w3; in space the top is turned by exp(t L/I1) after
+        /// a turn of -w3 t about its own axis, L its angular momentum.</summary>
+        private static double TopError(int steps)
+        {
+            const double Time = 0.05;
+            const double Spin = 40.0;
+            const double Tilt = 15.0;
+            MaterialRod rod = Top(1.0);
             RodShape shape = Rods.Straight(rod);
             var supports = new RodSupports { Proximal = ProximalEnd.Free };
             RodDynamics motion = Start(rod, supports, new RodSchedule(), shape, Integrator.Esdirk3, 1e-13);

@@ -136,16 +136,7 @@ namespace Guidewire.Core.Tests
         private static double TopError(int steps)
         {
             const double Time = 1.0;
-            var rod = new MaterialRod(1);
-            rod.Length[0] = 1.0;
-            rod.StretchStiffness[0] = 1e-9;
-            rod.ShearStiffness[0] = 1e-9;
-            rod.BendStiffness1[0] = 1.0;
-            rod.BendStiffness2[0] = 1.0;
-            rod.TwistStiffness[0] = 1.0;
-            rod.LineDensity[0] = 1.0;
-            rod.RotaryInertia1[0] = 1.0;
-            rod.RotaryInertia2[0] = 2.5;
+            MaterialRod rod = MotionTests.Top(2.5);
             RodShape shape = Rods.Straight(rod);
             RodDynamics motion = MotionTests.Start(rod, new RodSupports { Proximal = ProximalEnd.Free },
                 new RodSchedule(), shape, Integrator.Esdirk3, 1e-13);
