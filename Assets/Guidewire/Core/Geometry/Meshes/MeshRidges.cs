@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
@@ -14,7 +15,7 @@ namespace Guidewire.Core
         private const double RimWeight = 1.0;
         private readonly MeshGeometry _mesh;
         private readonly double[] _weight;        // of the edge that starts at a place, 0 for all but its own
-        private readonly StructList<int> _triangles = new StructList<int>(64);
+        private readonly StructList<int> _edges = new StructList<int>(64);
 
         /// <summary>For this mesh where it stands.</summary>
         public MeshRidges(MeshGeometry mesh)
@@ -35,35 +36,38 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Adds the ridges within <paramref name="range"/> of segment a b.</summary>
-        public void Find(in Vector3d a, in Vector3d b, double range, StructList<WallRidge> ridges)
+        /// <summary>Places of the edges that are ridges.</summary>
+        public int[] Edges()
         {
-            _triangles.Clear();
-            _mesh.Tree.Within(a, b, range, _triangles);
-            AddRidges(a, b, range, ridges);
+            var edges = new List<int>();
+            for (int place = 0; place < _weight.Length; place++)
+            {
+                if (_weight[place] > 0.0)
+                {
+                    edges.Add(place);
+                }
+            }
+            return edges.ToArray();
         }
 
-        /// <summary>The same by the triangles near the segment.</summary>
+        /// <summary>Adds the ridges within <paramref name="range"/> of segment a b, in the order of their
+        /// places.</summary>
         public void Find(in Vector3d a, in Vector3d b, double range, MeshNearby nearby, FeatureRange among,
             StructList<WallRidge> ridges)
         {
-            _triangles.Clear();
-            nearby.Choose(a, b, range, among, _triangles);
-            AddRidges(a, b, range, ridges);
-        }
-
-        private void AddRidges(in Vector3d a, in Vector3d b, double range, StructList<WallRidge> ridges)
-        {
-            for (int i = 0; i < _triangles.Count; i++)
+            _edges.Clear();
+            if (!among.IsKnown)
             {
-                int triangle = _triangles[i];
-                for (int place = 3 * triangle; place < 3 * triangle + 3; place++)
-                {
-                    if (_weight[place] > 0.0)
-                    {
-                        Add(a, b, range, place, ridges);
-                    }
-                }
+                nearby.ChooseRidges(a, b, range, _edges);
+            }
+            for (int k = among.From; k < among.To && among.LeastDistance(k) <= range; k++)
+            {
+                _edges.Add(among[k]);
+            }
+            _edges.Sort(0);
+            for (int k = 0; k < _edges.Count; k++)
+            {
+                Add(a, b, range, _edges[k], ridges);
             }
         }
 
