@@ -3,16 +3,24 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
+from analysis.validation import scenes
 from analysis.validation.wire import Wire
 
 SECTION = "In the vessel"
 GRAVITY = 9.81  # m/s^2
+WIRE = Wire(radius=0.4e-3)
 THIN = Wire(radius=0.18e-3)
+
+
+def in_vessel(wire: Wire, vessel: Mapping[str, Any], step: float, steps: int, **more: Any) -> dict[str, Any]:
+    """Parameters of a wire between walls that begins at the origin, by the scheme that they are met with."""
+    return {**scenes.wire_parameters(wire), "integrator": "implicitEuler", "deltaThreshold": 0.0,
+            "guidewireOffset": 0.0, "vessel": vessel, "timeStep": step, "maxSimulationSteps": steps, **more}
 
 
 def tube(knots: Sequence[Sequence[float]], radius: float | list[float], friction: float = 0.0) -> dict[str, Any]:

@@ -7,8 +7,8 @@ given at the hub and theta' = 0 at the tip. That is a pendulum: with lambda = L 
 sin(phi/2) = k cd(lambda, k) at the hub for k = sin(phi_tip/2). Up to lambda = pi/2 each angle of the hub has one of
 the tip; beyond, the tip snaps where the hub's angle is largest.
 
-A tube with a play of c does not force its curvature on the ends of the wire: over a length of sqrt(2 c/|k_0 - k_t|) they
-bend as they like, which takes that share from what is held, so the snap comes earlier by a term with sqrt(c).
+A tube with a play of c does not force its curvature on the ends of the wire: over a length of sqrt(2 c/|k_0 - k_t|)
+they bend as they like, which takes that share from what is held, so the snap comes earlier by a term with sqrt(c).
 """
 
 from __future__ import annotations
@@ -108,8 +108,8 @@ def _whip(settings: Sequence[tuple[float, int]]) -> Plan:
     caption = (
         f"A wire of rest curvature {_OWN:g}/m in a frictionless bend of radius {_BEND:g} mm, lambda = "
         f"L sqrt(B k_0 k_t/C) = {_LAMBDA:g}, turned at its hub by {_RATE:g} rad/s: angle of the tip over that of the "
-        "hub, with the solution for a tube without play (line; its part that goes back is not stable). The tip snaps at "
-        f"{number(math.degrees(exact), 4)}° there; with a clearance of "
+        "hub, with the solution for a tube without play (line; its part that goes back is not stable). The tip "
+        f"snaps at {number(math.degrees(exact), 4)}° there; with a clearance of "
         + ", ".join(f"{c:g} mm at {math.degrees(angle):.1f}°" for c, angle in found.items())
         + said + ". With play the ends bend as they like over a length that goes with its root."
     )
