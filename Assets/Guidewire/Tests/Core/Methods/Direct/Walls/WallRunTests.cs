@@ -102,6 +102,7 @@ namespace Guidewire.Core.Tests
             Assert.That(change, Is.LessThan(-0.02));
             Assert.That(run.Warnings, Does.Contain(string.Format(System.Globalization.CultureInfo.InvariantCulture,
                 "the wire is {0:0.0} % shorter than at rest", -100.0 * change)));
+            Assert.That(run.Warnings, Has.Some.StartWith("the drive fell short: of 12 units"));
         }
 
         [Test]
@@ -246,12 +247,17 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        public void DriveThatFallsShort_IsWarnedOf()
+        public void DriveWhoseWayTheWallsBar_EndsTheRunWithAReason()
         {
-            Simulation run = Wires.Run(WallScenes.Arch(30, 0.01, 5000.0, 400.0));
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
-            Assert.That(run.Contacts!.DriveShortfall, Is.GreaterThan(1e-3 * run.Contacts.DriveAsked));
-            Assert.That(run.Warnings, Has.Some.StartWith("the drive fell short: of 400 units"));
+            // The hub goes on straight where the tube bends: it asks for 72 mm beyond its wall.
+            Simulation run = Wires.Run(WallScenes.Arch(30, 0.01, 1000.0, 400.0));
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Failed), run.Reason);
+            Assert.That(run.Reason, Does.Contain("the walls do not let sphere 0 to where the drive has it"));
+            Assert.That(run.Reason, Does.Contain("hubForceLimit"));
+            // In the step of 10 mm before, the hub was no more than a tenth of an element off.
+            Assert.That(run.Contacts!.DriveShortfall, Is.InRange(1.0, 11.0));
+            Assert.That(run.State.Positions[0].Z + 300.0 + run.Contacts.DriveShortfall,
+                Is.EqualTo(run.Contacts.DriveAsked).Within(0.01 * run.Contacts.DriveAsked));
             Assert.That(Wires.Run(WallScenes.Arch(30, 0.01, 50.0, 10.0)).Warnings, Is.Empty);
         }
 
