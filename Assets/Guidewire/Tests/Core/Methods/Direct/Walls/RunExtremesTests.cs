@@ -19,8 +19,8 @@ namespace Guidewire.Core.Tests
             }
             Assert.That(Vector3d.Distance(sum, contacts.WallForces[0]), Is.LessThan(1e-12));
             Assert.That(contacts.ElementForces[15].Y, Is.EqualTo(weight * 0.01).Within(1e-3 * weight * 0.01));
-            // Ends lie on their element alone, and carry their half of it.
-            Assert.That(contacts.Pressure, Is.EqualTo(weight / 0.8e-3).Within(0.05 * weight / 0.8e-3));
+            // The barrier of an end holds half of what others do: the wire bends there, and its neighbour bears more.
+            Assert.That(contacts.Pressure, Is.InRange(weight / 0.8e-3, 1.1 * weight / 0.8e-3));
             RunExtremes extremes = run.Report()!.Extremes!;
             Assert.That(extremes.WallPressure, Is.GreaterThanOrEqualTo(contacts.Pressure));
             Assert.That(extremes.ElementForce, Is.GreaterThanOrEqualTo(contacts.ElementForces[15].Length));
@@ -31,7 +31,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void FrictionTakes_WhatTheHubPutsIn()
         {
-            // Pushed along a level tube by v: the power of friction is that of the hub, - mu W v in the end.
+            // Pushed along a level tube at 20 mm/s: friction takes what the hub gives, less what the drag does.
             SimulationParameters parameters = Level(0.3);
             parameters.Scene.ProximalEnd = ProximalEnd.Clamped;
             parameters.Scene.Walls = new ContactShape[] { Tube(0.59, 0.3) };
@@ -41,10 +41,11 @@ namespace Guidewire.Core.Tests
             Simulation run = Run(parameters, 200);
             double before = run.Report()!.Extremes!.FrictionWork;
             double push = run.Contacts!.Reaction.Z;
+            double drag = 40.0 * 6450.0 * Math.PI * 0.16e-6 * 0.3 * 0.02;
             run.Step();
             RunExtremes extremes = run.Report()!.Extremes!;
             Assert.That(push, Is.GreaterThan(0.0));
-            Assert.That(extremes.FrictionWork - before, Is.EqualTo(-push * 1e-4).Within(0.01 * push * 1e-4));
+            Assert.That(extremes.FrictionWork - before, Is.EqualTo((drag - push) * 1e-4).Within(1e-3 * push * 1e-4));
             Assert.That(extremes.FrictionPower, Is.LessThanOrEqualTo(0.0));
             Assert.That(extremes.AxialForce, Is.GreaterThanOrEqualTo(push * (1.0 - 1e-6)));
         }

@@ -182,6 +182,42 @@ namespace Guidewire.Core.Tests
             Assert.That(part.Contacts!.DriveAsked, Is.EqualTo(whole.Contacts!.DriveAsked));
         }
 
+        [TestCase(Solver.Direct)]
+        [TestCase(Solver.Pbd)]
+        public void Run_GoesOnAndIsRestored_WhenItsTipHasLeftByAnOpenEnd(Solver solver)
+        {
+            SimulationParameters parameters = WallScenes.Wire(30, 0.4e-3);
+            if (solver == Solver.Pbd)
+            {
+                parameters = new SimulationParameters();
+                parameters.Contact.SphereRadius = 0.4;
+                parameters.Method.DeltaThreshold = 0.0;
+            }
+            parameters.Scene.GuidewireOffset = 0.0;
+            var knots = new[] { new Vector3d(0.0, 0.0, -50.0), new Vector3d(0.0, 0.0, 305.0) };
+            parameters.Scene.Walls = new ContactShape[] { new TubeShape(knots, new[] { 2.0, 2.0 }, true, true) };
+            parameters.Drive.Kind = Drive.Displace;
+            parameters.Drive.DisplacementPerStep = 1.0;
+            parameters.Method.TimeStep = 0.01;
+            parameters.Method.MaxSimulationSteps = 60;
+            Simulation whole = Simulation.Create(parameters);
+            Simulation part = Simulation.Create(parameters);
+            for (int k = 0; k < 50; k++)
+            {
+                whole.Step();
+                part = k == 30 ? part.Continue(parameters)
+                    : k == 40 ? Simulation.Restore(parameters, part.Save()) : part;
+                part.Step();
+            }
+            Assert.That(whole.State.Positions[30].Z, Is.GreaterThan(320.0), whole.Reason);
+            Assert.That(part.State.Positions, Is.EqualTo(whole.State.Positions));
+            // Between walls that it is across it does not go on.
+            SimulationParameters across = parameters.Copy();
+            knots = new[] { new Vector3d(0.0, 1.9, -50.0), new Vector3d(0.0, 1.9, 305.0) };
+            across.Scene.Walls = new ContactShape[] { new TubeShape(knots, new[] { 2.0, 1.0 }, true, true) };
+            Assert.Throws<ArgumentException>(() => whole.Continue(across));
+        }
+
         [Test]
         public void Run_GoesOnWithoutItsWalls_AndBetweenThemAgain()
         {
