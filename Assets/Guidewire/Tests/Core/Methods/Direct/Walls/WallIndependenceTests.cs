@@ -42,6 +42,7 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        [Category("Long")]
         public void Tip_DoesNotDependOnTheMesh()
         {
             // Chords along the bend take up to 33 mm (1 - cos(pi/48)) = 0.07 mm off the outer wall of the coarse one.
