@@ -171,7 +171,7 @@ def test_every_key_of_a_log_is_explained(runner_command, tmp_path):
     folder = run(runner_command, tmp_path, ROOT / "params/insertion.json", maxSimulationSteps=1, logOrientations=True,
                  logContacts=True)
     entry = json.loads((folder / "positions.json").read_text())["1"]
-    hub = run(runner_command, tmp_path / "hub", {**_SHEATHED, "logHub": True})
+    hub = run(runner_command, tmp_path / "hub", {**_SHEATHED, "logHub": True, "logContacts": True})
     entry |= json.loads((hub / "positions.json").read_text())["0"]
     told = section(RUNS, "### positions.json")
     assert set(entry) <= set(table_keys(told))
