@@ -23,6 +23,10 @@ namespace Guidewire.Core
         private readonly RestWatch _rest;
         private readonly WallSteps? _walls;
         private readonly WallWatch? _watch;
+        private readonly ElementPushes? _pushes;
+        private readonly RunExtremes _extremes;
+        private readonly Joint[] _joints;
+        private readonly double[] _jointLengths;
 
         /// <summary>A step for this scene.</summary>
         /// <param name="dynamics">The motion, at its start.</param>
@@ -43,11 +47,18 @@ namespace Guidewire.Core
             {
                 _watch = new WallWatch(scene.Rod, walls, scene.Metres);
                 _walls = new WallSteps(dynamics, scene.Schedule, _watch);
+                _pushes = new ElementPushes(scene.Rod, walls.Barrier);
                 if (record != null)
                 {
                     record.WallForces = walls.Barrier.Resultants;
+                    record.ElementForces = new Vector3d[scene.Rod.ElementCount];
                 }
             }
+            report.Extremes ??= new RunExtremes();
+            _extremes = report.Extremes;
+            _joints = scene.Rod.Joints(scene.Supports);
+            _jointLengths = scene.Rod.JointLengths(scene.Supports);
+            _extremes.TakeShape(dynamics.Terms, _joints, _jointLengths, dynamics.Shape);
             _ends = new HeldEnds(dynamics.Terms, scene.Schedule);
             FollowEnds();
             _energy = new EnergyWatch(dynamics.Terms, new FreeInertia(dynamics.Terms.Mass, scene.Supports),
@@ -105,12 +116,38 @@ namespace Guidewire.Core
                 Contacts.Reaction = _walls == null ? _dynamics.MeanReaction : _walls.MeanReaction;
                 _watch?.EndStep(_dynamics.Shape, Contacts);
                 CountDrive(place);
+                Failure ??= FindOverdriven();
                 if (spring != null)
                 {
                     _drive.GiveWay(spring, _dynamics.Shape);
                 }
             }
+            TakeExtremes();
             return true;
+        }
+
+        private void TakeExtremes()
+        {
+            RodTerms terms = _dynamics.Terms;
+            RodShape shape = _dynamics.Shape;
+            _extremes.TakeShape(terms, _joints, _jointLengths, shape);
+            if (_pushes == null)
+            {
+                return;
+            }
+            _pushes.Take(shape, Contacts!.ElementForces);
+            Contacts.Pressure = _pushes.LargestPressure;
+            _extremes.TakeWalls(_pushes.LargestForce, _pushes.LargestPressure);
+            if (terms.Walls!.HoldsStart)
+            {
+                Vector3d axis = HubRecord.AxisOf(terms, shape);
+                _extremes.TakeHub(Vector3d.Dot(terms.Walls.SupportForce(shape), axis),
+                    Vector3d.Dot(_dynamics.ProximalCouple, axis));
+            }
+            if (terms.Walls.Friction != null)
+            {
+                _extremes.TakeFriction(terms.Walls.Friction, shape, _dynamics.Velocities, _dynamics.Spins, _timeStep);
+            }
         }
 
         // A frame in a sheath is held where the wire is; a spring beyond it turns with the hub.
@@ -250,6 +287,23 @@ namespace Guidewire.Core
             Vector3d asked = _scene.Schedule.ProximalPositionAt(_dynamics.Time);
             Contacts!.DriveAsked += (Vector3d.Distance(asked, before) + _drive.Withheld) / _scene.Metres;
             Contacts.DriveShortfall = (_drive.Slip + Vector3d.Distance(asked, _dynamics.Shape.X[0])) / _scene.Metres;
+        }
+
+        // A hub that misses its place by a tenth of an element pulls at node 0 with EA, the force under which a wire
+        // would have no length left: then what the drive asks and what walls allow do not go together.
+        private string? FindOverdriven()
+        {
+            if (_walls == null || !_dynamics.Terms.Walls!.HoldsStart || !(Contacts!.DriveAsked > 0.0))
+            {
+                return null;
+            }
+            double force = _dynamics.Terms.Walls.SupportForce(_dynamics.Shape).Length;
+            double most = _scene.Rod.StretchStiffness[0];
+            return force <= most ? null : string.Format(CultureInfo.InvariantCulture,
+                "the walls do not let sphere 0 to where the drive has it at t = {0:G6} s, {1:G3} units on: the hub"
+                + " would need {2:G3} N, more than the wire's EA, {3:G3} N; a shorter way (displacementPerStep,"
+                + " insertionSpeed, maxSimulationSteps) may do, or a hubForceLimit", _dynamics.Time,
+                Contacts.DriveShortfall, force, most);
         }
 
         private void FollowEnds()

@@ -42,7 +42,11 @@ namespace Guidewire.Core
             _spins = (Vector3d[])whole.Spins.Clone();
             _stress = new StressRecord(whole.Rod, whole.Supports);
             _setup = new SheathSetup(parameters, whole);
-            Contacts = new ContactRecord(n + 1) { WallForces = new Vector3d[parameters.Scene.Walls.Length] };
+            Contacts = new ContactRecord(n + 1)
+            {
+                WallForces = new Vector3d[parameters.Scene.Walls.Length],
+                ElementForces = new Vector3d[n],
+            };
             int first = _setup.FirstOutside(_shape, LeastElements);
             whole.Schedule.ProximalPosition += _setup.Stations[first] * _setup.Axis;
             _setup.LimitDrive(_shape);
