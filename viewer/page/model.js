@@ -1,7 +1,7 @@
 // @ts-check
 import {
-  BackSide, BufferAttribute, BufferGeometry, DoubleSide, FrontSide, Group, Line, LineBasicMaterial, LineSegments, Mesh,
-  MeshLambertMaterial,
+  BackSide, BufferAttribute, BufferGeometry, CylinderGeometry, DoubleSide, FrontSide, Group, Line, LineBasicMaterial,
+  LineSegments, Mesh, MeshLambertMaterial, Vector3,
 } from "three";
 
 import { largest, ramp, roundUp, row } from "./colours.js";
@@ -13,6 +13,8 @@ import { Tube } from "./tube.js";
 export const [BEHIND, BEFORE] = [1, 2];
 const PLAIN = [1, 0.62, 0.18]; // a wire that is not coloured, such as the second of two in one picture
 const LONGEST_ARROW = 0.2; // share of the wire's length
+const SHEATH_COLOUR = 0x8fa9c4;
+const SHEATH = 2; // radius of a sheath over that of the wire in it
 
 /** One run in the picture: its wire, walls and the forces of the walls on it. */
 export class Model {
@@ -35,6 +37,8 @@ export class Model {
     this.arrows.frustumCulled = false;
     for (const wall of recording.walls) this.walls.add(...surfaces(wall));
     this.group.add(wire, this._line, this.arrows, this.walls);
+    this._sheath = recording.sheath && makeSheath(recording.sheath, SHEATH * recording.radius);
+    if (this._sheath) this.group.add(this._sheath);
     /** Name of the channel that colours the wire; "" for none. */
     this.colour = "";
     this.thickness = 1;
@@ -58,11 +62,14 @@ export class Model {
   show(frame, full) {
     this.frame = frame;
     const positions = this.recording.at("positions", frame);
-    this.tube.place(positions, this.recording.radius * this.thickness);
+    const first = this.recording.firstShown(frame);
+    this.tube.place(positions, this.recording.radius * this.thickness, first);
+    this._sheath?.children[0].scale.set(this.thickness, 1, this.thickness);
+    this._line.geometry.setDrawRange(first, Infinity);
     this._line.geometry.getAttribute("position").array.set(positions);
     this._line.geometry.getAttribute("position").needsUpdate = true;
     this._paint(full);
-    this._point(positions);
+    this._point(positions, first);
   }
 
   /** The place of the last sphere, units. */
@@ -111,8 +118,8 @@ export class Model {
     colours.needsUpdate = true;
   }
 
-  /** @param {Float64Array} positions */
-  _point(positions) {
+  /** @param {Float64Array} positions @param {number} first sphere that is shown */
+  _point(positions, first) {
     const channel = this.recording.channels.get("contactForces");
     const ends = this.arrows.geometry.getAttribute("position");
     if (!channel) {
@@ -120,7 +127,7 @@ export class Model {
       return;
     }
     const forces = this.recording.at("contactForces", this.frame);
-    const unit = (LONGEST_ARROW * this._length(positions)) / this.full("contactForces");
+    const unit = (LONGEST_ARROW * this._length(positions.subarray(3 * first))) / this.full("contactForces");
     for (let i = 0; i < positions.length; i += 3) {
       for (let part = 0; part < 3; part++) {
         ends.array[2 * i + part] = positions[i + part];
@@ -138,6 +145,19 @@ export class Model {
     }
     return length;
   }
+}
+
+/** The part of a sheath that a wire begins in. @param {[number[], number[]]} ends @param {number} radius units */
+function makeSheath(ends, radius) {
+  const [exit, back] = ends.map((end) => new Vector3().fromArray(end));
+  const along = exit.clone().sub(back);
+  const tube = new Mesh(new CylinderGeometry(radius, radius, along.length(), 24),
+    new MeshLambertMaterial({ color: SHEATH_COLOUR }));
+  tube.position.copy(exit).add(back).multiplyScalar(0.5);
+  tube.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), along.normalize());
+  const line = new Line(new BufferGeometry().setFromPoints([back, exit]),
+    new LineBasicMaterial({ color: SHEATH_COLOUR })); // where it is thinner than a point of the screen
+  return new Group().add(tube, line);
 }
 
 /** A wall as one looks into it: its far side, and its near side faintly. @param {import("./recording.js").Wall} wall */

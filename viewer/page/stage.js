@@ -89,13 +89,14 @@ export class Stage {
     const box = new Box3();
     const point = new Vector3();
     for (const { recording } of this._models) {
+      const isSeen = outOfSheath(recording.sheath);
       const positions = recording.channel("positions");
       const places = [positions.values.subarray(0, recording.count * positions.width),
         ...(withWalls ? recording.walls.map((wall) => wall.vertices) : [])];
       for (const all of places) {
         for (let k = 0; k < all.length; k += 3) {
           point.fromArray(all, k);
-          if (Number.isFinite(point.x)) box.expandByPoint(point);
+          if (Number.isFinite(point.x) && isSeen(point)) box.expandByPoint(point);
         }
       }
     }
@@ -172,6 +173,18 @@ export class Stage {
     this._camera.position.add(shift);
     this._camera.lookAt(this._controls.target);
   }
+}
+
+/**
+ * Whether a place is beyond a sheath's end: what is in it is not looked at.
+ * @param {[number[], number[]] | null} sheath its end, and where it is seen to begin @returns {(point: Vector3) => boolean}
+ */
+function outOfSheath(sheath) {
+  if (!sheath) return () => true;
+  const exit = new Vector3().fromArray(sheath[0]);
+  const along = exit.clone().sub(new Vector3().fromArray(sheath[1])).normalize();
+  const least = along.dot(exit) - 1e-6 * (1 + exit.length());
+  return (point) => along.dot(point) >= least;
 }
 
 /** Whether no graphics card draws here: smooth edges then cost as much as all else. */
