@@ -4,12 +4,10 @@ figure of log and summary true."""
 import os
 
 import numpy as np
-import pytest
 
 from analysis.passages import Wall
-from analysis.surfaces import read_obj
 from experiments import sheath_campaign
-from experiments.vessel import ARTERY, artery_lumens
+from experiments.vessel import artery_lumens
 
 SEEDS = range(100) if os.environ.get("GUIDEWIRE_ALL") == "1" else [1]  # a fast and so a short run
 
@@ -29,13 +27,12 @@ def test_a_tip_is_in_the_branch_whose_line_it_is_on():
     assert sheath_campaign.branch_of(np.array([500.0, 0.0, 0.0])) is None
 
 
-@pytest.fixture(scope="module")
-def wall():
-    mesh = read_obj(ARTERY)
-    return Wall.of(mesh.vertices, mesh.triangles)
-
-
-def test_what_is_not_so_is_claimed(wall):
+def test_what_is_not_so_is_claimed():
+    # A square channel of 4 mm along z, open at both ends.
+    ring = np.array([[-2.0, -2.0], [2.0, -2.0], [2.0, 2.0], [-2.0, 2.0]])
+    ends = [np.column_stack([ring, np.full(4, z)]) for z in (-20.0, 120.0)]
+    sides = [face for k in range(4) for face in ((k, (k + 1) % 4, 4 + k), ((k + 1) % 4, 4 + (k + 1) % 4, 4 + k))]
+    wall = Wall.of(np.concatenate(ends), np.array(sides))
     angle, speed = sheath_campaign.draw(1)
     scene = sheath_campaign.scene_of(angle, speed)
     gone = 1e3 * scene["insertionSpeed"] * scene["timeStep"] * scene["maxSimulationSteps"]
