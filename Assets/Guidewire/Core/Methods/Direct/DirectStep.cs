@@ -45,6 +45,7 @@ namespace Guidewire.Core
             WallTerms? walls = dynamics.Terms.Walls;
             if (walls != null)
             {
+                walls.Spring.Place = scene.Schedule.ProximalPositionAt(dynamics.Time);
                 _watch = new WallWatch(scene.Rod, walls, scene.Metres);
                 _walls = new WallSteps(dynamics, scene.Schedule, _watch);
                 _pushes = new ElementPushes(scene.Rod, walls.Barrier);
@@ -91,7 +92,7 @@ namespace Guidewire.Core
             }
             Vector3d free = _dynamics.Shape.X[last] + _timeStep * _dynamics.Velocities[last]
                 + (_timeStep * _timeStep) * _scene.Schedule.Gravity;
-            Vector3d place = _scene.Schedule.ProximalPositionAt(_dynamics.Time);
+            Vector3d held = spring == null ? Vector3d.Zero : spring.HeldPlace(_dynamics.Shape);
             string? failure = _walls == null ? _dynamics.Step(_timeStep) : _walls.Step(_timeStep);
             if (failure != null)
             {
@@ -115,11 +116,11 @@ namespace Guidewire.Core
             {
                 Contacts.Reaction = _walls == null ? _dynamics.MeanReaction : _walls.MeanReaction;
                 _watch?.EndStep(_dynamics.Shape, Contacts);
-                CountDrive(place);
-                Failure ??= FindOverdriven();
-                if (spring != null)
+                if (spring != null && _dynamics.Terms.Walls!.HoldsStart)
                 {
                     _drive.GiveWay(spring, _dynamics.Shape);
+                    CountDrive(held, spring.HeldPlace(_dynamics.Shape));
+                    Failure ??= FindOverdriven();
                 }
             }
             TakeExtremes();
@@ -189,7 +190,7 @@ namespace Guidewire.Core
         /// <summary>A hub that gives way does less than it is asked.</summary>
         public override string? AccuracyWarning => _drive.Slip == 0.0 ? null : string.Format(
             CultureInfo.InvariantCulture,
-            "the hub did not make {0:G3} m of its way: it gave way at hubForceLimit, or the wire in its sheath came to"
+            "the hub lost {0:G3} m of its way: it gave way at hubForceLimit, or the wire in its sheath came to"
             + " an end", _drive.Slip);
 
         /// <inheritdoc/>
@@ -277,16 +278,11 @@ namespace Guidewire.Core
             }
         }
 
-        // What the drive asked of node 0 in the last step, and what of it is missing, units.
-        private void CountDrive(in Vector3d before)
+        // What the drive asked in the last step, and what of it was not gone, units.
+        private void CountDrive(in Vector3d before, in Vector3d after)
         {
-            if (_walls == null || !_dynamics.Terms.Walls!.HoldsStart)
-            {
-                return;
-            }
-            Vector3d asked = _scene.Schedule.ProximalPositionAt(_dynamics.Time);
-            Contacts!.DriveAsked += (Vector3d.Distance(asked, before) + _drive.Withheld) / _scene.Metres;
-            Contacts.DriveShortfall = (_drive.Slip + Vector3d.Distance(asked, _dynamics.Shape.X[0])) / _scene.Metres;
+            Contacts!.DriveAsked += _drive.Asked / _scene.Metres;
+            Contacts.DriveShortfall += (_drive.Asked - _drive.Gone(before, after)) / _scene.Metres;
         }
 
         // A hub that misses its place by a tenth of an element pulls at node 0 with EA, the force under which a wire
