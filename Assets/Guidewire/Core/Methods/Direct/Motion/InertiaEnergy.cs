@@ -69,10 +69,17 @@ namespace Guidewire.Core
             Array.Clear(_countedTurn, 0, _countedTurn.Length);
         }
 
+        /// <summary>Whether a couple is kept until an element turns on: a search along the energy asks for each up to
+        /// three times, a free iteration once.</summary>
+        public bool RemembersCouples { get; set; }
+
         /// <summary>A stage begins: its length and what earlier stages have contributed are set.</summary>
         public void BeginStage()
         {
-            Array.Clear(_seen, 0, _seen.Length);
+            if (RemembersCouples)
+            {
+                Array.Clear(_seen, 0, _seen.Length);
+            }
         }
 
         /// <summary>phi' and w' of the stage in this shape, by which its turns and angular velocities have grown over
@@ -259,17 +266,20 @@ namespace Guidewire.Core
             b.A33 += mass;
         }
 
-        /// <summary>I (w - w^)/h + w x I w + a I w; an iteration asks for it up to three times in one shape.</summary>
+        /// <summary>I (w - w^)/h + w x I w + a I w.</summary>
         private Vector3d Couple(in Quaterniond orientation, int j)
         {
-            ref Quaterniond seen = ref _seen[j];
-            if (orientation.X == seen.X && orientation.Y == seen.Y && orientation.Z == seen.Z
-                && orientation.W == seen.W)
+            if (!RemembersCouples)
             {
-                return _seenCouple[j];
+                return FindCouple(orientation, j);
             }
-            seen = orientation;
-            _seenCouple[j] = FindCouple(orientation, j);
+            ref Quaterniond seen = ref _seen[j];
+            if (orientation.X != seen.X || orientation.Y != seen.Y || orientation.Z != seen.Z
+                || orientation.W != seen.W)
+            {
+                seen = orientation;
+                _seenCouple[j] = FindCouple(orientation, j);
+            }
             return _seenCouple[j];
         }
 

@@ -42,7 +42,11 @@ namespace Guidewire.Core
             _isLoose = terms.Walls == null && massDamping == 0.0 && scheme != null && scheme.IsFirstExplicit
                 && _supports.Proximal == ProximalEnd.Free && _supports.Distal == DistalEnd.Free;
             VelocityHistory = new Vector3d[n + 1];
-            Inertia = new InertiaEnergy(terms.Mass) { TurnDamping = massDamping };
+            Inertia = new InertiaEnergy(terms.Mass)
+            {
+                TurnDamping = massDamping,
+                RemembersCouples = terms.Walls != null,
+            };
             if (massDamping > 0.0 || terms.Rod.MaterialDamping > 0.0)
             {
                 Damping = new RodDamping(terms, stages);

@@ -64,31 +64,27 @@ namespace Guidewire.Core
         {
             int before = row.Length - 1;
             double h = inertia.StageLength;
-            for (int i = 0; i < positions.Length; i++)
+            Vector3d[] free = inertia.FreePositions;
+            Array.Copy(positions, free, free.Length);
+            Array.Copy(velocities, velocityHistory, free.Length);
+            Array.Clear(inertia.TurnHistory, 0, spins.Length);
+            Array.Copy(spins, inertia.SpinHistory, spins.Length);
+            for (int k = 0; k < before; k++)
             {
-                Vector3d x = positions[i];
-                Vector3d v = velocities[i];
-                for (int k = 0; k < before; k++)
-                {
-                    double weight = dt * row[k];
-                    x += weight * _velocity[k][i];
-                    v += weight * _acceleration[k][i];
-                }
-                velocityHistory[i] = v;
-                inertia.FreePositions[i] = x + h * v;
+                double weight = dt * row[k];
+                Add(free, weight, _velocity[k]);
+                Add(velocityHistory, weight, _acceleration[k]);
+                Add(inertia.TurnHistory, weight, _turnRate[k]);
+                Add(inertia.SpinHistory, weight, _spinRate[k]);
             }
-            for (int j = 0; j < spins.Length; j++)
+            Add(free, h, velocityHistory);
+        }
+
+        private static void Add(Vector3d[] sum, double weight, Vector3d[] rate)
+        {
+            for (int i = 0; i < sum.Length; i++)
             {
-                Vector3d turn = Vector3d.Zero;
-                Vector3d spin = spins[j];
-                for (int k = 0; k < before; k++)
-                {
-                    double weight = dt * row[k];
-                    turn += weight * _turnRate[k][j];
-                    spin += weight * _spinRate[k][j];
-                }
-                inertia.TurnHistory[j] = turn;
-                inertia.SpinHistory[j] = spin;
+                sum[i] += weight * rate[i];
             }
         }
 
