@@ -6,15 +6,23 @@ namespace Guidewire.Core
     /// free.</summary>
     internal static class MaterialStart
     {
-        /// <summary>What is wrong with the start of a scene, in one phrase, or null.</summary>
-        /// <param name="from">The first element that is looked at.</param>
-        public static string? FindProblem(MaterialScene scene, int from = 0)
+        /// <summary>What is wrong with the start of a scene, in one phrase, or null. What goes on without barriers
+        /// touches walls, and contact may have let them in a little: of that the core line has to be free.</summary>
+        public static string? FindProblem(SimulationParameters parameters, MaterialScene scene)
+        {
+            bool touches = parameters.Scene.Start != null && !MethodTable.Of(parameters.Method.Solver).HasBarriers;
+            return FindProblem(scene, 0, scene.Rod.ElementCount, touches ? SweptSearch.ClearanceFor(1.0) : 1.0);
+        }
+
+        /// <summary>The same of the elements from one on, with their whole radius.</summary>
+        public static string? FindProblem(MaterialScene scene, int from)
         {
             return FindProblem(scene, from, scene.Rod.ElementCount);
         }
 
         /// <summary>The same of the elements before one, exclusive.</summary>
-        public static string? FindProblem(MaterialScene scene, int from, int to)
+        /// <param name="share">Of the radius, that has to be free.</param>
+        public static string? FindProblem(MaterialScene scene, int from, int to, double share = 1.0)
         {
             double units = 1.0 / scene.Metres;
             for (int j = from; j < to; j++)
@@ -28,7 +36,7 @@ namespace Guidewire.Core
                     wall.Nearest(a, b, double.PositiveInfinity, ref hint, out SurfaceContact contact);
                     double distance = wall.Contains(a) && wall.Contains(b) ? contact.Distance
                         : System.Math.Min(contact.Distance, 0.0);
-                    if (!(distance > radius))
+                    if (!(distance > share * radius))
                     {
                         return Text(j, a, b, radius, distance, wall);
                     }

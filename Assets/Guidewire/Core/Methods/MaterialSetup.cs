@@ -57,7 +57,7 @@ namespace Guidewire.Core
             {
                 return null;
             }
-            string? outside = MaterialStart.FindProblem(scene);
+            string? outside = MaterialStart.FindProblem(parameters, scene);
             if (outside != null)
             {
                 throw new ArgumentException(outside);

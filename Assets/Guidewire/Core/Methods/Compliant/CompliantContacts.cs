@@ -15,14 +15,16 @@ namespace Guidewire.Core
     /// where the sweeps have converged f is against u, which it would not be with what f moves it by in its own.
     /// A slip of 0 is held by any f within the limit: what sticks does not creep.
     ///
-    /// A rigid contact that finds itself in the wall, because planes are only where the wall is near the place that
-    /// they were found for, is taken out of it by a share of the depth a substep: all at once would be a speed of depth
-    /// over h.</remarks>
+    /// A rigid contact that finds itself in the wall, because a plane is the wall only near the place that it was found
+    /// for, is taken out of it by no more than its own way in the substep, or a share of the depth: all at once would be
+    /// a speed of depth over h, and one that moves over an edge of the wall comes out of it as fast as it
+    /// moves.</remarks>
     internal sealed class CompliantContacts
     {
         private const double Recovered = 0.02;    // of a depth in a substep
 
         private readonly Contact[] _contacts;
+        private readonly Contact[] _held;         // of held nodes
         private readonly Vector3d[] _kept;        // lambda n + f of each slot, while contacts are found anew
         private readonly double[] _friction;      // mu, by wall
         private readonly double[] _radius;        // of elements, m
@@ -34,6 +36,7 @@ namespace Guidewire.Core
         private RodShape _old;
         private double _perSquare;                // compliance/h^2
         private int _count;
+        private int _heldCount;
 
         /// <summary>No contacts yet of a scene's wire with its walls.</summary>
         /// <param name="stiffness">k, N/m; 0 for rigid contacts.</param>
@@ -55,8 +58,15 @@ namespace Guidewire.Core
             // A search finds each node and each element at most once a wall.
             _kept = new Vector3d[scene.Walls.Length * (2 * n + 1)];
             _contacts = new Contact[_kept.Length];
+            _held = new Contact[2 * scene.Walls.Length];
             _old = scene.Shape;
         }
+
+        /// <summary>Contacts at present, without those of held nodes.</summary>
+        public int Count => _count;
+
+        /// <summary>Contact k.</summary>
+        public ref readonly Contact this[int k] => ref _contacts[k];
 
         /// <summary>Takes over the contacts that a search has found; multipliers stay with their node or element and
         /// wall, turned into the new normal's direction.</summary>
@@ -64,6 +74,7 @@ namespace Guidewire.Core
         {
             Keep();
             _count = 0;
+            _heldCount = 0;
             int n = _radius.Length;
             for (int k = 0; k < found.Count; k++)
             {
@@ -73,15 +84,17 @@ namespace Guidewire.Core
                 int j = isTip ? n - 1 : contact.Index;
                 double s = contact.IsElement ? place.Position : isTip ? 1.0 : 0.0;
                 double inverse = (1.0 - s) * (1.0 - s) * _inverseMass[j] + s * s * _inverseMass[j + 1];
-                if (!(inverse > 0.0))
+                bool isHeld = !(inverse > 0.0);
+                if (isHeld && _heldCount == _held.Length)
                 {
                     continue;
                 }
-                ref Contact to = ref _contacts[_count++];
+                ref Contact to = ref (isHeld ? ref _held[_heldCount++] : ref _contacts[_count++]);
                 to.Slot = contact.Wall * (2 * n + 1) + contact.Index + (contact.IsElement ? n + 1 : 0);
                 to.Wall = contact.Wall;
                 to.Element = j;
                 to.Position = s;
+                to.Node = s == 1.0 ? j + 1 : j;
                 to.Normal = place.Normal;
                 to.Offset = _metres * Vector3d.Dot(place.Point, place.Normal);
                 to.Radius = contact.IsElement ? _radius[j] : _nodeRadius[contact.Index];
@@ -97,12 +110,22 @@ namespace Guidewire.Core
             Array.Clear(_kept, 0, _kept.Length);
         }
 
-        /// <summary>A substep begins.</summary>
+        /// <summary>A substep begins; a held node that would come nearer than its radius is kept off.</summary>
         /// <param name="old">The wire where it begins; it stays so until the next.</param>
+        /// <param name="shape">The wire, not swept yet, with its held nodes placed.</param>
         /// <param name="substep">h, s.</param>
-        public void Begin(RodShape old, double substep)
+        public void Begin(RodShape old, RodShape shape, double substep)
         {
             _old = old;
+            for (int k = 0; k < _heldCount; k++)
+            {
+                ref readonly Contact contact = ref _held[k];
+                double missing = contact.Radius - Distance(contact, shape);
+                if (missing > 0.0)
+                {
+                    shape.X[contact.Node] += missing * contact.Normal;
+                }
+            }
             _perSquare = _compliance / (substep * substep);
             for (int k = 0; k < _count; k++)
             {
@@ -111,7 +134,8 @@ namespace Guidewire.Core
                 contact.Reach = contact.Radius;
                 if (_compliance == 0.0 && distance < contact.Radius)
                 {
-                    contact.Reach = distance + Recovered * (contact.Radius - distance);
+                    double depth = contact.Radius - distance;
+                    contact.Reach = distance + Math.Min(depth, Math.Max(Recovered * depth, Way(contact, shape)));
                 }
             }
         }
@@ -243,6 +267,14 @@ namespace Guidewire.Core
                 + contact.Position * Vector3d.Dot(shape.X[j + 1], contact.Normal) - contact.Offset;
         }
 
+        // That the point has gone since the substep began, m.
+        private double Way(in Contact contact, RodShape shape)
+        {
+            int j = contact.Element;
+            return ((1.0 - contact.Position) * (shape.X[j] - _old.X[j])
+                + contact.Position * (shape.X[j + 1] - _old.X[j + 1])).Length;
+        }
+
         // What lambda should be by this shape.
         private double PushIn(in Contact contact, RodShape shape)
         {
@@ -267,8 +299,7 @@ namespace Guidewire.Core
         // What a force along the wall turns the element by, along the element's axes.
         private Vector3d Turn(in Contact contact, in Quaterniond q, in Vector3d rub)
         {
-            Vector3d couple = Quaterniond.Rotate(q.Conjugate,
-                contact.Radius * Vector3d.Cross(rub, contact.Normal));
+            Vector3d couple = contact.Couple(q, rub);
             Vector3d inverse = _inverseInertia[contact.Element];
             return new Vector3d(inverse.X * couple.X, inverse.Y * couple.Y, inverse.Z * couple.Z);
         }
@@ -279,20 +310,59 @@ namespace Guidewire.Core
             return size > most ? (most / size) * rub : rub;
         }
 
-        private struct Contact
+        /// <summary>A contact and its multipliers.</summary>
+        internal struct Contact
         {
+            /// <summary>Where its multipliers are kept while contacts are found anew.</summary>
             public int Slot;
+
+            /// <summary>By its place in the scene's list.</summary>
             public int Wall;
-            public int Element;            // j
-            public double Position;        // s
-            public Vector3d Normal;        // n
-            public double Offset;          // c.n, m
-            public double Radius;          // r, m
-            public double Reach;           // what the substep asks for of the distance, r or less, m
-            public double Inverse;         // W, 1/kg
-            public double InverseOfSlip;   // V, 1/kg
-            public double Push;            // lambda, kg m
-            public Vector3d Rub;           // f, kg m
+
+            /// <summary>j.</summary>
+            public int Element;
+
+            /// <summary>s.</summary>
+            public double Position;
+
+            /// <summary>The node at s = 0 or 1.</summary>
+            public int Node;
+
+            /// <summary>n.</summary>
+            public Vector3d Normal;
+
+            /// <summary>c.n, m.</summary>
+            public double Offset;
+
+            /// <summary>r, m.</summary>
+            public double Radius;
+
+            /// <summary>What the substep asks for of the distance, r or less, m.</summary>
+            public double Reach;
+
+            /// <summary>W, 1/kg.</summary>
+            public double Inverse;
+
+            /// <summary>V, 1/kg.</summary>
+            public double InverseOfSlip;
+
+            /// <summary>lambda, kg m.</summary>
+            public double Push;
+
+            /// <summary>f, kg m.</summary>
+            public Vector3d Rub;
+
+            /// <summary>r f x n along the axes of an element of this orientation: the couple of f, kg m^2.</summary>
+            public readonly Vector3d Couple(in Quaterniond q)
+            {
+                return Couple(q, Rub);
+            }
+
+            /// <summary>The same of another f.</summary>
+            public readonly Vector3d Couple(in Quaterniond q, in Vector3d rub)
+            {
+                return Quaterniond.Rotate(q.Conjugate, Radius * Vector3d.Cross(rub, Normal));
+            }
         }
     }
 }

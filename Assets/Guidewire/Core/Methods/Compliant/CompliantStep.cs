@@ -89,7 +89,8 @@ namespace Guidewire.Core
             _convergence = new ConvergenceRecord(scene.Rod.TotalLength);
             _ends = new HeldEnds(terms, scene.Schedule);
             _energy = new EnergyWatch(terms, _inertia, _shape, _velocities, _spins, _ends);
-            _rest = new RestWatch(scene, terms, _velocities, _spins, method);
+            _rest = new RestWatch(scene, terms, _velocities, _spins, method, _walls == null ? null
+                : new ContactPushes(_walls.Contacts, scene.Rod, contactStiffness, _timeStep / _substeps));
             _report = report;
         }
 
@@ -106,6 +107,7 @@ namespace Guidewire.Core
             var residual = default(SweepResidual);
             int measured = 0;
             _drive.Prepare(_shape, _time);
+            _ends.Carry(_scene.Schedule.ProximalVelocity.Length, Math.Abs(_scene.Schedule.ProximalTwistRate));
             Vector3d start = _shape.X[0];
             Vector3d velocity = _velocities[0];
             _walls?.BeginStep(_shape);

@@ -82,7 +82,8 @@ namespace Guidewire.Core
 
         /// <summary>A substep begins.</summary>
         /// <param name="old">The wire where it begins, kept until its end.</param>
-        /// <param name="predicted">Where it would go without constraints.</param>
+        /// <param name="predicted">Where it would go without constraints, but for what walls keep held nodes
+        /// from.</param>
         /// <param name="substep">h, s.</param>
         public void BeginSubstep(RodShape old, RodShape predicted, double substep)
         {
@@ -95,7 +96,7 @@ namespace Guidewire.Core
                 Contacts.Renew(_search.Contacts);
                 _isNew = false;
             }
-            Contacts.Begin(old, substep);
+            Contacts.Begin(old, predicted, substep);
         }
 
         /// <summary>A substep has come to this shape, which is taken back where it would pass a wall.</summary>
