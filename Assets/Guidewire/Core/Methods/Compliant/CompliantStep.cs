@@ -57,6 +57,7 @@ namespace Guidewire.Core
         private readonly RestWatch _rest;
         private readonly SolverReport _report;
         private readonly CompliantWalls? _walls;
+        private readonly double _contactStiffness;    // N/m
         private Vector3d _supportPush;    // sum over the substeps, N
         private StressRecord? _stress;
         private Vector3d _predictedTip;
@@ -84,6 +85,7 @@ namespace Guidewire.Core
             _remainingVelocity = Math.Exp(-scene.Rod.MassDamping * method.TimeStep / method.Substeps);
             _substeps = method.Substeps;
             _sweeps = method.ConstraintSolverSteps;
+            _contactStiffness = contactStiffness;
             _walls = scene.Walls.Length > 0 ? new CompliantWalls(scene, _inertia, contactStiffness) : null;
             _directions = new DirectionError(scene, _inertia, _stretch, _bendTwist, _walls?.Contacts);
             _convergence = new ConvergenceRecord(scene.Rod.TotalLength);
@@ -174,6 +176,7 @@ namespace Guidewire.Core
                 + " converged";
             _report.LargestError = _convergence.LargestError;
             _report.StepsNotConverged = _convergence.StepsAbove;
+            _report.ContactStiffness = _walls == null || _contactStiffness == 0.0 ? double.NaN : _contactStiffness;
             return _report;
         }
 
