@@ -76,9 +76,9 @@ namespace Guidewire.Core
             _distalTurn = distalTurn;
         }
 
-        /// <summary>Takes note of the speeds of the ends: what brings a wire at rest to them may be over within a part of
-        /// a step and leave no force by which <see cref="Place"/> could count it, so there is always room for the energy
-        /// of the whole wire at the largest.</summary>
+        /// <summary>Takes note of the speeds of the ends: what brings a wire at rest to them may be over within a part
+        /// of a step and leave no force by which <see cref="Place"/> could count it, so there is always room for the
+        /// energy of the whole wire at the largest.</summary>
         /// <param name="speed">m/s.</param>
         /// <param name="turning">rad/s.</param>
         public void Carry(double speed, double turning)

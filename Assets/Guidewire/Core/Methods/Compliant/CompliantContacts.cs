@@ -16,8 +16,8 @@ namespace Guidewire.Core
     /// A slip of 0 is held by any f within the limit: what sticks does not creep.
     ///
     /// A rigid contact that finds itself in the wall, because a plane is the wall only near the place that it was found
-    /// for, is taken out of it by no more than its own way in the substep, or a share of the depth: all at once would be
-    /// a speed of depth over h, and one that moves over an edge of the wall comes out of it as fast as it
+    /// for, is taken out of it by no more than its own way in the substep, or a share of the depth: all at once would
+    /// be a speed of depth over h, and what moves over an edge of the wall comes out of it as fast as it
     /// moves.</remarks>
     internal sealed class CompliantContacts
     {

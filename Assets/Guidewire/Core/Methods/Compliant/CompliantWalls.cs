@@ -7,8 +7,8 @@ namespace Guidewire.Core
     /// <remarks>Contacts are looked for where a step begins, and again where a node has gone farther than
     /// <see cref="Reuse"/> of the wire's radius since; a substep is much shorter than a search needs. What is nearer
     /// than half a radius to touching is found. Until a node has gone as far as the core line of any element was from
-    /// the wall, nothing can have passed it; a substep that goes farther is looked at by the swept search, and shortened
-    /// where it would. A core line keeps a thousandth of the radius. All places are in units here.</remarks>
+    /// the wall, nothing can have passed it; a substep that goes farther is looked at by the swept search, and
+    /// shortened where it would. A core line keeps a thousandth of the radius. All places are in units here.</remarks>
     internal sealed class CompliantWalls
     {
         private const double Reuse = 0.02;

@@ -2,10 +2,10 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>The walls' pushes on a wire with compliance, as they were at the end of the last substep, for what looks
-    /// for a rest shape beside it: forces that stay, each on a stiff spring along its normal.</summary>
-    /// <remarks>The spring is the contact's own, or where that is rigid 10 EA/l of the stiffest element, as that on which
-    /// <see cref="SupportSpring"/> holds a node. What rubs is a force alone.</remarks>
+    /// <summary>The walls' pushes on a wire with compliance, as they were at the end of the last substep, for what
+    /// looks for a rest shape beside it: forces that stay, each on a stiff spring along its normal.</summary>
+    /// <remarks>The spring is the contact's own, or where that is rigid 10 EA/l of the stiffest element, as that on
+    /// which <see cref="SupportSpring"/> holds a node. What rubs is a force alone.</remarks>
     internal sealed class ContactPushes : EnergyTerm
     {
         private const double OverAxialSpring = 10.0;

@@ -13,10 +13,10 @@ namespace Guidewire.Core.Tests
         [TestCase(1e5)]
         public void Cantilever_OnAPlane_PressesAsTheBoundaryValueProblemSays(double stiffness)
         {
-            // As direct's: r = 0.3 mm over a plane 20 mm below the axis presses with 1.16164 mN. Ten times as thick under
-            // a hundred times the gravity it has the same shape and ten thousand times the force, and a wave along it
-            // takes ten times longer beside its swing. Shear, of order (r/L)^2 = 1e-4, is left out of that. A contact
-            // with a stiffness gives way by the force over it; the plane is higher by so much.
+            // As direct's: r = 0.3 mm over a plane 20 mm below the axis presses with 1.16164 mN. Ten times as thick
+            // under a hundred times the gravity it has the same shape and ten thousand times the force, and a wave
+            // along it takes ten times longer beside its swing. Shear, of order (r/L)^2 = 1e-4, is left out of that.
+            // A contact with a stiffness gives way by the force over it; the plane is higher by so much.
             const double force = 1.16164e-3 * 1e4;
             double depth = stiffness == 0.0 ? 0.0 : 1e3 * force / stiffness;
             SimulationParameters scene = WallScenes.OverPlane(10, 3e-3);
@@ -35,7 +35,6 @@ namespace Guidewire.Core.Tests
                 "at the tip alone");
             Assert.That(run.State.Positions[10].Y, Is.EqualTo(-20.0).Within(1e-6 + 0.01 * depth));
             Assert.That(run.Contacts.Passages, Is.EqualTo(0));
-            TestContext.Out.WriteLine("{0} {1} {2}", run.StepCount, run.Contacts.Total.Y/force, run.Reason);
         }
 
         [Test]
@@ -92,8 +91,8 @@ namespace Guidewire.Core.Tests
             double acceleration = Acceleration(scene, Vector3d.UnitX, out Simulation run);
             double expected = excess * Gravity / Math.Sqrt(1.09);
             Assert.That(acceleration, Is.EqualTo(expected).Within(1e-3 * Gravity));
-            // Down along x the axis z turns backwards. Slipping it has spun up by mu m g r t/I = 2 mu g t/r, and runs at
-            // (0.3 - mu) g t: 0.4 of rolling at mu = 0.05.
+            // Down along x the axis z turns backwards. Slipping it has spun up by mu m g r t/I = 2 mu g t/r, and runs
+            // at (0.3 - mu) g t: 0.4 of rolling at mu = 0.05.
             double speed = 1e-3 * run.State.Velocities[5].X;
             Assert.That(-0.4e-3 * run.State.AngularVelocities[5].Z,
                 Is.EqualTo(rolled * speed).Within(0.01 * speed));
@@ -265,6 +264,24 @@ namespace Guidewire.Core.Tests
             Assert.That(contacts.DriveShortfall, Is.EqualTo(1.4).Within(1e-9), "3 mm asked of 2 less r");
             Assert.That(-run.State.Positions[0].Z, Is.EqualTo(3.0 - contacts.DriveShortfall).Within(1e-6));
             Assert.That(run.Warnings, Has.Some.StartWith("the drive fell short"));
+        }
+
+        [Test]
+        public void ContactThatIsMuchTooSoft_LetsNothingPass_AndIsWarnedOf()
+        {
+            // 200 g for 0.2 s on contacts of a nanonewton a metre: the core line stops where it would pass.
+            SimulationParameters scene = Lying(0.0);
+            scene.Scene.Gravity = new Vector3d(0.0, -200.0 * Gravity, 0.0);
+            scene.Contact.ContactStiffness = 1e-9;
+            Simulation run = Wires.Run(WallScenes.Compliant(scene, Young));
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Assert.That(run.Contacts!.Passages, Is.EqualTo(0));
+            for (int i = 0; i <= 10; i++)
+            {
+                Assert.That(run.State.Positions[i].Y, Is.GreaterThan(-0.4001));
+            }
+            Assert.That(run.Contacts.MaxPenetration, Is.GreaterThan(0.9 * 0.4));
+            Assert.That(run.Warnings, Has.Some.StartWith("a wall reached"));
         }
 
         private static SimulationParameters Arch(int n, double way, ContactShape vessel)

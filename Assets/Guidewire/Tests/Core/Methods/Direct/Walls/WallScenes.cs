@@ -72,7 +72,7 @@ namespace Guidewire.Core.Tests
             return parameters;
         }
 
-        /// <summary>The same scene for xpbd with one sweep a substep, of a wire so soft that substeps are long.</summary>
+        /// <summary>The same scene for xpbd with one sweep a substep; a soft wire's substeps are long.</summary>
         /// <param name="young">E, Pa.</param>
         /// <param name="share">Of the time, l sqrt(rho/E), that sound takes along an element.</param>
         public static SimulationParameters Compliant(SimulationParameters scene, double young, double share = 0.4)
