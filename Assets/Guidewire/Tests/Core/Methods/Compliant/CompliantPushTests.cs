@@ -37,7 +37,7 @@ namespace Guidewire.Core.Tests
                 bool isOutside = push.Contacts.Passages > 0 || push.PointsOutside > 0 || !push.IsFinite || !hasEnd;
                 outside += isOutside ? 1 : 0;
                 lost += outcome == Outcome.Finished ? 0 : 1;
-                bool isDeep = push.Contacts.MaxPenetration > 0.05 * push.Radius;
+                bool isDeep = Math.Max(push.Deepest, push.Contacts.MaxPenetration) > 0.05 * push.Radius;
                 deep += isDeep ? 1 : 0;
                 if (isOutside || isDeep || outcome != Outcome.Finished)
                 {
@@ -48,6 +48,7 @@ namespace Guidewire.Core.Tests
                 lost, deep);
             notes.ForEach(TestContext.WriteLine);
             Assert.That(outside, Is.EqualTo(0), "runs with a wire outside, or without an end");
+            Assert.That(deep, Is.LessThanOrEqualTo(0.02 * runs));
             Assert.That(lost, Is.LessThanOrEqualTo(0.1 * runs));
         }
 
