@@ -57,7 +57,7 @@ namespace Guidewire.Core.Tests
         {
             SimulationParameters scene = drawn.Copy();
             scene.Scene.NumberRodElements = 10 + drawn.Scene.NumberRodElements / 4;
-            scene.Method.MaxSimulationSteps = Math.Min(150, drawn.Method.MaxSimulationSteps);
+            scene.Method.MaxSimulationSteps = Math.Min(Rods.InFull ? 150 : 75, drawn.Method.MaxSimulationSteps);
             return WallScenes.Compliant(scene, 1e-2 * drawn.Material.YoungsModulus);
         }
     }
