@@ -173,4 +173,5 @@ def _gains(found: Sequence[Charted]) -> str:
 def _absent(found: Sequence[Charted]) -> str:
     absent = {method for charted in found for method in charted.problem.absent}
     names = " and ".join(method for method in METHODS if method in absent)
-    return f"{names} meet no walls and are missing there." if names else ""
+    are = "meet no walls and are" if len(absent) > 1 else "meets no walls and is"
+    return f"{names} {are} missing there." if names else ""

@@ -1,4 +1,4 @@
-"""Problems of a wire that meets walls, for the methods that do: pbd, and direct with implicitEuler."""
+"""Problems of a wire that meets walls, for the methods that do: pbd, xpbd, and direct with implicitEuler."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from analysis.validation.statics import PLANE_DROP, PLANE_WIRE
 from analysis.validation.wire import Wire
 from studies.table import Case
 
-ABSENT = {"xpbd": "meets no walls", "explicit": "meets no walls"}
+ABSENT = {"explicit": "meets no walls"}
 _FIRST = 2.0 * math.pi * beam.frequencies(PLANE_WIRE, 1)[0]  # rad/s
 _REST_TIME = 15.0 / _FIRST  # s
 _RATE = 2.0 * _FIRST  # 1/s, critical
@@ -29,6 +29,7 @@ _PBD_CHANGES: tuple[dict[str, Any], ...] = (
     {}, {"constraintSolverSteps": 125}, {"constraintSolverSteps": 250}, {"constraintSolverSteps": 1000},
     {"numberRodElements": 15}, {"timeStep": 5e-4}, {"constraintSolverSteps": 50, "timeStep": 1e-2},
 )
+_XPBD = ((8, 250, 1), (8, 100, 3), (15, 400, 1), (15, 150, 3), (30, 800, 1), (30, 1600, 1))  # n, substeps of 1 ms, m
 
 
 def _gain() -> scenes.Asking[float]:
@@ -37,9 +38,9 @@ def _gain() -> scenes.Asking[float]:
     return (yield from settings.tuned_gain(PLANE_WIRE, _RATE, _REST_TIME, sag))
 
 
-def _thin(wall: Mapping[str, Any], duration: float) -> tuple[Any, Any]:
+def _thin(wall: Mapping[str, Any], duration: float) -> tuple[Any, Any, list[Setting]]:
     """What makes keys of the thin wire that falls on a wall: of direct from n, dt and more, of pbd from what changes
-    and its gain."""
+    and its gain; and the settings of xpbd."""
 
     def direct(n: int, step: float, more: Mapping[str, Any]) -> dict[str, Any]:
         method = {"integrator": "implicitEuler", "numberRodElements": n, **more}
@@ -50,20 +51,27 @@ def _thin(wall: Mapping[str, Any], duration: float) -> tuple[Any, Any]:
                   "sphereRadius": PLANE_WIRE.radius / scenes.UNIT}
         return {**settings.settled(method, method["timeStep"], _RATE, duration), **wall}
 
-    return direct, pbd
+    def xpbd(n: int, substeps: int, sweeps: int) -> dict[str, Any]:
+        method = {"solver": "xpbd", "numberRodElements": n, "substeps": substeps, "constraintSolverSteps": sweeps}
+        return {**scenes.wire_parameters(PLANE_WIRE), **settings.settled(method, 1e-3, _RATE, duration), **wall}
+
+    compliant = [Setting("xpbd", *settings.small_steps(n, 1e-3 / k, m), case(f"xpbd-{n}-{k}-{m}", "xpbd", xpbd(n, k, m)))
+                 for n, k, m in _XPBD]
+    return direct, pbd, compliant
 
 
 def _plane() -> scenes.Asking[Asked]:
     gain = yield from _gain()
     height = -(PLANE_DROP + PLANE_WIRE.radius) / scenes.UNIT  # the axis comes to rest a radius above it
     wall = {"vessel": {"shape": "plane", "point": [0.0, height, 0.0], "normal": [0.0, 1.0, 0.0]}}
-    direct, pbd = _thin(wall, _REST_TIME)
+    direct, pbd, compliant = _thin(wall, _REST_TIME)
     made = [
         Setting("direct", *_near(n, dt, gap), case(
             f"direct-{n}-{dt}-{gap}", "direct", direct(n, dt, {} if gap is None else {"contactDistance": gap})))
         for n, dt, gap in ((8, 2e-2, None), (8, 5e-3, None), (15, 2e-2, None), (15, 5e-3, None), (15, 5e-3, 3e-6),
                            (30, 2e-2, None), (30, 5e-3, 3e-6), (30, 2e-3, 3e-6))
     ]
+    made += compliant
     made += [Setting("pbd", *settings.pbd(changed), case(f"pbd-{k}", "pbd", pbd(changed, gain)))
              for k, changed in enumerate(_PBD_CHANGES)]
     shape, _ = elastica.heavy_on_plane(_LOAD, PLANE_DROP / PLANE_WIRE.length, _ARC)
@@ -96,13 +104,14 @@ def _fall() -> scenes.Asking[Asked]:
     height = -(_BAR_RADIUS + PLANE_WIRE.radius / scenes.UNIT + _BAR_BELOW)
     wall = {"obstacles": [{"shape": "capsule", "from": [-50.0, height, middle], "to": [50.0, height, middle],
                            "radius": _BAR_RADIUS}], "logSpheres": "last", "logEvery": 1}
-    direct, pbd = _thin(wall, _FALL_TIME)
+    direct, pbd, compliant = _thin(wall, _FALL_TIME)
     made = [
         Setting("direct", *_near(n, dt, gap), case(
             f"direct-{n}-{dt}-{gap}", "direct", direct(n, dt, {} if gap is None else {"contactDistance": gap})))
         for n, dt, gap in ((8, 1e-2, None), (8, 2e-3, None), (16, 1e-2, None), (16, 2e-3, None), (16, 1e-3, None),
                            (16, 5e-4, 3e-6), (30, 1e-3, 3e-6))
     ]
+    made += compliant
     made += [Setting("pbd", *settings.pbd(changed), case(f"pbd-{k}", "pbd", pbd(changed, gain)))
              for k, changed in enumerate(_PBD_CHANGES)]
     fine = Case("fine", direct(40, 1e-4, {"contactDistance": 3e-6}))
@@ -139,6 +148,7 @@ def _insertion() -> scenes.Asking[Asked]:
     yield []
     clearance = scenes.UNIT * _LUMEN - _ARCH_WIRE.radius  # m
     material = {**scenes.wire_parameters(_ARCH_WIRE), "integrator": "implicitEuler", "massDamping": _ARCH_DAMPING}
+    compliant = {**scenes.wire_parameters(_ARCH_WIRE), "solver": "xpbd", "massDamping": _ARCH_DAMPING}
 
     def pushed(n: int, step: float, more: Mapping[str, Any]) -> dict[str, Any]:
         return {
@@ -154,6 +164,10 @@ def _insertion() -> scenes.Asking[Asked]:
         for n, dt, gap in ((20, 2e-2, None), (30, 2e-2, None), (30, 1e-2, None), (60, 2e-2, None), (60, 1e-2, None),
                            (60, 1e-2, 1e-5), (90, 1e-2, 1e-5))
     ]
+    for n, substeps, m in ((20, 5000, 1), (20, 2000, 3), (30, 7500, 1), (60, 15000, 1)):
+        changed = {"substeps": substeps, "constraintSolverSteps": m}
+        made.append(Setting("xpbd", *settings.small_steps(n, 1e-2 / substeps, m), case(
+            f"xpbd-{n}-{substeps}-{m}", "xpbd", pushed(n, 1e-2, {**compliant, **changed}))))
     gains = {"stretchStiffness": 1.0, "bendStiffness": 0.1, "totalMass": 0.01, "damping": 0.1,
              "collisionStiffness": 0.5, "sphereRadius": _ARCH_WIRE.radius / scenes.UNIT}
     for m, n, step, stiffness in (

@@ -18,8 +18,9 @@ namespace Guidewire.Core
         public RunWarnings(SimulationParameters parameters)
         {
             _length = parameters.Scene.GuidewireLength;
-            // Gains let a wall into the wire up to its core line.
-            _depth = MethodTable.Of(parameters.Method.Solver).TakesMaterial ? 0.0 : parameters.Contact.SphereRadius;
+            MethodTraits method = MethodTable.Of(parameters.Method.Solver);
+            _depth = method.DepthInRadii * (method.TakesMaterial
+                ? parameters.Material.WireRadius / parameters.Scene.MetresPerUnit : parameters.Contact.SphereRadius);
         }
 
         /// <summary>One line for each.</summary>

@@ -100,7 +100,7 @@ namespace Guidewire.Core
                 return WireStart.FindProblem(parameters, scene);
             }
             var material = new MaterialScene(parameters, scene);
-            return parameters.Scene.Sheath == null ? MaterialStart.FindProblem(material)
+            return parameters.Scene.Sheath == null ? MaterialStart.FindProblem(parameters, material)
                 : SheathExit.FindProblem(parameters, material);
         }
 

@@ -63,7 +63,7 @@ namespace Guidewire.Core
             {
                 Turn(shape, proximalTurn, distalTurn);
             }
-            MostWork = Math.Max(MostWork, Work);
+            MostWork = Math.Max(MostWork, Work + _carried);
         }
 
         /// <summary>The ends are followed from this shape on, in which the frames have made these turns,
@@ -74,6 +74,18 @@ namespace Guidewire.Core
             _lastPlace = shape.X[shape.ElementCount];
             _proximalTurn = proximalTurn;
             _distalTurn = distalTurn;
+        }
+
+        /// <summary>Takes note of the speeds of the ends: what brings a wire at rest to them may be over within a part
+        /// of a step and leave no force by which <see cref="Place"/> could count it, so there is always room for the
+        /// energy of the whole wire at the largest.</summary>
+        /// <param name="speed">m/s.</param>
+        /// <param name="turning">rad/s.</param>
+        public void Carry(double speed, double turning)
+        {
+            double all = speed + _terms.Rod.TotalLength * turning;
+            _carried = Math.Max(_carried, 0.5 * _terms.Mass.Total * all * all);
+            MostWork = Math.Max(MostWork, Work + _carried);
         }
 
         /// <summary>Counts what the ends may have put in at most in a step of dt in which a solver has placed them

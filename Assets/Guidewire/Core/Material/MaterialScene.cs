@@ -23,7 +23,8 @@ namespace Guidewire.Core
                 Mass = parameters.Material.MassRule,
                 Bend = parameters.Material.BendLaw,
             };
-            Supports.HasSpring = scene.Walls.Length > 0 && Supports.Proximal != ProximalEnd.Free;
+            Supports.HasSpring = scene.Walls.Length > 0 && Supports.Proximal != ProximalEnd.Free
+                && MethodTable.Of(parameters.Method.Solver).HasBarriers;
             scene.Schedule.ProximalPosition += scene.Displacement;
             Drive = new MaterialDrive(parameters, scene, Supports.HasSpring);
             StartsStraight = parameters.Scene.Start == null && parameters.Scene.StartShape == StartShape.Straight;

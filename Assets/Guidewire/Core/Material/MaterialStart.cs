@@ -6,15 +6,23 @@ namespace Guidewire.Core
     /// free.</summary>
     internal static class MaterialStart
     {
-        /// <summary>What is wrong with the start of a scene, in one phrase, or null.</summary>
-        /// <param name="from">The first element that is looked at.</param>
-        public static string? FindProblem(MaterialScene scene, int from = 0)
+        /// <summary>What is wrong with the start of a scene, in one phrase, or null. What goes on without barriers
+        /// touches walls, and contact may have let them in a little: of that the core line has to be free.</summary>
+        public static string? FindProblem(SimulationParameters parameters, MaterialScene scene)
+        {
+            bool touches = parameters.Scene.Start != null && !MethodTable.Of(parameters.Method.Solver).HasBarriers;
+            return FindProblem(scene, 0, scene.Rod.ElementCount, touches ? SweptSearch.ClearanceFor(1.0) : 1.0);
+        }
+
+        /// <summary>The same of the elements from one on, with their whole radius.</summary>
+        public static string? FindProblem(MaterialScene scene, int from)
         {
             return FindProblem(scene, from, scene.Rod.ElementCount);
         }
 
         /// <summary>The same of the elements before one, exclusive.</summary>
-        public static string? FindProblem(MaterialScene scene, int from, int to)
+        /// <param name="share">Of the radius, that has to be free.</param>
+        public static string? FindProblem(MaterialScene scene, int from, int to, double share = 1.0)
         {
             double units = 1.0 / scene.Metres;
             Vector3d[] x = System.Array.ConvertAll(scene.Shape.X, node => units * node);
@@ -23,7 +31,7 @@ namespace Guidewire.Core
                 double radius = units * scene.Rod.Radius[j];
                 foreach (ContactShape wall in scene.Walls)
                 {
-                    if (!WireStart.IsFree(wall, scene.IsReached, x, j, radius, out double distance))
+                    if (!WireStart.IsFree(wall, scene.IsReached, x, j, share * radius, out double distance))
                     {
                         return Text(j, x[j], x[j + 1], radius, distance, wall);
                     }

@@ -33,7 +33,7 @@ namespace Guidewire.Core
                 failure = new RestShape(scene, terms, Math.Min(parameters.Method.SolverTolerance, 1e-9),
                     EquilibriumFactor * parameters.Method.MaxNewtonIterations, report).Find(scene.Shape);
             }
-            else if (scene.Supports.Proximal != ProximalEnd.Free && walls == null && !isSheathed)
+            else if (scene.Supports.Proximal != ProximalEnd.Free && scene.Walls.Length == 0)
             {
                 scene.Shape.X[0] = scene.Schedule.ProximalPosition;
             }
@@ -57,10 +57,14 @@ namespace Guidewire.Core
             {
                 return null;
             }
-            string? outside = MaterialStart.FindProblem(scene);
+            string? outside = MaterialStart.FindProblem(parameters, scene);
             if (outside != null)
             {
                 throw new ArgumentException(outside);
+            }
+            if (!MethodTable.Of(parameters.Method.Solver).HasBarriers)
+            {
+                return null;
             }
             double move = scene.Metres * Math.Abs(parameters.Drive.DisplacementPerStep);
             Barrier barrier = BarrierRule.Of(scene.Rod, parameters.Contact, scene.Walls, scene.Metres, move);
@@ -111,7 +115,8 @@ namespace Guidewire.Core
         public static TimeStepper Compliant(SimulationParameters parameters, MaterialScene scene, RodTerms terms,
             SolverReport report)
         {
-            return new CompliantStep(scene, terms, scene.Drive, parameters.Method, report);
+            return new CompliantStep(scene, terms, scene.Drive, parameters.Method, report,
+                parameters.Contact.ContactStiffness);
         }
 
         /// <summary>Explicit steps.</summary>

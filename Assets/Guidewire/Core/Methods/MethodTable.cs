@@ -6,6 +6,9 @@ namespace Guidewire.Core
     /// <summary>Every method, once: what it takes and how it is built.</summary>
     public static class MethodTable
     {
+        // Planes of contact are used again until the wire has gone some way, and sweeps leave a little.
+        private const double CompliantDepth = 0.05;
+
         /// <summary>The methods in the order of <see cref="Solver"/>.</summary>
         public static IReadOnlyList<MethodTraits> All { get; } = new[]
         {
@@ -13,6 +16,7 @@ namespace Guidewire.Core
             {
                 Solver = Solver.Pbd,
                 MeetsWalls = true,
+                DepthInRadii = 1.0,
                 TakesSteering = true,
                 Integrators = new[]
                 {
@@ -25,6 +29,8 @@ namespace Guidewire.Core
             {
                 Solver = Solver.Xpbd,
                 TakesMaterial = true,
+                MeetsWalls = true,
+                DepthInRadii = CompliantDepth,
                 SetDefaults = SetMaterialDefaults,
                 Build = (p, scene) => MaterialSetup.Build(p, scene, MaterialSetup.Compliant),
             },
@@ -33,6 +39,7 @@ namespace Guidewire.Core
                 Solver = Solver.Direct,
                 TakesMaterial = true,
                 MeetsWalls = true,
+                HasBarriers = true,
                 TakesSteering = true,
                 Slides = true,
                 TakesTipMoment = true,

@@ -16,6 +16,13 @@ namespace Guidewire.Core
         /// <summary>Whether it meets walls.</summary>
         public bool MeetsWalls { get; internal set; }
 
+        /// <summary>Whether walls push by barriers, part of an energy: node 0 then follows its support on a
+        /// spring.</summary>
+        public bool HasBarriers { get; internal set; }
+
+        /// <summary>How far contact may let a wall into the wire, in its radii.</summary>
+        public double DepthInRadii { get; internal set; }
+
         /// <summary>Whether a hand may steer it.</summary>
         public bool TakesSteering { get; internal set; }
 

@@ -61,7 +61,7 @@ namespace Guidewire.Core
             }
             if (!method.MeetsWalls && parameters.Scene.Walls.Length > 0)
             {
-                return new ParameterConflict("vessel", "solver pbd or direct: the others meet no walls");
+                return new ParameterConflict("vessel", "solver pbd, xpbd or direct: explicit meets no walls");
             }
             if (method.TakesMaterial && parameters.Scene.Walls.Length > 0
                 && parameters.Scene.InitialState == InitialState.Equilibrium)
@@ -70,7 +70,7 @@ namespace Guidewire.Core
                     "\"straight\" between walls: rest shapes are found without them");
             }
             bool rubs = Array.Exists(parameters.Scene.Walls, wall => wall.FrictionCoefficient > 0.0);
-            if (rubs && method.TakesMaterial && parameters.Method.Integrator != Integrator.ImplicitEuler)
+            if (rubs && method.HasBarriers && parameters.Method.Integrator != Integrator.ImplicitEuler)
             {
                 return new ParameterConflict("integrator", "implicitEuler where a wall has a frictionCoefficient");
             }

@@ -23,6 +23,9 @@ namespace Guidewire.Core
     /// with l/r from 2 to 100 runs converge up to h sqrt(E/rho)/l = 0.5 with m = 1, 1 with 3, 2 with 10, and diverge
     /// soon after.
     ///
+    /// Between walls <see cref="CompliantWalls"/> stands around each substep, and <see cref="CompliantContacts"/> has a
+    /// part in every sweep.
+    ///
     /// How far the sweeps were from convergence is measured in substeps 1, 2, 4, 8 .. and the last of each step, each
     /// for the time since the one before, because what a step changes is over in its first substeps; see <see
     /// cref="ConvergenceRecord"/>.</remarks>
@@ -53,13 +56,17 @@ namespace Guidewire.Core
         private readonly EnergyWatch _energy;
         private readonly RestWatch _rest;
         private readonly SolverReport _report;
+        private readonly CompliantWalls? _walls;
+        private readonly double _contactStiffness;    // N/m
+        private Vector3d _supportPush;    // sum over the substeps, N
         private StressRecord? _stress;
         private Vector3d _predictedTip;
         private double _time;
 
         /// <summary>A step for this scene.</summary>
+        /// <param name="contactStiffness">Of a contact, N/m; 0 for rigid ones.</param>
         public CompliantStep(MaterialScene scene, RodTerms terms, MaterialDrive drive, MethodParameters method,
-            SolverReport report)
+            SolverReport report, double contactStiffness)
         {
             _scene = scene;
             _drive = drive;
@@ -78,16 +85,22 @@ namespace Guidewire.Core
             _remainingVelocity = Math.Exp(-scene.Rod.MassDamping * method.TimeStep / method.Substeps);
             _substeps = method.Substeps;
             _sweeps = method.ConstraintSolverSteps;
-            _directions = new DirectionError(scene, _inertia, _stretch, _bendTwist);
+            _contactStiffness = contactStiffness;
+            _walls = scene.Walls.Length > 0 ? new CompliantWalls(scene, _inertia, contactStiffness) : null;
+            _directions = new DirectionError(scene, _inertia, _stretch, _bendTwist, _walls?.Contacts);
             _convergence = new ConvergenceRecord(scene.Rod.TotalLength);
             _ends = new HeldEnds(terms, scene.Schedule);
             _energy = new EnergyWatch(terms, _inertia, _shape, _velocities, _spins, _ends);
-            _rest = new RestWatch(scene, terms, _velocities, _spins, method);
+            _rest = new RestWatch(scene, terms, _velocities, _spins, method, _walls == null ? null
+                : new ContactPushes(_walls.Contacts, scene.Rod, contactStiffness, _timeStep / _substeps));
             _report = report;
         }
 
         /// <inheritdoc/>
         public override string? AccuracyWarning => _convergence.Warning;
+
+        /// <inheritdoc/>
+        public override ContactRecord? Contacts => _walls?.Record;
 
         /// <inheritdoc/>
         public override void Advance(RodState state)
@@ -96,6 +109,10 @@ namespace Guidewire.Core
             var residual = default(SweepResidual);
             int measured = 0;
             _drive.Prepare(_shape, _time);
+            _ends.Carry(_scene.Schedule.ProximalVelocity.Length, Math.Abs(_scene.Schedule.ProximalTwistRate));
+            Vector3d start = _shape.X[0];
+            Vector3d velocity = _velocities[0];
+            _walls?.BeginStep(_shape);
             for (int k = 1; k <= _substeps; k++)
             {
                 bool isMeasured = k == _substeps || (k & (k - 1)) == 0;
@@ -107,6 +124,10 @@ namespace Guidewire.Core
                 }
             }
             _time += _timeStep;
+            if (_walls != null)
+            {
+                EndStep(_walls, h, start, velocity);
+            }
             _convergence.Add(residual);
             Divergence = _energy.Blowup();
             if (Divergence != null)
@@ -118,6 +139,25 @@ namespace Guidewire.Core
             SteadyState = _rest.FindRest(_time);
             PredictionError = Vector3d.Distance(_predictedTip, _shape.X[_shape.ElementCount]) / _scene.Metres;
             _scene.Write(state, _shape, _velocities, _spins);
+        }
+
+        // Between walls: forces, and what the drive asked of node 0 and did not get.
+        private void EndStep(CompliantWalls walls, double h, in Vector3d start, in Vector3d velocity)
+        {
+            walls.EndStep(h, _substeps);
+            if (_scene.Supports.Proximal == ProximalEnd.Free)
+            {
+                return;
+            }
+            ContactRecord record = walls.Record;
+            Vector3d inertia = (_terms.Mass.Nodal[0] / _timeStep) * (_velocities[0] - velocity);
+            record.Reaction = inertia + (1.0 / _substeps) * _supportPush - record.Forces[0];
+            _supportPush = Vector3d.Zero;
+            // A drive goes on from where node 0 is; what is held is asked for until it is there.
+            Vector3d place = _scene.Schedule.ProximalPositionAt(_time);
+            double owed = _drive.Axis == Vector3d.Zero ? record.DriveShortfall : 0.0;
+            record.AddDrive(Vector3d.Distance(place, start) / _scene.Metres - owed,
+                Vector3d.Distance(place, _shape.X[0]) / _scene.Metres - owed);
         }
 
         /// <inheritdoc/>
@@ -136,6 +176,7 @@ namespace Guidewire.Core
                 + " converged";
             _report.LargestError = _convergence.LargestError;
             _report.StepsNotConverged = _convergence.StepsAbove;
+            _report.ContactStiffness = _walls == null || _contactStiffness == 0.0 ? double.NaN : _contactStiffness;
             return _report;
         }
 
@@ -144,7 +185,8 @@ namespace Guidewire.Core
         {
             MaterialSnapshot.Exchange(snapshot, _scene.Schedule, _shape, _velocities, _spins, ref _time);
             _ends.ExchangeTurns(snapshot);
-            if (!snapshot.Section("xpbd", ExchangeOwn))
+            int walls = _scene.Walls.Length;
+            if (!snapshot.Section(walls == 0 ? "xpbd" : "xpbd, walls " + walls, ExchangeOwn))
             {
                 _energy.Start();
             }
@@ -158,6 +200,7 @@ namespace Guidewire.Core
             _convergence.Exchange(snapshot);
             _rest.Exchange(snapshot);
             _report.Exchange(snapshot);
+            _walls?.Exchange(snapshot);
             // A multiplier is a force times h^2.
             snapshot.Section((_timeStep / _substeps).ToString("R", CultureInfo.InvariantCulture), ExchangeMultipliers);
         }
@@ -166,6 +209,7 @@ namespace Guidewire.Core
         {
             _stretch.Exchange(snapshot);
             _bendTwist.Exchange(snapshot);
+            _walls?.Contacts.Exchange(snapshot);
         }
 
         private void Substep(double time, double h, bool isMeasured)
@@ -199,11 +243,19 @@ namespace Guidewire.Core
             {
                 _directions.Begin(_shape);
             }
+            _walls?.BeginSubstep(_old, _shape, h);
             StartFromMultipliers();
             for (int m = 0; m < _sweeps; m++)
             {
                 _stretch.Sweep(_shape, h);
                 _bendTwist.Sweep(_shape, h);
+                _walls?.Contacts.Sweep(_shape);
+            }
+            if (_walls != null)
+            {
+                _walls.EndSubstep(_shape);
+                RodVector g = _loadGradient[0];
+                _supportPush += new Vector3d(g.X1, g.X2, g.X3) + (1.0 / (h * h)) * _stretch.FirstPush(_shape);
             }
             double rate = 1.0 / h;
             for (int i = 0; i <= last; i++)
@@ -221,6 +273,7 @@ namespace Guidewire.Core
             var sum = default(SweepResidual);
             _stretch.AddResidual(_shape, h, ref sum);
             _bendTwist.AddResidual(_shape, h, ref sum);
+            _walls?.Contacts.AddResidual(_shape, ref sum);
             _directions.Add(_shape, h, ref sum);
             return sum;
         }
@@ -231,6 +284,7 @@ namespace Guidewire.Core
             Array.Clear(_turn, 0, _turn.Length);
             _stretch.AddMotion(_shape, _shift, _turn);
             _bendTwist.AddMotion(_shape, _turn);
+            _walls?.Contacts.AddMotion(_shape, _shift, _turn);
             double largest = 0.0;
             double[] length = _scene.Rod.Length;
             for (int j = 0; j < _turn.Length; j++)
@@ -242,6 +296,7 @@ namespace Guidewire.Core
             {
                 _stretch.Reset();
                 _bendTwist.Reset();
+                _walls?.Contacts.Reset();
                 return;
             }
             for (int i = 0; i < _shift.Length; i++)

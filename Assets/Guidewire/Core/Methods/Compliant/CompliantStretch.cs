@@ -41,6 +41,12 @@ namespace Guidewire.Core
             snapshot.Exchange(_multiplier);
         }
 
+        /// <summary>What element 0 gives node 1, and takes from node 0, in this shape, kg m.</summary>
+        public Vector3d FirstPush(RodShape shape)
+        {
+            return (1.0 / _length[0]) * Quaterniond.Rotate(shape.Q[0], _multiplier[0]);
+        }
+
         /// <summary>Adds the motion that the multipliers make in this shape.</summary>
         /// <param name="shape">The wire, not moved.</param>
         /// <param name="shift">Shift of each node, m.</param>

@@ -18,15 +18,16 @@ namespace Guidewire.Core
         /// large.</summary>
         public const double Tolerance = 0.005;
 
-        private const int Kinds = 3;
+        private const int Kinds = 4;
         private const int Bend = 0;
         private const int Twist = 1;
         private const int Stretch = 2;
+        private const int Contact = 3;
         private const double Floor = 1e-9;      // radians, or of L: less strain than this is none
         private const double Smallest = 1e-18;
         private const double Ratio = 1.05;
         private const int ClassCount = 1200;    // up to 2.7e7
-        private static readonly string[] Names = { "bending", "twist", "stretch and shear" };
+        private static readonly string[] Names = { "bending", "twist", "stretch and shear", "contact" };
 
         private readonly long[] _classes = new long[Kinds * ClassCount];
         private readonly double[] _largest = new double[Kinds];
@@ -84,6 +85,7 @@ namespace Guidewire.Core
             Add(Bend, step.Bend, step.BendStrain);
             Add(Twist, step.Twist, step.TwistStrain);
             Add(Stretch, perLength * step.Stretch, perLength * step.StretchStrain + 0.5 * step.BendStrain);
+            Add(Contact, step.Contact, 1.0);
         }
 
         /// <summary>Writes or takes over the steps so far.</summary>

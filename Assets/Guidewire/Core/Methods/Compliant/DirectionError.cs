@@ -12,6 +12,7 @@ namespace Guidewire.Core
     {
         private readonly CompliantStretch _stretch;
         private readonly CompliantBendTwist _bendTwist;
+        private readonly CompliantContacts? _contacts;
         private readonly NodalInertia _inertia;
         private readonly Joint[] _joint;
         private readonly RodShape _predicted;
@@ -19,11 +20,13 @@ namespace Guidewire.Core
         private readonly Vector3d[] _turn;
 
         /// <summary>The measure for these constraints.</summary>
+        /// <param name="contacts">Null without walls.</param>
         public DirectionError(MaterialScene scene, NodalInertia inertia, CompliantStretch stretch,
-            CompliantBendTwist bendTwist)
+            CompliantBendTwist bendTwist, CompliantContacts? contacts)
         {
             _stretch = stretch;
             _bendTwist = bendTwist;
+            _contacts = contacts;
             _inertia = inertia;
             _joint = scene.Rod.Joints(scene.Supports);
             _predicted = new RodShape(scene.Rod.ElementCount);
@@ -44,6 +47,7 @@ namespace Guidewire.Core
             Array.Clear(_turn, 0, _turn.Length);
             _stretch.AddMotion(shape, _shift, _turn);
             _bendTwist.AddMotion(shape, _turn);
+            _contacts?.AddMotion(shape, _shift, _turn);
             double perSquare = 1.0 / (substep * substep);
             Vector3d force = Vector3d.Zero;
             Vector3d moment = Vector3d.Zero;

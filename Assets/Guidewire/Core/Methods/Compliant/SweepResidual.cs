@@ -3,7 +3,7 @@ using System;
 namespace Guidewire.Core
 {
     /// <summary>What the sweeps of a substep left undone, beside the strain that the wire holds. Sums over the whole
-    /// wire: radians for bending and twist, m for stretch and shear.</summary>
+    /// wire: radians for bending and twist, m for stretch and shear; of contacts the largest.</summary>
     internal struct SweepResidual
     {
         /// <summary>Sum of |C + alpha lambda/h^2| over the joints, about d1 and d2.</summary>
@@ -14,6 +14,9 @@ namespace Guidewire.Core
 
         /// <summary>Sum of l |C + alpha lambda/h^2| over the elements.</summary>
         public double Stretch;
+
+        /// <summary>The largest way by which one more sweep would move the point of a contact, in radii.</summary>
+        public double Contact;
 
         /// <summary>Sum of |C| over the joints, about d1 and d2.</summary>
         public double BendStrain;
@@ -31,6 +34,7 @@ namespace Guidewire.Core
             Bend += share * other.Bend;
             Twist += share * other.Twist;
             Stretch += share * other.Stretch;
+            Contact += share * other.Contact;
             BendStrain = Math.Max(BendStrain, other.BendStrain);
             TwistStrain = Math.Max(TwistStrain, other.TwistStrain);
             StretchStrain = Math.Max(StretchStrain, other.StretchStrain);

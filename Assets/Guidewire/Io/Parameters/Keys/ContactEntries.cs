@@ -22,11 +22,11 @@ namespace Guidewire.Io
                 Methods = Takers.Only(Solver.Direct),
             },
             new NumberEntry("contactStiffness", "N/m", NumberRange.NotNegative,
-                "stiffness k of a contact, which pushes by 1.19 k contactDistance at half of that gap; 0: by rule,"
-                + " 10 EI/l^3 of the stiffest element",
+                "stiffness k of a contact: direct pushes by 1.19 k contactDistance at half of that gap, 0: by rule,"
+                + " 10 EI/l^3 of the stiffest element; xpbd pushes by k times the depth, 0: contacts are rigid",
                 p => p.Simulation.Contact.ContactStiffness, (p, v) => p.Simulation.Contact.ContactStiffness = v)
             {
-                Methods = Takers.Only(Solver.Direct),
+                Methods = Takers.Only(Solver.Xpbd, Solver.Direct),
             },
             new NumberEntry("frictionSpeed", "m/s", NumberRange.Positive,
                 "speed of slip from which friction has its full force; below it contact creeps, it does not stick",

@@ -38,10 +38,10 @@ namespace Guidewire.Io
                 "whether each entry of the log also has \"contact\": the walls' force on each sphere"
                 + " they touch, their total, and the first sphere's reaction (mass unit * unit/s^2; with a material N,"
                 + " its mean over the step), with direct also on each element and of each wall along their normals, and"
-                + " the largest pressure (Pa)",
+                + " the largest pressure (Pa); xpbd states it between walls alone",
                 p => p.LogContacts, (p, v) => p.LogContacts = p.Simulation.Method.StatesReactions = v)
             {
-                Methods = Takers.Only(Solver.Pbd, Solver.Direct, Solver.Explicit),
+                Methods = Takers.All,
             },
             new TextEntry("logFilePath", "folder of the results, where -out does not name one",
                 p => p.LogFilePath, (p, v) => p.LogFilePath = v)

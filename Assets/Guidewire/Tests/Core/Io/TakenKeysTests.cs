@@ -80,7 +80,7 @@ namespace Guidewire.Core.Tests
         }
 
         [TestCase("explicit", "vessel", "{\"shape\": \"plane\", \"normal\": [0, 1, 0]}")]
-        [TestCase("xpbd", "obstacles", "[{\"shape\": \"sphere\", \"centre\": [0, 9, 0], \"radius\": 1}]")]
+        [TestCase("explicit", "obstacles", "[{\"shape\": \"sphere\", \"centre\": [0, 9, 0], \"radius\": 1}]")]
         [TestCase("xpbd", "tipMoment", "[0.001, 0, 0]")]
         [TestCase("pbd", "tipMoment", "[0.001, 0, 0]")]
         public void WallOrCoupleThatTheMethodDoesNotHave_IsRefusedInAFileToo(string method, string key, string value)
@@ -98,10 +98,9 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        public void Core_RefusesWallsWhereTheMethodHasNone_WhoeverBuildsIt([Values(Solver.Xpbd, Solver.Explicit)]
-            Solver method)
+        public void Core_RefusesWallsWhereTheMethodHasNone_WhoeverBuildsIt()
         {
-            SimulationParameters parameters = SimulationParameters.DefaultsOf(method);
+            SimulationParameters parameters = SimulationParameters.DefaultsOf(Solver.Explicit);
             parameters.Scene.Walls = new ContactShape[] { new PlaneShape(new Vector3d(0, -9, 0), Vector3d.UnitY) };
             Assert.That(() => Simulation.Create(parameters),
                 Throws.TypeOf<ArgumentException>().With.Message.StartsWith("vessel"));

@@ -25,6 +25,7 @@ namespace Guidewire.Core
 
         private readonly MaterialScene _scene;
         private readonly RodTerms _terms;
+        private readonly EnergyTerm[] _all;
         private readonly Vector3d[] _velocities;
         private readonly Vector3d[] _spins;
         private readonly double _threshold;            // m
@@ -41,11 +42,13 @@ namespace Guidewire.Core
         private double _nextLook;                      // s
 
         /// <summary>A watch on this scene's wire, which moves with these velocities.</summary>
+        /// <param name="other">What acts on it besides the terms, or null.</param>
         public RestWatch(MaterialScene scene, RodTerms terms, Vector3d[] velocities, Vector3d[] spins,
-            MethodParameters method)
+            MethodParameters method, EnergyTerm? other = null)
         {
             _scene = scene;
             _terms = terms;
+            _all = other == null ? terms.All : terms.With(other);
             _velocities = velocities;
             _spins = spins;
             _threshold = scene.Metres * method.DeltaThreshold;
@@ -59,7 +62,7 @@ namespace Guidewire.Core
             }
             _time = Math.Sqrt(terms.Mass.Total * _length * _length * _length / softest);
             _tangent = terms.HavePotential ? null
-                : new FollowerTangent(scene.Rod, scene.Supports, terms.All, terms.Followers);
+                : new FollowerTangent(scene.Rod, scene.Supports, _all, terms.Followers);
             _system = _tangent == null ? new BlockTridiagonal(scene.Rod, scene.Supports) : _tangent.System;
             _gradient = new RodVector[_system.VectorCount];
             _step = new RodVector[_system.VectorCount];
@@ -125,7 +128,7 @@ namespace Guidewire.Core
                     _tangent.Factorise(_scene.Shape, _step, shift);
                     return true;
                 }
-                if (_system.Factorise(_terms.All, _scene.Shape, _gradient, _step, shift) == 0)
+                if (_system.Factorise(_all, _scene.Shape, _gradient, _step, shift) == 0)
                 {
                     _system.Back(_step);
                     return true;

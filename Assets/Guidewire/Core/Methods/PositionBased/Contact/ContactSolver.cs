@@ -50,7 +50,9 @@ namespace Guidewire.Core
             _swept = new SweptSearch(search, state.SphereCount);
             _shortened = new ShortenedMotion(_swept, state.SphereCount);
             _passages = new PassageCount(search, state.ElementCount);
-            _depth = new WireDepth(search, state.ElementCount);
+            var radius = new double[state.ElementCount];
+            Array.Fill(radius, search.Radius);
+            _depth = new WireDepth(search, radius);
             _longestPart = search.GuardsSpheres
                 ? Math.Min(0.5 * state.ElementLength, search.Radius) : double.PositiveInfinity;
             _target = new Vector3d[state.SphereCount];

@@ -177,7 +177,7 @@ namespace Guidewire.Core.Tests
                 case Solver.Explicit:
                     return new ExplicitStep(scene, terms, scene.Drive, parameters.Method, report, null);
                 default:
-                    return new CompliantStep(scene, terms, scene.Drive, parameters.Method, report);
+                    return new CompliantStep(scene, terms, scene.Drive, parameters.Method, report, 0.0);
             }
         }
 

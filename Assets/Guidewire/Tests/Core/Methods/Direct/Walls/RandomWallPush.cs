@@ -19,11 +19,13 @@ namespace Guidewire.Core.Tests
         private readonly double _radius;       // units
 
         /// <summary>Draws the wire and takes it to its end.</summary>
-        public RandomWallPush(int seed)
+        /// <param name="change">Makes another scene of what is drawn, or null.</param>
+        public RandomWallPush(int seed, Func<SimulationParameters, SimulationParameters>? change = null)
         {
             Seed = seed;
             var random = new RandomGeometry(seed);
             _parameters = Draw(random, seed % Vessels.Length);
+            _parameters = change == null ? _parameters : change(_parameters);
             _radius = _parameters.Material.WireRadius / _parameters.Scene.MetresPerUnit;
             Simulation = Simulation.Create(_parameters);
             double before = Simulation.State.Positions[0].Z;
@@ -48,6 +50,9 @@ namespace Guidewire.Core.Tests
         public Simulation Simulation { get; private set; }
 
         public ContactRecord Contacts => Simulation.Contacts!;
+
+        /// <summary>Of the wire, units.</summary>
+        public double Radius => _radius;
 
         /// <summary>Points of the wire's axis outside a wall after a step, summed over the steps.</summary>
         public int PointsOutside { get; private set; }

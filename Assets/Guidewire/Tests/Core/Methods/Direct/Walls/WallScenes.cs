@@ -100,5 +100,32 @@ namespace Guidewire.Core.Tests
             parameters.Material.WireRadius = radius;
             return parameters;
         }
+
+        /// <summary>The same scene for xpbd with one sweep a substep; a soft wire's substeps are long.</summary>
+        /// <param name="young">E, Pa.</param>
+        /// <param name="share">Of the time, l sqrt(rho/E), that sound takes along an element.</param>
+        public static SimulationParameters Compliant(SimulationParameters scene, double young, double share = 0.4)
+        {
+            SimulationParameters parameters = Soft(scene, young);
+            double sound = Math.Sqrt(young / parameters.Material.Density);
+            double length = parameters.Scene.MetresPerUnit * parameters.Scene.GuidewireLength
+                / parameters.Scene.NumberRodElements;
+            parameters.Method.Solver = Solver.Xpbd;
+            parameters.Method.Integrator = new MethodParameters().Integrator;
+            parameters.Method.ConstraintSolverSteps = 1;
+            parameters.Method.Substeps = (int)Math.Ceiling(
+                parameters.Method.TimeStep * sound / (share * length));
+            return parameters;
+        }
+
+        /// <summary>The same scene with a wire of another Young's modulus, and a shear modulus that goes with
+        /// it.</summary>
+        public static SimulationParameters Soft(SimulationParameters scene, double young)
+        {
+            SimulationParameters parameters = scene.Copy();
+            parameters.Material.YoungsModulus = young;
+            parameters.Material.ShearModulus = 0.38 * young;
+            return parameters;
+        }
     }
 }

@@ -1,0 +1,368 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>Contact with walls as constraints with multipliers. Of the point of element j at s, with weights
+    /// a_j = 1 - s and a_{j+1} = s, wall point c and normal n: C = (a_j x_j + a_{j+1} x_{j+1} - c).n - r, lambda at
+    /// least 0, with compliance 1/k where a contact has a stiffness k and none where it is rigid (Macklin 2016).
+    /// Coulomb friction as a second multiplier f along the wall, |f| at most mu lambda, against the slip of the wire's
+    /// surface since the substep began (Macklin 2020).</summary>
+    /// <remarks>Per sweep and contact, with W = a_j^2 w_j + a_{j+1}^2 w_{j+1}: dlambda = -(C + lambda/(k h^2))/(W +
+    /// 1/(k h^2)), the sum held at 0 or more; then f - u/V, shortened to mu lambda, with the slip u = P (a_j (x_j -
+    /// x_j0) + a_{j+1} (x_{j+1} - x_{j+1,0}) + r n x R_0 phi), P = 1 - n n^T, phi the element's turn since the substep
+    /// began along its axes there. What a force f does to the surface includes the couple r f x n on the element. V =
+    /// W + r^2 max(1/I) is at least as much as f moves the surface in any direction, and the same in all of them: so
+    /// where the sweeps have converged f is against u, which it would not be with what f moves it by in its own.
+    /// A slip of 0 is held by any f within the limit: what sticks does not creep.
+    ///
+    /// A rigid contact that finds itself in the wall, because a plane is the wall only near the place that it was found
+    /// for, is taken out of it by no more than its own way in the substep, or a share of the depth: all at once would
+    /// be a speed of depth over h, and what moves over an edge of the wall comes out of it as fast as it
+    /// moves.</remarks>
+    internal sealed class CompliantContacts
+    {
+        private const double Recovered = 0.02;    // of a depth in a substep
+
+        private readonly Contact[] _contacts;
+        private readonly Contact[] _held;         // of held nodes
+        private readonly Vector3d[] _kept;        // lambda n + f of each slot, while contacts are found anew
+        private readonly double[] _friction;      // mu, by wall
+        private readonly double[] _radius;        // of elements, m
+        private readonly double[] _nodeRadius;
+        private readonly double[] _inverseMass;
+        private readonly Vector3d[] _inverseInertia;
+        private readonly double _metres;          // per unit
+        private readonly double _compliance;      // 1/k, m/N
+        private RodShape _old;
+        private double _perSquare;                // compliance/h^2
+        private int _count;
+        private int _heldCount;
+
+        /// <summary>No contacts yet of a scene's wire with its walls.</summary>
+        /// <param name="stiffness">k, N/m; 0 for rigid contacts.</param>
+        public CompliantContacts(MaterialScene scene, NodalInertia inertia, double stiffness)
+        {
+            int n = scene.Rod.ElementCount;
+            _friction = Array.ConvertAll(scene.Walls, wall => wall.FrictionCoefficient);
+            _radius = scene.Rod.Radius;
+            _nodeRadius = new double[n + 1];
+            for (int j = 0; j < n; j++)
+            {
+                _nodeRadius[j] = Math.Max(_nodeRadius[j], _radius[j]);
+                _nodeRadius[j + 1] = _radius[j];
+            }
+            _inverseMass = inertia.InverseMass;
+            _inverseInertia = inertia.InverseInertia;
+            _metres = scene.Metres;
+            _compliance = stiffness > 0.0 ? 1.0 / stiffness : 0.0;
+            // A search finds each node and each element at most once a wall.
+            _kept = new Vector3d[scene.Walls.Length * (2 * n + 1)];
+            _contacts = new Contact[_kept.Length];
+            _held = new Contact[2 * scene.Walls.Length];
+            _old = scene.Shape;
+        }
+
+        /// <summary>Contacts at present, without those of held nodes.</summary>
+        public int Count => _count;
+
+        /// <summary>Contact k.</summary>
+        public ref readonly Contact this[int k] => ref _contacts[k];
+
+        /// <summary>Takes over the contacts that a search has found; multipliers stay with their node or element and
+        /// wall, turned into the new normal's direction.</summary>
+        public void Renew(StructList<WireContact> found)
+        {
+            Keep();
+            _count = 0;
+            _heldCount = 0;
+            int n = _radius.Length;
+            for (int k = 0; k < found.Count; k++)
+            {
+                ref readonly WireContact contact = ref found[k];
+                SurfaceContact place = contact.Nearest;
+                bool isTip = !contact.IsElement && contact.Index == n;
+                int j = isTip ? n - 1 : contact.Index;
+                double s = contact.IsElement ? place.Position : isTip ? 1.0 : 0.0;
+                double inverse = (1.0 - s) * (1.0 - s) * _inverseMass[j] + s * s * _inverseMass[j + 1];
+                bool isHeld = !(inverse > 0.0);
+                if (isHeld && _heldCount == _held.Length)
+                {
+                    continue;
+                }
+                ref Contact to = ref (isHeld ? ref _held[_heldCount++] : ref _contacts[_count++]);
+                to.Slot = contact.Wall * (2 * n + 1) + contact.Index + (contact.IsElement ? n + 1 : 0);
+                to.Wall = contact.Wall;
+                to.Element = j;
+                to.Position = s;
+                to.Node = s == 1.0 ? j + 1 : j;
+                to.Normal = place.Normal;
+                to.Offset = _metres * Vector3d.Dot(place.Point, place.Normal);
+                to.Radius = contact.IsElement ? _radius[j] : _nodeRadius[contact.Index];
+                to.Inverse = inverse;
+                Vector3d turning = _inverseInertia[j];
+                to.InverseOfSlip = inverse
+                    + to.Radius * to.Radius * Math.Max(turning.X, Math.Max(turning.Y, turning.Z));
+                Vector3d kept = _kept[to.Slot];
+                to.Push = Math.Max(0.0, Vector3d.Dot(kept, to.Normal));
+                to.Rub = Shortened(kept - Vector3d.Dot(kept, to.Normal) * to.Normal,
+                    _friction[to.Wall] * to.Push);
+            }
+            Array.Clear(_kept, 0, _kept.Length);
+        }
+
+        /// <summary>A substep begins; a held node that would come nearer than its radius is kept off.</summary>
+        /// <param name="old">The wire where it begins; it stays so until the next.</param>
+        /// <param name="shape">The wire, not swept yet, with its held nodes placed.</param>
+        /// <param name="substep">h, s.</param>
+        public void Begin(RodShape old, RodShape shape, double substep)
+        {
+            _old = old;
+            for (int k = 0; k < _heldCount; k++)
+            {
+                ref readonly Contact contact = ref _held[k];
+                double missing = contact.Radius - Distance(contact, shape);
+                if (missing > 0.0)
+                {
+                    shape.X[contact.Node] += missing * contact.Normal;
+                }
+            }
+            _perSquare = _compliance / (substep * substep);
+            for (int k = 0; k < _count; k++)
+            {
+                ref Contact contact = ref _contacts[k];
+                double distance = Distance(contact, old);
+                contact.Reach = contact.Radius;
+                if (_compliance == 0.0 && distance < contact.Radius)
+                {
+                    double depth = contact.Radius - distance;
+                    contact.Reach = distance + Math.Min(depth, Math.Max(Recovered * depth, Way(contact, shape)));
+                }
+            }
+        }
+
+        /// <summary>Sets the multipliers to 0.</summary>
+        public void Reset()
+        {
+            for (int k = 0; k < _count; k++)
+            {
+                _contacts[k].Push = 0.0;
+                _contacts[k].Rub = Vector3d.Zero;
+            }
+        }
+
+        /// <summary>Writes or takes over the multipliers; where they act is found anew.</summary>
+        public void Exchange(Snapshot snapshot)
+        {
+            Keep();
+            snapshot.Exchange(_kept);
+            if (snapshot.IsWritten)
+            {
+                Array.Clear(_kept, 0, _kept.Length);
+            }
+            else
+            {
+                _count = 0;
+            }
+        }
+
+        /// <summary>Adds the motion that the multipliers make in this shape.</summary>
+        /// <param name="shape">The wire, not moved.</param>
+        /// <param name="shift">Shift of each node, m.</param>
+        /// <param name="turn">Turn of each element along its own axes.</param>
+        public void AddMotion(RodShape shape, Vector3d[] shift, Vector3d[] turn)
+        {
+            for (int k = 0; k < _count; k++)
+            {
+                ref readonly Contact contact = ref _contacts[k];
+                if (contact.Push == 0.0)
+                {
+                    continue;
+                }
+                int j = contact.Element;
+                Vector3d impulse = contact.Push * contact.Normal + contact.Rub;
+                shift[j] += ((1.0 - contact.Position) * _inverseMass[j]) * impulse;
+                shift[j + 1] += (contact.Position * _inverseMass[j + 1]) * impulse;
+                turn[j] += Turn(contact, shape.Q[j], contact.Rub);
+            }
+        }
+
+        /// <summary>One Gauss-Seidel sweep over all contacts.</summary>
+        /// <param name="shape">The wire, moved and turned in place.</param>
+        public void Sweep(RodShape shape)
+        {
+            for (int k = 0; k < _count; k++)
+            {
+                ref Contact contact = ref _contacts[k];
+                double push = PushIn(contact, shape);
+                double change = push - contact.Push;
+                if (push == 0.0 && contact.Push == 0.0)
+                {
+                    continue;
+                }
+                int j = contact.Element;
+                contact.Push = push;
+                shape.X[j] += ((1.0 - contact.Position) * _inverseMass[j] * change) * contact.Normal;
+                shape.X[j + 1] += (contact.Position * _inverseMass[j + 1] * change) * contact.Normal;
+                if (_friction[contact.Wall] > 0.0)
+                {
+                    Vector3d rub = RubIn(contact, shape);
+                    Vector3d more = rub - contact.Rub;
+                    contact.Rub = rub;
+                    shape.X[j] += ((1.0 - contact.Position) * _inverseMass[j]) * more;
+                    shape.X[j + 1] += (contact.Position * _inverseMass[j + 1]) * more;
+                    shape.Q[j] = Quaterniond.Normalize(
+                        shape.Q[j] * RotationVector.Exp(Turn(contact, shape.Q[j], more)));
+                }
+            }
+        }
+
+        /// <summary>Takes the largest way, in radii, by which one more sweep would move a contact's point.</summary>
+        public void AddResidual(RodShape shape, ref SweepResidual sum)
+        {
+            for (int k = 0; k < _count; k++)
+            {
+                ref readonly Contact contact = ref _contacts[k];
+                double push = PushIn(contact, shape);
+                double way = contact.Inverse * Math.Abs(push - contact.Push);
+                if (_friction[contact.Wall] > 0.0)
+                {
+                    way = Math.Max(way,
+                        contact.InverseOfSlip * Vector3d.Distance(RubIn(contact, shape), contact.Rub));
+                }
+                sum.Contact = Math.Max(sum.Contact, way / contact.Radius);
+            }
+        }
+
+        /// <summary>Adds the multipliers to the nodes on which they act, lambda n + f, and along the normals to their
+        /// walls, kg m.</summary>
+        public void AddPushes(Vector3d[] nodes, Vector3d[] walls)
+        {
+            for (int k = 0; k < _count; k++)
+            {
+                ref readonly Contact contact = ref _contacts[k];
+                if (contact.Push > 0.0)
+                {
+                    Vector3d push = contact.Push * contact.Normal;
+                    walls[contact.Wall] += push;
+                    push += contact.Rub;
+                    nodes[contact.Element] += (1.0 - contact.Position) * push;
+                    nodes[contact.Element + 1] += contact.Position * push;
+                }
+            }
+        }
+
+        private void Keep()
+        {
+            for (int k = 0; k < _count; k++)
+            {
+                _kept[_contacts[k].Slot] = _contacts[k].Push * _contacts[k].Normal + _contacts[k].Rub;
+            }
+        }
+
+        // Of the point on the axis, m.
+        private static double Distance(in Contact contact, RodShape shape)
+        {
+            int j = contact.Element;
+            return (1.0 - contact.Position) * Vector3d.Dot(shape.X[j], contact.Normal)
+                + contact.Position * Vector3d.Dot(shape.X[j + 1], contact.Normal) - contact.Offset;
+        }
+
+        // That the point has gone since the substep began, m.
+        private double Way(in Contact contact, RodShape shape)
+        {
+            int j = contact.Element;
+            return ((1.0 - contact.Position) * (shape.X[j] - _old.X[j])
+                + contact.Position * (shape.X[j + 1] - _old.X[j + 1])).Length;
+        }
+
+        // What lambda should be by this shape.
+        private double PushIn(in Contact contact, RodShape shape)
+        {
+            double error = Distance(contact, shape) - contact.Reach + _perSquare * contact.Push;
+            return Math.Max(0.0, contact.Push - error / (contact.Inverse + _perSquare));
+        }
+
+        // What f should be.
+        private Vector3d RubIn(in Contact contact, RodShape shape)
+        {
+            int j = contact.Element;
+            double s = contact.Position;
+            Vector3d n = contact.Normal;
+            Vector3d turn = RotationVector.Log(_old.Q[j].Conjugate * shape.Q[j]);
+            Vector3d move = (1.0 - s) * (shape.X[j] - _old.X[j]) + s * (shape.X[j + 1] - _old.X[j + 1])
+                + contact.Radius * Vector3d.Cross(n, Quaterniond.Rotate(_old.Q[j], turn));
+            Vector3d slip = move - Vector3d.Dot(move, n) * n;
+            return Shortened(contact.Rub - (1.0 / contact.InverseOfSlip) * slip,
+                _friction[contact.Wall] * contact.Push);
+        }
+
+        // What a force along the wall turns the element by, along the element's axes.
+        private Vector3d Turn(in Contact contact, in Quaterniond q, in Vector3d rub)
+        {
+            Vector3d couple = contact.Couple(q, rub);
+            Vector3d inverse = _inverseInertia[contact.Element];
+            return new Vector3d(inverse.X * couple.X, inverse.Y * couple.Y, inverse.Z * couple.Z);
+        }
+
+        private static Vector3d Shortened(in Vector3d rub, double most)
+        {
+            double size = rub.Length;
+            return size > most ? (most / size) * rub : rub;
+        }
+
+        /// <summary>A contact and its multipliers.</summary>
+        internal struct Contact
+        {
+            /// <summary>Where its multipliers are kept while contacts are found anew.</summary>
+            public int Slot;
+
+            /// <summary>By its place in the scene's list.</summary>
+            public int Wall;
+
+            /// <summary>j.</summary>
+            public int Element;
+
+            /// <summary>s.</summary>
+            public double Position;
+
+            /// <summary>The node at s = 0 or 1.</summary>
+            public int Node;
+
+            /// <summary>n.</summary>
+            public Vector3d Normal;
+
+            /// <summary>c.n, m.</summary>
+            public double Offset;
+
+            /// <summary>r, m.</summary>
+            public double Radius;
+
+            /// <summary>What the substep asks for of the distance, r or less, m.</summary>
+            public double Reach;
+
+            /// <summary>W, 1/kg.</summary>
+            public double Inverse;
+
+            /// <summary>V, 1/kg.</summary>
+            public double InverseOfSlip;
+
+            /// <summary>lambda, kg m.</summary>
+            public double Push;
+
+            /// <summary>f, kg m.</summary>
+            public Vector3d Rub;
+
+            /// <summary>r f x n along the axes of an element of this orientation: the couple of f, kg m^2.</summary>
+            public readonly Vector3d Couple(in Quaterniond q)
+            {
+                return Couple(q, Rub);
+            }
+
+            /// <summary>The same of another f.</summary>
+            public readonly Vector3d Couple(in Quaterniond q, in Vector3d rub)
+            {
+                return Quaterniond.Rotate(q.Conjugate, Radius * Vector3d.Cross(rub, Normal));
+            }
+        }
+    }
+}
