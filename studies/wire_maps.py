@@ -55,7 +55,7 @@ def _study(name: str, title: str, scene: str, grid: Grid) -> Study:
 WIRE_MAPS: tuple[Study, ...] = (
     _study("map-twist", "up to which twist is a wire straight, bent, and lost?", "cantilever", Grid(
         (Axis("numberRodElements", (6, 12, 24, 48)),
-         Axis("distalRotation", (3.0, 6.0, 9.0, 11.0, 12.5, 15.0, 18.0, 22.0, 30.0, 45.0, 70.0, 110.0, 170.0))),
+         Axis("distalRotation", (3.0, 6.0, 9.0, 11.0, 11.5, 12.0, 12.5, 15.0, 18.0, 22.0, 30.0, 45.0, 70.0, 110.0, 170.0))),
         {**_TWISTED, "initialState": "equilibrium", "maxSimulationSteps": 0, "maxNewtonIterations": 200},
     )),
     _study("map-twisting", "up to which twist does a wire follow that is being twisted?", "cantilever", Grid(

@@ -20,6 +20,7 @@ from studies.maps import MAPS, RADIUS
 STUDIES = tuple(study.name for study in MAPS)
 INACCURATE = 0.1  # of the way that the reference's tip goes
 _PENETRATING = 0.2  # of the radius
+_FEW = 8  # values of an axis that are named one by one
 _DOUBTFUL = "not converged"
 BENT = "bent"
 LOST_TURN = "lost a turn"
@@ -218,6 +219,10 @@ def draw_map(axes: Axes, view: View, cells: Sequence[Cell]) -> None:
         axes.set_xscale("log")
     if names is None:
         axes.set_yscale("log")
+        lines = sorted({cell.y for cell in cells})
+        if len(lines) <= _FEW:
+            axes.set_yticks(lines, [f"{y:g}" for y in lines])
+            axes.set_yticks([], minor=True)
     else:
         axes.set_yticks(range(len(names)), names)
         axes.margins(y=0.3)

@@ -13,7 +13,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from analysis.figures.maps import (
-    BENT, INACCURATE, JOINT_LIMIT, LARGEST_JOINT, LOST_TURN, Cell, View, draw_classes, draw_map, kind_of, kinds_of, read_map,
+    BENT, INACCURATE, JOINT_LIMIT, LARGEST_JOINT, LOST_TURN, Cell, View, draw_classes, draw_map, kind_of, kinds_of,
+    read_map,
 )
 from analysis.figures.style import add_caption, letter, new_figure, styled
 from analysis.figures.wording import number, percent
@@ -129,19 +130,27 @@ def draw_wire_maps(folders: Mapping[str, Path]) -> tuple[Figure, str]:
     for name, axes, view in zip("abcdef", panels, VIEWS):
         letter(axes, name, view.title)
         draw_map(axes, view, found[view.study])
-    elements = np.array([6.0, 48.0])
-    panels[0].plot(_joint_limit(elements), elements, ":", color="0.3", linewidth=0.8, label="joint's limit")
-    panels[2].plot(list(turn_limits().values()), list(turn_limits()), "--", color="0.3", linewidth=0.8, label="chain")
-    speeds = np.array([1.0, 100.0])
-    panels[3].plot(speeds, 1e3 * PUSHED_ELEMENT / speeds, ":", color="0.3", linewidth=0.8, label="an element a step")
-    for k in (0, 2, 3):
-        panels[k].legend(fontsize=6, loc="lower right")
+    _draw_limits(panels)
     letter(panels[6], "g", "pbd: stretch gain with damping (n = 10)")
     _draw_damped(panels[6], damped)
     draw_classes(panels[7], (BENT, LOST_TURN))
     caption = _caption(found, damped)
     add_caption(figure, caption)
     return figure, caption
+
+
+def _draw_limits(panels: Sequence[Axes]) -> None:
+    """Limits that go with both parameters."""
+    limits = turn_limits()
+    lines = {
+        0: (_joint_limit(6.0), 6.0, _joint_limit(48.0), 48.0, "joint's limit"),
+        3: (0.2, 1e3 * PUSHED_ELEMENT / 0.2, 50.0, 1e3 * PUSHED_ELEMENT / 50.0, "an element a step"),
+    }
+    for k, (x, y, end, top, text) in lines.items():
+        panels[k].plot([x, end], [y, top], ":", color="0.3", linewidth=0.8)
+        panels[k].annotate(text, (end, top), fontsize=6, ha="right", va="bottom")
+    panels[2].plot(list(limits.values()), list(limits), "--", color="0.3", linewidth=0.8)
+    panels[2].annotate("chain", (limits[10], 12), fontsize=6, ha="right", va="bottom")
 
 
 def _draw_damped(axes: Axes, found: Sequence[Frontier]) -> None:
@@ -173,36 +182,40 @@ def _caption(found: Mapping[str, Sequence[Cell]], damped: Sequence[Frontier]) ->
     euler = [cell for cell in strain if cell.y == "implicitEuler"]
     mode = {cell.x: euler_error(cell.x, LONG_STEP * FREQUENCY, FALL * FREQUENCY) for cell in euler}
     return (
-        "Figure maps-wire. Where a wire that is twisted, pushed between walls or damped holds, and where it fails; classes "
-        "as in Figure maps. (a) Rest shapes between clamps, a thousandth of gravity aside; bent: more than "
+        "Figure maps-wire. Where a wire that is twisted, pushed between walls or damped holds, and where it fails; "
+        "classes as in Figure maps. (a) Rest shapes between clamps, a thousandth of gravity aside; bent: more than "
         f"{percent(_BENT_FROM)} of the radius aside. It bends between "
         + ", ".join(f"{_bounds(twist, n, straight, (BENT,))} rad/m with n = {n:g}" for n in lines)
         + f"; Greenhill has {number(CRITICAL_RATE, 3)} (dashed). It is lost from "
         + ", ".join(f"{_bounds(twist, n, (BENT,), gone)} with n = {n:g}" for n in lines)
         + ". With n = 6 that is the joints' limit (dotted: the softest, beside the clamp, at "
         f"{JOINT_LIMIT:g} rad); a longer chain bends first, its twist is then no longer even, and with n = 24 and more "
-        "the search ends at a saddle long before: such a run fails and says so. (b) Twisted within 80 ms: held, and lost, "
-        + ", ".join(f"{name} {_bounds(twisting, name, straight, gone)}" for name in dict.fromkeys(c.y for c in twisting))
-        + f" rad/m; the joints' limit is {number(_joint_limit(MOVED_ELEMENTS), 3)} (dashed), the same for all, and bending "
-        f"takes longer than 80 ms. (c) A wire with gains whose base is turned for {TURNED_STEPS} steps; inaccurate: its "
+        "the search ends at a saddle long before: such a run fails and says so. (b) Twisted within 80 ms: held, and "
+        "lost, "
+        + ", ".join(f"{name} {_bounds(twisting, name, straight, gone)}"
+                    for name in dict.fromkeys(cell.y for cell in twisting))
+        + f" rad/m; the joints' limit is {number(_joint_limit(MOVED_ELEMENTS), 3)} (dashed), the same for all, and "
+        f"bending takes longer than 80 ms. (c) A wire with gains whose base is turned for {TURNED_STEPS} steps; inaccurate: its "
         f"tip is behind by more than {percent(INACCURATE)} of the turn. A joint loses a turn between "
         + ", ".join(f"{_bounds(turning, m, (*straight, 'inaccurate'), (LOST_TURN,))} rad a step with m = {m:g}"
                     for m in sorted({cell.y for cell in turning}))
         + "; elements on a line, whose joints give back the sine of their angle, from "
         + ", ".join(f"{number(turn, 2)} with m = {m}" for m, turn in turn_limits().items())
-        + " (dashed). Such a run ends as finished, with the joint and the step in its reason. (d) The same 130 mm into a "
-        f"vessel: {kinds_of(speed)}; nothing is lost on the way at any step, steps of many elements (dotted: one) are "
+        + " (dashed). Such a run ends as finished, with the joint and the step in its reason. (d) The same 130 mm into "
+        f"a vessel: {kinds_of(speed)}; nothing is lost on the way at any step, steps of many elements (dotted: one) are "
         "gone in parts. Against the shortest step of the same speed the tip is off by at most "
         + ", ".join(f"{percent(error)} at {v:g} m/s" for v, error in by_speed.items())
-        + f" of its way. (e) Barriers of any stiffness and distance, at 0.2 m/s: {kinds_of(barrier)}, off by at most "
+        + " of its way; a wire that comes in at 100 m/s is thrown about, and one step for all of that is too long. "
+        f"(e) Barriers of any stiffness and distance, at 0.2 m/s: {kinds_of(barrier)}, off by at most "
         f"{percent(max(cell.error for cell in barrier))} of the way; no limit is found, also below EI/10 l³ (dashed), "
-        "where a prototype without halved steps failed: a soft barrier is met closer to the wall, where it is stiff. (f) "
+        "where a barrier is softer than an element: it is met closer to the wall, where it is stiff. (f) "
         f"A fall with a damped material, after {FALL:g} s, against esdirk4 with steps of 0.2 ms: "
-        + "; ".join(f"{name} {kinds_of(strain, name)}" for name in dict.fromkeys(c.y for c in strain if c.y != "reference"))
-        + ". No damping is too strong for a step. implicitEuler is off where the lowest mode swings (left of the dashed "
-        "line): of one mode it is off by "
-        + ", ".join(f"{percent(mode[cell.x])} ({percent(cell.error)} found)" for cell in euler)
-        + f" from the left. (g) Largest stretch gain of spheres that lose a share of their speed a step: bisections (circles) are "
-        f"within {percent(off)} of the chain's limit (dashed). With many iterations damping changes nothing: each step "
-        "of a sweep beyond its limit grows by itself."
+        + "; ".join(f"{name} {kinds_of(strain, name)}" for name in dict.fromkeys(cell.y for cell in strain)
+                    if name != "reference")
+        + ". No damping is too strong for a step. The schemes that damp by themselves are off where the lowest mode "
+        "swings (left of the dashed line, where it is damped critically): by implicit Euler one mode alone is off by "
+        + ", ".join(f"{percent(mode[cell.x])} ({percent(cell.error)} found)" for cell in (euler[0], euler[len(euler) // 2]))
+        + f" at {number(euler[0].x, 2)} and {number(euler[len(euler) // 2].x, 2)}. (g) Largest stretch gain of spheres that "
+        f"lose a share of their speed a step: bisections (circles) are within {percent(off)} of the chain's limit "
+        "(dashed). With many iterations damping changes nothing: what a step's sweeps make of an error grows by itself."
     )
