@@ -255,7 +255,7 @@ def _figures(arguments: argparse.Namespace) -> int:
     asked += [(check, out / name) for name, checks in catalogue.checked.items() if name in needed for check in checks]
     result = _make(asked, out, means)
     folders = {name: (out / name).resolve() for name in needed}
-    code = _tell(gallery.draw(ids, folders, out / "figures", catalogue))
+    code = _tell(gallery.draw(ids, folders, out / "figures", catalogue, arguments.jobs))
     return FAILED if result.failures else code
 
 
