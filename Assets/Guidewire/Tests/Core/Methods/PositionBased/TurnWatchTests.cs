@@ -5,9 +5,9 @@ namespace Guidewire.Core.Tests
 {
     public sealed class TurnWatchTests
     {
-        [TestCase(0.99, false)]
-        [TestCase(1.01, true)]
-        public void ATurnIsLost_WhereAJointGoesOverHalfOfOne(double halves, bool isLost)
+        [TestCase(0.99, "")]
+        [TestCase(1.01, "joint 1 was turned over half a turn in step 10,")]
+        public void ATurnIsLost_WhereAJointGoesOverHalfOfOne(double halves, string start)
         {
             RodState state = Straight();
             var watch = new TurnWatch(state);
@@ -16,9 +16,8 @@ namespace Guidewire.Core.Tests
                 TurnDistalPart(state, 0.1 * halves * Math.PI);
                 watch.Look(state, step);
             }
-            Assert.That(watch.Warning != null, Is.EqualTo(isLost));
-            Assert.That(watch.Warning ?? "", isLost ? Does.StartWith("joint 1 was turned over half a turn in step 10")
-                : Is.Empty);
+            Assert.That(watch.Warning != null, Is.EqualTo(start.Length > 0));
+            Assert.That(watch.Warning ?? "", Does.StartWith(start));
         }
 
         [Test]
