@@ -93,6 +93,11 @@ class ArrayLog:
                                if force.any()}}
             if "wallForces" in columns:
                 entry["contact"]["wall"] = {str(w): _vector(force) for w, force in enumerate(columns["wallForces"][k])}
+            if "elementForces" in columns:
+                entry["contact"] |= {
+                    "pressure": columns["wallPressure"][k].item(),
+                    "element": {str(j): _vector(force) for j, force in enumerate(columns["elementForces"][k])
+                                if force.any()}}
             yield step, entry
 
 

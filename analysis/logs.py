@@ -39,7 +39,7 @@ class PositionLog:
     source : Path
         The file read.
     steps : ndarray of int64, shape (k,)
-        Step numbers; entry 0 is the start, after the first sphere's displacement.
+        Step numbers; entry 0 is the start, after the first sphere's displacement (with direct between walls before it).
     time, elapsed : ndarray of float64, shape (k,)
         In-game time and real time since the start of the run, both in seconds.
     prediction_error : ndarray of float64, shape (k,)

@@ -64,6 +64,21 @@ class Hub:
 
 
 @dataclass(frozen=True)
+class Energy:
+    """Energies of a wire with a material, J.
+
+    Attributes
+    ----------
+    kinetic, elastic : of its motion, and stored in it.
+    potential : of gravity and of the loads that have one.
+    """
+
+    kinetic: float
+    elastic: float
+    potential: float
+
+
+@dataclass(frozen=True)
 class State:
     """The wire at one moment; n rod elements, n + 1 spheres. All arrays are of float64 and the caller's own.
 
@@ -82,6 +97,7 @@ class State:
         None where the method does not state it (xpbd, and gains without walls).
     curvature, couple : (n+1, 3), of a material: rad/m about d1, d2 and d3 at each joint, and N m; else None.
     strain, force : (n, 3), of a material: shear and stretch of each element, and force in it, N; else None.
+    energy : of a material, J: of its motion, stored in it, and of the loads that have a potential; else None.
     hub : of solver direct, what is read off at hub and tip; else None.
     """
 
@@ -100,6 +116,7 @@ class State:
     couple: np.ndarray | None
     strain: np.ndarray | None
     force: np.ndarray | None
+    energy: Energy | None
     hub: Hub | None
 
 
@@ -266,6 +283,8 @@ def _read_state(answer: Mapping[str, Any]) -> State:
         arrays.get("contactForces", np.zeros_like(positions)),
         arrays["reaction"][0] if "reaction" in arrays else None,
         arrays.get("curvature"), arrays.get("couple"), arrays.get("strain"), arrays.get("force"),
+        answer.get("energy") and Energy(*(answer["energy"][f"{kind}Energy"] for kind in (
+            "kinetic", "elastic", "potential"))),
         _read_hub(answer.get("hub")),
     )
 

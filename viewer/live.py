@@ -21,7 +21,7 @@ from aiohttp import WSCloseCode, WSMsgType, web
 
 from analysis.surfaces import Surface
 from experiments.session import Session, SessionError, State
-from viewer.recording import Recording, facts_of, make_channels, name_walls, radius_of, units_of
+from viewer.recording import Recording, facts_of, make_channels, name_walls, radius_of, sheath_of, units_of
 
 PUSH_SPEED = 40.0              # units a second of in-game time, as in the Unity scene
 TURN_SPEED = math.radians(180.0)  # rad a second of in-game time
@@ -66,6 +66,7 @@ class LiveRun:
         self._hand: _Page | None = None
         self._session: Session | None = None
         self._walls: list[Surface] = []
+        self._sheath: np.ndarray | None = None
         self._warnings: list[str] = []
         self._opened = 0
         self._is_paused = True
@@ -232,6 +233,7 @@ class LiveRun:
         self._is_paused = not session.hand  # a wire that waits for a hand is at rest
         self._warnings = list(dict.fromkeys(str(one.message) for one in said))
         self._walls = self._read_walls(self._scenes[scene], session.parameters, session.state)
+        self._sheath = sheath_of(session.parameters, self._numbers(session, session.state))
         self._opened += 1
         self._cost = 0.0
 
@@ -246,21 +248,24 @@ class LiveRun:
             raise web.HTTPNotFound()
         return Recording(
             self._scene, "", self._warnings, facts_of(session.parameters, None), radius_of(session.parameters),
-            self._channels(session, session.state), name_walls(session.parameters, self._walls),
+            self._channels(session, session.state), name_walls(session.parameters, self._walls), self._sheath,
         )
 
     def _channels(self, session: Session, state: State) -> list[Any]:
+        return make_channels(units_of(session.parameters), self._numbers(session, state))
+
+    def _numbers(self, session: Session, state: State) -> dict[str, Any]:
         walls = bool(self._walls)
         real_time = float(session.parameters["timeStep"]) / self._cost if self._cost > 0.0 else math.nan
-        one = {
+        return {
             "step": np.array([state.step]), "time": np.array([state.time]), "positions": state.positions[None],
             "orientations": state.orientations[None], "contact_forces": state.contact_forces[None] if walls else None,
             "step_time": np.array([1e3 * self._cost]), "real_time": np.array([real_time]),
             **{name: None if values is None else values[None]
                for name, values in (("curvature", state.curvature), ("force", state.force), ("couple", state.couple),
                                     ("reaction", state.reaction))},
+            **_read_off(state),
         }
-        return make_channels(units_of(session.parameters), one)
 
     def _may_step(self) -> bool:
         return (self._session is not None and self._hand is not None and not self._ended()
@@ -323,6 +328,21 @@ def _start(scene: Path, by_hand: bool) -> Session:
         except SessionError:
             pass  # what is wrong with the file itself is said below
     return Session(scene, hand=False)
+
+
+def _read_off(state: State) -> dict[str, np.ndarray]:
+    """What a state says of energies and of the hub, by the names of a log."""
+    numbers: dict[str, float | None] = {}
+    if state.energy is not None:
+        energy = state.energy
+        numbers |= {"kineticEnergy": energy.kinetic, "elasticEnergy": energy.elastic,
+                    "potentialEnergy": energy.potential}
+    if state.hub is not None:
+        hub = state.hub
+        read_off = {"insertion": hub.insertion, "turn": hub.turn, "force": hub.force, "torque": hub.torque,
+                    "twist": hub.twist, "largestCurvature": hub.largest_curvature, "lengthInBody": hub.length_in_body}
+        numbers |= {f"hub.{name}": value for name, value in read_off.items()} | {"inBody": hub.spheres_in_body}
+    return {name: np.array([value]) for name, value in numbers.items() if value is not None}
 
 
 async def _say_goodbye(socket: web.WebSocketResponse) -> None:

@@ -20,7 +20,15 @@ from analysis.surfaces import Surface
 
 _STEPS = 65535  # of a quantised number, from its lowest value to its highest
 _ALIGNED = 8
-_ENERGIES = ("kineticEnergy", "elasticEnergy", "potentialEnergy")
+_ENERGIES = {"kineticEnergy": "energy of motion", "elasticEnergy": "elastic energy",
+             "potentialEnergy": "potential energy"}
+# What is read off at the hub, by its key in a log: label, unit, whether it may be negative.
+_HUB = {
+    "force": ("force at the hub", "N", True), "torque": ("torque at the hub", "N m", True),
+    "insertion": ("insertion", "m", True), "turn": ("turn of the hub", "rad", True),
+    "twist": ("twist from hub to tip", "rad", True), "largestCurvature": ("largest curvature", "rad/m", False),
+    "lengthInBody": ("length in the body", "m", False),
+}
 
 
 @dataclass(frozen=True)
@@ -55,6 +63,7 @@ class Recording:
     radius : of the wire, units.
     channels : "time", "step" and "positions" are always among them.
     walls : triangles with "vessel" or "obstacle".
+    sheath : (2, 3), units: where it ends, and the farthest back that the wire begins in it; None without one.
     """
 
     title: str
@@ -64,6 +73,7 @@ class Recording:
     radius: float
     channels: Sequence[Channel]
     walls: Sequence[tuple[str, Surface]]
+    sheath: np.ndarray | None = None
 
     def to_bytes(self, exact: bool = True) -> bytes:
         """The block for the page; where it need not be exact, of 16 bits a number between the lowest and the highest
@@ -84,6 +94,7 @@ class Recording:
         header = json.dumps({
             "title": self.title, "outcome": self.outcome, "warnings": list(self.warnings), "facts": list(self.facts),
             "radius": self.radius, "channels": channels, "walls": walls,
+            "sheath": None if self.sheath is None else self.sheath.tolist(),
         }, allow_nan=False).encode()
         header += b" " * (-(len(header) + 4) % _ALIGNED)
         return struct.pack("<I", len(header)) + header + arrays.bytes()
@@ -153,7 +164,9 @@ def make_channels(units: Units, numbers: Mapping[str, np.ndarray | None]) -> lis
     units : of the run.
     numbers : "step", "time" (k,), s; "positions" (k, n+1, 3), units; and where they are known "orientations" (k, n, 4),
         x, y, z, w; "curvature" (k, n+1, 3), rad/m; "force" (k, n, 3), N; "contact_forces" (k, n+1, 3); "reaction"
-        (k, 3); "couple" (k, n+1, 3), N m; "energy" (k,), J; "step_time" (k,), ms; "real_time" (k,), times faster.
+        (k, 3); "couple" (k, n+1, 3), N m; "kineticEnergy", "elasticEnergy" and "potentialEnergy" (k,), J; what a log
+        has of the hub, (k,), with "hub." before its key; "inBody" (k,), spheres out of a sheath; "step_time" (k,), ms;
+        "real_time" (k,), times faster.
     """
     known = {name: values for name, values in numbers.items() if values is not None}
     positions = known["positions"]
@@ -185,14 +198,13 @@ def make_channels(units: Units, numbers: Mapping[str, np.ndarray | None]) -> lis
             Channel("wallForce", "force of all walls", units.force, "frame",
                     np.linalg.norm(forces.sum(axis=1), axis=1)),
         ]
-    if "reaction" in known:
-        channels.append(Channel("hubForce", "force at the hub", units.force, "frame",
-                                np.einsum("kj,kj->k", known["reaction"], along[:, 0]), True))
-    if "couple" in known:
-        channels.append(Channel("hubTorque", "torque at the hub", "N m", "frame",
-                                np.einsum("kj,kj->k", known["couple"][:, 0], along[:, 0]), True))
-    if "energy" in known:
-        channels.append(Channel("energy", "energy", "J", "frame", known["energy"]))
+    channels += _at_the_hub(known, units, along)
+    energies = {key: known[key] for key in _ENERGIES if key in known}
+    if energies:
+        channels.append(Channel("energy", "energy", "J", "frame", np.sum(list(energies.values()), axis=0)))
+    channels += [Channel(key, _ENERGIES[key], "J", "frame", values) for key, values in energies.items()]
+    if "inBody" in known:
+        channels.append(Channel("inBody", "", "spheres", "frame", known["inBody"]))
     channels += [Channel(f"tip{axis}", f"tip, {axis}", "units", "frame", positions[:, -1, k], True)
                  for k, axis in enumerate("xyz")]
     for name, key, label, unit in (("stepTime", "step_time", "wall time of a step", "ms"),
@@ -200,6 +212,43 @@ def make_channels(units: Units, numbers: Mapping[str, np.ndarray | None]) -> lis
         if key in known:
             channels.append(Channel(name, label, unit, "frame", known[key]))
     return [_two_dimensional(channel) for channel in channels]
+
+
+def _at_the_hub(known: Mapping[str, np.ndarray], units: Units, along: np.ndarray) -> list[Channel]:
+    """As it was read off; else force and couple of the support, as far as they are known."""
+    channels = [Channel("hub" + key[0].upper() + key[1:], label, unit, "frame", known[f"hub.{key}"], is_signed)
+                for key, (label, unit, is_signed) in _HUB.items() if f"hub.{key}" in known]
+    names = [channel.name for channel in channels]
+    if "hubForce" not in names and "reaction" in known:
+        channels.append(Channel("hubForce", "force at the hub", units.force, "frame",
+                                np.einsum("kj,kj->k", known["reaction"], along[:, 0]), True))
+    if "hubTorque" not in names and "couple" in known:
+        channels.append(Channel("hubTorque", "torque at the hub", "N m", "frame",
+                                np.einsum("kj,kj->k", known["couple"][:, 0], along[:, 0]), True))
+    return channels
+
+
+def sheath_of(parameters: Mapping[str, Any], numbers: Mapping[str, np.ndarray | None]) -> np.ndarray | None:
+    """Where a run's sheath is, as in `Recording`.
+
+    Parameters
+    ----------
+    parameters : effective values.
+    numbers : as of `make_channels`; the first frame is of the start, where the wire is straight.
+    """
+    if parameters.get("sheath") is None:
+        return None
+    positions = numbers["positions"]
+    start, tip = positions[0, 0], positions[0, -1]
+    direction = (positions[0, 1] - start) / np.linalg.norm(positions[0, 1] - start)
+    exit_at = parameters["sheath"].get("exit")
+    if exit_at is None and numbers.get("hub.lengthInBody") is not None:
+        exit_at = tip - direction * numbers["hub.lengthInBody"][0] / parameters["metresPerUnit"]
+    elif exit_at is None:
+        exit_at = positions[0, -1 - int(numbers["inBody"][0])]
+    exit_at = np.asarray(exit_at, dtype=float)
+    back = min(0.0, *((positions[:, 0] - exit_at) @ direction))
+    return np.array([exit_at, exit_at + back * direction])
 
 
 def _two_dimensional(channel: Channel) -> Channel:
@@ -254,7 +303,8 @@ def read_recording(run: Run, walls: Sequence[Surface], frames: int) -> Recording
         "step": log.steps[kept], "time": log.time[kept], "positions": log.positions[kept],
         **_wall_times(log.steps, log.elapsed, log.time, kept),
     }
-    if any(run.parameters.get(key) for key in ("logOrientations", "logContacts", "logStrains")):
+    if (any(run.parameters.get(key) for key in ("logOrientations", "logContacts", "logStrains", "logHub"))
+            or run.parameters.get("sheath") is not None):
         numbers.update(_read_more(run, log.steps[kept]))
     warnings = [line for line in (log.warning,) if line] + list((run.summary or {}).get("warnings", []))
     if len(finite) < len(log.steps):
@@ -264,6 +314,7 @@ def read_recording(run: Run, walls: Sequence[Surface], frames: int) -> Recording
         run.folder.resolve().name, f"{run.outcome}: {reason}" if reason else run.outcome, warnings,
         facts_of(run.parameters, run.summary), radius_of(run.parameters),
         make_channels(units_of(run.parameters), numbers), name_walls(run.parameters, walls),
+        sheath_of(run.parameters, numbers),
     )
 
 
@@ -314,5 +365,10 @@ def _read_more(run: Run, steps: np.ndarray) -> dict[str, np.ndarray | None]:
         if "stress" in entry:
             for name in ("curvature", "force", "couple"):
                 rows.setdefault(name, []).append(entry["stress"][name])
-            rows.setdefault("energy", []).append(sum(entry["stress"][name] for name in _ENERGIES))
+            for name in _ENERGIES:
+                rows.setdefault(name, []).append(entry["stress"][name])
+        for name in (name for name in _HUB if name in entry.get("hub", {})):
+            rows.setdefault(f"hub.{name}", []).append(entry["hub"][name])
+        if "inBody" in entry:
+            rows.setdefault("inBody", []).append(entry["inBody"])
     return {name: np.asarray(values, dtype=float) for name, values in rows.items() if len(values) == len(steps)}

@@ -6,9 +6,11 @@ import math
 
 import numpy as np
 import pytest
-from scipy.linalg import expm
+from scipy.integrate import solve_ivp
+from scipy.linalg import eigh, expm
 
-from analysis.validation import bar, beam, elastica, release, spatial, twisted
+from analysis.validation import bar, beam, elastica, release, spatial, tube_buckling, tubes, twisted, whip
+from analysis.validation.states import State
 from analysis.validation.wire import BASE, Wire
 
 HALF = np.linspace(0.0, 1.0, 11)
@@ -243,3 +245,52 @@ def test_small_force_and_couple_add_up() -> None:
 def test_curved_rod_without_load_is_an_arc() -> None:
     rod = spatial.CurvedRod(2.0, 0.5, 1.0, 1.0, 1e6, 1e6)
     np.testing.assert_allclose(rod.tip(np.zeros(3)), [0.0, 2.0 * (math.cos(1.0) - 1.0), 2.0 * math.sin(1.0)], atol=1e-7)
+
+
+@pytest.mark.parametrize("tip", [0.3, 1.5, 2.9])
+def test_turned_wire_in_a_bend_is_a_pendulum(tip: float) -> None:
+    """From the tip back to the hub, as an initial value problem."""
+    stretch = 2.0
+    back = solve_ivp(lambda _, y: [y[1], stretch**2 * math.sin(y[0])], (0.0, 1.0), [tip, 0.0], rtol=1e-10, atol=1e-12)
+    assert whip.hub_angle(tip, stretch) == pytest.approx(back.y[0, -1], abs=1e-7)
+
+
+def test_snap_is_where_the_hub_cannot_go_on() -> None:
+    hub, tip = whip.snap(2.0)
+    assert [math.degrees(hub), math.degrees(tip)] == pytest.approx([197.8, 116.7], abs=0.05)
+    assert all(whip.hub_angle(other, 2.0) < hub for other in (tip - 0.1, tip + 0.1))
+
+
+def test_snaking_between_clamps_is_the_lowest_eigenvalue_of_the_column() -> None:
+    """Cubic beam elements on an elastic foundation."""
+    length, n = 22.6, 100
+    h = length / n
+    bend = np.array([[12, 6 * h, -12, 6 * h], [6 * h, 4 * h * h, -6 * h, 2 * h * h], [-12, -6 * h, 12, -6 * h],
+                     [6 * h, 2 * h * h, -6 * h, 4 * h * h]]) / h**3
+    lean = np.array([[36, 3 * h, -36, 3 * h], [3 * h, 4 * h * h, -3 * h, -h * h], [-36, -3 * h, 36, -3 * h],
+                     [3 * h, -h * h, -3 * h, 4 * h * h]]) / (30 * h)
+    lie = np.array([[156, 22 * h, 54, -13 * h], [22 * h, 4 * h * h, 13 * h, -3 * h * h], [54, 13 * h, 156, -22 * h],
+                    [-13 * h, -3 * h * h, -22 * h, 4 * h * h]]) * h / 420
+    held, thrust = np.zeros((2 * n + 2, 2 * n + 2)), np.zeros((2 * n + 2, 2 * n + 2))
+    for j in range(n):
+        part = slice(2 * j, 2 * j + 4)
+        held[part, part] += bend + lie
+        thrust[part, part] += lean
+    loads = eigh(thrust[2:-2, 2:-2], held[2:-2, 2:-2], eigvals_only=True)
+    assert tube_buckling.clamped_onset(length) == pytest.approx(1.0 / loads[-1], rel=1e-4)
+
+
+def test_helix_of_uneven_pitch_has_less_energy_than_an_even_one() -> None:
+    """An even one of pitch 2 pi/p has p^4/2 - f p^2/2 at best, - f^2/8: the straight wire's - 1 at 2 sqrt(2)."""
+    same = tube_buckling.helix_has_the_straight_energy()
+    assert 0.97 * tube_buckling.EVEN_HELIX < same < tube_buckling.EVEN_HELIX
+    assert tube_buckling.helix_lifts_off() < same
+
+
+def test_frames_along_a_curve_have_its_directions() -> None:
+    turns = np.linspace(0.0, 4.0, 30)
+    nodes = np.stack([np.sin(turns), 1.0 - np.cos(turns), turns], axis=1)
+    frames = np.array(tubes.untwisted_frames(nodes))
+    chords = np.diff(nodes, axis=0)
+    state = State(0.0, nodes, nodes, frames)
+    np.testing.assert_allclose(state.directors, chords / np.linalg.norm(chords, axis=1)[:, None], atol=1e-12)

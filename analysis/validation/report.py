@@ -15,16 +15,16 @@ from analysis.figures.style import add_caption, new_figure, styled
 from analysis.figures.wording import number
 from analysis.logs import LogError
 from analysis.validation import (
-    balance, clamp, couples, dynamics, helix, independence, joint, order, ring, stability, statics,
-    turning,
+    balance, clamp, couples, dynamics, friction, helix, independence, joint, order, ring, stability, statics,
+    tube_buckling, turning, vessel, whip,
 )
 from analysis.validation.check import Check, Finding, Result, replay
 from analysis.validation.pictures import SOLVER_MARKERS
 
 ROWS: tuple[Check, ...] = (
     *clamp.CHECKS, *joint.CHECKS, *statics.CHECKS, *couples.CHECKS, *stability.CHECKS, *ring.CHECKS, *helix.CHECKS,
-    *dynamics.CHECKS, *balance.CHECKS, *order.CHECKS, *turning.CHECKS,
-    *independence.CHECKS,
+    *dynamics.CHECKS, *balance.CHECKS, *order.CHECKS, *turning.CHECKS, *vessel.CHECKS, *friction.CHECKS, *whip.CHECKS,
+    *tube_buckling.CHECKS, *independence.CHECKS,
 )
 _QUICK = (
     "clamp-compliance", "clamp-frequencies", "plane", "end-moment", "end-moment-darboux", "localised-helix", "bar",
@@ -33,7 +33,8 @@ _QUICK = (
     *(check.name for check in joint.CHECKS),
 )
 FAST = (  # what tests run
-    *statics.FAST, *stability.FAST, *ring.FAST, *(check for check in ROWS if check.name in _QUICK),
+    *statics.FAST, *stability.FAST, *ring.FAST, *vessel.FAST, *whip.FAST, *tube_buckling.FAST,
+    *(check for check in ROWS if check.name in _QUICK),
 )
 COLUMNS = ("section", "check", "what", "solver", "value", "reference", "unit", "error", "error in", "gate", "passed",
            "cost", "reason")

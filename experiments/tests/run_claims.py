@@ -21,14 +21,15 @@ SUMMARY_KEYS = {
     "outcome", "reason", "steps", "inGameTime", "computationTime", "setUpTime", "wallTime", "averageStepTime",
     "medianStepTime", "predictionError", "steadyStateStep", "stiffness", "passages", "maxPenetration", "driveAsked",
     "driveShortfall", "hub", "largestContactForce", "largestWallForce",
-    "wallForces", "timed", "repeat", "warnings", "ignored", "notes", "log", "versions", "parameterHash",
+    "wallForces", "extremes", "timed", "repeat", "warnings", "ignored", "notes", "log", "versions", "parameterHash",
     "complete",
 }
 # What need not apply: null there is no number that got lost.
 MAY_BE_NULL = {
     "driveAsked", "hub", "lengthInBody", "spheresInBody", "repeat", "largestError", "timeStepError", "stableSubstep", "energy", "equilibriumResidual",
     "smallestEigenvalue", "proximalForce", "proximalMoment", "distalForce", "distalMoment",
-    "wallIterations", "halvedSteps", "contactDistance", "contactStiffness",
+    "wallIterations", "halvedSteps", "contactDistance", "contactStiffness", "extremes", "axialForce", "axialTorque",
+    "elementForce", "wallPressure", "frictionPower", "frictionWork",
 }
 WALL_TIMES = ("computationTime", "setUpTime", "wallTime", "averageStepTime", "medianStepTime", "elapsedMilliseconds")
 

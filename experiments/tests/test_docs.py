@@ -140,7 +140,7 @@ def test_the_table_of_keys_is_the_runners_own(runner_command):
 
 
 @pytest.mark.parametrize("parameters, nested", [
-    ("params/collision-wall.json", {"versions"}), ("params/cantilever.json", {"solver", "versions", "hub"}),
+    ("params/collision-wall.json", {"versions"}), ("params/cantilever.json", {"solver", "versions", "hub", "extremes"}),
 ])
 def test_every_key_of_a_summary_is_explained(runner_command, tmp_path, parameters, nested):
     summary = json.loads((run(runner_command, tmp_path, ROOT / parameters, maxSimulationSteps=1)
@@ -157,7 +157,8 @@ def test_every_explained_key_of_a_summary_is_one(runner_command, tmp_path):
     summary = json.loads((run(runner_command, tmp_path, ROOT / "params/cantilever.json", maxSimulationSteps=1)
                           / "summary.json").read_text())
     explained = table_keys(section(RUNS, "## summary.json"))
-    assert set(explained) == {*summary, *summary["solver"], *summary["versions"], *summary["hub"]}
+    assert set(explained) == {
+        *summary, *summary["solver"], *summary["versions"], *summary["hub"], *summary["extremes"]}
 
 
 _SHEATHED = {
@@ -170,7 +171,7 @@ def test_every_key_of_a_log_is_explained(runner_command, tmp_path):
     folder = run(runner_command, tmp_path, ROOT / "params/insertion.json", maxSimulationSteps=1, logOrientations=True,
                  logContacts=True)
     entry = json.loads((folder / "positions.json").read_text())["1"]
-    hub = run(runner_command, tmp_path / "hub", {**_SHEATHED, "logHub": True})
+    hub = run(runner_command, tmp_path / "hub", {**_SHEATHED, "logHub": True, "logContacts": True})
     entry |= json.loads((hub / "positions.json").read_text())["0"]
     told = section(RUNS, "### positions.json")
     assert set(entry) <= set(table_keys(told))

@@ -66,6 +66,18 @@ def test_a_hand_pushes_and_turns_a_wire_with_a_material_and_reads_off_what_it_fe
         assert hub.turn + hub.twist == pytest.approx(0.4) and hub.tip_direction == pytest.approx([0.0, 0.0, 1.0])
 
 
+def test_a_hand_takes_a_wire_out_of_its_sheath_whatever_its_files_drive_would_ask_for():
+    endless = {"maxSimulationSteps": 1_000_000_000, "deltaThreshold": 0}
+    with Session(ROOT / "params" / "sheath.json", hand=True, **endless) as session:
+        start = session.state
+        assert start.energy.kinetic == 0.0 and start.energy.elastic > 0.0    # its bent tip is straight at first
+        state = session.step(push=1.0, steps=3)
+    assert state.hub.insertion == pytest.approx(1e-3) and state.hub.length_in_body == pytest.approx(0.031, abs=1e-6)
+    assert state.energy.kinetic > 0.0 and state.energy.elastic < start.energy.elastic
+    with pytest.raises(SessionError, match="is longer than the wire"):
+        Session(ROOT / "params" / "sheath.json", hand=False, **endless)
+
+
 @pytest.mark.parametrize("friction", [0.0, 0.3])
 def test_sessions_side_by_side_save_restore_and_reset_to_the_same_bits(friction):
     scene = {**TUBE, "vessel": {**TUBE["vessel"], "frictionCoefficient": friction}}

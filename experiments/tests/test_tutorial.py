@@ -8,8 +8,10 @@ import shlex
 from PIL import Image
 
 import viewer.command  # a part of it is replaced by name
+from analysis.logs import read_log
 from experiments import commands
 from experiments.prepare import ROOT
+from experiments.sheath_campaign import branch_of
 from experiments.testing import FULL_CAMPAIGNS
 from studies.study_file import read_study_file
 from test_view import serving
@@ -17,7 +19,7 @@ from test_view import serving
 PAGE = (ROOT / "docs" / "tutorial.md").read_text(encoding="utf-8")
 # Where campaigns do not run in full, what takes a second and has tests of its own is left out.
 FULL = FULL_CAMPAIGNS in os.environ
-SLOW = ("render results/turned", "sweep turns.json", "python table.py")
+SLOW = ("render results/turned", "sweep turns.json", "python table.py", "run params/sheath.json", "hub results/other")
 SHORTER = {'"maxSimulationSteps": 240': '"maxSimulationSteps": 4', '"numberRodElements": 40': '"numberRodElements": 9',
            '"numberRodElements": 10': '"numberRodElements": 3'}
 
@@ -46,7 +48,7 @@ def test_every_command_of_the_tutorial_works_in_its_order(runner_command, tmp_pa
             code = commands.run(commands.parse(words))
             said[line], errors = capfd.readouterr()
             assert code == 0, f"{line}: {errors}"
-    assert len(lines) == 8 and len(said) == (8 if FULL else 5)
+    assert len(lines) == 11 and len(said) == (11 if FULL else 5)
     assert said["run wire.json --out results/straight"].startswith("finished: all 4 steps are done")
     for name in ("turned.png", "curves.png") if FULL else ("curves.png",):
         with Image.open(tmp_path / "results" / name) as picture:
@@ -56,6 +58,8 @@ def test_every_command_of_the_tutorial_works_in_its_order(runner_command, tmp_pa
     assert study.logs and [len(axis.values) for axis in study.grid.axes] == [3, 2]
     if not FULL:
         return
+    tips = [read_log(tmp_path / "results" / name).final_positions[-1] for name in ("one", "other")]
+    assert {branch_of(tip) for tip in tips} == {0, 1}
     with open(tmp_path / "results" / "turns" / "runs.csv", newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     assert len(rows) == 6 and {row["outcome"] for row in rows} == {"finished"}

@@ -23,7 +23,7 @@ from experiments.prepare import ROOT, PreparationError
 from viewer import parts
 from viewer.command import view
 from viewer.export import to_html
-from viewer.recording import Recording, Units, make_channels
+from viewer.recording import Recording, Units, make_channels, sheath_of
 from viewer.server import LONGEST_MESSAGE, MOST_PAGES, page_files
 
 SCENE = {"guidewireLength": 60, "numberRodElements": 6, "guidewireOffset": -60, "displacement": 0, "sphereRadius": 2,
@@ -339,6 +339,29 @@ def test_what_colours_the_wire_is_its_own():
     lengths = np.linalg.norm(np.diff(channels["positions"].reshape(3, 13, 3), axis=1), axis=2)
     np.testing.assert_allclose(channels["twist"][:, 1:-1], 0.02 / (0.5 * (lengths[:, 1:] + lengths[:, :-1])))
     np.testing.assert_allclose(channels["tipz"][:, 0], 300.0)
+
+
+def test_what_is_read_off_at_the_hub_is_shown_and_where_a_sheath_ends():
+    # Five spheres along z, 10 mm apart; pushed by 3 mm.
+    first = np.array([[0.0, 0.0, z] for z in (-30.0, -20.0, -10.0, 0.0, 10.0)])
+    numbers = {
+        "step": np.array([0, 1]), "time": np.array([0.0, 0.1]), "positions": np.array([first, first + [0.0, 0.0, 3.0]]),
+        "reaction": np.array([[0.0, 0.0, 9.0], [0.0, 0.0, 9.0]]), "hub.force": np.array([0.5, 0.25]),
+        "hub.insertion": np.array([0.0, 0.003]), "kineticEnergy": np.array([1.0, 2.0]),
+        "elasticEnergy": np.array([3.0, 5.0]), "inBody": np.array([2, 2]),
+    }
+    shown = {channel.name: channel for channel in make_channels(Units(1e-3), numbers)}
+    assert shown["hubForce"].values.ravel().tolist() == [0.5, 0.25] and shown["hubForce"].unit == "N"
+    assert shown["hubInsertion"].values.ravel().tolist() == [0.0, 0.003]
+    assert shown["energy"].values.ravel().tolist() == [4.0, 7.0]
+    assert shown["elasticEnergy"].label == "elastic energy" and "potentialEnergy" not in shown
+    parameters = {"sheath": {}, "metresPerUnit": 1e-3}
+    assert sheath_of({**parameters, "sheath": None}, numbers) is None
+    assert sheath_of(parameters, numbers).tolist() == [[0.0, 0.0, -10.0], [0.0, 0.0, -30.0]]
+    by_length = {**numbers, "hub.lengthInBody": np.array([0.015, 0.018])}
+    assert sheath_of(parameters, by_length) == pytest.approx(np.array([[0.0, 0.0, -5.0], [0.0, 0.0, -30.0]]))
+    given = sheath_of({**parameters, "sheath": {"exit": [0, 0, -7]}}, numbers)
+    assert given.tolist() == [[0.0, 0.0, -7.0], [0.0, 0.0, -30.0]]
 
 
 def test_300_frames_and_a_vessel_of_50_000_triangles_are_a_file_of_less_than_4_MB(tmp_path):

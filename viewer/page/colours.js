@@ -56,13 +56,11 @@ export function drawScale(canvas, channel, full) {
   if (!channel) return;
   const pen = prepare(canvas);
   const width = canvas.clientWidth;
-  const colours = ramp(channel.isSigned);
-  for (let x = 0; x < width; x++) {
-    const k = 3 * Math.floor((x / width) * STEPS);
-    const [r, g, b] = [0, 1, 2].map((part) => Math.round(255 * colours[k + part]));
-    pen.fillStyle = `rgb(${r},${g},${b})`;
-    pen.fillRect(x, 0, 1, 14);
-  }
+  const scale = pen.createLinearGradient(0, 0, width, 0);
+  (channel.isSigned ? [BLUE, GREY, RED] : [GREY, RED]).forEach((colour, k, { length }) =>
+    scale.addColorStop(k / (length - 1), `rgb(${colour.map((part) => Math.round(255 * part))})`));
+  pen.fillStyle = scale;
+  pen.fillRect(0, 0, width, 14);
   pen.fillStyle = "#e1e1e6";
   pen.fillText(channel.isSigned ? brief(-full) : "0", 0, 28);
   const end = `${brief(full)} ${channel.unit}`;
@@ -75,7 +73,8 @@ export function prepare(canvas) {
   const ratio = globalThis.devicePixelRatio || 1;
   canvas.width = Math.max(1, Math.round(canvas.clientWidth * ratio));
   canvas.height = Math.max(1, Math.round(canvas.clientHeight * ratio));
-  const pen = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
+  // Not on the graphics card, which has the picture to draw: the more where it is none.
+  const pen = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d", { willReadFrequently: true }));
   pen.scale(ratio, ratio);
   pen.font = "11px system-ui, sans-serif";
   return pen;

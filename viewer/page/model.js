@@ -1,7 +1,7 @@
 // @ts-check
 import {
-  BackSide, BufferAttribute, BufferGeometry, DoubleSide, FrontSide, Group, Line, LineBasicMaterial, LineSegments, Mesh,
-  MeshLambertMaterial,
+  BackSide, BufferAttribute, BufferGeometry, CylinderGeometry, DoubleSide, FrontSide, Group, Line, LineBasicMaterial,
+  LineSegments, Mesh, MeshLambertMaterial, Vector2, Vector3,
 } from "three";
 
 import { largest, ramp, roundUp, row } from "./colours.js";
@@ -12,7 +12,10 @@ import { Tube } from "./tube.js";
 /** Layer of walls behind the wire, and of those that tint it. */
 export const [BEHIND, BEFORE] = [1, 2];
 const PLAIN = [1, 0.62, 0.18]; // a wire that is not coloured, such as the second of two in one picture
+const ARROWS = 0x7fe07f;
 const LONGEST_ARROW = 0.2; // share of the wire's length
+const SHEATH_COLOUR = 0x8fa9c4;
+const SHEATH = 2; // radius of a sheath over that of the wire in it
 
 /** One run in the picture: its wire, walls and the forces of the walls on it. */
 export class Model {
@@ -23,18 +26,25 @@ export class Model {
     this.walls = new Group();
     const spheres = recording.channel("positions").width / 3;
     this.tube = new Tube(spheres - 1);
-    const wire = new Mesh(this.tube.geometry, new MeshLambertMaterial({ vertexColors: true }));
+    /** What tints the wire: walls before it, of the pane that it is in. */
+    this.tint = { before: { value: /** @type {import("three").Texture | null} */ (null) },
+      origin: { value: new Vector2() } };
+    const wire = new Mesh(this.tube.geometry, this._tinted(new MeshLambertMaterial({ vertexColors: true })));
     wire.frustumCulled = false;
     // Where the wire is thinner than a point of the screen it is still seen.
-    this._line = new Line(new BufferGeometry(), new LineBasicMaterial({ vertexColors: true }));
+    this._line = new Line(new BufferGeometry(), this._tinted(new LineBasicMaterial({ vertexColors: true })));
     this._line.geometry.setAttribute("position", new BufferAttribute(new Float32Array(3 * spheres), 3));
     this._line.geometry.setAttribute("color", new BufferAttribute(new Float32Array(3 * spheres), 3));
     this._line.frustumCulled = false;
-    this.arrows = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ color: 0x7fe07f }));
+    this.arrows = new LineSegments(new BufferGeometry(), this._tinted(new LineBasicMaterial({ color: ARROWS })));
     this.arrows.geometry.setAttribute("position", new BufferAttribute(new Float32Array(6 * spheres), 3));
     this.arrows.frustumCulled = false;
     for (const wall of recording.walls) this.walls.add(...surfaces(wall));
     this.group.add(wire, this._line, this.arrows, this.walls);
+    this._sheath = recording.sheath && makeSheath(recording.sheath, SHEATH * recording.radius, [
+      this._tinted(new MeshLambertMaterial({ color: SHEATH_COLOUR })),
+      this._tinted(new LineBasicMaterial({ color: SHEATH_COLOUR }))]);
+    if (this._sheath) this.group.add(this._sheath);
     /** Name of the channel that colours the wire; "" for none. */
     this.colour = "";
     this.thickness = 1;
@@ -42,6 +52,22 @@ export class Model {
     /** @type {Map<string, number>} */
     this._full = new Map();
     this._ramps = [ramp(false), ramp(true)];
+  }
+
+  /**
+   * Lets walls before the wire tint it: their colours, with alpha in them, lie over its own.
+   * @template {import("three").Material} T @param {T} material @returns {T}
+   */
+  _tinted(material) {
+    material.onBeforeCompile = (shader) => {
+      Object.assign(shader.uniforms, this.tint);
+      shader.fragmentShader = `uniform lowp sampler2D before;
+uniform vec2 origin;
+${shader.fragmentShader.replace("#include <dithering_fragment>", `#include <dithering_fragment>
+lowp vec4 tint = texelFetch(before, ivec2(gl_FragCoord.xy - origin), 0);
+gl_FragColor.rgb = gl_FragColor.rgb * (1.0 - tint.a) + tint.rgb;`)}`;
+    };
+    return material;
   }
 
   /** The value that full red stands for; grows with a run that goes on. @param {string} name of a channel */
@@ -58,11 +84,14 @@ export class Model {
   show(frame, full) {
     this.frame = frame;
     const positions = this.recording.at("positions", frame);
-    this.tube.place(positions, this.recording.radius * this.thickness);
+    const first = this.recording.firstShown(frame);
+    this.tube.place(positions, this.recording.radius * this.thickness, first);
+    this._sheath?.children[0].scale.set(this.thickness, 1, this.thickness);
+    this._line.geometry.setDrawRange(first, Infinity);
     this._line.geometry.getAttribute("position").array.set(positions);
     this._line.geometry.getAttribute("position").needsUpdate = true;
     this._paint(full);
-    this._point(positions);
+    this._point(positions, first);
   }
 
   /** The place of the last sphere, units. */
@@ -111,8 +140,8 @@ export class Model {
     colours.needsUpdate = true;
   }
 
-  /** @param {Float64Array} positions */
-  _point(positions) {
+  /** @param {Float64Array} positions @param {number} first sphere that is shown */
+  _point(positions, first) {
     const channel = this.recording.channels.get("contactForces");
     const ends = this.arrows.geometry.getAttribute("position");
     if (!channel) {
@@ -120,7 +149,7 @@ export class Model {
       return;
     }
     const forces = this.recording.at("contactForces", this.frame);
-    const unit = (LONGEST_ARROW * this._length(positions)) / this.full("contactForces");
+    const unit = (LONGEST_ARROW * this._length(positions.subarray(3 * first))) / this.full("contactForces");
     for (let i = 0; i < positions.length; i += 3) {
       for (let part = 0; part < 3; part++) {
         ends.array[2 * i + part] = positions[i + part];
@@ -138,6 +167,20 @@ export class Model {
     }
     return length;
   }
+}
+
+/**
+ * The part of a sheath that a wire begins in: a tube, and a line where that is thinner than a point of the screen.
+ * @param {[number[], number[]]} ends @param {number} radius units
+ * @param {[MeshLambertMaterial, LineBasicMaterial]} looks
+ */
+function makeSheath(ends, radius, [surface, stroke]) {
+  const [exit, back] = ends.map((end) => new Vector3().fromArray(end));
+  const along = exit.clone().sub(back);
+  const tube = new Mesh(new CylinderGeometry(radius, radius, along.length(), 24), surface);
+  tube.position.copy(exit).add(back).multiplyScalar(0.5);
+  tube.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), along.normalize());
+  return new Group().add(tube, new Line(new BufferGeometry().setFromPoints([back, exit]), stroke));
 }
 
 /** A wall as one looks into it: its far side, and its near side faintly. @param {import("./recording.js").Wall} wall */

@@ -107,8 +107,9 @@ export class Panel {
     const name = byId("colour").value || "curvature";
     const shown = this.models.flatMap(({ recording }, k) => {
       const channel = recording.channels.get(name);
-      const x = arcLength(recording.at("positions", frames[k]));
-      return channel ? [{ channel, x, y: recording.at(name, frames[k]) }] : [];
+      const first = recording.firstShown(frames[k]); // what is in a sheath is straight
+      const x = arcLength(recording.at("positions", frames[k])).subarray(first);
+      return channel ? [{ channel, x, y: recording.at(name, frames[k]).subarray(first) }] : [];
     });
     if (!shown.length) return;
     const [{ channel }] = shown;

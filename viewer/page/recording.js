@@ -56,6 +56,8 @@ export class Recording {
       vertices: Float32Array.from(unpack(bytes, start, wall.vertices)),
       triangles: Uint32Array.from(unpack(bytes, start, wall.triangles)),
     }));
+    /** Where a sheath ends, and where it is seen to begin, units. @type {[number[], number[]] | null} */
+    this.sheath = header.sheath;
     this._count = this.channel("time").values.length;
     this._columns = [...this.channels.values()];
   }
@@ -81,6 +83,12 @@ export class Recording {
   /** Numbers of a channel that has one a frame. @param {string} name */
   overTime(name) {
     return this.channel(name).values.subarray(0, this._count);
+  }
+
+  /** The last sphere that is in a sheath, or the first of all. @param {number} frame */
+  firstShown(frame) {
+    const spheres = this.channel("positions").width / 3;
+    return this.channels.has("inBody") ? Math.max(spheres - 1 - this.at("inBody", frame)[0], 0) : 0;
   }
 
   /** Adds a frame. @param {Float64Array} numbers of all channels, one behind the other */

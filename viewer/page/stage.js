@@ -1,8 +1,8 @@
 // @ts-check
 import {
-  AmbientLight, Box3, Color, ColorManagement, CustomBlending, DirectionalLight, LinearSRGBColorSpace, Mesh,
-  MeshBasicMaterial, OneFactor, OneMinusSrcAlphaFactor, OrthographicCamera, PerspectiveCamera, PlaneGeometry, Scene,
-  Vector3, WebGLRenderer, WebGLRenderTarget,
+  AmbientLight, Box3, Camera, Color, ColorManagement, CustomBlending, DirectionalLight, GLSL3, LinearSRGBColorSpace,
+  Mesh, NoBlending, OneFactor, OneMinusSrcAlphaFactor, PerspectiveCamera, PlaneGeometry, RawShaderMaterial, Scene,
+  Vector2, Vector3, WebGLRenderer, WebGLRenderTarget,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
@@ -12,7 +12,20 @@ import { BEFORE, BEHIND } from "./model.js";
 
 const BACKGROUND = new Color(20 / 255, 23 / 255, 31 / 255);
 
-/** Part of the picture. Walls behind the wire and before it are drawn when the camera moves, and kept. */
+/** Points of a texture where they stand. */
+const COPY = `precision mediump float;
+uniform lowp sampler2D map;
+uniform vec2 origin;
+uniform float share;
+out lowp vec4 colour;
+void main() { colour = texelFetch(map, ivec2((gl_FragCoord.xy - origin) * share), 0); }`;
+const COARSE = 0.5; // points of walls a point of the picture, while the camera moves
+const AT_REST = 200; // ms after which it does not
+
+/**
+ * Part of the picture. Walls are drawn when the camera moves, and kept: all of them as what is behind the wire, and
+ * those before it as what tints it.
+ */
 class Pane {
   /** @param {Model[]} models */
   constructor(models) {
@@ -20,11 +33,16 @@ class Pane {
     this.scene = new Scene();
     this.behind = new WebGLRenderTarget(1, 1, { samples: 4 });
     this.before = new WebGLRenderTarget(1, 1, { samples: 4, depthBuffer: false });
-    this.tint = new Scene();
-    this.tint.add(new Mesh(new PlaneGeometry(2, 2), new MeshBasicMaterial({
-      map: this.before.texture, transparent: true, depthTest: false, depthWrite: false,
-      blending: CustomBlending, blendSrc: OneFactor, blendDst: OneMinusSrcAlphaFactor, // alpha is in what was drawn
-    })));
+    this.coarse = new WebGLRenderTarget(1, 1);
+    this.isCoarse = false;
+    /** Lower left corner in the picture, points. */
+    this.origin = new Vector2();
+    this.backdrop = copyOf(this.behind, this.origin, NoBlending);
+    this.tint = copyOf(this.before, new Vector2(), CustomBlending);
+    for (const { tint } of models) {
+      tint.before.value = this.before.texture;
+      tint.origin.value = this.origin;
+    }
     /** What the walls were drawn for. */
     this.seen = "";
     const light = new AmbientLight(0xffffff, 1.5);
@@ -32,10 +50,34 @@ class Pane {
     this.scene.add(light, ...models.map((model) => model.group));
   }
 
-  dispose() {
-    this.behind.dispose();
-    this.before.dispose();
+  /** Chooses the walls of the backdrop. @param {boolean} isCoarse */
+  take(isCoarse) {
+    this.isCoarse = isCoarse;
+    const { map, share } = this.backdrop.uniforms;
+    map.value = (isCoarse ? this.coarse : this.behind).texture;
+    share.value = isCoarse ? COARSE : 1;
   }
+
+  dispose() {
+    for (const target of [this.behind, this.before, this.coarse]) target.dispose();
+  }
+}
+
+/**
+ * A scene that copies what was drawn; its alpha is in its colours.
+ * @param {WebGLRenderTarget} target @param {Vector2} origin where it stands, points
+ * @param {import("three").Blending} blending
+ */
+function copyOf(target, origin, blending) {
+  const uniforms = { map: { value: target.texture }, origin: { value: origin }, share: { value: 1 } };
+  const quad = new Mesh(new PlaneGeometry(2, 2), new RawShaderMaterial({
+    glslVersion: GLSL3, uniforms, fragmentShader: COPY,
+    vertexShader: "in vec3 position; void main() { gl_Position = vec4(position.xy, 0.0, 1.0); }",
+    depthTest: false, depthWrite: false, transparent: true,
+    blending, blendSrc: OneFactor, blendDst: OneMinusSrcAlphaFactor,
+  }));
+  quad.frustumCulled = false;
+  return { uniforms, scene: new Scene().add(quad) };
 }
 
 /** The picture: one pane, or two side by side with the same camera. */
@@ -45,11 +87,12 @@ export class Stage {
     this._canvas = canvas;
     this._labels = labels;
     ColorManagement.enabled = false; // colours are what the screen shows, in layers as on their own
-    this._renderer = new WebGLRenderer({ canvas, antialias: !isDrawnBySoftware() });
+    this._isSlow = isDrawnBySoftware();
+    this._renderer = new WebGLRenderer({ canvas, antialias: !this._isSlow });
     this._renderer.outputColorSpace = LinearSRGBColorSpace;
     this._renderer.setScissorTest(true);
     this._renderer.autoClear = false;
-    this._flat = new OrthographicCamera(-1, 1, 1, -1, -1, 1);
+    this._flat = new Camera();
     this._camera = new PerspectiveCamera(40, 1, 0.1, 1000);
     this._camera.up.set(0, 1, 0);
     this._controls = new OrbitControls(this._camera, canvas);
@@ -61,6 +104,7 @@ export class Stage {
     /** @type {Model[]} */
     this._models = [];
     this._isAsked = false;
+    this._rest = 0; // timer
     this.followsTip = false;
     /** Pictures drawn so far. */
     this.drawn = 0;
@@ -89,13 +133,14 @@ export class Stage {
     const box = new Box3();
     const point = new Vector3();
     for (const { recording } of this._models) {
+      const isSeen = outOfSheath(recording.sheath);
       const positions = recording.channel("positions");
       const places = [positions.values.subarray(0, recording.count * positions.width),
         ...(withWalls ? recording.walls.map((wall) => wall.vertices) : [])];
       for (const all of places) {
         for (let k = 0; k < all.length; k += 3) {
           point.fromArray(all, k);
-          if (Number.isFinite(point.x)) box.expandByPoint(point);
+          if (Number.isFinite(point.x) && isSeen(point)) box.expandByPoint(point);
         }
       }
     }
@@ -125,7 +170,8 @@ export class Stage {
     const width = this._canvas.clientWidth;
     const height = this._canvas.clientHeight;
     if (!width || !height || !this._panes.length) return;
-    this._renderer.setSize(width, height, false);
+    const before = this._renderer.getSize(new Vector2()); // set anew it costs as much as a picture
+    if (width !== before.x || height !== before.y) this._renderer.setSize(width, height, false);
     if (this.followsTip) this._follow();
     const share = Math.floor(width / this._panes.length);
     this._camera.aspect = share / height;
@@ -136,15 +182,16 @@ export class Stage {
       pane.scene.add(this._light);
       const shown = pane.models.map((model) => model.walls.visible);
       const seen = [...this._camera.matrixWorld.elements, share, height, ...shown].join();
-      if (seen !== pane.seen) this._drawWalls(pane, share, height);
+      if (seen !== pane.seen && this._isSlow && pane.seen) this._drawCoarseWalls(pane, share, height);
+      else if (seen !== pane.seen) this._drawWalls(pane, share, height);
       pane.seen = seen;
       this._renderer.setViewport(k * share, 0, share, height);
       this._renderer.setScissor(k * share, 0, share, height);
-      pane.scene.background = pane.behind.texture;
+      pane.origin.set(k * share, 0);
       this._camera.layers.set(0);
-      this._renderer.clear();
+      this._renderer.clear(false, true);
+      this._renderer.render(pane.backdrop.scene, this._flat);
       this._renderer.render(pane.scene, this._camera);
-      this._renderer.render(pane.tint, this._flat);
     });
     this.drawn++;
     this.onDrawn();
@@ -152,17 +199,41 @@ export class Stage {
 
   /** @param {Pane} pane @param {number} width @param {number} height */
   _drawWalls(pane, width, height) {
-    pane.scene.background = null;
-    for (const [target, layer, alpha] of /** @type {[WebGLRenderTarget, number, number][]} */ (
-      [[pane.behind, BEHIND, 1], [pane.before, BEFORE, 0]])) {
-      target.setSize(width, height);
-      this._camera.layers.set(layer);
-      this._renderer.setRenderTarget(target);
-      this._renderer.setClearColor(alpha ? BACKGROUND : 0x000000, alpha);
-      this._renderer.clear();
-      this._renderer.render(pane.scene, this._camera);
-    }
+    this._drawLayer(pane, pane.behind, BEHIND, width, height);
+    this._drawLayer(pane, pane.before, BEFORE, width, height);
+    this._renderer.setRenderTarget(pane.behind);
+    this._renderer.render(pane.tint.scene, this._flat);
     this._renderer.setRenderTarget(null);
+    pane.take(false);
+  }
+
+  /** Far walls in coarse points, and all of them well when the camera rests. @param {Pane} pane @param {number} width
+   * @param {number} height */
+  _drawCoarseWalls(pane, width, height) {
+    if (!pane.isCoarse) this._drawLayer(pane, pane.before, null, width, height);
+    this._drawLayer(pane, pane.coarse, BEHIND, Math.ceil(COARSE * width), Math.ceil(COARSE * height));
+    this._renderer.setRenderTarget(null);
+    pane.take(true);
+    clearTimeout(this._rest);
+    this._rest = setTimeout(() => {
+      for (const one of this._panes) one.seen = "";
+      this.ask();
+    }, AT_REST);
+  }
+
+  /**
+   * @param {Pane} pane @param {WebGLRenderTarget} target @param {number | null} layer null: nothing is drawn
+   * @param {number} width @param {number} height
+   */
+  _drawLayer(pane, target, layer, width, height) {
+    target.setSize(width, height);
+    this._renderer.setRenderTarget(target);
+    const isAll = target !== pane.before; // else it lies over what else there is
+    this._renderer.setClearColor(isAll ? BACKGROUND : 0x000000, isAll ? 1 : 0);
+    this._renderer.clear();
+    if (layer === null) return;
+    this._camera.layers.set(layer);
+    this._renderer.render(pane.scene, this._camera);
   }
 
   _follow() {
@@ -172,6 +243,19 @@ export class Stage {
     this._camera.position.add(shift);
     this._camera.lookAt(this._controls.target);
   }
+}
+
+/**
+ * Whether a place is beyond a sheath's end: what is in it is not looked at.
+ * @param {[number[], number[]] | null} sheath its end, and where it is seen to begin
+ * @returns {(point: Vector3) => boolean}
+ */
+function outOfSheath(sheath) {
+  if (!sheath) return () => true;
+  const exit = new Vector3().fromArray(sheath[0]);
+  const along = exit.clone().sub(new Vector3().fromArray(sheath[1])).normalize();
+  const least = along.dot(exit) - 1e-6 * (1 + exit.length());
+  return (point) => along.dot(point) >= least;
 }
 
 /** Whether no graphics card draws here: smooth edges then cost as much as all else. */

@@ -27,6 +27,7 @@ export class Tube {
       triangles.push(a, b, a + SIDES, b, b + SIDES, a + SIDES);
     }
     this.geometry.setIndex(triangles);
+    this._first = 0; // ring that is drawn
     this._centre = new Float64Array(3);
     this._tangent = new Float64Array(3);
   }
@@ -35,19 +36,22 @@ export class Tube {
    * Lays it along the spheres.
    * @param {Float64Array} x x, y, z of each sphere, units
    * @param {number} radius units
+   * @param {number} first element from which on it is drawn
    */
-  place(x, radius) {
+  place(x, radius, first) {
     const position = this.geometry.getAttribute("position").array;
     const normals = this.geometry.getAttribute("normal").array;
     const normal = [0, 0, 0];
-    for (let ring = 0; ring < this.rings; ring++) {
+    this._first = first > 0 ? CAP + Math.min(first, this.elements - 1) * PER_ELEMENT : 0;
+    this.geometry.setDrawRange(6 * SIDES * this._first, Infinity);
+    for (let ring = this._first; ring < this.rings; ring++) {
       // At the ends rings grow smaller: a quarter of a circle, seen from the side.
       const beyond = Math.max(CAP - ring, ring - (this.rings - 1 - CAP), 0);
       const angle = (beyond / CAP) * 0.5 * Math.PI;
       const sign = ring < CAP ? -1 : 1;
       this._point(x, Math.min(Math.max(ring - CAP, 0), this.elements * PER_ELEMENT) / PER_ELEMENT);
       const [tx, ty, tz] = this._tangent;
-      if (ring === 0) {
+      if (ring === this._first) {
         const [ax, ay] = Math.abs(tx) < 0.9 ? [1, 0] : [0, 1];
         normal[0] = -tz * ay;
         normal[1] = tz * ax;
@@ -84,7 +88,7 @@ export class Tube {
   paint(colourAt) {
     const colours = this.geometry.getAttribute("color").array;
     const colour = [0, 0, 0];
-    for (let ring = 0; ring < this.rings; ring++) {
+    for (let ring = this._first; ring < this.rings; ring++) {
       colourAt(Math.min(Math.max(ring - CAP, 0), this.elements * PER_ELEMENT) / PER_ELEMENT, colour);
       for (let k = 3 * ring * SIDES; k < 3 * (ring + 1) * SIDES; k += 3) {
         colours[k] = colour[0];

@@ -231,6 +231,7 @@ namespace Guidewire.Core
         private static Simulation Rebuild(SimulationParameters parameters, RodStart start, Snapshot snapshot)
         {
             SimulationParameters continued = parameters.Copy();
+            start.IsReached = true;
             continued.Scene.Start = start;
             continued.Scene.InitialState = InitialState.Straight;
             continued.Drive.Displacement = 0.0;

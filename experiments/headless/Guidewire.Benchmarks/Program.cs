@@ -34,6 +34,11 @@ namespace Guidewire.Benchmarks
                 PrintArch();
                 return 0;
             }
+            if (arguments.Contains("--sheath"))
+            {
+                SheathFeed.Print();
+                return 0;
+            }
             if (arguments.Contains("-lines"))
             {
                 return RequestLoop.Serve(Console.In, Console.Out, MotionCost.Measure, () => false);
@@ -62,6 +67,7 @@ namespace Guidewire.Benchmarks
                 PrintNewton();
                 PrintCantilever();
                 PrintArch();
+                SheathFeed.Print();
             }
             return rows.All(row => row.Measured) ? 0 : 1;
         }

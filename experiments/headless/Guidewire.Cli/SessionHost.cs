@@ -126,6 +126,12 @@ namespace Guidewire.Cli
                 answer["force"] = Text(stress.Force);
                 answer["curvature"] = Text(stress.Curvature);
                 answer["couple"] = Text(stress.Couple);
+                answer["energy"] = new JObject
+                {
+                    ["kineticEnergy"] = stress.KineticEnergy,
+                    ["elasticEnergy"] = stress.ElasticEnergy,
+                    ["potentialEnergy"] = stress.PotentialEnergy,
+                };
             }
         }
 

@@ -57,6 +57,14 @@ namespace Guidewire.Core
         /// empty with gains.</summary>
         public Vector3d[] WallForces { get; internal set; } = Array.Empty<Vector3d>();
 
+        /// <summary>Force of the walls along their normals on each of the n elements in the last step, N: of what
+        /// pushes a sphere between two elements each has half. Empty with gains.</summary>
+        public Vector3d[] ElementForces { get; internal set; } = Array.Empty<Vector3d>();
+
+        /// <summary>Largest pressure of the walls on an element in the last step, Pa: what pushes it over its length
+        /// and diameter. 0 with gains.</summary>
+        public double Pressure { get; internal set; }
+
         internal void SetTotal(in Vector3d total)
         {
             Total = total;
@@ -80,10 +88,17 @@ namespace Guidewire.Core
             LargestTotal = other.LargestTotal;
             Reaction = other.Reaction;
             WallForces = other.WallForces;
+            Pressure = other.Pressure;
             for (int i = 0; i < Forces.Length; i++)
             {
                 int from = i - offset;
                 Forces[i] = from >= 0 && from < other.Forces.Length ? other.Forces[from] : Vector3d.Zero;
+            }
+            for (int j = 0; j < ElementForces.Length; j++)
+            {
+                int from = j - offset;
+                ElementForces[j] = from >= 0 && from < other.ElementForces.Length ? other.ElementForces[from]
+                    : Vector3d.Zero;
             }
         }
 
@@ -103,7 +118,9 @@ namespace Guidewire.Core
             LargestForce = snapshot.Exchange(LargestForce);
             LargestTotal = snapshot.Exchange(LargestTotal);
             Reaction = snapshot.Exchange(Reaction);
+            Pressure = snapshot.Exchange(Pressure);
             snapshot.Exchange(Forces);
+            snapshot.Exchange(ElementForces);
         }
 
         /// <summary>Adds what the drive asked of sphere 0 in a step, and what of it the walls did not give,

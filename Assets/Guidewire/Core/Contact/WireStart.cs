@@ -11,6 +11,7 @@ namespace Guidewire.Core
         // are a factor of 1000.
         private const double OddLengths = 100.0;
         private const double OddRadii = 300.0;
+        private const double LeastRange = 1e-9;  // units: within it a wall is looked for that an axis may cut
 
         /// <summary>What is wrong with the start that the parameters describe, in one phrase, or null.</summary>
         /// <exception cref="ArgumentException">There is no such start.</exception>
@@ -60,9 +61,7 @@ namespace Guidewire.Core
             {
                 for (int j = 0; j < scene.Shape.ElementCount; j++)
                 {
-                    int hint = -1;
-                    wall.Nearest(x[j], x[j + 1], double.PositiveInfinity, ref hint, out SurfaceContact contact);
-                    if (!(contact.Distance > 0.0) || !wall.Contains(x[j]) || !wall.Contains(x[j + 1]))
+                    if (!IsFree(wall, scene.IsReached, x, j, 0.0, out _))
                     {
                         return Outside(x, j, wall);
                     }
@@ -80,6 +79,32 @@ namespace Guidewire.Core
                 }
             }
             return null;
+        }
+
+        /// <summary>Whether an element that a wire starts with has its axis farther than a distance from a wall, on the
+        /// free side. Of a wire that a run had brought there an element outside the lumen has left by an open rim where
+        /// elements that come no nearer to the wall connect it to the lumen.</summary>
+        /// <param name="isReached">Whether a run had.</param>
+        /// <param name="x">The wire's nodes, units.</param>
+        /// <param name="least">That distance, units.</param>
+        /// <param name="distance">From the wall, units; 0 or less outside.</param>
+        internal static bool IsFree(ContactShape wall, bool isReached, Vector3d[] x, int element, double least,
+            out double distance)
+        {
+            Vector3d a = x[element];
+            Vector3d b = x[element + 1];
+            int hint = -1;
+            bool isInside = wall.Contains(a) && wall.Contains(b);
+            if (!isInside && isReached && Array.Exists(x, node => wall.Contains(node)))
+            {
+                // Which side of a far wall is free says nothing behind a rim.
+                bool isNear = wall.Nearest(a, b, Math.Max(least, LeastRange), ref hint, out SurfaceContact near);
+                distance = isNear ? near.Distance : double.PositiveInfinity;
+                return distance > least;
+            }
+            wall.Nearest(a, b, double.PositiveInfinity, ref hint, out SurfaceContact contact);
+            distance = isInside ? contact.Distance : Math.Min(contact.Distance, 0.0);
+            return distance > least;
         }
 
         private static string Outside(Vector3d[] x, int element, ContactShape wall)

@@ -144,11 +144,22 @@ namespace Guidewire.Core
         /// <summary>The same, and features of the wall (whatever a shape takes for them) that queries of points and
         /// parts of the segment may come to while nothing of it goes farther than <paramref name="reach"/>, units: they
         /// are added to a list, by which such queries are quicker. None where a shape has none. The distance may be too
-        /// small, never too large beyond what a quick one is.</summary>
+        /// small, never too large beyond what a quick one is; where a shape <see cref="HasPointFeatures"/>, it is that
+        /// of the segment's inside, and counts only where it is less than those of its ends.</summary>
         internal virtual double FindFeatures(in Vector3d a, in Vector3d b, double range, double reach, ref int hint,
-            StructList<int> features)
+            StructList<WallFeature> features)
         {
             return QuickDistance(a, b, range, ref hint);
+        }
+
+        /// <summary>Whether points have features of their own.</summary>
+        internal virtual bool HasPointFeatures => false;
+
+        /// <summary>Adds the features within a range of a point.</summary>
+        /// <returns>Its distance in units, infinite beyond the range.</returns>
+        internal virtual double FindFeatures(in Vector3d x, double range, StructList<WallFeature> features)
+        {
+            return double.PositiveInfinity;
         }
 
         /// <summary>The places within a range of a point, by the features near it.</summary>
@@ -175,9 +186,9 @@ namespace Guidewire.Core
         /// <summary>A fraction of the linear motion of segment a b from (a0, b0) to (a1, b1) on which it keeps a
         /// distance, in units, or more: <see cref="NoImpact"/> for all of it, 0 where the start is nearer. An approach
         /// of less than <paramref name="resolution"/>, units, is none. The hint is that of a query of the start, or
-        /// -1; the features are those of the start, for a reach that the motion keeps to.</summary>
+        /// -1; the features, where they are known, those of the start, for a reach that the motion keeps to.</summary>
         internal virtual double FreeShare(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
-            double resolution, int hint, FeatureRange features)
+            double resolution, int hint, in ElementFeatures features)
         {
             return FreeUntil(a0, b0, a1, b1, keep, resolution, hint);
         }

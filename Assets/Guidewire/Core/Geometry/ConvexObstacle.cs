@@ -13,6 +13,7 @@ namespace Guidewire.Core
         private readonly Vector3d[] _points;
         private readonly double _radius;
         private readonly Gjk _gjk = new Gjk();
+        private HullEdges.Edge[]? _edges;
         private readonly double _flatness;    // height below which points lie in one plane, units
 
         /// <summary>The body of all points within <paramref name="radius"/> (0 or more, units) of the convex hull of
@@ -168,15 +169,15 @@ namespace Guidewire.Core
             return _gjk.Distance(point, point, _points, out _, out _, out _) - _radius;
         }
 
-        /// <summary>The whole body: its distance from a segment is convex.</summary>
+        /// <summary>The edges of the hull: over a face a segment is nearest with an end.</summary>
         internal override void FindRidges(
             in Vector3d a, in Vector3d b, double range, StructList<WallRidge> ridges)
         {
-            int hint = -1;
-            if (Nearest(a, b, range, ref hint, out SurfaceContact contact))
+            _edges ??= HullEdges.Find(_points, _flatness);
+            foreach (HullEdges.Edge edge in _edges)
             {
-                ridges.Add(new WallRidge(
-                    contact.Position, contact.Distance, contact.Normal, 1.0, Vector3d.Zero, Vector3d.Zero));
+                RidgeOfEdge.Add(
+                    a, b, _points[edge.Start], _points[edge.End], _radius, edge.Angle, range, ridges);
             }
         }
 

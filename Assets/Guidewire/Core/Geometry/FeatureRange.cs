@@ -1,17 +1,53 @@
+using System;
+
 namespace Guidewire.Core
 {
+    /// <summary>A feature of a wall (whatever a shape takes for one) that was found near something.</summary>
+    internal readonly struct WallFeature : IComparable<WallFeature>
+    {
+        /// <summary>Feature number <paramref name="index"/>.</summary>
+        /// <param name="index">As the shape counts.</param>
+        /// <param name="distance">Units; the feature was no nearer.</param>
+        public WallFeature(int index, double distance)
+        {
+            Index = index;
+            Distance = distance;
+        }
+
+        /// <summary>Its number.</summary>
+        public int Index { get; }
+
+        /// <summary>A distance, units, than which it was no nearer where it was found.</summary>
+        public double Distance { get; }
+
+        /// <summary>By distance.</summary>
+        public int CompareTo(WallFeature other)
+        {
+            int byDistance = Distance.CompareTo(other.Distance);
+            return byDistance != 0 ? byDistance : Index.CompareTo(other.Index);
+        }
+    }
+
     /// <summary>Part of a list of features of a wall; see <see cref="ContactShape.FindFeatures"/>.</summary>
     internal readonly struct FeatureRange
     {
-        private readonly StructList<int> _features;
+        private readonly StructList<WallFeature>? _features;
 
         /// <summary>The part from one place (inclusive) to another (exclusive).</summary>
-        public FeatureRange(StructList<int> features, int from, int to)
+        /// <param name="features">The list.</param>
+        /// <param name="from">First place.</param>
+        /// <param name="to">Place behind the last.</param>
+        /// <param name="moved">Units; nothing of what they were found for has gone farther since then.</param>
+        public FeatureRange(StructList<WallFeature> features, int from, int to, double moved)
         {
             _features = features;
             From = from;
             To = to;
+            Moved = moved;
         }
+
+        /// <summary>Whether the features near are known; if not, the range is empty and says nothing.</summary>
+        public bool IsKnown => _features != null;
 
         /// <summary>First place.</summary>
         public int From { get; }
@@ -19,7 +55,37 @@ namespace Guidewire.Core
         /// <summary>Place behind the last.</summary>
         public int To { get; }
 
+        /// <summary>How far what they were found for has gone since then at most, units.</summary>
+        public double Moved { get; }
+
         /// <summary>The feature at a place.</summary>
-        public int this[int place] => _features[place];
+        public int this[int place] => _features![place].Index;
+
+        /// <summary>A distance, units, than which the feature at a place is no nearer now.</summary>
+        public double LeastDistance(int place)
+        {
+            return _features![place].Distance - Moved;
+        }
+    }
+
+    /// <summary>Features of a wall near an element and near its two ends.</summary>
+    internal readonly struct ElementFeatures
+    {
+        /// <summary>The three together.</summary>
+        public ElementFeatures(FeatureRange between, FeatureRange atA, FeatureRange atB)
+        {
+            Between = between;
+            AtA = atA;
+            AtB = atB;
+        }
+
+        /// <summary>Near the element.</summary>
+        public FeatureRange Between { get; }
+
+        /// <summary>Near its first end; those of the element where the shape has none of points.</summary>
+        public FeatureRange AtA { get; }
+
+        /// <summary>Near its second end.</summary>
+        public FeatureRange AtB { get; }
     }
 }

@@ -155,7 +155,7 @@ namespace Guidewire.Core
 
         /// <summary>Pieces that hold something within the reach of the segment, along the centreline.</summary>
         internal override double FindFeatures(in Vector3d a, in Vector3d b, double range, double reach, ref int hint,
-            StructList<int> features)
+            StructList<WallFeature> features)
         {
             int from = features.Count;
             _tree.Collect(a, b, reach, features);
@@ -163,7 +163,7 @@ namespace Guidewire.Core
             {
                 return QuickDistance(a, b, range, ref hint);
             }
-            var found = new FeatureRange(features, from, features.Count);
+            var found = new FeatureRange(features, from, features.Count, 0.0);
             hint = Deepest(a, found, out double atA);
             Deepest(b, found, out double atB);
             return Math.Min(Math.Min(atA, atB), Ridges.Nearest(a, b, found));
@@ -190,6 +190,11 @@ namespace Guidewire.Core
         internal override void FindRidges(in Vector3d a, in Vector3d b, double range, FeatureRange features,
             StructList<WallRidge> ridges)
         {
+            if (!features.IsKnown)
+            {
+                FindRidges(a, b, range, ridges);
+                return;
+            }
             Ridges.Find(a, b, range, features, ridges);
         }
 
@@ -197,7 +202,23 @@ namespace Guidewire.Core
         internal override bool Holds(in Vector3d a, in Vector3d b, int hint)
         {
             ref readonly TubePiece piece = ref _tree.Pieces[hint >= 0 && hint < _tree.Pieces.Length ? hint : 0];
-            return (piece.Distance(a) > 0.0 && piece.Distance(b) > 0.0) || LeastDistance(a, b) > 0.0;
+            return (piece.Distance(a) > 0.0 && piece.Distance(b) > 0.0) || HoldBoth(a, b)
+                || LeastDistance(a, b) > 0.0;
+        }
+
+        // Whether the deepest piece at one end holds the part up to a place, and that at the other end the rest: pieces
+        // are convex, so their ends say it of parts. The place is the one nearest to their common knot.
+        private bool HoldBoth(in Vector3d a, in Vector3d b)
+        {
+            int first = _tree.Deepest(a, 0, out double atA);
+            int last = _tree.Deepest(b, first, out double atB);
+            if (!(atA > 0.0) || !(atB > 0.0) || Math.Abs(first - last) > 1)
+            {
+                return false;
+            }
+            Vector3d knot = _knots[Math.Max(first, last)];
+            Vector3d between = Vector3d.Lerp(a, b, ClosestPoints.PointSegment(knot, a, b));
+            return _tree.Pieces[first].Distance(between) > 0.0 && _tree.Pieces[last].Distance(between) > 0.0;
         }
 
         private int Deepest(in Vector3d x, FeatureRange features, out double distance)
@@ -236,7 +257,7 @@ namespace Guidewire.Core
 
         /// <inheritdoc/>
         internal override double FreeShare(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
-            double resolution, int hint, FeatureRange features)
+            double resolution, int hint, in ElementFeatures features)
         {
             _keeping ??= new TubeKeeping(_tree.Pieces, Planes);
             return _keeping.Keeping(a0, b0, a1, b1, keep, hint);

@@ -98,14 +98,14 @@ namespace Guidewire.Core
         }
 
         /// <summary>Adds the pieces that hold something within a reach of segment a b, in their order.</summary>
-        public void Collect(in Vector3d a, in Vector3d b, double reach, StructList<int> pieces)
+        public void Collect(in Vector3d a, in Vector3d b, double reach, StructList<WallFeature> pieces)
         {
             Vector3d middle = 0.5 * (a + b);
             Collect(0, 0, _pieces.Length, a, b, reach, middle, -reach - 0.5 * Vector3d.Distance(a, b), pieces);
         }
 
         private void Collect(int node, int first, int end, in Vector3d a, in Vector3d b, double reach,
-            in Vector3d middle, double least, StructList<int> pieces)
+            in Vector3d middle, double least, StructList<WallFeature> pieces)
         {
             if (Bound(node, middle) < least)
             {
@@ -115,7 +115,7 @@ namespace Guidewire.Core
             {
                 if (_pieces[first].MayHold(a, b, reach))
                 {
-                    pieces.Add(first);
+                    pieces.Add(new WallFeature(first, 0.0));
                 }
                 return;
             }

@@ -50,12 +50,18 @@ namespace Guidewire.Core
         /// <summary>Spheres that are out of the sheath; null without a sheath.</summary>
         public int? SpheresInBody { get; private set; }
 
+        /// <summary>The hub's axis, a unit vector.</summary>
+        internal static Vector3d AxisOf(RodTerms terms, RodShape shape)
+        {
+            return terms.Supports.HasProximalJoint ? shape.ProximalFrame.Director3 : shape.Q[0].Director3;
+        }
+
         /// <summary>Takes the wire as it is.</summary>
         /// <param name="ahead">How far the hub is ahead of the frame of joint 0, radians.</param>
         internal void Take(RodTerms terms, RodShape shape, MaterialDrive drive, in Vector3d force, in Vector3d couple,
             double ahead)
         {
-            Vector3d axis = terms.Supports.HasProximalJoint ? shape.ProximalFrame.Director3 : shape.Q[0].Director3;
+            Vector3d axis = AxisOf(terms, shape);
             Insertion = drive.Insertion;
             Turn = drive.Turn;
             Force = Vector3d.Dot(force, axis);

@@ -6,6 +6,8 @@ namespace Guidewire.Core
     /// hand, a table or the drive's speeds have it.</summary>
     internal sealed class MaterialDrive
     {
+        private const double Nothing = 1e-12;  // m, a way that rounding leaves of times in a table
+
         private readonly RodSchedule _schedule;
         private IDriveDirection? _direction;
         private readonly double _speed;      // m/s
@@ -14,6 +16,7 @@ namespace Guidewire.Core
         private readonly Steering? _hand;
         private readonly DriveTable? _table;
         private readonly bool _followsSpring;
+        private double _sense = 1.0;         // 1 where it was last asked to push, -1 to pull
 
         /// <summary>The drive of this scene.</summary>
         /// <param name="followsSpring">Whether node 0 follows its place on a spring, which gives way a little.</param>
@@ -44,10 +47,10 @@ namespace Guidewire.Core
         public double Turn { get; private set; }
 
         /// <summary>All three, to take a step again.</summary>
-        public (double Insertion, double Turn, double Slip) Way
+        public (double Insertion, double Turn, double Slip, double Sense) Way
         {
-            get => (Insertion, Turn, Slip);
-            set => (Insertion, Turn, Slip) = value;
+            get => (Insertion, Turn, Slip, _sense);
+            set => (Insertion, Turn, Slip, _sense) = value;
         }
 
         /// <summary>The farthest that it may move node 0, m.</summary>
@@ -59,12 +62,12 @@ namespace Guidewire.Core
         /// <summary>The way of the drive in the present step, a unit vector; zero where nothing is driven.</summary>
         public Vector3d Axis { get; private set; }
 
-        /// <summary>What of its way the hub has lost by giving way, m.</summary>
+        /// <summary>What the hub has lost of its way, m: less where it gave way in the sense in which it was
+        /// asked to go.</summary>
         public double Slip { get; private set; }
 
-        /// <summary>What of the way asked for in the present step is beyond where node 0 may be moved, m; the hub loses
-        /// it.</summary>
-        public double Withheld { get; private set; }
+        /// <summary>The way asked for in the present step, m, never negative.</summary>
+        public double Asked { get; private set; }
 
         /// <summary>What moves node 0 moves it along this axis, of any length but 0.</summary>
         public void GoAlong(in Vector3d axis)
@@ -90,12 +93,13 @@ namespace Guidewire.Core
             }
             double speed = _hand != null ? _metres * _hand.Push / _timeStep
                 : _table != null ? Rate(_table.Insertion, time) : _speed;
-            double goes = Math.Min(Math.Max(Insertion + speed * _timeStep, LeastInsertion), MostInsertion) - Insertion;
-            Withheld = 0.0;
-            if (Insertion + speed * _timeStep > MostInsertion || Insertion + speed * _timeStep < LeastInsertion)
+            double asked = speed * _timeStep;
+            _sense = Math.Abs(asked) < Nothing ? _sense : Math.Sign(asked);
+            Asked = Math.Abs(asked);
+            if (Insertion + asked > MostInsertion || Insertion + asked < LeastInsertion)
             {
-                Withheld = Math.Abs(speed * _timeStep - goes);
-                Slip += Withheld;
+                double goes = Math.Min(Math.Max(Insertion + asked, LeastInsertion), MostInsertion) - Insertion;
+                Slip += _sense * (asked - goes);
                 speed = goes / _timeStep;
             }
             Axis = _direction.At(shape.X[0], shape.X[1]);
@@ -113,8 +117,15 @@ namespace Guidewire.Core
             {
                 _schedule.ProximalPosition -= slip * Axis;
                 Insertion -= slip;
-                Slip += Math.Abs(slip);
+                Slip += _sense * slip;
             }
+        }
+
+        /// <summary>What of a way between two places is in the sense in which the drive was last asked to go,
+        /// m.</summary>
+        public double Gone(in Vector3d from, in Vector3d to)
+        {
+            return _sense * Vector3d.Dot(to - from, Axis);
         }
 
         /// <summary>Writes or takes over how far the hub has come.</summary>
@@ -123,6 +134,7 @@ namespace Guidewire.Core
             Insertion = snapshot.Exchange(Insertion);
             Turn = snapshot.Exchange(Turn);
             Slip = snapshot.Exchange(Slip);
+            snapshot.Exchange(ref _sense);
         }
 
         private double Rate(TimeTable table, double time)

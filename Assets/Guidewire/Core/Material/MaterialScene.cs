@@ -80,6 +80,9 @@ namespace Guidewire.Core
         /// <summary>Where the rod is at the start, before the displacement of sphere 0, m.</summary>
         public RodShape Shape { get; }
 
+        /// <summary>Whether a run had come there, by an open rim, too.</summary>
+        public bool IsReached => _scene.IsReached;
+
         /// <summary>Velocities at the start, m/s.</summary>
         public Vector3d[] Velocities { get; set; }
 

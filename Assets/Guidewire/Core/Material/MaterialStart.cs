@@ -17,20 +17,15 @@ namespace Guidewire.Core
         public static string? FindProblem(MaterialScene scene, int from, int to)
         {
             double units = 1.0 / scene.Metres;
+            Vector3d[] x = System.Array.ConvertAll(scene.Shape.X, node => units * node);
             for (int j = from; j < to; j++)
             {
-                Vector3d a = units * scene.Shape.X[j];
-                Vector3d b = units * scene.Shape.X[j + 1];
                 double radius = units * scene.Rod.Radius[j];
                 foreach (ContactShape wall in scene.Walls)
                 {
-                    int hint = -1;
-                    wall.Nearest(a, b, double.PositiveInfinity, ref hint, out SurfaceContact contact);
-                    double distance = wall.Contains(a) && wall.Contains(b) ? contact.Distance
-                        : System.Math.Min(contact.Distance, 0.0);
-                    if (!(distance > radius))
+                    if (!WireStart.IsFree(wall, scene.IsReached, x, j, radius, out double distance))
                     {
-                        return Text(j, a, b, radius, distance, wall);
+                        return Text(j, x[j], x[j + 1], radius, distance, wall);
                     }
                 }
             }

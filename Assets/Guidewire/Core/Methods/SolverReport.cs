@@ -70,8 +70,11 @@ namespace Guidewire.Core
         /// <summary>Energy stored in the wire and its motion, less the work of dead loads, J.</summary>
         public double Energy { get; internal set; } = double.NaN;
 
-        /// <summary>Writes or takes over what the rest shape of the start left here; the rest is stated anew by each
-        /// report.</summary>
+        /// <summary>Largest values of the run; null with xpbd and explicit.</summary>
+        public RunExtremes? Extremes { get; internal set; }
+
+        /// <summary>Writes or takes over what the rest shape of the start left here, and the run's extremes; the
+        /// rest is stated anew by each report.</summary>
         internal void Exchange(Snapshot snapshot)
         {
             Method = snapshot.Exchange(Method);
@@ -79,6 +82,7 @@ namespace Guidewire.Core
             EquilibriumIterations = snapshot.Exchange(EquilibriumIterations);
             EquilibriumResidual = snapshot.Exchange(EquilibriumResidual);
             SmallestEigenvalue = snapshot.Exchange(SmallestEigenvalue);
+            Extremes?.Exchange(snapshot);
         }
     }
 }

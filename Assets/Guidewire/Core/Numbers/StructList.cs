@@ -28,6 +28,13 @@ namespace Guidewire.Core
             Count = 0;
         }
 
+        /// <summary>Sorts the items from place <paramref name="from"/> on; allocates nothing where items say
+        /// themselves which comes first.</summary>
+        public void Sort(int from)
+        {
+            Array.Sort(_items, from, Count - from);
+        }
+
         /// <summary>Puts an item at the end.</summary>
         public void Add(in T item)
         {

@@ -30,6 +30,9 @@ namespace Guidewire.Core
         /// <summary>n + 1 sphere positions in units.</summary>
         public Vector3d[] Positions { get; }
 
+        /// <summary>Whether a run had come here: it may then be through an open rim of a wall.</summary>
+        internal bool IsReached { get; set; }
+
         /// <summary>n orientations.</summary>
         public Quaterniond[] Orientations { get; }
 

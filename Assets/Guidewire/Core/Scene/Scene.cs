@@ -66,6 +66,9 @@ namespace Guidewire.Core
         /// <summary>Where the wire is at the start, before the displacement of sphere 0.</summary>
         public RodShape Shape { get; }
 
+        /// <summary>Whether a run had come there (<see cref="RodStart.IsReached"/>).</summary>
+        public bool IsReached { get; private set; }
+
         /// <summary>Velocities of the n + 1 spheres at the start.</summary>
         public Vector3d[] Velocities { get; }
 
@@ -119,6 +122,7 @@ namespace Guidewire.Core
             if (scene.Start != null)
             {
                 Load(scene.Start);
+                IsReached = scene.Start.IsReached;
             }
         }
 

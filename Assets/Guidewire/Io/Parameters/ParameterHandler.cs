@@ -28,6 +28,8 @@ namespace Guidewire.Io
 
         private readonly List<string> _ignored = new List<string>();
 
+        private bool _isSteered;
+
         private ParameterHandler()
         {
         }
@@ -48,11 +50,13 @@ namespace Guidewire.Io
         /// <summary>The parameters of a file with overrides on top.</summary>
         /// <param name="file">A JSON file, or null for the defaults (thesis table 4.1).</param>
         /// <param name="overrides">Keys and values that count instead of the file's.</param>
+        /// <param name="isSteered">Whether a hand moves the wire in place of the drive.</param>
         /// <exception cref="ParameterException">A file that cannot be read, a key that is not known, a value that is
         /// not allowed, two keys that disagree.</exception>
-        public static ParameterHandler Load(string? file, IEnumerable<KeyValuePair<string, JToken>> overrides)
+        public static ParameterHandler Load(string? file, IEnumerable<KeyValuePair<string, JToken>> overrides,
+            bool isSteered = false)
         {
-            var handler = new ParameterHandler();
+            var handler = new ParameterHandler { _isSteered = isSteered };
             if (file != null)
             {
                 foreach (JProperty property in JsonText.ReadObject(file).Properties())
@@ -152,6 +156,10 @@ namespace Guidewire.Io
             LoadTableReader.Read(Values, _given.TryGetValue("loadTables", out var tables) ? tables.Source : "");
             DriveTableReader.Read(Values, _given.TryGetValue("driveFile", out var drive) ? drive.Source : "");
             SheathReader.Read(Values, _given.TryGetValue("sheath", out var sheath) ? sheath.Source : "");
+            if (_isSteered && Values.Sheath != null)
+            {
+                simulation.Drive.Steering = new Steering(); // the drive asks for nothing then, and so not for too much
+            }
             ReadWalls(simulation);
             Warn();
             Hash = ComputeHash();

@@ -95,6 +95,11 @@ namespace Guidewire.Io
                 Put(contacts.Total);
                 Put(contacts.Reaction);
                 Put(contacts.WallForces, 0);
+                Put(contacts.ElementForces, 0);
+                if (contacts.ElementForces.Length > 0)
+                {
+                    Put(contacts.Pressure);
+                }
             }
             _count++;
             if (elapsed - _flushed > FlushAfter)
@@ -203,6 +208,11 @@ namespace Guidewire.Io
             if (contacts.WallForces.Length > 0)
             {
                 Add("wallForces", _number, contacts.WallForces.Length, 3);
+            }
+            if (contacts.ElementForces.Length > 0)
+            {
+                Add("elementForces", _number, contacts.ElementForces.Length, 3);
+                Add("wallPressure", _number);
             }
         }
 

@@ -178,24 +178,37 @@ namespace Guidewire.Io
         {
             Append(", \"contact\": {\"total\": ", contacts.Total);
             Append(", \"reaction\": ", contacts.Reaction);
-            Append(", \"sphere\": {");
-            bool first = true;
-            for (int i = 0; i < contacts.Forces.Length; i++)
-            {
-                if (contacts.Forces[i] != Vector3d.Zero)
-                {
-                    Append(first ? "\"" : ", \"");
-                    Append(i);
-                    Append("\": ", contacts.Forces[i]);
-                    first = false;
-                }
-            }
-            Append("}");
+            Append(", \"sphere\": ");
+            AppendNonzero(contacts.Forces);
             for (int w = 0; w < contacts.WallForces.Length; w++)
             {
                 Append(w == 0 ? ", \"wall\": {\"0\": " : ", \"" + w + "\": ", contacts.WallForces[w]);
             }
-            Append(contacts.WallForces.Length > 0 ? "}}" : "}");
+            Append(contacts.WallForces.Length > 0 ? "}" : "");
+            if (contacts.ElementForces.Length > 0)
+            {
+                Append(", \"pressure\": ", contacts.Pressure);
+                Append(", \"element\": ");
+                AppendNonzero(contacts.ElementForces);
+            }
+            Append("}");
+        }
+
+        private void AppendNonzero(Vector3d[] forces)
+        {
+            Append("{");
+            bool first = true;
+            for (int i = 0; i < forces.Length; i++)
+            {
+                if (forces[i] != Vector3d.Zero)
+                {
+                    Append(first ? "\"" : ", \"");
+                    Append(i);
+                    Append("\": ", forces[i]);
+                    first = false;
+                }
+            }
+            Append("}");
         }
 
         private void Append(string name, in Vector3d value)

@@ -54,6 +54,7 @@ namespace Guidewire.Io
                 ["largestWallForce"] = Finite(simulation.Contacts?.LargestTotal ?? 0.0),
                 ["wallForces"] = new JArray(Array.ConvertAll(
                     simulation.Contacts?.WallForces ?? Array.Empty<Vector3d>(), force => Vector(force))),
+                ["extremes"] = simulation.Report()?.Extremes is RunExtremes extremes ? Extremes(extremes) : null,
                 ["timed"] = repeat.HasValue,
                 ["repeat"] = repeat,
                 ["warnings"] = new JArray(handler.Warnings.Concat(simulation.Warnings)),
@@ -107,6 +108,21 @@ namespace Guidewire.Io
                 ["distalForce"] = Vector(report.DistalForce),
                 ["distalMoment"] = Vector(report.DistalMoment),
                 ["energy"] = Finite(report.Energy),
+            };
+        }
+
+        private static JObject Extremes(RunExtremes extremes)
+        {
+            return new JObject
+            {
+                ["curvature"] = Finite(extremes.Curvature),
+                ["strain"] = Finite(extremes.Strain),
+                ["axialForce"] = Finite(extremes.AxialForce),
+                ["axialTorque"] = Finite(extremes.AxialTorque),
+                ["elementForce"] = Finite(extremes.ElementForce),
+                ["wallPressure"] = Finite(extremes.WallPressure),
+                ["frictionPower"] = Finite(extremes.FrictionPower),
+                ["frictionWork"] = Finite(extremes.FrictionWork),
             };
         }
 

@@ -74,7 +74,7 @@ namespace Guidewire.Io
             bool? isSteered)
         {
             var given = new List<KeyValuePair<string, JToken>>(overrides);
-            ParameterHandler handler = ParameterHandler.Load(file, given);
+            ParameterHandler handler = ParameterHandler.Load(file, given, isSteered == true);
             MethodParameters method = handler.Values.Simulation.Method;
             MethodTraits traits = MethodTable.Of(method.Solver);
             if (isSteered == true && !traits.TakesSteering)
@@ -97,7 +97,7 @@ namespace Guidewire.Io
             string logFolder, bool isSteered)
         {
             List<KeyValuePair<string, JToken>> given = CommandLineHandler.ReadAssignments(overrides);
-            ParameterHandler handler = ParameterHandler.Load(file, given);
+            ParameterHandler handler = ParameterHandler.Load(file, given, isSteered);
             long before = Stopwatch.GetTimestamp();
             var session = new SimulationSession(file, given, handler, isSteered);
             double setUp = (Stopwatch.GetTimestamp() - before) * RunFolder.ToMilliseconds;
@@ -215,7 +215,7 @@ namespace Guidewire.Io
                 changed.RemoveAll(pair => pair.Key == value.Key);
                 changed.Add(value);
             }
-            ParameterHandler handler = ParameterHandler.Load(_file, changed);
+            ParameterHandler handler = ParameterHandler.Load(_file, changed, _hand != null);
             MethodParameters method = handler.Values.Simulation.Method;
             method.StatesReactions |= _statesReactions && CanStateReactions(method);
             handler.Values.Simulation.Drive.Steering = _hand;

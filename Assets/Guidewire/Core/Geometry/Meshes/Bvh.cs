@@ -247,15 +247,31 @@ namespace Guidewire.Core
             in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep, double resolution, double motion,
             ref double impact)
         {
+            if (StaysOnOneSide(a0, b0, a1, b1, v0, v1, v2, keep))
+            {
+                return ContactShape.NoImpact;
+            }
+            Vector3d middle = (1.0 / 3.0) * (v0 + v1 + v2);
+            double ball = Math.Sqrt(Math.Max(
+                (v0 - middle).LengthSquared, Math.Max((v1 - middle).LengthSquared, (v2 - middle).LengthSquared)));
+            return SweepBody(
+                new TriangleBody(v0, v1, v2), middle, ball, a0, b0, a1, b1, keep, resolution, motion, ref impact);
+        }
+
+        /// <summary>The same for any convex body in a ball.</summary>
+        public static double SweepBody<TBody>(in TBody body, in Vector3d middle, double ball, in Vector3d a0,
+            in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep, double resolution, double motion,
+            ref double impact)
+            where TBody : struct, IConvexBody
+        {
             double limit = Math.Min(1.0, impact);
             double range = RoundedUp * (keep + limit * motion);
-            if (StaysOnOneSide(a0, b0, a1, b1, v0, v1, v2, keep)
-                || !MayReach(a0, b0, range, v0, v1, v2, out double from, out double to))
+            if (!MayReach(a0, b0, range + ball, middle, out double from, out double to))
             {
                 return ContactShape.NoImpact;
             }
             double time = SweptTest.Impact(
-                new TriangleBody(v0, v1, v2), Vector3d.Lerp(a0, b0, from), Vector3d.Lerp(a0, b0, to),
+                body, Vector3d.Lerp(a0, b0, from), Vector3d.Lerp(a0, b0, to),
                 Vector3d.Lerp(a1, b1, from), Vector3d.Lerp(a1, b1, to), keep, resolution, limit);
             if (time < impact)
             {
@@ -292,17 +308,13 @@ namespace Guidewire.Core
             }
         }
 
-        // The part of the segment that may come to the triangle: what lies within the range of the ball around it. Of
+        // The part of the segment that may come to a body: what lies within reach of the middle of the ball around it. Of
         // a long segment that turns about its touching place, that part moves little.
-        private static bool MayReach(
-            in Vector3d a, in Vector3d b, double range, in Vector3d v0, in Vector3d v1, in Vector3d v2,
-            out double from, out double to)
+        private static bool MayReach(in Vector3d a, in Vector3d b, double reach, in Vector3d middle, out double from,
+            out double to)
         {
             from = 0.0;
             to = 1.0;
-            Vector3d middle = (1.0 / 3.0) * (v0 + v1 + v2);
-            double reach = range + Math.Sqrt(Math.Max(
-                (v0 - middle).LengthSquared, Math.Max((v1 - middle).LengthSquared, (v2 - middle).LengthSquared)));
             Vector3d along = b - a;
             double lengthSquared = along.LengthSquared;
             double reachSquared = reach * reach;

@@ -2,16 +2,23 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>The triangles of a mesh near a segment, found once in the hierarchy and then asked by the balls around
-    /// them.</summary>
+    /// <summary>What of a mesh is near a wire, found once in the hierarchies and then asked as the wire moves: near
+    /// nodes triangles, near elements ridges.</summary>
+    /// <remarks>The inside of an element can only be nearer to the wall than its ends where the wall bulges: at the
+    /// nearest place of a valley, of a flat wall or of a hollow corner the distance is a concave function along the
+    /// element. So triangles are for points, and the edges for elements are ridges; corners are ends of ridges.
+    /// </remarks>
     internal sealed class MeshNearby
     {
         private readonly MeshGeometry _mesh;
-        private readonly Vector3d[] _centre;
-        private readonly double[] _radius;
+        private readonly Vector3d[] _centre;     // of the triangles
+        private readonly double[] _radius;       // of the balls around them
+        private readonly int[] _ridge;           // places of the edges that are ridges
+        private readonly Bvh? _ridgeTree;
+        private readonly StructList<int> _found = new StructList<int>(256);
 
         /// <summary>For this mesh where it stands.</summary>
-        public MeshNearby(MeshGeometry mesh)
+        public MeshNearby(MeshGeometry mesh, MeshRidges ridges)
         {
             _mesh = mesh;
             _centre = new Vector3d[mesh.Corners.Length / 3];
@@ -26,62 +33,178 @@ namespace Guidewire.Core
                     _radius[i] = Math.Max(_radius[i], Vector3d.Distance(centre, mesh.Corners[k]));
                 }
             }
+            _ridge = ridges.Edges();
+            if (_ridge.Length > 0)
+            {
+                var corners = new Vector3d[3 * _ridge.Length];
+                for (int k = 0; k < _ridge.Length; k++)
+                {
+                    mesh.EndsOf(_ridge[k], out int from, out int to);
+                    corners[3 * k] = mesh.Corners[from];
+                    corners[3 * k + 1] = mesh.Corners[to];
+                    corners[3 * k + 2] = mesh.Corners[to];
+                }
+                _ridgeTree = new Bvh(corners);
+            }
         }
 
-        /// <summary>Adds the triangles that may be within a range of segment a b.</summary>
-        /// <returns>A distance than which none of them is nearer; infinite where there is none.</returns>
-        public double Find(in Vector3d a, in Vector3d b, double range, StructList<int> triangles)
+        /// <summary>Adds the triangles that may be within a range of a point, nearest first.</summary>
+        /// <returns>The distance of the nearest; infinite where there is none.</returns>
+        public double FindTriangles(in Vector3d x, double range, StructList<WallFeature> triangles)
         {
             int from = triangles.Count;
-            _mesh.Tree.Within(a, b, range, triangles);
-            double nearest = double.PositiveInfinity;
-            for (int k = from; k < triangles.Count; k++)
+            _found.Clear();
+            _mesh.Tree.Within(x, x, range, _found);
+            for (int k = 0; k < _found.Count; k++)
             {
-                nearest = Math.Min(nearest, LeastDistance(a, b, triangles[k]));
+                double distance = LeastDistance(x, _found[k]);
+                if (distance <= range)
+                {
+                    triangles.Add(new WallFeature(_found[k], distance));
+                }
             }
-            return Math.Max(0.0, nearest);
+            triangles.Sort(from);
+            double nearest = double.PositiveInfinity;
+            for (int k = from; k < triangles.Count && triangles[k].Distance < nearest; k++)
+            {
+                int i = 3 * triangles[k].Index;
+                double squared = ClosestPoints.PointTriangle(
+                    x, _mesh.Corners[i], _mesh.Corners[i + 1], _mesh.Corners[i + 2], out _, out _);
+                nearest = Math.Min(nearest, Math.Sqrt(squared));
+            }
+            return nearest;
         }
 
-        /// <summary>Adds those of a range of triangles that may be within a distance of segment a b.</summary>
-        public void Choose(in Vector3d a, in Vector3d b, double distance, FeatureRange among,
-            StructList<int> triangles)
+        /// <summary>Adds the ridges within a range of segment a b, nearest first.</summary>
+        /// <returns>The distance of the nearest; infinite where there is none.</returns>
+        public double FindRidges(in Vector3d a, in Vector3d b, double range, StructList<WallFeature> ridges)
         {
-            for (int k = among.From; k < among.To; k++)
+            int from = ridges.Count;
+            _found.Clear();
+            _ridgeTree?.Within(a, b, range, _found);
+            for (int k = 0; k < _found.Count; k++)
             {
-                if (LeastDistance(a, b, among[k]) <= distance)
+                int edge = _ridge[_found[k]];
+                double distance = Distance(a, b, edge);
+                if (distance <= range)
+                {
+                    ridges.Add(new WallFeature(edge, distance));
+                }
+            }
+            ridges.Sort(from);
+            return ridges.Count > from ? ridges[from].Distance : double.PositiveInfinity;
+        }
+
+        /// <summary>Adds those triangles that may be within a distance of a point.</summary>
+        public void Choose(in Vector3d x, double distance, FeatureRange among, StructList<int> triangles)
+        {
+            for (int k = among.From; k < among.To && among.LeastDistance(k) <= distance; k++)
+            {
+                if (LeastDistance(x, among[k]) <= distance)
                 {
                     triangles.Add(among[k]);
                 }
             }
         }
 
-        /// <summary>Fraction of the motion of segment a b during which it stays at least <paramref name="keep"/> from
-        /// every triangle of a range, as <see cref="Bvh.Sweep"/> has it.</summary>
-        public double Sweep(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
-            double resolution, FeatureRange among)
+        /// <summary>Adds the ridges that may be within a distance of segment a b.</summary>
+        public void ChooseRidges(in Vector3d a, in Vector3d b, double distance, StructList<int> ridges)
         {
-            double impact = ContactShape.NoImpact;
-            double motion = Math.Max(Vector3d.Distance(a0, a1), Vector3d.Distance(b0, b1));
-            double reach = (keep + motion) * (1.0 + 1e-9);
-            for (int k = among.From; k < among.To; k++)
+            int from = ridges.Count;
+            _ridgeTree?.Within(a, b, distance, ridges);
+            for (int k = from; k < ridges.Count; k++)
             {
-                int i = among[k];
-                if (LeastDistance(a0, b0, i) <= reach)
-                {
-                    Bvh.SweepTriangle(_mesh.Corners[3 * i], _mesh.Corners[3 * i + 1], _mesh.Corners[3 * i + 2],
-                        a0, b0, a1, b1, keep, resolution, motion, ref impact);
-                }
+                ridges[k] = _ridge[ridges[k]];
             }
-            return impact;
         }
 
-        private double LeastDistance(in Vector3d a, in Vector3d b, int triangle)
+        /// <summary>Lowers the fraction of a point's motion during which it stays at least <paramref name="keep"/> from
+        /// every triangle, as <see cref="Bvh.Sweep"/> has it, but for ridges.</summary>
+        public void SweepPoint(in Vector3d from, in Vector3d to, double keep, double resolution, FeatureRange among,
+            ref double impact)
         {
-            Vector3d u = b - a;
-            Vector3d offset = _centre[triangle] - a;
-            double squared = u.LengthSquared;
-            double s = squared > 0.0 ? Math.Min(1.0, Math.Max(0.0, Vector3d.Dot(offset, u) / squared)) : 0.0;
-            return (offset - s * u).Length - _radius[triangle];
+            if (!among.IsKnown)
+            {
+                impact = Math.Min(impact, _mesh.Tree.Sweep(from, from, to, to, keep, resolution, -1));
+                return;
+            }
+            double motion = Vector3d.Distance(from, to);
+            if (motion <= keep && Keeps(to, keep, motion, among))
+            {
+                return;
+            }
+            double reach = (keep + motion) * (1.0 + 1e-9);
+            for (int k = among.From; k < among.To && among.LeastDistance(k) <= reach; k++)
+            {
+                int i = among[k];
+                if (LeastDistance(from, i) <= reach)
+                {
+                    Bvh.SweepTriangle(_mesh.Corners[3 * i], _mesh.Corners[3 * i + 1], _mesh.Corners[3 * i + 2],
+                        from, from, to, to, keep, resolution, motion, ref impact);
+                }
+            }
+        }
+
+        /// <summary>The same for a segment and the ridges.</summary>
+        public void SweepSegment(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
+            double resolution, FeatureRange among, ref double impact)
+        {
+            double motion = Math.Max(Vector3d.Distance(a0, a1), Vector3d.Distance(b0, b1));
+            double reach = (keep + motion) * (1.0 + 1e-9);
+            if (among.IsKnown)
+            {
+                for (int k = among.From; k < among.To && among.LeastDistance(k) <= reach; k++)
+                {
+                    SweepRidge(among[k], a0, b0, a1, b1, keep, resolution, motion, ref impact);
+                }
+                return;
+            }
+            _found.Clear();
+            _ridgeTree?.Within(a0, b0, reach, _found);
+            for (int k = 0; k < _found.Count; k++)
+            {
+                SweepRidge(_ridge[_found[k]], a0, b0, a1, b1, keep, resolution, motion, ref impact);
+            }
+        }
+
+        // Whether a point that has come here, on a way that is too short to have crossed a wall and be as far behind it,
+        // keeps a distance. Where no ridge is near, the distance along a straight way is a concave function, so that of
+        // its ends says it all; ridges are met by the segments on both sides of the point.
+        private bool Keeps(in Vector3d x, double keep, double motion, FeatureRange among)
+        {
+            double limit = keep * keep;
+            for (int k = among.From; k < among.To && among.LeastDistance(k) <= keep + motion; k++)
+            {
+                int i = 3 * among[k];
+                if (LeastDistance(x, among[k]) <= keep && ClosestPoints.PointTriangle(
+                    x, _mesh.Corners[i], _mesh.Corners[i + 1], _mesh.Corners[i + 2], out _, out _) < limit)
+                {
+                    return false;
+                }
+            }
+            return true;
+        }
+
+        private void SweepRidge(int edge, in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
+            double resolution, double motion, ref double impact)
+        {
+            _mesh.EndsOf(edge, out int from, out int to);
+            ref readonly Vector3d start = ref _mesh.Corners[from];
+            ref readonly Vector3d end = ref _mesh.Corners[to];
+            Bvh.SweepBody(new EdgeBody(start, end), 0.5 * (start + end), 0.5 * Vector3d.Distance(start, end),
+                a0, b0, a1, b1, keep, resolution, motion, ref impact);
+        }
+
+        private double Distance(in Vector3d a, in Vector3d b, int edge)
+        {
+            _mesh.EndsOf(edge, out int from, out int to);
+            return Math.Sqrt(ClosestPoints.SegmentSegment(
+                a, b, _mesh.Corners[from], _mesh.Corners[to], out _, out _));
+        }
+
+        private double LeastDistance(in Vector3d x, int triangle)
+        {
+            return Vector3d.Distance(x, _centre[triangle]) - _radius[triangle];
         }
     }
 }

@@ -27,7 +27,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Adds the places within <paramref name="range"/> of segment a b: first faces in the order of the
-        /// hierarchy, then edges and corners in the order in which those faces and their neighbours lead to
+        /// triangles, then edges and corners in the order in which those faces and their neighbours lead to
         /// them.</summary>
         public void Find(in Vector3d a, in Vector3d b, double range, StructList<WallPlace> places)
         {
@@ -41,13 +41,14 @@ namespace Guidewire.Core
             StructList<WallPlace> places)
         {
             _triangles.Clear();
-            nearby.Choose(x, x, range, among, _triangles);
+            nearby.Choose(x, range, among, _triangles);
             AddPlaces(x, x, range, places);
         }
 
         private void AddPlaces(in Vector3d a, in Vector3d b, double range, StructList<WallPlace> places)
         {
             int first = places.Count;
+            _triangles.Sort(0);
             _nearest = double.PositiveInfinity;
             _isBehind = false;
             _features.Clear();

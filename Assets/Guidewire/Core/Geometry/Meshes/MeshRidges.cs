@@ -1,20 +1,18 @@
 using System;
+using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
     /// <summary>The ridges of a mesh: edges at which its two faces turn towards the free side, and edges of open
     /// rims.</summary>
-    /// <remarks>The weight of an edge is the angle between its faces, 1 at a rim. Where segment and edge are parallel
-    /// their closest points jump; so the weight fades as c = sin^2 of the angle between them goes to 0: t (2 - t) with
-    /// t = c/0.01. A segment along an edge is seen at its ends.</remarks>
+    /// <remarks>The weight of an edge is the angle between its faces, 1 at a rim.</remarks>
     internal sealed class MeshRidges
     {
-        private const double Fade = 0.01;         // of sin^2
         private const double LeastAngle = 1e-6;   // radians
         private const double RimWeight = 1.0;
         private readonly MeshGeometry _mesh;
         private readonly double[] _weight;        // of the edge that starts at a place, 0 for all but its own
-        private readonly StructList<int> _triangles = new StructList<int>(64);
+        private readonly StructList<int> _edges = new StructList<int>(64);
 
         /// <summary>For this mesh where it stands.</summary>
         public MeshRidges(MeshGeometry mesh)
@@ -35,78 +33,41 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Adds the ridges within <paramref name="range"/> of segment a b.</summary>
-        public void Find(in Vector3d a, in Vector3d b, double range, StructList<WallRidge> ridges)
+        /// <summary>Places of the edges that are ridges.</summary>
+        public int[] Edges()
         {
-            _triangles.Clear();
-            _mesh.Tree.Within(a, b, range, _triangles);
-            AddRidges(a, b, range, ridges);
+            var edges = new List<int>();
+            for (int place = 0; place < _weight.Length; place++)
+            {
+                if (_weight[place] > 0.0)
+                {
+                    edges.Add(place);
+                }
+            }
+            return edges.ToArray();
         }
 
-        /// <summary>The same by the triangles near the segment.</summary>
+        /// <summary>Adds the ridges within <paramref name="range"/> of segment a b, in the order of their
+        /// places.</summary>
         public void Find(in Vector3d a, in Vector3d b, double range, MeshNearby nearby, FeatureRange among,
             StructList<WallRidge> ridges)
         {
-            _triangles.Clear();
-            nearby.Choose(a, b, range, among, _triangles);
-            AddRidges(a, b, range, ridges);
-        }
-
-        private void AddRidges(in Vector3d a, in Vector3d b, double range, StructList<WallRidge> ridges)
-        {
-            for (int i = 0; i < _triangles.Count; i++)
+            _edges.Clear();
+            if (!among.IsKnown)
             {
-                int triangle = _triangles[i];
-                for (int place = 3 * triangle; place < 3 * triangle + 3; place++)
-                {
-                    if (_weight[place] > 0.0)
-                    {
-                        Add(a, b, range, place, ridges);
-                    }
-                }
+                nearby.ChooseRidges(a, b, range, _edges);
             }
-        }
-
-        private void Add(in Vector3d a, in Vector3d b, double range, int edge, StructList<WallRidge> ridges)
-        {
-            _mesh.EndsOf(edge, out int from, out int to);
-            Vector3d start = _mesh.Corners[from];
-            Vector3d end = _mesh.Corners[to];
-            double squared = ClosestPoints.SegmentSegment(a, b, start, end, out double s, out double t);
-            if (squared > range * range || squared == 0.0)
+            for (int k = among.From; k < among.To && among.LeastDistance(k) <= range; k++)
             {
-                return;
+                _edges.Add(among[k]);
             }
-            double distance = Math.Sqrt(squared);
-            Vector3d normal = (Vector3d.Lerp(a, b, s) - Vector3d.Lerp(start, end, t)) / distance;
-            double weight = _weight[edge];
-            Vector3d slope = Vector3d.Zero;
-            Vector3d u = b - a;
-            Vector3d along = Vector3d.Normalize(end - start);
-            double size = u.Length;
-            Vector3d direction = u / size;
-            double cosine = Vector3d.Dot(direction, along);
-            double share = Math.Max(0.0, 1.0 - cosine * cosine) / Fade;
-            if (share < 1.0)
+            _edges.Sort(0);
+            for (int k = 0; k < _edges.Count; k++)
             {
-                double rate = 2.0 * (1.0 - share) / Fade;
-                slope = (weight * rate * -2.0 * cosine / size) * (along - cosine * direction);
-                weight *= share * (2.0 - share);
+                _mesh.EndsOf(_edges[k], out int from, out int to);
+                RidgeOfEdge.Add(
+                    a, b, _mesh.Corners[from], _mesh.Corners[to], 0.0, _weight[_edges[k]], range, ridges);
             }
-            var ridge = new WallRidge(s, distance, normal, weight, -slope, slope);
-            ridges.Add(s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0 ? Sliding(ridge, u, along) : ridge);
-        }
-
-        // Between the ends of both the crossing slides to where the distance along the segment stays least.
-        private static WallRidge Sliding(in WallRidge ridge, in Vector3d u, in Vector3d along)
-        {
-            double s = ridge.Position;
-            Vector3d n = ridge.Normal;
-            Vector3d across = Vector3d.Cross(n, along);
-            double rate = Vector3d.Dot(across, u) / ridge.Distance;
-            double perSecond = -ridge.Distance / (Vector3d.Dot(across, u) * Vector3d.Dot(across, u));
-            return ridge.Sliding(perSecond * ((1.0 - s) * rate * across - n), perSecond * (s * rate * across + n),
-                Symmetric3.Outer(1.0 / ridge.Distance, across));
         }
 
         // By which the faces on both sides of an edge turn towards the free side; 0 in a valley.

@@ -11,13 +11,13 @@ namespace Guidewire.Core
     /// rim.</remarks>
     public sealed class MeshShape : ContactShape
     {
-        private const double MostReach = 0.7;   // of the range
         private readonly TriangleMesh _mesh;
         private readonly MeshGeometry _wall;
         private readonly MeshGeometry _closed;
         private MeshPlaces? _places;
         private MeshRidges? _ridges;
         private MeshNearby? _nearby;
+        private (double Above, double Radius)? _narrowest;    // what was asked for last
 
         /// <summary>The wall at the place where its file has it.</summary>
         public MeshShape(TriangleMesh mesh)
@@ -58,6 +58,7 @@ namespace Guidewire.Core
         {
             _wall.Place(placement);
             _nearby = null;
+            _narrowest = null;
             if (_closed != _wall)
             {
                 _closed.Place(placement);
@@ -97,28 +98,35 @@ namespace Guidewire.Core
         internal override void FindRidges(
             in Vector3d a, in Vector3d b, double range, StructList<WallRidge> ridges)
         {
-            _ridges ??= new MeshRidges(_wall);
-            _ridges.Find(a, b, range, ridges);
+            FindRidges(a, b, range, default, ridges);
         }
 
-        /// <summary>The triangles within the range; none, and no distance, where the reach makes most of it: then the
-        /// hierarchy is quicker.</summary>
-        internal override double FindFeatures(in Vector3d a, in Vector3d b, double range, double reach, ref int hint,
-            StructList<int> features)
+        /// <inheritdoc/>
+        internal override bool HasPointFeatures => true;
+
+        /// <summary>The triangles within the range.</summary>
+        internal override double FindFeatures(in Vector3d x, double range, StructList<WallFeature> features)
         {
-            return reach > MostReach * range ? 0.0 : Nearby.Find(a, b, range, features);
+            return Nearby.FindTriangles(x, range, features);
+        }
+
+        /// <summary>The ridges within the range.</summary>
+        internal override double FindFeatures(in Vector3d a, in Vector3d b, double range, double reach, ref int hint,
+            StructList<WallFeature> features)
+        {
+            return Nearby.FindRidges(a, b, range, features);
         }
 
         /// <inheritdoc/>
         internal override void FindPlaces(in Vector3d x, double range, FeatureRange features,
             StructList<WallPlace> places)
         {
-            _places ??= new MeshPlaces(_wall);
-            if (features.From == features.To)
+            if (!features.IsKnown)
             {
-                _places.Find(x, x, range, places);
+                FindPlaces(x, x, range, places);
                 return;
             }
+            _places ??= new MeshPlaces(_wall);
             _places.Find(x, range, Nearby, features, places);
         }
 
@@ -126,29 +134,32 @@ namespace Guidewire.Core
         internal override void FindRidges(in Vector3d a, in Vector3d b, double range, FeatureRange features,
             StructList<WallRidge> ridges)
         {
-            _ridges ??= new MeshRidges(_wall);
-            if (features.From == features.To)
-            {
-                _ridges.Find(a, b, range, ridges);
-                return;
-            }
-            _ridges.Find(a, b, range, Nearby, features, ridges);
+            Ridges.Find(a, b, range, Nearby, features, ridges);
         }
 
-        /// <inheritdoc/>
+        /// <summary>Of both ends and the triangles, and of what is between them and the ridges.</summary>
         internal override double FreeShare(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
-            double resolution, int hint, FeatureRange features)
+            double resolution, int hint, in ElementFeatures features)
         {
-            return features.From == features.To ? FreeUntil(a0, b0, a1, b1, keep, resolution, hint)
-                : Nearby.Sweep(a0, b0, a1, b1, keep, resolution, features);
+            double impact = NoImpact;
+            Nearby.SweepPoint(a0, a1, keep, resolution, features.AtA, ref impact);
+            Nearby.SweepPoint(b0, b1, keep, resolution, features.AtB, ref impact);
+            Nearby.SweepSegment(a0, b0, a1, b1, keep, resolution, features.Between, ref impact);
+            return impact;
         }
 
-        private MeshNearby Nearby => _nearby ??= new MeshNearby(_wall);
+        private MeshRidges Ridges => _ridges ??= new MeshRidges(_wall);
+
+        private MeshNearby Nearby => _nearby ??= new MeshNearby(_wall, Ridges);
 
         /// <summary>Of the balls that touch the wall in the middle of a triangle and lie in the lumen.</summary>
         internal override double NarrowestRadius(double above)
         {
-            return MeshWidth.Narrowest(_wall, above);
+            if (_narrowest is null || _narrowest.Value.Above != above)
+            {
+                _narrowest = (above, MeshWidth.Narrowest(_wall, above));
+            }
+            return _narrowest.Value.Radius;
         }
 
         /// <inheritdoc/>

@@ -11,6 +11,7 @@ namespace Guidewire.Core
     {
         private const int MostTriangles = 20_000;
         private const int MostShrinks = 30;
+        private const double Larger = 1.001;
 
         /// <summary>The smallest radius above the one given, units; infinite where there is none.</summary>
         public static double Narrowest(MeshGeometry mesh, double above)
@@ -25,8 +26,10 @@ namespace Guidewire.Core
             double narrowest = double.PositiveInfinity;
             for (int t = 0; t < count; t += stride)
             {
-                double radius = Ball(mesh, t, size);
-                if (radius > above && radius < size)
+                // A ball that is no smaller than the smallest so far is not shrunk to the end.
+                double start = Math.Min(size, Larger * narrowest);
+                double radius = Ball(mesh, t, start);
+                if (radius > above && radius < start)
                 {
                     narrowest = Math.Min(narrowest, radius);
                 }
@@ -34,12 +37,12 @@ namespace Guidewire.Core
             return narrowest;
         }
 
-        private static double Ball(MeshGeometry mesh, int triangle, double size)
+        private static double Ball(MeshGeometry mesh, int triangle, double start)
         {
             Vector3d p = (1.0 / 3.0) * (mesh.Corners[3 * triangle] + mesh.Corners[3 * triangle + 1]
                 + mesh.Corners[3 * triangle + 2]);
             Vector3d n = mesh.FaceNormals[triangle];
-            double radius = size;
+            double radius = start;
             int hint = triangle;
             for (int k = 0; k < MostShrinks; k++)
             {

@@ -18,6 +18,7 @@ namespace Guidewire.Core
     {
         private const double LeftOfGap = 0.3;     // that a step leaves at least
         private const double MostLeft = 0.2;      // of the barrier's distance
+        private const double LongReach = 4.0;     // of the barrier's distance, between looks for walls
         private const double Resolved = 1e-3;     // of the distance that is kept: an approach that is none
         private const double ResolvedOfWay = 0.05;    // the same, of the way to it
         private const double QuickShare = 0.9;    // of a gap that is only about right
@@ -42,6 +43,7 @@ namespace Guidewire.Core
         private readonly StructList<WallPlace> _places = new StructList<WallPlace>(16);
         private readonly StructList<WallRidge> _ridges = new StructList<WallRidge>(16);
         private readonly StructList<WallContact> _contacts = new StructList<WallContact>(64);
+        private bool _hasBending = true;
         private bool _isKnown;
         private double _value;
 
@@ -70,7 +72,10 @@ namespace Guidewire.Core
             {
                 range[j] = _units * (Math.Max(_nodeRadius[j], _nodeRadius[j + 1]) + barrier.Distance);
             }
-            _near = new NearWalls(walls, range, _units * Math.Max(4.0 * barrier.Distance, rod.Radius[n - 1]));
+            // Lists of features of points grow with the square of the reach, all others hardly.
+            double reach = Array.Exists(walls, wall => wall.HasPointFeatures) ? barrier.Distance
+                : LongReach * barrier.Distance;
+            _near = new NearWalls(walls, range, _units * Math.Max(reach, rod.Radius[n - 1]));
             _nodeGap = new double[walls.Length * (n + 1)];
             _ridgeGap = new double[walls.Length * n];
             _gradient = new Vector3d[n + 1];
@@ -82,9 +87,11 @@ namespace Guidewire.Core
             _resultant = new Vector3d[walls.Length];
         }
 
-        /// <summary>Whether the second derivatives of elements' contacts have the part that goes with their force,
-        /// which need not be positive.</summary>
-        public bool HasBending { get; set; } = true;
+        /// <summary>Leaves the part of elements' contacts out that goes with their force.</summary>
+        public override void Stiffen(bool isOn)
+        {
+            _hasBending = !isOn;
+        }
 
         /// <summary>The walls, in units.</summary>
         public ContactShape[] Walls => _walls;
@@ -167,13 +174,13 @@ namespace Guidewire.Core
             for (int i = from; i < end; i++)
             {
                 ref RodBlock b = ref blocks[i];
-                Symmetric3 a = HasBending ? _own[i] + _ownBending[i] : _own[i];
+                Symmetric3 a = _hasBending ? _own[i] + _ownBending[i] : _own[i];
                 b.A11 += a.A11; b.A21 += a.A21; b.A22 += a.A22;
                 b.A31 += a.A31; b.A32 += a.A32; b.A33 += a.A33;
                 if (i < _coupling.Length)
                 {
-                    Symmetric3 d = HasBending ? _coupling[i] + _couplingBending[i] : _coupling[i];
-                    Vector3d t = HasBending ? _couplingTurn[i] : Vector3d.Zero;
+                    Symmetric3 d = _hasBending ? _coupling[i] + _couplingBending[i] : _coupling[i];
+                    Vector3d t = _hasBending ? _couplingTurn[i] : Vector3d.Zero;
                     b.D11 += d.A11; b.D12 += d.A21 - t.Z; b.D13 += d.A31 + t.Y;
                     b.D21 += d.A21 + t.Z; b.D22 += d.A22; b.D23 += d.A32 - t.X;
                     b.D31 += d.A31 - t.Y; b.D32 += d.A32 + t.X; b.D33 += d.A33;
@@ -199,9 +206,10 @@ namespace Guidewire.Core
             {
                 double motion = Math.Sqrt(Math.Max((_to[j] - _x[j]).LengthSquared,
                     (_to[j + 1] - _x[j + 1]).LengthSquared));
+                double most = motion + _units * (_elementRadius[j] + MostLeft * _barrier.Distance);
                 for (int w = 0; w < _walls.Length; w++)
                 {
-                    if (_near.IsNear(w, j))
+                    if (!(_near.ClearanceOf(w, _x, j) > most))
                     {
                         share = Math.Min(share, ShareOf(w, j, motion));
                     }
@@ -210,7 +218,8 @@ namespace Guidewire.Core
             return share;
         }
 
-        /// <summary>What is near on the way from one shape to another.</summary>
+        /// <summary>What is near another shape, and on the way to it unless that is too long; gaps are those of the
+        /// shape.</summary>
         public NearWalls Cover(RodShape shape, RodShape to)
         {
             Look(shape);
@@ -219,6 +228,7 @@ namespace Guidewire.Core
                 _to[i] = _units * to.X[i];
             }
             _near.Cover(_x, _to);
+            _near.Follow(_to);
             return _near;
         }
 
@@ -263,7 +273,7 @@ namespace Guidewire.Core
             double keep = radius + left;
             double resolution = Math.Min(Resolved * keep, ResolvedOfWay * (gap - left));
             return gap > 0.0 ? _walls[w].FreeShare(_x[j], _x[j + 1], _to[j], _to[j + 1], keep, resolution, hint,
-                _near.FeaturesOf(w, j)) : 0.0;
+                _near.FeaturesOnWay(w, j, _x, _to)) : 0.0;
         }
 
         // Finds what the shape comes to, unless it is that of the last call.
@@ -304,19 +314,16 @@ namespace Guidewire.Core
         private void AddWall(int w)
         {
             int n = _elementRadius.Length;
-            bool wasNear = false;
             for (int j = 0; j <= n; j++)
             {
-                bool isNear = j < n && _near.IsNear(w, j);
-                if (isNear || wasNear)
+                if (_near.IsNodeNear(w, j))
                 {
                     AddNode(w, j);
                 }
-                if (isNear)
+                if (j < n && _near.IsNear(w, j))
                 {
                     AddElement(w, j);
                 }
-                wasNear = isNear;
             }
         }
 
@@ -324,8 +331,8 @@ namespace Guidewire.Core
         {
             double radius = _nodeRadius[i];
             _places.Clear();
-            _walls[w].FindPlaces(_x[i], _units * (radius + _barrier.Distance), _near.FeaturesOfNode(w, i),
-                _places);
+            _walls[w].FindPlaces(
+                _x[i], _units * (radius + _barrier.Distance), _near.FeaturesOfNode(w, i, _x[i]), _places);
             Vector3d gradient = Vector3d.Zero;
             Symmetric3 second = default;
             bool mayBeNegative = false;
@@ -371,8 +378,8 @@ namespace Guidewire.Core
             double radius = _elementRadius[j];
             _ridges.Clear();
             ref double nearest = ref _ridgeGap[w * _elementRadius.Length + j];
-            _walls[w].FindRidges(_x[j], _x[j + 1], _units * (radius + _barrier.Distance), _near.FeaturesOf(w, j),
-                _ridges);
+            _walls[w].FindRidges(_x[j], _x[j + 1], _units * (radius + _barrier.Distance),
+                _near.FeaturesOf(w, j, _x[j], _x[j + 1]), _ridges);
             for (int k = 0; k < _ridges.Count; k++)
             {
                 ref WallRidge ridge = ref _ridges[k];

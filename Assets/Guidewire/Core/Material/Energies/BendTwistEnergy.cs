@@ -13,6 +13,7 @@ namespace Guidewire.Core
         private readonly bool _hasDistal;
         private readonly TLaw _law;
         private readonly double _proximalRest;  // turn of joint 0 at rest about d3, radians
+        private bool _isStiffened;
         private RodBlock _clampBlock;     // what falls on a clamp's frame, which does not move
         private RodVector _clampVector;
 
@@ -76,6 +77,12 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>Leaves the part of the second derivatives out that goes with the couples.</summary>
+        public override void Stiffen(bool isOn)
+        {
+            _isStiffened = isOn;
+        }
+
         /// <inheritdoc/>
         public override void AddBlocks(RodShape shape, RodBlock[] blocks, RodVector[] gradient, int from, int to)
         {
@@ -83,21 +90,37 @@ namespace Guidewire.Core
             if (from == 0 && _hasProximal)
             {
                 _clampBlock = default;
-                _law.AddBlocks(_joint[0], shape.ProximalFrame.Conjugate * shape.Q[0], ref _clampVector,
-                    ref gradient[0], ref _clampBlock, ref blocks[0]);
+                AddJoint(0, shape.ProximalFrame.Conjugate * shape.Q[0], ref _clampVector, ref gradient[0],
+                    ref _clampBlock, ref blocks[0]);
             }
             int end = to < n - 1 ? to : n - 1;
             for (int j = from; j < end; j++)
             {
-                _law.AddBlocks(_joint[j + 1], Relative(shape, j), ref gradient[j], ref gradient[j + 1],
-                    ref blocks[j], ref blocks[j + 1]);
+                AddJoint(j + 1, Relative(shape, j), ref gradient[j], ref gradient[j + 1], ref blocks[j],
+                    ref blocks[j + 1]);
             }
             if (to >= n && from < n && _hasDistal)
             {
                 _clampBlock = default;
-                _law.AddBlocks(_joint[n], shape.Q[n - 1].Conjugate * shape.DistalFrame, ref gradient[n - 1],
-                    ref _clampVector, ref blocks[n - 1], ref _clampBlock);
+                AddJoint(n, shape.Q[n - 1].Conjugate * shape.DistalFrame, ref gradient[n - 1], ref _clampVector,
+                    ref blocks[n - 1], ref _clampBlock);
             }
+        }
+
+        // A joint that is at rest where it is has no couple.
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        private void AddJoint(int k, in Quaterniond relative, ref RodVector a, ref RodVector b, ref RodBlock blockA,
+            ref RodBlock blockB)
+        {
+            if (!_isStiffened)
+            {
+                _law.AddBlocks(_joint[k], relative, ref a, ref b, ref blockA, ref blockB);
+                return;
+            }
+            Joint resting = _joint[k];
+            resting.Rest = _law.Measure(relative);
+            _law.AddBlocks(resting, relative, ref a, ref b, ref blockA, ref blockB);
+            _law.AddGradient(_joint[k], relative, ref a, ref b);
         }
 
         /// <inheritdoc/>

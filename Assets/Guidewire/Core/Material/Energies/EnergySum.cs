@@ -31,12 +31,12 @@ namespace Guidewire.Core
             return Sum(values, out magnitude);
         }
 
-        /// <summary>The same once more, after every term was anchored in the same shape.</summary>
-        public static double AnchoredValue(EnergyTerm[] terms, RodShape shape, double[] values, out double magnitude)
+        /// <summary>The same once more, after every term was anchored in that shape.</summary>
+        public static double AnchoredValue(EnergyTerm[] terms, double[] values, out double magnitude)
         {
             for (int k = 0; k < terms.Length; k++)
             {
-                values[k] = terms[k].IsAnchored ? terms[k].Value(shape) : values[k];
+                values[k] = terms[k].AnchoredValue(values[k]);
             }
             return Sum(values, out magnitude);
         }
@@ -59,6 +59,15 @@ namespace Guidewire.Core
             foreach (EnergyTerm term in terms)
             {
                 term.Anchor(shape);
+            }
+        }
+
+        /// <summary>Second derivatives with or without what need not be positive.</summary>
+        public static void Stiffen(EnergyTerm[] terms, bool isOn)
+        {
+            foreach (EnergyTerm term in terms)
+            {
+                term.Stiffen(isOn);
             }
         }
 

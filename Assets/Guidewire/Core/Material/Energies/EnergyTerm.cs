@@ -28,12 +28,23 @@ namespace Guidewire.Core
         /// Only blocks from .. to are touched, the last by what its predecessor leaves on it.</summary>
         public abstract void AddBlocks(RodShape shape, RodBlock[] blocks, RodVector[] gradient, int from, int to);
 
-        /// <summary>Whether <see cref="Anchor"/> changes the value.</summary>
-        public virtual bool IsAnchored => false;
+        /// <summary>The value in the shape in which the term was anchored last, J, after it was asked for the value
+        /// there.</summary>
+        /// <param name="before">That value.</param>
+        public virtual double AnchoredValue(double before)
+        {
+            return before;
+        }
 
         /// <summary>Takes this shape as the point from which work is counted; nothing to do for a true
         /// energy.</summary>
         public virtual void Anchor(RodShape shape)
+        {
+        }
+
+        /// <summary>Whether <see cref="AddBlocks"/> is to leave out of the second derivatives what goes with a force and
+        /// need not be positive: far from balance such forces need not be there.</summary>
+        public virtual void Stiffen(bool isOn)
         {
         }
 

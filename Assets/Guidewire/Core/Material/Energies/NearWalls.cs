@@ -2,97 +2,141 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Which walls the elements of a wire may come near while no node goes farther than a reach from where it
+    /// <summary>Which walls the nodes and elements of a wire may come near while each stays within a reach of where it
     /// was looked for them, and the walls' features there. Lengths in units.</summary>
+    /// <remarks>What leaves its reach is looked for anew, alone: its features are added at the end of the list, which
+    /// is begun anew where it has grown too long.</remarks>
     internal sealed class NearWalls
     {
         private const double SureOfQuick = 0.9;   // of a quick distance there is surely room
         private const double WithRoom = 1.25;     // to the way that is expected
+        private const double MostReach = 2.5;     // of the range: beyond, lists of features grow too long
+        private const int MostLists = 8;          // of the features of all, before the list is begun anew
         private readonly ContactShape[] _walls;
         private readonly double[] _range;         // by element: its radius and the barrier's distance
         private readonly double _leastReach;
-        private readonly Vector3d[] _reference;   // where the wire was last looked for walls
-        private readonly double[] _reach;         // by node, since then
-        private readonly double[] _room;          // by wall and element: from the reference to the wall
-        private readonly bool[] _isNear;
-        private readonly int[] _hint;
-        private readonly StructList<int> _features = new StructList<int>(256);
-        private readonly int[] _firstFeature;     // by wall and element, and of none
-        private bool _isKnown;
+        private readonly NearPlace[] _element;    // by wall and element
+        private readonly NearPlace[] _node;       // by wall and node, where the wall has features of points
+        private readonly int[] _hint;             // by wall and element
+        private readonly StructList<WallFeature> _features = new StructList<WallFeature>(1024);
+        private int _mostFeatures;
 
         /// <summary>For a wire that has not been looked for.</summary>
         /// <param name="walls">The walls.</param>
         /// <param name="range">By element: what is farther does not count.</param>
-        /// <param name="leastReach">No node is looked for anew before it has gone this far.</param>
+        /// <param name="leastReach">Nothing is looked for anew before it has gone this far.</param>
         public NearWalls(ContactShape[] walls, double[] range, double leastReach)
         {
             int n = range.Length;
             _walls = walls;
             _range = range;
             _leastReach = leastReach;
-            _reference = new Vector3d[n + 1];
-            _reach = new double[n + 1];
-            _room = new double[walls.Length * n];
-            _isNear = new bool[walls.Length * n];
-            _firstFeature = new int[walls.Length * n + 1];
+            _element = new NearPlace[walls.Length * n];
+            _node = new NearPlace[walls.Length * (n + 1)];
             _hint = new int[walls.Length * n];
             Array.Fill(_hint, -1);
+            Forget();
         }
 
-        /// <summary>Looks for a wire unless it is within reach of where it was looked for.</summary>
-        /// <param name="x">Its n + 1 nodes.</param>
+        /// <summary>Looks for what has left its reach.</summary>
+        /// <param name="x">The wire's n + 1 nodes.</param>
         public void Follow(Vector3d[] x)
         {
-            bool isCovered = _isKnown;
-            for (int i = 0; i < x.Length && isCovered; i++)
-            {
-                isCovered = (x[i] - _reference[i]).LengthSquared <= _reach[i] * _reach[i];
-            }
-            if (!isCovered)
-            {
-                Array.Fill(_reach, _leastReach);
-                Find(x);
-            }
+            Cover(x, x);
         }
 
-        /// <summary>The same before the wire moves, so that all of its way is within reach.</summary>
+        /// <summary>The same before the wire moves, so that all of its way is within reach, but for what goes too far
+        /// for that.</summary>
         /// <param name="x">Its n + 1 nodes.</param>
         /// <param name="to">Where they go to.</param>
         public void Cover(Vector3d[] x, Vector3d[] to)
         {
-            bool isCovered = _isKnown;
-            for (int i = 0; i < x.Length && isCovered; i++)
+            if (_features.Count > _mostFeatures)
             {
-                isCovered = (to[i] - _reference[i]).LengthSquared <= _reach[i] * _reach[i]
-                    && (x[i] - _reference[i]).LengthSquared <= _reach[i] * _reach[i];
+                Forget();
             }
-            if (!isCovered)
+            bool isNew = _features.Count == 0;
+            int n = _range.Length;
+            for (int w = 0; w < _walls.Length; w++)
             {
-                for (int i = 0; i < x.Length; i++)
+                for (int i = 0; i <= n && _walls[w].HasPointFeatures; i++)
                 {
-                    _reach[i] = Math.Max(_leastReach, WithRoom * Vector3d.Distance(x[i], to[i]));
+                    ref NearPlace node = ref _node[w * (n + 1) + i];
+                    if (!node.Covers(x[i], x[i]) || !node.Covers(to[i], to[i]))
+                    {
+                        double range = Math.Max(_range[Math.Max(i - 1, 0)], _range[Math.Min(i, n - 1)]);
+                        double reach = ReachFor(Vector3d.Distance(x[i], to[i]), range, node.Covers(x[i], x[i]));
+                        if (reach > 0.0)
+                        {
+                            node.Begin(x[i], x[i], reach, _features.Count);
+                            node.End(_walls[w].FindFeatures(x[i], reach + range, _features), reach + range,
+                                _features.Count);
+                        }
+                    }
                 }
-                Find(x);
+                for (int j = 0; j < n; j++)
+                {
+                    ref NearPlace element = ref _element[w * n + j];
+                    if (!element.Covers(x[j], x[j + 1]) || !element.Covers(to[j], to[j + 1]))
+                    {
+                        double way = Math.Max(Vector3d.Distance(x[j], to[j]), Vector3d.Distance(x[j + 1], to[j + 1]));
+                        double reach = ReachFor(way, _range[j], element.Covers(x[j], x[j + 1]));
+                        if (reach > 0.0)
+                        {
+                            FindAtElement(w, j, x, reach, ref element);
+                        }
+                    }
+                }
+            }
+            if (isNew)
+            {
+                _mostFeatures = MostLists * Math.Max(_features.Count, _range.Length);
             }
         }
 
-        /// <summary>Whether element j may come near wall w.</summary>
+        /// <summary>Whether element j may come near wall w within reach.</summary>
         public bool IsNear(int w, int j)
         {
-            return _isNear[w * _range.Length + j];
+            return _element[w * _range.Length + j].IsNear
+                || (_walls[w].HasPointFeatures && (IsNodeNear(w, j) || IsNodeNear(w, j + 1)));
         }
 
-        /// <summary>Features of wall w about element j, where it is near.</summary>
-        public FeatureRange FeaturesOf(int w, int j)
+        /// <summary>Whether node i may.</summary>
+        public bool IsNodeNear(int w, int i)
         {
-            int k = w * _range.Length + j;
-            return new FeatureRange(_features, _firstFeature[k], _firstFeature[k + 1]);
+            int n = _range.Length;
+            return _walls[w].HasPointFeatures ? _node[w * (n + 1) + i].IsNear
+                : (i < n && _element[w * n + i].IsNear) || (i > 0 && _element[w * n + i - 1].IsNear);
         }
 
-        /// <summary>The same about node i: those of an element beside it that is near.</summary>
-        public FeatureRange FeaturesOfNode(int w, int i)
+        /// <summary>Features of wall w about element j, if they are known where its nodes are.</summary>
+        public FeatureRange FeaturesOf(int w, int j, in Vector3d a, in Vector3d b)
         {
-            return FeaturesOf(w, i < _range.Length && IsNear(w, i) ? i : i - 1);
+            return _element[w * _range.Length + j].Features(_features, a, b);
+        }
+
+        /// <summary>The same about node i; where the wall has none of points, those of an element beside it that is
+        /// near.</summary>
+        public FeatureRange FeaturesOfNode(int w, int i, in Vector3d x)
+        {
+            int n = _range.Length;
+            if (_walls[w].HasPointFeatures)
+            {
+                return _node[w * (n + 1) + i].Features(_features, x, x);
+            }
+            int j = w * n + i;
+            return i < n && _element[j].IsNear ? _element[j].FeaturesAtA(_features, x)
+                : _element[j - 1].FeaturesAtB(_features, x);
+        }
+
+        /// <summary>Features about the way of element j, as far as they are known on all of it.</summary>
+        public ElementFeatures FeaturesOnWay(int w, int j, Vector3d[] x, Vector3d[] to)
+        {
+            FeatureRange between = _element[w * _range.Length + j].Covers(to[j], to[j + 1])
+                ? FeaturesOf(w, j, x[j], x[j + 1]) : default;
+            return _walls[w].HasPointFeatures
+                ? new ElementFeatures(between, OnWay(w, j, x, to), OnWay(w, j + 1, x, to))
+                : new ElementFeatures(between, between, between);
         }
 
         /// <summary>Where element j was nearest to wall w, for <see cref="ContactShape.Nearest"/>.</summary>
@@ -101,40 +145,61 @@ namespace Guidewire.Core
             return ref _hint[w * _range.Length + j];
         }
 
-        /// <summary>By how much element j of a wire within reach is farther from all walls than 0 at least.</summary>
+        /// <summary>By how much element j of a wire is farther from all walls than 0 at least.</summary>
         /// <param name="x">Nodes of the wire.</param>
         public double ClearanceOf(Vector3d[] x, int j)
         {
             double room = double.PositiveInfinity;
             for (int w = 0; w < _walls.Length; w++)
             {
-                room = Math.Min(room, _room[w * _range.Length + j]);
+                room = Math.Min(room, ClearanceOf(w, x, j));
             }
-            return room - Math.Max(Vector3d.Distance(x[j], _reference[j]),
-                Vector3d.Distance(x[j + 1], _reference[j + 1]));
+            return room;
         }
 
-        private void Find(Vector3d[] x)
+        /// <summary>The same from wall w.</summary>
+        public double ClearanceOf(int w, Vector3d[] x, int j)
         {
             int n = _range.Length;
-            _isKnown = true;
-            Array.Copy(x, _reference, x.Length);
+            double room = _element[w * n + j].Clearance(x[j], x[j + 1]);
+            return !_walls[w].HasPointFeatures ? room
+                : Math.Min(room, Math.Min(_node[w * (n + 1) + j].Clearance(x[j], x[j]),
+                    _node[w * (n + 1) + j + 1].Clearance(x[j + 1], x[j + 1])));
+        }
+
+        private FeatureRange OnWay(int w, int i, Vector3d[] x, Vector3d[] to)
+        {
+            ref NearPlace node = ref _node[w * (_range.Length + 1) + i];
+            return node.Covers(to[i], to[i]) ? node.Features(_features, x[i], x[i]) : default;
+        }
+
+        // 0 where the way is too long and where it sets out is within reach.
+        private double ReachFor(double way, double range, bool isCovered)
+        {
+            double reach = Math.Max(_leastReach, WithRoom * way);
+            return reach <= Math.Max(_leastReach, MostReach * range) ? reach : isCovered ? 0.0 : _leastReach;
+        }
+
+        private void Forget()
+        {
             _features.Clear();
-            for (int w = 0; w < _walls.Length; w++)
+            for (int k = 0; k < _element.Length; k++)
             {
-                for (int j = 0; j < n; j++)
-                {
-                    int k = w * n + j;
-                    double reach = Math.Max(_reach[j], _reach[j + 1]);
-                    double range = reach + _range[j];
-                    _firstFeature[k] = _features.Count;
-                    double distance = SureOfQuick * Math.Abs(_walls[w].FindFeatures(
-                        x[j], x[j + 1], range / SureOfQuick, reach, ref _hint[k], _features));
-                    _isNear[k] = distance <= range;
-                    _room[k] = Math.Min(distance, range);
-                }
+                _element[k].Forget();
             }
-            _firstFeature[_isNear.Length] = _features.Count;
+            for (int k = 0; k < _node.Length; k++)
+            {
+                _node[k].Forget();
+            }
+        }
+
+        private void FindAtElement(int w, int j, Vector3d[] x, double reach, ref NearPlace element)
+        {
+            element.Begin(x[j], x[j + 1], reach, _features.Count);
+            double range = reach + _range[j];
+            double distance = SureOfQuick * Math.Abs(_walls[w].FindFeatures(x[j], x[j + 1], range / SureOfQuick, reach,
+                ref _hint[w * _range.Length + j], _features));
+            element.End(distance, range, _features.Count);
         }
     }
 }

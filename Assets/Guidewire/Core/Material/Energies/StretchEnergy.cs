@@ -16,6 +16,8 @@ namespace Guidewire.Core
         private readonly double[] _stretch;  // EA, N
         private readonly Vector3d[]? _rest;  // p at rest, where it is not e3
 
+        private bool _isStiffened;
+
         /// <summary>The energy of a rod with these elements.</summary>
         /// <param name="rest">p at which each element has no stress, or null for e3.</param>
         public StretchEnergy(MaterialRod rod, Vector3d[]? rest = null)
@@ -24,6 +26,13 @@ namespace Guidewire.Core
             _length = rod.Length;
             _shear = rod.ShearStiffness;
             _stretch = rod.StretchStiffness;
+        }
+
+        /// <summary>Leaves the part of compressed elements' second derivatives out that goes with their force, which
+        /// is not positive.</summary>
+        public override void Stiffen(bool isOn)
+        {
+            _isStiffened = isOn;
         }
 
         /// <inheritdoc/>
@@ -105,7 +114,8 @@ namespace Guidewire.Core
                 block.D31 -= h31; block.D32 -= h32; block.D33 -= h33;
 
                 // (x+, theta) = R M, column by column: (a d2 - (EA - GA) p2 d3, -a d1 + (EA - GA) p1 d3, 0).
-                double a = shear * p.Z - n.Z;
+                Vector3d g = _isStiffened && n.Z < 0.0 ? Vector3d.Zero : n;
+                double a = shear * p.Z - g.Z;
                 Vector3d first = a * d2 - (excess * p.Y) * d3;
                 Vector3d second = (excess * p.X) * d3 - a * d1;
                 block.E11 += first.X; block.E21 += first.Y; block.E31 += first.Z;
@@ -120,16 +130,16 @@ namespace Guidewire.Core
 
                 // (theta, theta): l (GA (|p|^2 1 - p p^T) + (EA - GA) r r^T + sym(n p^T) - (n . p) 1), r = (-p2, p1,
                 // 0).
-                double diagonal = l * (shear * p.LengthSquared - Vector3d.Dot(n, p));
+                double diagonal = l * (shear * p.LengthSquared - Vector3d.Dot(g, p));
                 double ls = l * shear;
                 double le = l * excess;
                 double lh = 0.5 * l;
-                block.C11 += diagonal - ls * p.X * p.X + le * p.Y * p.Y + l * n.X * p.X;
-                block.C22 += diagonal - ls * p.Y * p.Y + le * p.X * p.X + l * n.Y * p.Y;
-                block.C33 += diagonal - ls * p.Z * p.Z + l * n.Z * p.Z;
-                block.C21 += lh * (n.X * p.Y + n.Y * p.X) - (ls + le) * p.X * p.Y;
-                block.C31 += lh * (n.X * p.Z + n.Z * p.X) - ls * p.X * p.Z;
-                block.C32 += lh * (n.Y * p.Z + n.Z * p.Y) - ls * p.Y * p.Z;
+                block.C11 += diagonal - ls * p.X * p.X + le * p.Y * p.Y + l * g.X * p.X;
+                block.C22 += diagonal - ls * p.Y * p.Y + le * p.X * p.X + l * g.Y * p.Y;
+                block.C33 += diagonal - ls * p.Z * p.Z + l * g.Z * p.Z;
+                block.C21 += lh * (g.X * p.Y + g.Y * p.X) - (ls + le) * p.X * p.Y;
+                block.C31 += lh * (g.X * p.Z + g.Z * p.X) - ls * p.X * p.Z;
+                block.C32 += lh * (g.Y * p.Z + g.Z * p.Y) - ls * p.Y * p.Z;
             }
         }
 

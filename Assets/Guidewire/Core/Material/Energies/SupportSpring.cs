@@ -59,6 +59,13 @@ namespace Guidewire.Core
             return _axial == _stiffness ? Vector3d.Zero : Vector3d.Dot(Place - shape.X[0], Axis) * Axis;
         }
 
+        /// <summary>Where the hub has the wire, m: node 0, or the end of what is before it, as long as the force leaves
+        /// that.</summary>
+        public Vector3d HeldPlace(RodShape shape)
+        {
+            return Place - (Vector3d.Dot(Force(shape), Axis) / _stiffness) * Axis;
+        }
+
         /// <summary>Takes the place back, once a step is done, to where the axial force is no more than the
         /// hub's.</summary>
         /// <returns>By how much along the axis, m.</returns>

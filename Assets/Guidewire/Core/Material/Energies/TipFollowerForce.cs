@@ -22,8 +22,11 @@ namespace Guidewire.Core
         /// <summary>True of no force.</summary>
         public override bool HasPotential => Force == Vector3d.Zero && !Varies;
 
-        /// <inheritdoc/>
-        public override bool IsAnchored => true;
+        /// <summary>0: no work yet.</summary>
+        public override double AnchoredValue(double before)
+        {
+            return 0.0;
+        }
 
         /// <inheritdoc/>
         public override void Anchor(RodShape shape)

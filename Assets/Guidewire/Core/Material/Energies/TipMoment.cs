@@ -20,8 +20,11 @@ namespace Guidewire.Core
         /// <summary>True of no couple.</summary>
         public override bool HasPotential => Moment == Vector3d.Zero && !Varies;
 
-        /// <inheritdoc/>
-        public override bool IsAnchored => true;
+        /// <summary>0: no work yet.</summary>
+        public override double AnchoredValue(double before)
+        {
+            return 0.0;
+        }
 
         /// <inheritdoc/>
         public override void Anchor(RodShape shape)

@@ -23,6 +23,10 @@ namespace Guidewire.Core
         private readonly RestWatch _rest;
         private readonly WallSteps? _walls;
         private readonly WallWatch? _watch;
+        private readonly ElementPushes? _pushes;
+        private readonly RunExtremes _extremes;
+        private readonly Joint[] _joints;
+        private readonly double[] _jointLengths;
 
         /// <summary>A step for this scene.</summary>
         /// <param name="dynamics">The motion, at its start.</param>
@@ -41,13 +45,21 @@ namespace Guidewire.Core
             WallTerms? walls = dynamics.Terms.Walls;
             if (walls != null)
             {
+                walls.Spring.Place = scene.Schedule.ProximalPositionAt(dynamics.Time);
                 _watch = new WallWatch(scene.Rod, walls, scene.Metres);
                 _walls = new WallSteps(dynamics, scene.Schedule, _watch);
+                _pushes = new ElementPushes(scene.Rod, walls.Barrier);
                 if (record != null)
                 {
                     record.WallForces = walls.Barrier.Resultants;
+                    record.ElementForces = new Vector3d[scene.Rod.ElementCount];
                 }
             }
+            report.Extremes ??= new RunExtremes();
+            _extremes = report.Extremes;
+            _joints = scene.Rod.Joints(scene.Supports);
+            _jointLengths = scene.Rod.JointLengths(scene.Supports);
+            _extremes.TakeShape(dynamics.Terms, _joints, _jointLengths, dynamics.Shape);
             _ends = new HeldEnds(dynamics.Terms, scene.Schedule);
             FollowEnds();
             _energy = new EnergyWatch(dynamics.Terms, new FreeInertia(dynamics.Terms.Mass, scene.Supports),
@@ -80,7 +92,7 @@ namespace Guidewire.Core
             }
             Vector3d free = _dynamics.Shape.X[last] + _timeStep * _dynamics.Velocities[last]
                 + (_timeStep * _timeStep) * _scene.Schedule.Gravity;
-            Vector3d place = _scene.Schedule.ProximalPositionAt(_dynamics.Time);
+            Vector3d held = spring == null ? Vector3d.Zero : spring.HeldPlace(_dynamics.Shape);
             string? failure = _walls == null ? _dynamics.Step(_timeStep) : _walls.Step(_timeStep);
             if (failure != null)
             {
@@ -104,13 +116,39 @@ namespace Guidewire.Core
             {
                 Contacts.Reaction = _walls == null ? _dynamics.MeanReaction : _walls.MeanReaction;
                 _watch?.EndStep(_dynamics.Shape, Contacts);
-                CountDrive(place);
-                if (spring != null)
+                if (spring != null && _dynamics.Terms.Walls!.HoldsStart)
                 {
                     _drive.GiveWay(spring, _dynamics.Shape);
+                    CountDrive(held, spring.HeldPlace(_dynamics.Shape));
+                    Failure ??= FindOverdriven();
                 }
             }
+            TakeExtremes();
             return true;
+        }
+
+        private void TakeExtremes()
+        {
+            RodTerms terms = _dynamics.Terms;
+            RodShape shape = _dynamics.Shape;
+            _extremes.TakeShape(terms, _joints, _jointLengths, shape);
+            if (_pushes == null)
+            {
+                return;
+            }
+            _pushes.Take(shape, Contacts!.ElementForces);
+            Contacts.Pressure = _pushes.LargestPressure;
+            _extremes.TakeWalls(_pushes.LargestForce, _pushes.LargestPressure);
+            if (terms.Walls!.HoldsStart)
+            {
+                Vector3d axis = HubRecord.AxisOf(terms, shape);
+                _extremes.TakeHub(Vector3d.Dot(terms.Walls.SupportForce(shape), axis),
+                    Vector3d.Dot(_dynamics.ProximalCouple, axis));
+            }
+            if (terms.Walls.Friction != null)
+            {
+                _extremes.TakeFriction(terms.Walls.Friction, shape, _dynamics.Velocities, _dynamics.Spins, _timeStep);
+            }
         }
 
         // A frame in a sheath is held where the wire is; a spring beyond it turns with the hub.
@@ -152,7 +190,7 @@ namespace Guidewire.Core
         /// <summary>A hub that gives way does less than it is asked.</summary>
         public override string? AccuracyWarning => _drive.Slip == 0.0 ? null : string.Format(
             CultureInfo.InvariantCulture,
-            "the hub did not make {0:G3} m of its way: it gave way at hubForceLimit, or the wire in its sheath came to"
+            "the hub lost {0:G3} m of its way: it gave way at hubForceLimit, or the wire in its sheath came to"
             + " an end", _drive.Slip);
 
         /// <inheritdoc/>
@@ -240,16 +278,28 @@ namespace Guidewire.Core
             }
         }
 
-        // What the drive asked of node 0 in the last step, and what of it is missing, units.
-        private void CountDrive(in Vector3d before)
+        // What the drive asked in the last step, and what of it was not gone, units.
+        private void CountDrive(in Vector3d before, in Vector3d after)
         {
-            if (_walls == null || !_dynamics.Terms.Walls!.HoldsStart)
+            Contacts!.DriveAsked += _drive.Asked / _scene.Metres;
+            Contacts.DriveShortfall += (_drive.Asked - _drive.Gone(before, after)) / _scene.Metres;
+        }
+
+        // A hub that misses its place by a tenth of an element pulls at node 0 with EA, the force under which a wire
+        // would have no length left: then what the drive asks and what walls allow do not go together.
+        private string? FindOverdriven()
+        {
+            if (_walls == null || !_dynamics.Terms.Walls!.HoldsStart || !(Contacts!.DriveAsked > 0.0))
             {
-                return;
+                return null;
             }
-            Vector3d asked = _scene.Schedule.ProximalPositionAt(_dynamics.Time);
-            Contacts!.DriveAsked += (Vector3d.Distance(asked, before) + _drive.Withheld) / _scene.Metres;
-            Contacts.DriveShortfall = (_drive.Slip + Vector3d.Distance(asked, _dynamics.Shape.X[0])) / _scene.Metres;
+            double force = _dynamics.Terms.Walls.SupportForce(_dynamics.Shape).Length;
+            double most = _scene.Rod.StretchStiffness[0];
+            return force <= most ? null : string.Format(CultureInfo.InvariantCulture,
+                "the walls do not let sphere 0 to where the drive has it at t = {0:G6} s, {1:G3} units on: the hub"
+                + " would need {2:G3} N, more than the wire's EA, {3:G3} N; a shorter way (displacementPerStep,"
+                + " insertionSpeed, maxSimulationSteps) may do, or a hubForceLimit", _dynamics.Time,
+                Contacts.DriveShortfall, force, most);
         }
 
         private void FollowEnds()

@@ -37,7 +37,8 @@ namespace Guidewire.Io
             new SwitchEntry("logContacts",
                 "whether each entry of the log also has \"contact\": the walls' force on each sphere"
                 + " they touch, their total, and the first sphere's reaction (mass unit * unit/s^2; with a material N,"
-                + " its mean over the step)",
+                + " its mean over the step), with direct also on each element and of each wall along their normals, and"
+                + " the largest pressure (Pa)",
                 p => p.LogContacts, (p, v) => p.LogContacts = p.Simulation.Method.StatesReactions = v)
             {
                 Methods = Takers.Only(Solver.Pbd, Solver.Direct, Solver.Explicit),

@@ -87,15 +87,29 @@ namespace Guidewire.Core.Tests
                     mesh._vertices.Add(new Vector3d(r * Math.Cos(phi), r * Math.Sin(phi), z));
                 }
             }
-            for (int i = 0; i < rows; i++)
+            mesh.JoinRows(around, rows);
+            return mesh;
+        }
+
+        /// <summary>A pipe of circles about places on a line in the y z plane, open at both ends; a corner of each lies
+        /// in that plane on either side.</summary>
+        /// <param name="places">Centres of the circles.</param>
+        /// <param name="turns">How far the line has turned from z towards y there, radians.</param>
+        /// <param name="around">Corners of a circle, an even number.</param>
+        public static TestMeshes Pipe(Vector3d[] places, double[] turns, double radius, int around)
+        {
+            var mesh = new TestMeshes();
+            for (int i = 0; i < places.Length; i++)
             {
+                var inPlane = new Vector3d(0.0, Math.Cos(turns[i]), -Math.Sin(turns[i]));
                 for (int k = 0; k < around; k++)
                 {
-                    int next = (k + 1) % around;
-                    mesh.Quad(
-                        i * around + k, i * around + next, (i + 1) * around + next, (i + 1) * around + k);
+                    double phi = 2.0 * Math.PI * k / around;
+                    mesh._vertices.Add(places[i]
+                        + radius * (Math.Cos(phi) * inPlane + Math.Sin(phi) * Vector3d.UnitX));
                 }
             }
+            mesh.JoinRows(around, places.Length - 1);
             return mesh;
         }
 
@@ -165,6 +179,18 @@ namespace Guidewire.Core.Tests
                 sum += 2.0 * Math.Atan2(Vector3d.Dot(a, Vector3d.Cross(b, c)), bottom);
             }
             return sum / (4.0 * Math.PI);
+        }
+
+        private void JoinRows(int around, int rows)
+        {
+            for (int i = 0; i < rows; i++)
+            {
+                for (int k = 0; k < around; k++)
+                {
+                    int next = (k + 1) % around;
+                    Quad(i * around + k, i * around + next, (i + 1) * around + next, (i + 1) * around + k);
+                }
+            }
         }
 
         private void Quad(int i, int j, int k, int l)

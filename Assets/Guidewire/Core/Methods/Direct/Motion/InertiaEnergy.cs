@@ -20,6 +20,9 @@ namespace Guidewire.Core
         private readonly RodMass _mass;
         private readonly Quaterniond[] _anchor;
         private readonly Vector3d[] _anchorCouple;
+        private double _nodes;                // energy of the nodes in the shape whose value was asked last, J
+        private readonly Quaterniond[] _seen;      // orientations whose couples are known in this stage
+        private readonly Vector3d[] _seenCouple;
         private readonly Vector3d[] _countedTurn;  // phi with its full turns, in the shape that was last looked at
 
         /// <summary>The inertia of a rod.</summary>
@@ -32,6 +35,8 @@ namespace Guidewire.Core
             int n = _rotary.Length;
             _anchor = new Quaterniond[n];
             _anchorCouple = new Vector3d[n];
+            _seen = new Quaterniond[n];
+            _seenCouple = new Vector3d[n];
             _countedTurn = new Vector3d[n];
             Start = new Quaterniond[n];
             FreePositions = new Vector3d[n + 1];
@@ -62,6 +67,12 @@ namespace Guidewire.Core
         {
             Array.Copy(shape.Q, Start, Start.Length);
             Array.Clear(_countedTurn, 0, _countedTurn.Length);
+        }
+
+        /// <summary>A stage begins: its length and what earlier stages have contributed are set.</summary>
+        public void BeginStage()
+        {
+            Array.Clear(_seen, 0, _seen.Length);
         }
 
         /// <summary>phi' and w' of the stage in this shape, by which its turns and angular velocities have grown over
@@ -139,10 +150,14 @@ namespace Guidewire.Core
             snapshot.Exchange(TurnHistory);
             snapshot.Exchange(SpinHistory);
             snapshot.Exchange(_countedTurn);
+            BeginStage();
         }
 
-        /// <inheritdoc/>
-        public override bool IsAnchored => true;
+        /// <summary>Of the nodes alone: no work of the couples yet.</summary>
+        public override double AnchoredValue(double before)
+        {
+            return _nodes;
+        }
 
         /// <inheritdoc/>
         public override void Anchor(RodShape shape)
@@ -158,22 +173,24 @@ namespace Guidewire.Core
         public override double Value(RodShape shape)
         {
             double perSquare = 1.0 / (StageLength * StageLength);
-            double sum = 0.0;
+            double nodes = 0.0;
+            double turns = 0.0;
             for (int i = 0; i < _diagonal.Length; i++)
             {
                 Vector3d d = shape.X[i] - FreePositions[i];
-                sum += 0.5 * perSquare * _diagonal[i] * d.LengthSquared;
+                nodes += 0.5 * _diagonal[i] * d.LengthSquared;
                 if (i < _coupling.Length)
                 {
                     Vector3d e = shape.X[i + 1] - FreePositions[i + 1];
-                    sum += perSquare * _coupling[i] * Vector3d.Dot(d, e);
+                    nodes += _coupling[i] * Vector3d.Dot(d, e);
                     Vector3d turn = RotationVector.Log(_anchor[i].Conjugate * shape.Q[i]);
                     Vector3d rotary = _rotary[i];
-                    sum += Vector3d.Dot(_anchorCouple[i], turn) + 0.5 * PerTurn * (rotary.X * turn.X * turn.X
+                    turns += Vector3d.Dot(_anchorCouple[i], turn) + 0.5 * PerTurn * (rotary.X * turn.X * turn.X
                         + rotary.Y * turn.Y * turn.Y + rotary.Z * turn.Z * turn.Z);
                 }
             }
-            return sum;
+            _nodes = perSquare * nodes;
+            return _nodes + turns;
         }
 
         /// <inheritdoc/>
@@ -242,9 +259,22 @@ namespace Guidewire.Core
             b.A33 += mass;
         }
 
-        /// <summary>I (w - w^)/h + w x I w + a I w.</summary>
-        [MethodImpl(Compiled.AtOnce)]
+        /// <summary>I (w - w^)/h + w x I w + a I w; an iteration asks for it up to three times in one shape.</summary>
         private Vector3d Couple(in Quaterniond orientation, int j)
+        {
+            ref Quaterniond seen = ref _seen[j];
+            if (orientation.X == seen.X && orientation.Y == seen.Y && orientation.Z == seen.Z
+                && orientation.W == seen.W)
+            {
+                return _seenCouple[j];
+            }
+            seen = orientation;
+            _seenCouple[j] = FindCouple(orientation, j);
+            return _seenCouple[j];
+        }
+
+        [MethodImpl(Compiled.AtOnce)]
+        private Vector3d FindCouple(in Quaterniond orientation, int j)
         {
             Vector3d w = Spin(Turn(orientation, j), j);
             Vector3d rate = (1.0 / StageLength) * (w - SpinHistory[j]);

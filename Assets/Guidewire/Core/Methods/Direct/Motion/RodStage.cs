@@ -104,6 +104,7 @@ namespace Guidewire.Core
         {
             double h = Inertia.StageLength;
             double before = Math.Min(time, jump);
+            Inertia.BeginStage();
             _terms.SetTime(_schedule, before);
             string? failure = Frames.Turn(_shape, time, out bool inParts);
             if (failure != null)

@@ -42,7 +42,11 @@ namespace Guidewire.Core
             _spins = (Vector3d[])whole.Spins.Clone();
             _stress = new StressRecord(whole.Rod, whole.Supports);
             _setup = new SheathSetup(parameters, whole);
-            Contacts = new ContactRecord(n + 1) { WallForces = new Vector3d[parameters.Scene.Walls.Length] };
+            Contacts = new ContactRecord(n + 1)
+            {
+                WallForces = new Vector3d[parameters.Scene.Walls.Length],
+                ElementForces = new Vector3d[n],
+            };
             int first = _setup.FirstOutside(_shape, LeastElements);
             whole.Schedule.ProximalPosition += _setup.Stations[first] * _setup.Axis;
             _setup.LimitDrive(_shape);
@@ -61,7 +65,7 @@ namespace Guidewire.Core
         {
             MoveWindow();
             RodSchedule schedule = _whole.Schedule;
-            (double, double, double) drive = _whole.Drive.Way;
+            (double, double, double, double) drive = _whole.Drive.Way;
             (Vector3d place, double since) = (schedule.ProximalPosition, schedule.ProximalTime);
             double time = _dynamics.Time;
             double torque = Torque();
@@ -181,9 +185,7 @@ namespace Guidewire.Core
             MaterialScene scene = _setup.Scene(_window, _shape, _velocities, _spins, _frameTurn);
             _dynamics = _setup.Dynamics(scene, _window);
             _dynamics.GoOn(time, _frameTurn);
-            SupportSpring spring = _dynamics.Terms.Walls!.Spring;
-            spring.Axis = _setup.Axis;
-            spring.Place = _whole.Schedule.ProximalPositionAt(time);
+            _dynamics.Terms.Walls!.Spring.Axis = _setup.Axis;
             _inner = new DirectStep(scene, _dynamics, _whole.Drive, _parameters.Method, _report,
                 new ContactRecord(scene.Shape.X.Length));
             _inner.Contacts!.Take(Contacts!, -_window.First);

@@ -19,7 +19,8 @@ namespace Guidewire.Core
         private const double Rounding = 1e-13;           // of the energies' magnitudes
         private const double LastPlace = 1.0 / (1L << 52);
         private const double LeastShift = 1e-4;          // of EI/L^2
-        private const double Far = 1e5;                  // from balance: not there after one iteration
+        private const double Far = 1e5;                  // times what may be unbalanced: not there after one iteration
+        private const int MostStiffened = 4;             // iterations of a stage
         private const double FreeParts = 5.0;            // L over what is free of a wire that touches walls
         private const int MostCuts = 30;
 
@@ -85,40 +86,46 @@ namespace Guidewire.Core
         /// <param name="shape">In: its gaps are open. Out: the stage's.</param>
         /// <param name="stageLength">h, s.</param>
         /// <param name="loads">Sum of the loads' magnitudes, N.</param>
+        /// <param name="isFar">Whether the shape is surely not the stage's yet.</param>
         /// <returns>Null, or why it has not come to an end; the shape is then not to be used.</returns>
-        public string? Solve(RodShape shape, double stageLength, double loads)
+        public string? Solve(RodShape shape, double stageLength, double loads, bool isFar)
         {
             double rounding = LastPlace * (shape.X[0].Length + _totalLength)
                 * (10.0 * _axialSpring + _mass / (stageLength * stageLength));
             double left = double.PositiveInfinity;
-            double allowed = 0.0;
             for (int k = 0; k < MostIterations; k++)
             {
                 double before = left;
-                bool isFar = left > Far * allowed && left <= double.MaxValue;
                 if (!isFar)
                 {
                     GradientMeasures measures = _system.Gradient(_terms, shape, _gradient, _direction);
                     left = Unbalanced();
-                    allowed = Math.Min(Balance * Math.Max(measures.LargestForce, loads),
-                        (_barrier.Touches ? FreeParts * FreeParts : 1.0) * Tolerance * _bendForce) + rounding;
+                    double allowed = rounding + Math.Min(
+                        Balance * Math.Max(measures.LargestForce, loads), MostUnbalanced);
                     if (left <= allowed)
                     {
                         return null;
                     }
                 }
                 EnergySum.Anchor(_terms, shape);
-                FindDirection(shape);
+                FindDirection(shape, k < MostStiffened);
                 left = isFar ? Unbalanced() : left;
+                bool wasFar = isFar;
+                isFar = left > Far * (MostUnbalanced + rounding) && left <= double.MaxValue;
                 if (!(left <= double.MaxValue))
                 {
                     return "a force is not a finite number";
                 }
                 Iterations++;
                 double scale = Scale(shape, out double size);
-                bool isRounding = !Search(shape, k == 0, ref scale, size, out bool isHidden);
-                if (isRounding)
+                if (!Search(shape, k == 0, ref scale, size, out bool isHidden))
                 {
+                    if (wasFar)
+                    {
+                        // It was not, and rounding hides that the energy is as low as it gets.
+                        isFar = false;
+                        continue;
+                    }
                     return "no lower energy along the Newton step, " + Text(left) + " N out of balance";
                 }
                 shape.CopyFrom(_trial);
@@ -147,23 +154,42 @@ namespace Guidewire.Core
             Factorisations = snapshot.Exchange(Factorisations);
         }
 
-        private void FindDirection(RodShape shape)
+        // Where small forces balance, N: by the wire's free length, which is less where it touches walls.
+        private double MostUnbalanced =>
+            (_barrier.Touches ? FreeParts * FreeParts : 1.0) * Tolerance * _bendForce;
+
+        // Far from balance without what goes with forces that need not be there; nearer only walls' forces do.
+        private void FindDirection(RodShape shape, bool isStiffened)
         {
             Factorisations++;
-            _barrier.HasBending = true;
             int negative = _system.Factorise(_terms, shape, _gradient, _direction, 0.0);
             if (negative > 0)
             {
-                _barrier.HasBending = false;
+                Stiffen(isStiffened, true);
                 Factorisations++;
                 negative = _system.Factorise(_terms, shape, _gradient, _direction, 0.0);
+                if (negative > 0)
+                {
+                    Shift(shape, 0.25);
+                }
+                Stiffen(isStiffened, false);
             }
             if (negative == 0)
             {
                 _system.Back(_direction);
-                return;
             }
-            Shift(shape, 0.25);
+        }
+
+        private void Stiffen(bool isAll, bool isOn)
+        {
+            if (isAll)
+            {
+                EnergySum.Stiffen(_terms, isOn);
+            }
+            else
+            {
+                _barrier.Stiffen(isOn);
+            }
         }
 
         // The largest force on a piece of the rod from its start to any node, or the sum of the couples over L, N.
@@ -200,7 +226,7 @@ namespace Guidewire.Core
         {
             double slope = RodVectors.Dot(_gradient, _direction);
             double start = isFirst ? EnergySum.Value(_terms, shape, _values, out double magnitude)
-                : EnergySum.AnchoredValue(_terms, shape, _values, out magnitude);
+                : EnergySum.AnchoredValue(_terms, _values, out magnitude);
             double rounding = Rounding * magnitude;
             isHidden = -slope < 1e3 * rounding && size < 1e-2;
             for (int cut = 0; cut < MostCuts; cut++)

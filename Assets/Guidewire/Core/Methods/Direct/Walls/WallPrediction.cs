@@ -3,7 +3,8 @@ using System;
 namespace Guidewire.Core
 {
     /// <summary>Where a wire between walls would come to in a stage: it goes on along itself as far as its first node
-    /// does, changes its shape as in the time before, and is pushed back where it would come too near a wall.</summary>
+    /// does, changes its shape as in the time before, and is moved along the walls' normals: off where it would come
+    /// too near, back to where it touched.</summary>
     /// <remarks>With c(s) the curve through the nodes and p the way along it, x_i -> c(s_i + p) + x_i - c'(s_i + p'),
     /// where ' was a stage before, x' = 2 x - x~ with x~ where the nodes would go without forces: where p is 0, that is
     /// free flight, and a wire that slides along its walls keeps its shape. Free flight alone would leave the curve by
@@ -86,12 +87,10 @@ namespace Guidewire.Core
                 _place[i] = PlaceOn(_before, _at[i] + share * _way, ref at) + share * _change[i];
             }
             predicted.X[0] = _isHeld ? Vector3d.Lerp(_before[0], _start, share) : _place[0];
-            for (int i = 1; i <= last; i++)
-            {
-                double length = Vector3d.Distance(_before[i - 1], _before[i]);
-                predicted.X[i] = predicted.X[i - 1] + length * Vector3d.Normalize(_place[i] - _place[i - 1]);
-            }
+            Lay(_place, predicted.X, last);
             _push.Apply(shape, predicted, last);
+            Array.Copy(predicted.X, _place, last + 1);
+            Lay(_place, predicted.X, last);
             for (int j = 0; j < n; j++)
             {
                 Vector3d before = shape.X[j + 1] - shape.X[j];
@@ -99,6 +98,17 @@ namespace Guidewire.Core
                 Vector3d spin = RotationVector.Log(shape.Q[j].Conjugate * orientations[j]);
                 predicted.Q[j] = Between(before, after) * shape.Q[j]
                     * RotationVector.Exp(new Vector3d(0.0, 0.0, spin.Z));
+            }
+        }
+
+        // Nodes 1 to last one after the other, in the directions of a curve, as far from each other as they were: what
+        // would be compressed has no stable shape to begin with.
+        private void Lay(Vector3d[] curve, Vector3d[] x, int last)
+        {
+            for (int i = 1; i <= last; i++)
+            {
+                double length = Vector3d.Distance(_before[i - 1], _before[i]);
+                x[i] = x[i - 1] + length * Vector3d.Normalize(curve[i] - curve[i - 1]);
             }
         }
 

@@ -2,12 +2,17 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Moves nodes off the walls, until no gap of a shape is less than it was in another shape or half of the
-    /// barrier's distance, but for what one push does to the next.</summary>
+    /// <summary>Moves nodes of a shape along the walls' normals, until those that touched a wall in the shape before have
+    /// the gap that they had, and no other gap is less than half of the barrier's distance, but for what one push does
+    /// to the next.</summary>
+    /// <remarks>A node that touched is pulled back too: where it would leave the wall in the first iteration of a step,
+    /// nothing would hold it there, and it is hit again in the next.</remarks>
     internal sealed class WallPush
     {
         private const double PushedTo = 0.5;      // of the barrier's distance
         private const double LeastLever = 0.1;
+        private const double Touching = 0.99;     // of the barrier's distance: a gap with a force
+        private const double Pulled = 5.0;        // barrier's distances, from where a node is still pulled back
         private readonly BarrierEnergy _barrier;
         private readonly double _units;           // per metre
         private readonly StructList<WallPlace> _places = new StructList<WallPlace>(16);
@@ -32,16 +37,16 @@ namespace Guidewire.Core
             {
                 for (int i = 1; i <= last; i++)
                 {
-                    if ((i < n && near.IsNear(w, i)) || near.IsNear(w, i - 1))
+                    if (near.IsNodeNear(w, i))
                     {
-                        PushNode(w, i, near.FeaturesOfNode(w, i), ref shape.X[i]);
+                        PushNode(w, i, near.FeaturesOfNode(w, i, _units * shape.X[i]), ref shape.X[i]);
                     }
                 }
                 for (int j = 0; j < n; j++)
                 {
                     if (near.IsNear(w, j))
                     {
-                        PushElement(w, j, near.FeaturesOf(w, j), shape, last);
+                        PushElement(w, j, near, shape, last);
                     }
                 }
             }
@@ -50,28 +55,35 @@ namespace Guidewire.Core
         private void PushNode(int w, int i, FeatureRange features, ref Vector3d x)
         {
             double radius = _barrier.RadiusOfNode(i);
-            double asked = Math.Min(_barrier.NodeGap(w, i), PushedTo * _barrier.Barrier.Distance);
+            double distance = _barrier.Barrier.Distance;
+            double before = _barrier.NodeGap(w, i);
+            bool touched = before < Touching * distance;
+            double asked = touched ? before : PushedTo * distance;
+            double nearest = touched ? Pulled * distance : asked;
             _places.Clear();
-            _barrier.Walls[w].FindPlaces(_units * x, _units * (radius + asked), features, _places);
+            _barrier.Walls[w].FindPlaces(_units * x, _units * (radius + nearest), features, _places);
+            Vector3d normal = Vector3d.Zero;
             for (int k = 0; k < _places.Count; k++)
             {
-                ref WallPlace at = ref _places[k];
-                double gap = at.Contact.Distance / _units - radius;
-                if (gap < asked && at.Weight > 0)
+                double gap = _places[k].Contact.Distance / _units - radius;
+                if (gap < nearest && _places[k].Weight > 0)
                 {
-                    x += (asked - gap) * at.Contact.Normal;
-                    return;
+                    nearest = gap;
+                    normal = _places[k].Contact.Normal;
                 }
             }
+            x += (asked - nearest) * normal;
         }
 
-        private void PushElement(int w, int j, FeatureRange features, RodShape shape, int last)
+        private void PushElement(int w, int j, NearWalls near, RodShape shape, int last)
         {
             double radius = _barrier.RadiusOf(j);
             double asked = Math.Min(_barrier.RidgeGap(w, j), PushedTo * _barrier.Barrier.Distance);
             _ridges.Clear();
-            _barrier.Walls[w].FindRidges(_units * shape.X[j], _units * shape.X[j + 1], _units * (radius + asked),
-                features, _ridges);
+            Vector3d start = _units * shape.X[j];
+            Vector3d end = _units * shape.X[j + 1];
+            _barrier.Walls[w].FindRidges(
+                start, end, _units * (radius + asked), near.FeaturesOf(w, j, start, end), _ridges);
             for (int k = 0; k < _ridges.Count; k++)
             {
                 ref WallRidge ridge = ref _ridges[k];

@@ -5,12 +5,14 @@ namespace Guidewire.Core
     internal sealed class WallStage
     {
         private const int Relags = 1;       // of the pushes that friction goes with
+        private const double Far = 1e3;     // of the error that a stage may have: after such a way it is not done
 
         private readonly RodTerms _terms;
         private readonly RodSupports _supports;
         private readonly WallPrediction _prediction;
         private readonly RodShape _predicted;
         private readonly RodVector[] _direction;
+        private readonly double _totalLength;    // m
 
         /// <summary>For a rod under terms that hold walls.</summary>
         public WallStage(RodTerms terms, InertiaEnergy inertia, EnergyTerm[] moving)
@@ -21,6 +23,7 @@ namespace Guidewire.Core
             _prediction = new WallPrediction(terms, inertia);
             _predicted = new RodShape(n);
             _direction = new RodVector[n + 2];
+            _totalLength = terms.Rod.TotalLength;
             Newton = new BarrierNewton(terms, moving);
         }
 
@@ -44,6 +47,7 @@ namespace Guidewire.Core
             _terms.Walls.Friction?.Lag(shape);
             PlaceEnd(shape, end);
             int parts = _prediction.Begin(shape, start - lag);
+            bool isFar = false;
             for (int k = 1; k <= parts; k++)
             {
                 _predicted.CopyFrom(shape);
@@ -54,17 +58,18 @@ namespace Guidewire.Core
                 {
                     return "the wire's surface is at a wall at the start of the step";
                 }
+                isFar |= RodStep.Size(_direction, shape.ElementCount, _totalLength, out _) > Far * Newton.Tolerance;
                 RodStep.ApplyStraight(shape, _direction, share, shape);
                 if (share < 1.0)
                 {
                     break;
                 }
             }
-            string? failure = Newton.Solve(shape, stageLength, loads);
+            string? failure = Newton.Solve(shape, stageLength, loads, isFar);
             for (int k = 0; k < Relags && failure == null && _terms.Walls.Friction != null; k++)
             {
                 _terms.Walls.Friction.Lag(shape);
-                failure = Newton.Solve(shape, stageLength, loads);
+                failure = Newton.Solve(shape, stageLength, loads, isFar: false);
             }
             return failure;
         }

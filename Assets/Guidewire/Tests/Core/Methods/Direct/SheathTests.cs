@@ -104,7 +104,7 @@ namespace Guidewire.Core.Tests
             double asked = 1e3 * 2.0 * Speed * 300 * parameters.Method.TimeStep;
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
             Assert.That(run.Contacts!.DriveAsked, Is.EqualTo(asked).Within(1e-9));
-            Assert.That(-1e3 * run.Hub()!.Insertion + run.Contacts.DriveShortfall, Is.EqualTo(asked).Within(1e-3));
+            Assert.That(-1e3 * run.Hub()!.Insertion + run.Contacts.DriveShortfall, Is.EqualTo(asked).Within(1e-6));
         }
 
         [Test]

@@ -145,10 +145,14 @@ namespace Guidewire.Core.Tests
                 Vector3d a = random.Point();
                 Vector3d b = a + 0.5 * random.Point();
                 double reach = random.Number(0.0, 0.5);
-                var features = new StructList<int>(8);
+                var features = new StructList<WallFeature>(8);
                 int hint = -1;
                 wall.FindFeatures(a, b, range + reach, reach, ref hint, features);
-                var all = new FeatureRange(features, 0, features.Count);
+                int own = features.Count;
+                wall.FindFeatures(a, range + reach, features);
+                var all = new FeatureRange(features, 0, own, reach);
+                FeatureRange atA = wall.HasPointFeatures
+                    ? new FeatureRange(features, own, features.Count, reach) : all;
                 a += reach * random.Direction();
                 b += reach * random.Direction();
                 if (!wall.Contains(a) || !wall.Contains(b))
@@ -157,7 +161,7 @@ namespace Guidewire.Core.Tests
                 }
                 var places = new StructList<WallPlace>(8);
                 var exact = new StructList<WallPlace>(8);
-                wall.FindPlaces(a, range, all, places);
+                wall.FindPlaces(a, range, atA, places);
                 wall.FindPlaces(a, a, range, exact);
                 Assert.That(places.Count, Is.EqualTo(exact.Count), "case " + i);
                 double sum = 0.0;

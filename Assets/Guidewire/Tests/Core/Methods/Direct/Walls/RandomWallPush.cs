@@ -30,7 +30,7 @@ namespace Guidewire.Core.Tests
             int half = _parameters.Method.MaxSimulationSteps / 2;
             while (Simulation.Outcome == Outcome.Running)
             {
-                if (Simulation.StepCount == half && seed % 3 == 0 && !HasLeft())
+                if (Simulation.StepCount == half && seed % 3 == 0)
                 {
                     PullBack();
                 }
@@ -179,13 +179,6 @@ namespace Guidewire.Core.Tests
             SimulationParameters back = _parameters.Copy();
             back.Drive.DisplacementPerStep *= -1.0;
             Simulation = Simulation.Continue(back);
-        }
-
-        // By the open end of a vessel, which is no place to set out from.
-        private bool HasLeft()
-        {
-            Vector3d tip = Simulation.State.Positions[Simulation.State.ElementCount];
-            return Array.Exists(_parameters.Scene.Walls, wall => !wall.Contains(tip));
         }
 
         private void Look()

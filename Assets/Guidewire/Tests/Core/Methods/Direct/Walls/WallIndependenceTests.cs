@@ -41,9 +41,23 @@ namespace Guidewire.Core.Tests
             Assert.That(Vector3d.Distance(coarse, fine), Is.LessThan(3.0 * Gap));
         }
 
-        private static Vector3d Tip(int n, double timeStep, double gap)
+        [Test]
+        [Category("Long")]
+        public void Tip_DoesNotDependOnTheMesh()
+        {
+            // Chords along the bend take up to 33 mm (1 - cos(pi/48)) = 0.07 mm off the outer wall of the coarse one.
+            Vector3d coarse = Tip(60, 0.01, Gap, WallScenes.ArchMesh(16, 24));
+            Vector3d fine = Tip(60, 0.01, Gap, WallScenes.ArchMesh(64, 96));
+            Vector3d tube = Tip(60, 0.01, Gap, WallScenes.ArchTube(96));
+            TestContext.WriteLine(Vector3d.Distance(coarse, fine) + " and " + Vector3d.Distance(fine, tube) + " mm");
+            Assert.That(Vector3d.Distance(coarse, fine), Is.LessThan(Gap));
+            Assert.That(Vector3d.Distance(fine, tube), Is.LessThan(0.2 * Gap));
+        }
+
+        private static Vector3d Tip(int n, double timeStep, double gap, ContactShape? vessel = null)
         {
             SimulationParameters parameters = WallScenes.Arch(n, timeStep, 50.0, Way);
+            parameters.Scene.Walls = vessel == null ? parameters.Scene.Walls : new[] { vessel };
             parameters.Contact.ContactDistance = 1e-3 * gap;
             Simulation run = Wires.Run(parameters);
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);

@@ -102,6 +102,7 @@ namespace Guidewire.Core.Tests
             Assert.That(change, Is.LessThan(-0.02));
             Assert.That(run.Warnings, Does.Contain(string.Format(System.Globalization.CultureInfo.InvariantCulture,
                 "the wire is {0:0.0} % shorter than at rest", -100.0 * change)));
+            Assert.That(run.Warnings, Has.Some.StartWith("the drive fell short: of 12 units"));
         }
 
         [Test]
@@ -181,6 +182,42 @@ namespace Guidewire.Core.Tests
             Assert.That(part.Contacts!.DriveAsked, Is.EqualTo(whole.Contacts!.DriveAsked));
         }
 
+        [TestCase(Solver.Direct)]
+        [TestCase(Solver.Pbd)]
+        public void Run_GoesOnAndIsRestored_WhenItsTipHasLeftByAnOpenEnd(Solver solver)
+        {
+            SimulationParameters parameters = WallScenes.Wire(30, 0.4e-3);
+            if (solver == Solver.Pbd)
+            {
+                parameters = new SimulationParameters();
+                parameters.Contact.SphereRadius = 0.4;
+                parameters.Method.DeltaThreshold = 0.0;
+            }
+            parameters.Scene.GuidewireOffset = 0.0;
+            var knots = new[] { new Vector3d(0.0, 0.0, -50.0), new Vector3d(0.0, 0.0, 305.0) };
+            parameters.Scene.Walls = new ContactShape[] { new TubeShape(knots, new[] { 2.0, 2.0 }, true, true) };
+            parameters.Drive.Kind = Drive.Displace;
+            parameters.Drive.DisplacementPerStep = 1.0;
+            parameters.Method.TimeStep = 0.01;
+            parameters.Method.MaxSimulationSteps = 60;
+            Simulation whole = Simulation.Create(parameters);
+            Simulation part = Simulation.Create(parameters);
+            for (int k = 0; k < 50; k++)
+            {
+                whole.Step();
+                part = k == 30 ? part.Continue(parameters)
+                    : k == 40 ? Simulation.Restore(parameters, part.Save()) : part;
+                part.Step();
+            }
+            Assert.That(whole.State.Positions[30].Z, Is.GreaterThan(320.0), whole.Reason);
+            Assert.That(part.State.Positions, Is.EqualTo(whole.State.Positions));
+            // Between walls that it is across it does not go on.
+            SimulationParameters across = parameters.Copy();
+            knots = new[] { new Vector3d(0.0, 1.9, -50.0), new Vector3d(0.0, 1.9, 305.0) };
+            across.Scene.Walls = new ContactShape[] { new TubeShape(knots, new[] { 2.0, 1.0 }, true, true) };
+            Assert.Throws<ArgumentException>(() => whole.Continue(across));
+        }
+
         [Test]
         public void Run_GoesOnWithoutItsWalls_AndBetweenThemAgain()
         {
@@ -246,12 +283,17 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        public void DriveThatFallsShort_IsWarnedOf()
+        public void DriveWhoseWayTheWallsBar_EndsTheRunWithAReason()
         {
-            Simulation run = Wires.Run(WallScenes.Arch(30, 0.01, 5000.0, 400.0));
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
-            Assert.That(run.Contacts!.DriveShortfall, Is.GreaterThan(1e-3 * run.Contacts.DriveAsked));
-            Assert.That(run.Warnings, Has.Some.StartWith("the drive fell short: of 400 units"));
+            // The hub goes on straight where the tube bends: it asks for 72 mm beyond its wall.
+            Simulation run = Wires.Run(WallScenes.Arch(30, 0.01, 1000.0, 400.0));
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Failed), run.Reason);
+            Assert.That(run.Reason, Does.Contain("the walls do not let sphere 0 to where the drive has it"));
+            Assert.That(run.Reason, Does.Contain("hubForceLimit"));
+            // In the step of 10 mm before, the hub was no more than a tenth of an element off.
+            Assert.That(run.Contacts!.DriveShortfall, Is.InRange(1.0, 11.0));
+            Assert.That(run.State.Positions[0].Z + 300.0 + run.Contacts.DriveShortfall,
+                Is.EqualTo(run.Contacts.DriveAsked).Within(0.01 * run.Contacts.DriveAsked));
             Assert.That(Wires.Run(WallScenes.Arch(30, 0.01, 50.0, 10.0)).Warnings, Is.Empty);
         }
 

@@ -26,6 +26,35 @@ namespace Guidewire.Core.Tests
             return new TubeShape(knots.ToArray(), knots.ConvertAll(_ => LumenRadius).ToArray(), true, true);
         }
 
+        /// <summary>The same as a mesh: rings of corners on the tube, a pair of them in the bend's plane, so that the
+        /// wire lies where chords take nothing off around the tube.</summary>
+        /// <param name="around">Corners of a ring.</param>
+        /// <param name="pieces">Of the bend; rings are as far apart elsewhere.</param>
+        public static MeshShape ArchMesh(int around, int pieces)
+        {
+            double apart = Math.PI * BendRadius / pieces;
+            var places = new List<Vector3d>();
+            var turns = new List<double>();
+            for (int k = -(int)Math.Ceiling(320.0 / apart); k < 0; k++)
+            {
+                places.Add(new Vector3d(0.0, 0.0, k * apart));
+                turns.Add(0.0);
+            }
+            for (int k = 0; k <= pieces; k++)
+            {
+                double angle = Math.PI * k / pieces;
+                places.Add(new Vector3d(0.0, BendRadius * (1.0 - Math.Cos(angle)), BendRadius * Math.Sin(angle)));
+                turns.Add(angle);
+            }
+            for (int k = 1; k * apart < 200.0; k++)
+            {
+                places.Add(new Vector3d(0.0, 2.0 * BendRadius, -k * apart));
+                turns.Add(Math.PI);
+            }
+            TestMeshes mesh = TestMeshes.Pipe(places.ToArray(), turns.ToArray(), LumenRadius, around);
+            return new MeshShape(mesh.Build(places[0], places[places.Count - 1]));
+        }
+
         /// <summary>A nitinol wire, r = 0.4 mm and 300 mm long, that is pushed from the sheath into the arch.</summary>
         /// <param name="speed">mm/s.</param>
         /// <param name="way">mm.</param>

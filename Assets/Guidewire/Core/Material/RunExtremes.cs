@@ -1,0 +1,148 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>The largest values that a wire came to in a run of the direct solver, in SI units: at the start and
+    /// after every step. NaN where nothing is there to be measured.</summary>
+    public sealed class RunExtremes
+    {
+        private Vector3d[] _turns = Array.Empty<Vector3d>();      // of the joints, rad
+        private RodVector[] _gradient = Array.Empty<RodVector>();
+        private double[] _stretch = Array.Empty<double>();        // of the elements, without sign
+        private double _curvatureSquared;
+
+        internal RunExtremes()
+        {
+        }
+
+        /// <summary>Largest curvature of any joint, without twist, 1/m.</summary>
+        public double Curvature => Math.Sqrt(_curvatureSquared);
+
+        /// <summary>Largest strain of the outermost fibre: the radius times the change of a joint's curvature from
+        /// rest, and the stretch or compression of the element beside it that has more. Dimensionless.</summary>
+        public double Strain { get; private set; }
+
+        /// <summary>Largest force of the hub along its axis, push or pull, N; NaN without walls.</summary>
+        public double AxialForce { get; private set; } = double.NaN;
+
+        /// <summary>Largest torque of the hub about its axis, either way, N m; NaN without walls.</summary>
+        public double AxialTorque { get; private set; } = double.NaN;
+
+        /// <summary>Largest force with which walls push one element along their normals, N; NaN without walls.
+        /// </summary>
+        public double ElementForce { get; private set; } = double.NaN;
+
+        /// <summary>Largest of these forces over the element's length and diameter, Pa; NaN without walls.</summary>
+        public double WallPressure { get; private set; } = double.NaN;
+
+        /// <summary>Largest power of friction on the wire at the end of a step, W; NaN where no wall rubs. Friction
+        /// takes energy: it is never above 0.</summary>
+        public double FrictionPower { get; private set; } = double.NaN;
+
+        /// <summary>The powers at the ends of all steps times their lengths, J; NaN where no wall rubs.</summary>
+        public double FrictionWork { get; private set; } = double.NaN;
+
+        /// <summary>Takes what the wire's shape alone says.</summary>
+        /// <param name="joints">The n + 1 joints.</param>
+        /// <param name="lengths">The length that each of them stands for, m.</param>
+        internal void TakeShape(RodTerms terms, Joint[] joints, double[] lengths, RodShape shape)
+        {
+            MaterialRod rod = terms.Rod;
+            int n = shape.ElementCount;
+            if (_turns.Length < n + 1)
+            {
+                _turns = new Vector3d[n + 1];
+                _stretch = new double[n];
+            }
+            terms.Bending.Measure(shape, _turns);
+            for (int j = 0; j < n; j++)
+            {
+                _stretch[j] = Math.Abs(Vector3d.Distance(shape.X[j], shape.X[j + 1]) / rod.Length[j] - 1.0);
+            }
+            double largest = _curvatureSquared;
+            double strain = Strain;
+            for (int k = 0; k <= n; k++)
+            {
+                Vector3d turn = _turns[k];
+                double share = k < 2 && terms.Sheath != null ? terms.Sheath.Share(shape, k) : 1.0;
+                Vector3d change = turn - share * joints[k].Rest;
+                double perLength = 1.0 / (share * lengths[k]);
+                largest = Math.Max(largest, perLength * perLength * (turn.X * turn.X + turn.Y * turn.Y));
+                int before = Math.Max(k - 1, 0);
+                int after = Math.Min(k, n - 1);
+                // An end without a clamp has no joint, and no turn.
+                double bend = (k > 0 || terms.Supports.HasProximalJoint) && (k < n || terms.Supports.HasDistalJoint)
+                    ? perLength * Math.Sqrt(change.X * change.X + change.Y * change.Y) : 0.0;
+                strain = Math.Max(strain, Math.Max(rod.Radius[before], rod.Radius[after]) * bend
+                    + Math.Max(_stretch[before], _stretch[after]));
+            }
+            _curvatureSquared = largest;
+            Strain = strain;
+        }
+
+        /// <summary>Takes what the hub does.</summary>
+        /// <param name="force">Along its axis, N.</param>
+        /// <param name="torque">About it, N m.</param>
+        internal void TakeHub(double force, double torque)
+        {
+            AxialForce = Larger(AxialForce, Math.Abs(force));
+            AxialTorque = Larger(AxialTorque, Math.Abs(torque));
+        }
+
+        /// <summary>Takes what walls push elements with.</summary>
+        /// <param name="force">Largest on an element, N.</param>
+        /// <param name="pressure">Largest of an element, Pa.</param>
+        internal void TakeWalls(double force, double pressure)
+        {
+            ElementForce = Larger(ElementForce, force);
+            WallPressure = Larger(WallPressure, pressure);
+        }
+
+        /// <summary>Takes the power of friction at the end of a step: its forces and couples on the moving
+        /// wire.</summary>
+        /// <param name="spins">Of the elements along their own axes, rad/s.</param>
+        internal void TakeFriction(FrictionEnergy friction, RodShape shape, Vector3d[] velocities, Vector3d[] spins,
+            double dt)
+        {
+            int n = shape.ElementCount;
+            if (_gradient.Length < n + 2)
+            {
+                _gradient = new RodVector[n + 2];
+            }
+            Array.Clear(_gradient, 0, _gradient.Length);
+            var measured = default(GradientMeasures);
+            friction.AddGradient(shape, _gradient, 0, n + 1, ref measured);
+            double power = 0.0;
+            for (int i = 0; i <= n; i++)
+            {
+                RodVector g = _gradient[i];
+                power -= g.X1 * velocities[i].X + g.X2 * velocities[i].Y + g.X3 * velocities[i].Z;
+                if (i < n)
+                {
+                    power -= g.T1 * spins[i].X + g.T2 * spins[i].Y + g.T3 * spins[i].Z;
+                }
+            }
+            FrictionPower = Larger(FrictionPower, power);
+            FrictionWork = (double.IsNaN(FrictionWork) ? 0.0 : FrictionWork) + dt * power;
+        }
+
+        /// <summary>Writes or takes over all of it.</summary>
+        internal void Exchange(Snapshot snapshot)
+        {
+            _curvatureSquared = snapshot.Exchange(_curvatureSquared);
+            Strain = snapshot.Exchange(Strain);
+            AxialForce = snapshot.Exchange(AxialForce);
+            AxialTorque = snapshot.Exchange(AxialTorque);
+            ElementForce = snapshot.Exchange(ElementForce);
+            WallPressure = snapshot.Exchange(WallPressure);
+            FrictionPower = snapshot.Exchange(FrictionPower);
+            FrictionWork = snapshot.Exchange(FrictionWork);
+        }
+
+        // NaN gives way to any number.
+        private static double Larger(double before, double now)
+        {
+            return before >= now ? before : now;
+        }
+    }
+}

@@ -1,0 +1,135 @@
+using System;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>What a run's extremes and contacts say, against closed forms and against what each step says.</summary>
+    public sealed class RunExtremesTests
+    {
+        [Test]
+        public void WireThatLiesInATube_IsPushedByItsWeightPerLengthAndDiameter()
+        {
+            Simulation run = Run(Level(0.0), 400);
+            double weight = 6450.0 * Math.PI * 0.16e-6 * 9.81;   // N/m
+            ContactRecord contacts = run.Contacts!;
+            Vector3d sum = Vector3d.Zero;
+            foreach (Vector3d force in contacts.ElementForces)
+            {
+                sum += force;
+            }
+            Assert.That(Vector3d.Distance(sum, contacts.WallForces[0]), Is.LessThan(1e-12));
+            Assert.That(contacts.ElementForces[15].Y, Is.EqualTo(weight * 0.01).Within(1e-3 * weight * 0.01));
+            // The barrier of an end holds half of what others do: the wire bends there, and its neighbour bears more.
+            Assert.That(contacts.Pressure, Is.InRange(weight / 0.8e-3, 1.1 * weight / 0.8e-3));
+            RunExtremes extremes = run.Report()!.Extremes!;
+            Assert.That(extremes.WallPressure, Is.GreaterThanOrEqualTo(contacts.Pressure));
+            Assert.That(extremes.ElementForce, Is.GreaterThanOrEqualTo(contacts.ElementForces[15].Length));
+            Assert.That(extremes.FrictionPower, Is.NaN);
+            Assert.That(extremes.AxialForce, Is.NaN, "nothing holds the wire");
+        }
+
+        [Test]
+        public void FrictionTakes_WhatTheHubPutsIn()
+        {
+            // Pushed along a level tube at 20 mm/s: friction takes what the hub gives, less what the drag does.
+            SimulationParameters parameters = Level(0.3);
+            parameters.Scene.ProximalEnd = ProximalEnd.Clamped;
+            parameters.Scene.Walls = new ContactShape[] { Tube(0.59, 0.3) };
+            parameters.Contact.ContactDistance = 1e-5;
+            parameters.Drive.Kind = Drive.Displace;
+            parameters.Drive.DisplacementPerStep = 0.1;
+            Simulation run = Run(parameters, 200);
+            double before = run.Report()!.Extremes!.FrictionWork;
+            double push = run.Contacts!.Reaction.Z;
+            double drag = 40.0 * 6450.0 * Math.PI * 0.16e-6 * 0.3 * 0.02;
+            run.Step();
+            RunExtremes extremes = run.Report()!.Extremes!;
+            Assert.That(push, Is.GreaterThan(0.0));
+            Assert.That(extremes.FrictionWork - before, Is.EqualTo((drag - push) * 1e-4).Within(1e-3 * push * 1e-4));
+            Assert.That(extremes.FrictionPower, Is.LessThanOrEqualTo(0.0));
+            Assert.That(extremes.AxialForce, Is.GreaterThanOrEqualTo(push * (1.0 - 1e-6)));
+        }
+
+        [Test]
+        public void CurvatureAndStrain_AreTheLargestOfAllSteps()
+        {
+            SimulationParameters parameters = WallScenes.Arch(30, 0.01, 100.0, 100.0);
+            parameters.Material.RestCurvature = new Vector3d(5.0, 0.0, 0.0);
+            Simulation run = Simulation.Create(parameters);
+            double curvature = 0.0;
+            double strain = 0.0;
+            double force = 0.0;
+            while (run.Outcome == Outcome.Running)
+            {
+                StressRecord stress = run.Stress()!;
+                for (int k = 0; k < 30; k++)
+                {
+                    Vector3d here = stress.Curvature[k];
+                    curvature = Math.Max(curvature, Math.Sqrt(here.X * here.X + here.Y * here.Y));
+                    double bend = Math.Sqrt((here.X - 5.0) * (here.X - 5.0) + here.Y * here.Y);
+                    strain = Math.Max(strain, 0.4e-3 * bend
+                        + Math.Max(Math.Abs(stress.Strain[Math.Max(k - 1, 0)].Z), Math.Abs(stress.Strain[k].Z)));
+                }
+                force = run.StepCount == 0 ? 0.0 : Math.Max(force, Math.Abs(run.Hub()!.Force));
+                run.Step();
+            }
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            RunExtremes extremes = run.Report()!.Extremes!;
+            // The last state is not among those looked at; stretch is along the chord there, along d3 here.
+            Assert.That(extremes.Curvature, Is.GreaterThanOrEqualTo(curvature * (1.0 - 1e-12)));
+            Assert.That(extremes.Curvature, Is.EqualTo(Math.Max(curvature, run.Hub()!.LargestCurvature))
+                .Within(1e-9 * curvature));
+            Assert.That(extremes.Strain, Is.EqualTo(strain).Within(1e-3 * strain));
+            Assert.That(extremes.AxialForce, Is.EqualTo(Math.Max(force, Math.Abs(run.Hub()!.Force)))
+                .Within(1e-6 * force));
+        }
+
+        [Test]
+        public void Extremes_GoOnWithTheRun()
+        {
+            Simulation run = Simulation.Create(WallScenes.Arch(30, 0.01, 100.0, 60.0));
+            for (int k = 0; k < 50; k++)
+            {
+                run.Step();
+            }
+            Simulation next = Simulation.Restore(WallScenes.Arch(30, 0.01, 100.0, 60.0), run.Save());
+            Assert.That(next.Report()!.Extremes!.WallPressure, Is.EqualTo(run.Report()!.Extremes!.WallPressure));
+            Assert.That(next.Contacts!.ElementForces, Is.EqualTo(run.Contacts!.ElementForces));
+        }
+
+        // A wire near the wall of a level tube, under its weight.
+        private static SimulationParameters Level(double friction)
+        {
+            SimulationParameters parameters = WallScenes.Wire(30, 0.4e-3);
+            parameters.Scene.GuidewireOffset = 0.0;
+            parameters.Scene.ProximalEnd = ProximalEnd.Free;
+            parameters.Scene.Gravity = new Vector3d(0.0, -9.81, 0.0);
+            parameters.Scene.Walls = new ContactShape[] { Tube(0.0, friction) };
+            parameters.Method.TimeStep = 5e-3;
+            parameters.Material.MassDamping = 40.0;    // 1/s
+            parameters.Method.SolverTolerance = 1e-9;
+            parameters.Method.MaxSimulationSteps = 1000;
+            return parameters;
+        }
+
+        private static TubeShape Tube(double height, double friction)
+        {
+            return new TubeShape(new[] { new Vector3d(0.0, height, -50.0), new Vector3d(0.0, height, 400.0) },
+                new[] { 1.0, 1.0 }, true, true)
+            {
+                FrictionCoefficient = friction,
+            };
+        }
+
+        private static Simulation Run(SimulationParameters parameters, int steps)
+        {
+            Simulation run = Simulation.Create(parameters);
+            for (int k = 0; k < steps; k++)
+            {
+                run.Step();
+            }
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Running), run.Reason);
+            return run;
+        }
+    }
+}

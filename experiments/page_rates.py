@@ -1,0 +1,78 @@
+"""Pictures a second of the live page in a headless browser, and the time from a key to the picture that shows what it
+did: insertion scenes of 60 elements, in the aorta's mesh made four times as fine.
+
+    python3 guidewire.py python experiments/page_rates.py
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+from analysis.surfaces import read_obj
+from experiments.prepare import ROOT
+from viewer import parts
+
+SCENES = ("insertion", "insertion-accurate")
+BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+SECONDS = 10
+
+
+def refined(vertices: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices (v, 3) and triangles (4 t, 3) of a mesh whose edges are halved."""
+    edges = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
+    pairs, at = np.unique(edges, axis=0, return_inverse=True)
+    ab, bc, ca = len(vertices) + at.reshape(3, -1)
+    a, b, c = triangles.T
+    finer = [np.stack(corners, axis=1) for corners in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))]
+    return np.concatenate([vertices, vertices[pairs].mean(axis=1)]), np.concatenate(finer)
+
+
+def main() -> None:
+    parts.require("dependencies", print)
+    modules = parts.require("devDependencies", print)
+    browser = next(filter(None, map(shutil.which, BROWSERS)), None)
+    node = shutil.which("node")
+    if browser is None or node is None:
+        sys.exit("page_rates: needs a browser and node: as root 'apt-get install chromium nodejs'")
+    mesh = read_obj(ROOT / "params" / "meshes" / "arch.obj")
+    vertices, triangles = refined(mesh.vertices, mesh.triangles)
+    with tempfile.TemporaryDirectory() as folder:
+        with open(Path(folder) / "arch.obj", "w", encoding="utf-8") as file:
+            file.writelines(f"v {x!r} {y!r} {z!r}\n" for x, y, z in vertices.tolist())
+            file.writelines(f"f {a} {b} {c}\n" for a, b, c in (triangles + 1).tolist())
+        for name in SCENES:
+            scene = json.loads((ROOT / "params" / f"{name}.json").read_text(encoding="utf-8"))
+            scene |= {"numberRodElements": 60, "vessel": scene["vessel"] | {"file": "arch.obj"}}
+            (Path(folder) / f"{name}.json").write_text(json.dumps(scene), encoding="utf-8")
+            seen = watch(Path(folder) / f"{name}.json", [node, str(ROOT / "experiments" / "page_rates.mjs"),
+                                                         str(modules.parent), browser])
+            print(f"{name} (60 elements, {len(triangles)} triangles): {seen['rate']:.0f} pictures a second, each"
+                  f" {seen['cost']:.0f} ms of processor time; from a key to its picture {seen['median']:.0f} ms"
+                  f" (median of {seen['keys']}), at most {seen['worst']:.0f}", flush=True)
+
+
+def watch(scene: Path, command: list[str]) -> dict[str, float]:
+    """What the browser saw of a live scene."""
+    server = subprocess.Popen([sys.executable, str(ROOT / "guidewire.py"), "view", str(scene)], text=True,
+                              stdout=subprocess.PIPE, env={**os.environ, "PYTHONUNBUFFERED": "1"})
+    try:
+        address = server.stdout.readline().split()[1]
+        return json.loads(subprocess.run([*command, address, str(SECONDS)], check=True, capture_output=True,
+                                         text=True).stdout)
+    finally:
+        server.send_signal(signal.SIGINT)
+        server.wait()
+        server.stdout.close()
+
+
+if __name__ == "__main__":
+    main()

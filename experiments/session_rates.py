@@ -1,0 +1,62 @@
+"""Calls a second of sessions that step the accurate vessel scene by 140 ms a call, as those do who train navigation: a
+hand pushes in and pulls out, and turns as chance has it.
+
+    python3 guidewire.py python experiments/session_rates.py
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import time
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from experiments.vessel import main_lumen
+from guidewire import Session
+
+SCENE = Path(__file__).resolve().parent.parent / "params" / "insertion-accurate.json"
+STEP = 0.14  # s of simulated time a call
+PUSH = 5.0  # units a call
+CALLS = 40  # in, and as many out
+TURN = 0.5  # rad a call at most
+WARM_UP = 2
+ROUNDS = 5
+
+
+def tube() -> dict[str, Any]:
+    """The scene's aorta and arch in closed form, without the branch."""
+    lumen = main_lumen()
+    return {"shape": "tube", "knots": lumen.centres.tolist(), "radius": lumen.radii.tolist(), "openStart": True}
+
+
+def rate(overrides: Mapping[str, Any], seed: int = 0) -> tuple[float, float]:
+    """Calls a second of one session: the median of its rounds, and the best, which a busy machine disturbs least."""
+    rates = []
+    with Session(SCENE, hand=True, maxSimulationSteps=1_000_000_000, deltaThreshold=0, **overrides) as session:
+        steps = round(STEP / session.parameters["timeStep"])
+        random = np.random.default_rng(seed)
+        for _ in range(WARM_UP + ROUNDS):
+            session.reset()
+            began = time.perf_counter()
+            for call in range(2 * CALLS):
+                session.step(push=PUSH if call < CALLS else -PUSH, turn=random.uniform(-TURN, TURN), steps=steps)
+            rates.append(2 * CALLS / (time.perf_counter() - began))
+            if session.state.outcome is not None:
+                raise RuntimeError(session.state.reason)
+    return float(np.median(rates[WARM_UP:])), max(rates)
+
+
+def main() -> None:
+    for name, overrides in (("a tube", {"vessel": tube()}), ("a mesh", {})):
+        one, best = rate(overrides)
+        with multiprocessing.Pool(2) as pool:
+            two = sum(calls for calls, _ in pool.starmap(rate, [(overrides, 1), (overrides, 2)]))
+        print(f"{name}: {one:.0f} calls of {1e3 * STEP:.0f} ms a second in one session (at best {best:.0f}),"
+              f" {two:.0f} in two at once ({two / one:.2f} times)", flush=True)
+
+
+if __name__ == "__main__":
+    main()
