@@ -3,7 +3,7 @@
 **Gains.** While a wire is nearly straight, a sweep is linear in the distances u from rest, u -> S u, and so is a step
 with its prediction: u_{k+1} = S^m (2 u_k - u_{k-1}). With an eigenvalue s of S and a = s^m the roots of
 r^2 - 2 a r + a = 0 say how the motion grows from step to step; a wire holds where none is above 1. For many sweeps that
-asks for |s| < 1. A Gauss-Seidel sweep over equal links that takes back the part f of each error holds up to f = 2:
+asks for |s| < 1, and a damping d, which makes the equation r^2 - (2 - d) a r + (1 - d) a = 0, changes little. A Gauss-Seidel sweep over equal links that takes back the part f of each error holds up to f = 2:
 2 for the stretch gain across the wire, 2 (1 + 2 wq l^2/w) along it, where the part 4 wq l^2 of the correction is lost,
 and l for the bend gain, of which 2/l acts. The link at the held sphere moves one sphere only and is softer than the
 others, which a wire of few long elements feels; `limit_along` and `limit_across` have the whole chain.
@@ -95,9 +95,9 @@ def closed_form_along(elements: int) -> float:
     return 2.0 * (1.0 + 2.0 * (LENGTH / elements) ** 2 * MASS / (elements + 1))
 
 
-def limit_along(elements: int, sweeps: int) -> float:
-    """Largest stretch gain of a straight wire that is moved along itself."""
-    return _largest(lambda gain: _sweep_along(elements, gain), sweeps, 1.0, 100.0)
+def limit_along(elements: int, sweeps: int, damping: float = 0.0) -> float:
+    """Largest stretch gain of a straight wire that is moved along itself, and loses a share of its speed a step."""
+    return _largest(lambda gain: _sweep_along(elements, gain), sweeps, 1.0, 100.0, damping)
 
 
 def limit_across(elements: int, sweeps: int, bisected: str) -> float:
@@ -107,21 +107,65 @@ def limit_across(elements: int, sweeps: int, bisected: str) -> float:
     return _largest(lambda gain: _sweep_across(elements, STRETCH, gain), sweeps, 0.1, 1000.0)
 
 
-def _largest(sweep: Callable[[float], np.ndarray], sweeps: int, low: float, high: float) -> float:
+def _largest(
+    sweep: Callable[[float], np.ndarray], sweeps: int, low: float, high: float, damping: float = 0.0
+) -> float:
     """The gain at which steps begin to grow, between one that is small enough and one that is too large."""
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if _growth(sweep(middle), sweeps) < 1.0 + _GROWTH else (low, middle)
+        holds = _growth(sweep(middle), sweeps, damping) < 1.0 + _GROWTH
+        low, high = (middle, high) if holds else (low, middle)
     return low
 
 
-def _growth(sweep: np.ndarray, sweeps: int) -> float:
+def _growth(sweep: np.ndarray, sweeps: int, damping: float) -> float:
     """Largest factor from one step to the next."""
     with np.errstate(over="ignore", invalid="ignore"):
         a = np.linalg.eigvals(sweep).astype(complex) ** sweeps
-        root = np.sqrt(a * a - a)
-        growth = np.abs(np.concatenate([a + root, a - root]))
+        half = (1.0 - 0.5 * damping) * a
+        root = np.sqrt(half * half - (1.0 - damping) * a)
+        growth = np.abs(np.concatenate([half + root, half - root]))
     return float(np.max(growth)) if np.all(np.isfinite(growth)) else math.inf
+
+
+def lost_turns(elements: int, sweeps: int, part: float, turns: np.ndarray, steps: int) -> np.ndarray:
+    """Whether a straight wire with gains loses a turn whose element 0 is turned about itself by so much in each step.
+
+    All turns are about one axis, so an element is its half angle h. Within a step h goes on by atan(sin(its last way)):
+    the speed is read off a sine. A joint of half angle e gives its two elements each the half angle
+    atan2(c cos e, 1 - c sin e) back, with c = part sin e, and twice that c to the other one where the first is held.
+
+    Parameters
+    ----------
+    elements, sweeps : int
+    part : float
+        Of a small angle that a joint takes from each of its elements, bend gain over l.
+    turns : ndarray, shape (k,)
+        Rad a step.
+    steps : int
+
+    Returns
+    -------
+    ndarray of bool, shape (k,)
+    """
+    half = np.zeros((elements, len(turns)))
+    before = half
+    lost = np.zeros(len(turns), dtype=bool)
+    for step in range(1, steps + 1):
+        moved = half + np.arctan(np.sin(half - before))
+        moved[0] = 0.5 * step * turns
+        before = half
+        for _ in range(sweeps):
+            for j in range(elements - 1):
+                error = moved[j + 1] - moved[j]
+                given = part * np.sin(error) * (1.0 if j else 2.0)
+                back = np.arctan2(given * np.cos(error), 1.0 - given * np.sin(error))
+                if j:
+                    moved[j] += back
+                moved[j + 1] -= back
+        half = moved
+        lost |= np.max(np.abs(np.diff(half, axis=0)), axis=0) > 0.5 * math.pi
+    return lost
 
 
 def _inverse_masses(elements: int) -> np.ndarray:

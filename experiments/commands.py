@@ -142,8 +142,10 @@ def parse(argv: list[str]) -> argparse.Namespace:
     python.add_argument("words", metavar="...", nargs=argparse.REMAINDER, help="the script's own arguments")
     python.set_defaults(action=_python, packages=DRAWING)
 
-    bench = commands.add_parser("bench", help="what a step costs, part by part")
-    bench.set_defaults(action=_bench, packages=())
+    bench = commands.add_parser("bench", help="what a step costs, part by part, or short runs beside their steps")
+    bench.add_argument("--runs", type=positive, metavar="N", help="what N short runs of a sweep cost beside their steps")
+    bench.add_argument("--jobs", type=positive, default=os.cpu_count() or 1, metavar="N", help="runs at once")
+    bench.set_defaults(action=_bench, packages=SWEEPING)
 
     check = commands.add_parser("unity-check", help="check the Unity project's files without Unity")
     check.add_argument("--write-metas", action="store_true", help="make the .meta files that are missing")
@@ -253,7 +255,7 @@ def _figures(arguments: argparse.Namespace) -> int:
     asked += [(check, out / name) for name, checks in catalogue.checked.items() if name in needed for check in checks]
     result = _make(asked, out, means)
     folders = {name: (out / name).resolve() for name in needed}
-    code = _tell(gallery.draw(ids, folders, out / "figures", catalogue))
+    code = _tell(gallery.draw(ids, folders, out / "figures", catalogue, arguments.jobs))
     return FAILED if result.failures else code
 
 
@@ -391,8 +393,13 @@ def _python(arguments: argparse.Namespace) -> int:
     return _hand_to([sys.executable, str(arguments.script), *arguments.words], environment={"PYTHONPATH": path})
 
 
-def _bench(_: argparse.Namespace) -> int:
-    return _hand_to(_build_benchmarks())
+def _bench(arguments: argparse.Namespace) -> int:
+    if arguments.runs is None:
+        return _hand_to(_build_benchmarks())
+    from experiments.overhead import measure
+
+    print(measure(_build_runner(), arguments.runs, arguments.jobs))
+    return 0
 
 
 def _unity_check(arguments: argparse.Namespace) -> int:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import multiprocessing
 from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field
 from functools import lru_cache, partial
 from pathlib import Path
@@ -21,7 +23,7 @@ from analysis.relaxation import RelaxationError
 from analysis.runs import read_runs
 from analysis.tables import measure_relaxation
 from analysis.validation.check import Check, Finding, Found, Result, replay
-from analysis.validation.integrators import INTEGRATORS
+from analysis.validation.integrators import INTEGRATORS, INTEGRATORS_ONCE
 from analysis.validation.report import (
     FAST, ROWS, Report, as_csv, as_markdown, draw_finding, draw_overview, picture_name, read_report,
 )
@@ -123,16 +125,18 @@ def _check_spec(check: Check[Finding]) -> FigureSpec:
         failed_gates([(check, result) for result in _finding(check, folders[check.name]).results])))
 
 
-def _catalogue(rows: Sequence[Check], problems: Sequence[Problem], studies: Mapping[str, Study]) -> Catalogue:
+def _catalogue(
+    rows: Sequence[Check], problems: Sequence[Problem], integrators: Check[Finding], studies: Mapping[str, Study]
+) -> Catalogue:
     checked = {VALIDATION: tuple(rows), CHART: tuple(check_of(problem) for problem in problems),
-               INTEGRATORS.name: (INTEGRATORS,)}
-    specs = (_validation_spec(checked[VALIDATION]), _chart_spec(checked[CHART]), _check_spec(INTEGRATORS))
+               integrators.name: (integrators,)}
+    specs = (_validation_spec(checked[VALIDATION]), _chart_spec(checked[CHART]), _check_spec(integrators))
     return Catalogue({**FIGURES, **{spec.id: spec for spec in specs}}, checked, studies)
 
 
 _PROBLEMS = (*material.PROBLEMS, *walls.PROBLEMS)
-FULL = _catalogue(ROWS, _PROBLEMS, STUDIES)
-QUICK = _catalogue(FAST, [in_short(problem) for problem in _PROBLEMS],
+FULL = _catalogue(ROWS, _PROBLEMS, INTEGRATORS, STUDIES)
+QUICK = _catalogue(FAST, [in_short(problem) for problem in _PROBLEMS], INTEGRATORS_ONCE,
                    {name: shortened(study) for name, study in STUDIES.items()})
 
 
@@ -146,7 +150,9 @@ class Gallery:
     failed_gates: tuple[str, ...] = ()
 
 
-def draw(ids: Sequence[str], folders: Mapping[str, Path], out: Path, catalogue: Catalogue = FULL) -> Gallery:
+def draw(
+    ids: Sequence[str], folders: Mapping[str, Path], out: Path, catalogue: Catalogue = FULL, jobs: int = 1
+) -> Gallery:
     """Draw figures from studies that were run, as many as can be drawn.
 
     Parameters
@@ -154,6 +160,7 @@ def draw(ids: Sequence[str], folders: Mapping[str, Path], out: Path, catalogue: 
     ids : keys of the catalogue's specs.
     folders : study name to its folder, for every study that these figures need.
     out : folder for `figure-<id>.png`, `figure-<id>.txt` (the caption) and index.md.
+    jobs : figures at once, where this system can copy a process.
 
     Returns
     -------
@@ -161,23 +168,56 @@ def draw(ids: Sequence[str], folders: Mapping[str, Path], out: Path, catalogue: 
     """
     pyplot.switch_backend("Agg")  # pictures go to files; no screen is needed
     out.mkdir(parents=True, exist_ok=True)
-    problems, gates = [], []
-    for name in ids:
-        spec = catalogue.specs[name]
-        own = {study: folders[study] for study in spec.studies}
+    drawn = _draw_all(ids, _Drawing(folders, out, catalogue), jobs)
+    index = out / INDEX
+    index.write_text(_index(out, catalogue), encoding="utf-8")
+    return Gallery(index, tuple(problem for problem, _ in drawn if problem),
+                   tuple(line for _, gates in drawn for line in gates))
+
+
+@dataclass(frozen=True)
+class _Drawing:
+    """Draws figures of a catalogue from studies into a folder."""
+
+    folders: Mapping[str, Path]
+    out: Path
+    catalogue: Catalogue
+
+    def draw(self, name: str) -> _Drawn:
+        """One figure and what stands beside it: why it cannot be drawn, and lines beyond their gates."""
+        spec = self.catalogue.specs[name]
+        own = {study: self.folders[study] for study in spec.studies}
         try:
             figure, caption = spec.draw(own)
         except (LogError, RelaxationError) as error:
-            problems.append(f"figure {name} cannot be drawn: {error}")
-            continue
-        _save(figure, out / f"figure-{name}.png")
-        (out / f"figure-{name}.txt").write_text(caption + "\n", encoding="utf-8")
+            return f"figure {name} cannot be drawn: {error}", []
+        _save(figure, self.out / f"figure-{name}.png")
+        (self.out / f"figure-{name}.txt").write_text(caption + "\n", encoding="utf-8")
         for file, write in spec.beside.items():
-            write(own, out / file)
-        gates += spec.gates(own)
-    index = out / INDEX
-    index.write_text(_index(out, catalogue), encoding="utf-8")
-    return Gallery(index, tuple(problems), tuple(gates))
+            write(own, self.out / file)
+        return "", spec.gates(own)
+
+
+_Drawn = tuple[str, Sequence[str]]
+_copied: list[_Drawing] = []  # what copies of this process draw: figures themselves cannot be sent to one
+
+
+def _draw_all(ids: Sequence[str], drawing: _Drawing, jobs: int) -> list[_Drawn]:
+    """All figures, in the order of their names; those with most beside them are begun first."""
+    if jobs == 1 or len(ids) == 1 or "fork" not in multiprocessing.get_all_start_methods():
+        return [drawing.draw(name) for name in ids]
+    first = sorted(ids, key=lambda name: -len(drawing.catalogue.specs[name].beside))
+    _copied.append(drawing)
+    try:
+        with ProcessPoolExecutor(min(jobs, len(ids)), multiprocessing.get_context("fork")) as pool:
+            drawn = dict(zip(first, pool.map(_draw_copied, first)))
+    finally:
+        _copied.pop()
+    return [drawn[name] for name in ids]
+
+
+def _draw_copied(name: str) -> _Drawn:
+    return _copied[-1].draw(name)
 
 
 def failed_gates(results: Sequence[tuple[Check, Result]]) -> list[str]:

@@ -99,6 +99,7 @@ class Runner:
         self._command = [*command, "-lines", "-attached"]
         self._folder = folder
         self._process: subprocess.Popen[str] | None = None
+        self._ahead = ""  # a request that the process has already, and that is not asked for yet
         self._deadline = math.inf  # of the reply that is waited for, on the monotonic clock
         self._too_late = False
 
@@ -107,9 +108,16 @@ class Runner:
         """Its process id, where it runs."""
         return self._process.pid if self._process is not None and self._process.poll() is None else None
 
-    def run(self, request: Request, seconds: float | None = None) -> Answer:
-        """Make one run and wait for its end, at most so long. Never raises for what the runner does."""
-        reply = self._ask(request, request.to_line(), seconds)
+    def run(self, request: Request, seconds: float | None = None, following: Request | None = None) -> Answer:
+        """Make one run and wait for its end, at most so long. Never raises for what the runner does.
+
+        Parameters
+        ----------
+        request : the run.
+        seconds : how long it may take; None: as long as it likes.
+        following : the run that is asked for next: the process has it at once and does not wait for us in between.
+        """
+        reply = self._ask(request, request.to_line(), seconds, following.to_line() if following else "")
         if isinstance(reply, Answer):
             return reply
         try:
@@ -117,9 +125,10 @@ class Runner:
         except (KeyError, TypeError, ValueError):
             return self._babbled(request, json.dumps(reply))
 
-    def check(self, request: Request) -> Checked | Answer:
-        """The address of a run, or why it cannot be made."""
-        reply = self._ask(request, request.to_line(check=True), _SECONDS_TO_END)
+    def check(self, request: Request, following: Request | None = None) -> Checked | Answer:
+        """The address of a run, or why it cannot be made; `following` is the run that is checked next."""
+        ahead = following.to_line(check=True) if following else ""
+        reply = self._ask(request, request.to_line(check=True), _SECONDS_TO_END, ahead)
         if isinstance(reply, Answer):
             return reply
         try:
@@ -136,7 +145,7 @@ class Runner:
 
     def close(self) -> None:
         """End the process; one that does not end by itself in time is killed."""
-        process, self._process = self._process, None
+        process, self._process, self._ahead = self._process, None, ""
         if process is None:
             return
         try:
@@ -150,13 +159,16 @@ class Runner:
             process.wait()
         process.stdout.close()
 
-    def _ask(self, request: Request, line: str, seconds: float | None) -> dict[str, Any] | Answer:
+    def _ask(self, request: Request, line: str, seconds: float | None, ahead: str) -> dict[str, Any] | Answer:
         """The runner's reply, or what became of a run that got none."""
+        if self._ahead not in ("", line):
+            self.close()  # the next reply would be to what nobody asks for any more
         try:
             process = self._start()
             self._deadline = math.inf if seconds is None else time.monotonic() + seconds
-            process.stdin.write(line)
+            process.stdin.write(ahead if self._ahead else line + ahead)
             process.stdin.flush()
+            self._ahead = ahead
             reply = process.stdout.readline()
         except OSError as error:
             return self._died(request, str(error))

@@ -13,6 +13,7 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass
+from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
@@ -149,14 +150,17 @@ class Runners(WorkerPlugin):
     def make(self, command: Sequence[str], jobs: Sequence[Job]) -> list[Answer]:
         """Make what is not done of a batch; one that was begun by a worker that was lost goes on here."""
         answers = []
+        missing = {job.request.out: job.request for job in jobs if not job.is_done}
         with self.runner(command) as runner:
             for job in jobs:
                 if self._stopped:
                     break
-                if job.is_done:
+                if missing.pop(job.request.out, None) is None:
                     answers.append(Answer(job.request.name, 0, None, "made by a worker that was lost"))
+                elif job.timed:
+                    answers.append(_time(runner, job))
                 else:
-                    answers.append(_time(runner, job) if job.timed else runner.run(job.request, job.seconds))
+                    answers.append(runner.run(job.request, job.seconds, next(iter(missing.values()), None)))
         return answers
 
 
@@ -175,9 +179,10 @@ def make(plugin: str, command: Sequence[str], jobs: str) -> dict[str, Any]:
 def check(plugin: str, command: Sequence[str], jobs: str) -> list[Plain]:
     """Of each job the address of its run, or exit code and line of why it cannot be made."""
     found = []
+    requests = [job.request for job in of_text(jobs)]
     with get_worker().plugins[plugin].runner(command) as runner:
-        for job in of_text(jobs):
-            checked = runner.check(job.request)
+        for request, following in zip_longest(requests, requests[1:]):
+            checked = runner.check(request, following)
             found.append((checked.address,) if isinstance(checked, Checked) else (checked.exit_code, checked.message))
     return found
 

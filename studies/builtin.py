@@ -15,6 +15,7 @@ from studies.frontiers import FRONTIERS
 from studies.keys import Value
 from studies.maps import MAPS
 from studies.table import Axis, Grid, Study
+from studies.wire_maps import WIRE_MAPS
 
 _TABLE_4_1 = "params/default.json"
 _REPEATS = 5
@@ -152,5 +153,6 @@ STUDIES: dict[str, Study] = {
         )),
         *FRONTIERS,
         *MAPS,
+        *WIRE_MAPS,
     )
 }

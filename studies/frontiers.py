@@ -19,11 +19,11 @@ RADII = (0.0005, 0.005)  # m
 STEPS = (0.001, 0.003, 0.01, 0.03, 0.1)  # s
 SCHEMES = ("implicitEuler", "bdf2", "trbdf2", "esdirk3", "esdirk4")
 _ALL = ("converged", "finished", "diverged", "failed")
-_SWEPT: dict[str, Any] = {
+ALONG: dict[str, Any] = {
     "guidewireLength": LENGTH, "totalMass": MASS, "bendStiffness": BEND, "stretchStiffness": STRETCH,
     "deltaThreshold": 0, "maxSimulationSteps": 600, "displacement": 10, "displacementDirection": [0, 0, 1],
 }
-_ACROSS = {**_SWEPT, "displacementDirection": [0, 1, 0]}
+_ACROSS = {**ALONG, "displacementDirection": [0, 1, 0]}
 _METHODS: dict[str, dict[str, Any]] = {
     "verlet": {},
     "euler": {"integrator": "euler"},
@@ -44,7 +44,7 @@ FRONTIERS: tuple[Study, ...] = (
     _gain("limit-stretch-across", "up to which stretch gain does a wire hold that is moved across itself?",
           Grid((_SWEEPS, _ELEMENTS), _ACROSS, _METHODS), Range("stretchStiffness", 1.0, 4.0), 0.01),
     _gain("limit-stretch-along", "up to which stretch gain does a wire hold that is moved along itself?",
-          Grid((_SWEEPS, Axis("numberRodElements", (5, 10, 20, 30, 60))), _SWEPT),
+          Grid((_SWEEPS, Axis("numberRodElements", (5, 10, 20, 30, 60))), ALONG),
           Range("stretchStiffness", 1.0, 60.0, logarithmic=True), 0.002),
     _gain("limit-bend", "up to which bend gain does a wire hold that is moved across itself?",
           Grid((_SWEEPS, _ELEMENTS), _ACROSS, _METHODS), Range("bendStiffness", 0.5, 100.0, logarithmic=True), 0.01),

@@ -13,6 +13,7 @@ from matplotlib.transforms import Bbox
 from analysis.chart.points import (
     FRAME, METHODS, TICK, Charted, Cost, milliseconds, repeats_in_words, seconds,
 )
+from analysis.chart.published import PUBLISHED
 from analysis.figures.style import add_caption, letter, new_figure, styled
 from analysis.figures.wording import beside, number
 from analysis.validation.pictures import SOLVER_MARKERS
@@ -51,10 +52,13 @@ def draw_steps(found: Sequence[Charted]) -> tuple[Figure, str]:
     """Error against the wall time of a step."""
     lines = ((1e3 * FRAME, "90 Hz"), (1e3 * TICK, "1 kHz"))
     figure = _panels(found, milliseconds, _STEP, lines)
+    for axes, charted in zip(figure.axes, found):
+        _draw_published(axes, charted)
     caption = (
         "Figure chart, against what a loop has to wait for: wall time of one time step, of the same runs. A display of "
         f"90 Hz has {number(1e3 * FRAME, 3)} ms for a step, a haptic loop of 1 kHz one ms (vertical lines). A step "
         "that fits keeps its loop on time; whether simulated time then passes as fast as real time, the chart of cost says."
+        f"{_published(found)}"
     )
     add_caption(figure, caption)
     return figure, caption
@@ -120,6 +124,25 @@ def _draw_panel(axes: Axes, charted: Charted, cost: Cost,
         lost = [cost(p) for p in charted.points if not p.held and p.setting.method == method]
         axes.plot(lost, [0.97] * len(lost), "x", color=COLOURS[method], transform=axes.get_xaxis_transform(),
                   label=f"{method}, lost" if lost else None)
+
+
+def _draw_published(axes: Axes, charted: Charted) -> None:
+    """Bars at the upper edge, below lost settings: costs that others state, without an error."""
+    own = [one for one in PUBLISHED if one.problem == charted.problem.name]
+    for k, one in enumerate(own):
+        height = 0.9 - 0.06 * k
+        axes.plot([1e3 * step for step in one.steps], [height] * 2, "-|", color="0.4", linewidth=2.0,
+                  transform=axes.get_xaxis_transform())
+        axes.annotate(f"published: {one.label}", (1e3 * one.steps[0], height), (-4, 0), textcoords="offset points",
+                      xycoords=axes.get_xaxis_transform(), fontsize=5.5, ha="right", va="center")
+
+
+def _published(found: Sequence[Charted]) -> str:
+    """Where the bars of others come from."""
+    names = [charted.problem.name for charted in found]
+    told = [f"({'abcdefgh'[names.index(one.problem)]}) {one.label}: {one.says} [{one.source}]"
+            for one in PUBLISHED if one.problem in names]
+    return f" Grey bars: what others state, a wall time without an error. {'; '.join(told)}." if told else ""
 
 
 def _draw_front(axes: Axes, charted: Charted, cost: Cost) -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from analysis.comparisons import read_comparison, read_reference
-from analysis.figures import default_run, maps, perturbations, stability
+from analysis.figures import default_run, maps, perturbations, stability, wire_maps
 from analysis.figures.contact_rule import draw_contact_rule, read_rests
 from analysis.figures.control import draw_drives, draw_twist, read_drives, read_twists
 from analysis.figures.gain import draw_gain
@@ -137,5 +137,7 @@ FIGURES: dict[str, FigureSpec] = {
         FigureSpec("stability", "where methods fail", stability.STUDIES, stability.draw_stability, {},
                    stability.failed_gates),
         FigureSpec("maps", "outcomes over two parameters", maps.STUDIES, maps.draw_maps),
+        FigureSpec("maps-wire", "outcomes of twist, pushes between walls and damping", wire_maps.STUDIES,
+                   wire_maps.draw_wire_maps),
     )
 }

@@ -20,11 +20,16 @@ from studies.maps import MAPS, RADIUS
 STUDIES = tuple(study.name for study in MAPS)
 INACCURATE = 0.1  # of the way that the reference's tip goes
 _PENETRATING = 0.2  # of the radius
+_FEW = 8  # values of an axis that are named one by one
 _DOUBTFUL = "not converged"
+BENT = "bent"
+LOST_TURN = "lost a turn"
 _CLASSES = {  # marker and colour
     "converged": ("o", "C0"), "finished": ("o", "C0"), _DOUBTFUL: ("D", "C4"), "inaccurate": ("^", "C1"),
     "penetrating": ("v", "C1"), "passed a wall": ("P", "C3"), "diverged": ("x", "C3"), "failed": ("s", "C3"),
+    BENT: (">", "C2"), LOST_TURN: ("*", "C3"),
 }
+SOME = (BENT, LOST_TURN)  # of some maps only
 JOINT_LIMIT = 3.08  # rad, from which a joint does not tell the way round
 LARGEST_JOINT = 7.0 / 6.0  # compliance of the softest joint of a fourth-order clamp over that of an inner one
 
@@ -68,49 +73,71 @@ class Cell:
 
 
 @dataclass(frozen=True)
-class _View:
-    """How a study is drawn: axes from its runs, and the run that each is measured against, where there is one."""
+class View:
+    """How a study is drawn.
+
+    Attributes
+    ----------
+    study, title : str
+    x, y : callable
+        Where a run stands.
+    labels : tuple of str
+        Of the axes.
+    reference : callable or None
+        From a run to the key of the one that it is measured against.
+    lines : tuple of (float, str)
+        Upright lines, and what they are.
+    log_x : bool
+        Whether x is drawn on a logarithmic axis.
+    error : callable or None
+        A run's error, in place of the distance from a reference.
+    kind : callable or None
+        Class of a run with this error, in place of `kind_of`.
+    """
 
     study: str
     title: str
     x: Callable[[Run], float | str]
     y: Callable[[Run], float | str]
     labels: tuple[str, str]
-    reference: Callable[[Run], str] | None
+    reference: Callable[[Run], str] | None = None
     lines: tuple[tuple[float, str], ...] = ()
+    log_x: bool = True
+    error: Callable[[Run], float] | None = None
+    kind: Callable[[Run, float], str] | None = None
 
 
 def _variant(part: int) -> Callable[[Run], str]:
     return lambda run: run.variant.split(",")[part]
 
 
-_VIEWS = (
-    _View("map-push", "pbd: push in a bend", lambda run: run.number("displacementPerStep") / RADIUS,
+VIEWS = (
+    View("map-push", "pbd: push in a bend", lambda run: run.number("displacementPerStep") / RADIUS,
           lambda run: run.variant, ("way a step over the radius (1)", "what touches a wall (-)"),
           lambda _: "barycentric,push-1", ((1.0, "radius"),)),
-    _View("map-slender", "pbd: long elements in a bend",
+    View("map-slender", "pbd: long elements in a bend",
           lambda run: run.number("guidewireLength") / run.number("numberRodElements") / RADIUS, lambda run: run.variant,
           ("element length over the radius (1)", "what touches a wall (-)"),
           lambda _: "barycentric,numberRodElements=40"),
-    _View("map-gap", "direct: fall onto a plane", lambda run: 1e3 * run.number("timeStep"),
+    View("map-gap", "direct: fall onto a plane", lambda run: 1e3 * run.number("timeStep"),
           lambda run: 1e6 * run.number("contactDistance"), ("time step (ms)", "contact distance (µm)"),
           lambda _: "step-1,contactDistance=1e-07"),
-    _View("map-joints", "direct: turn of a joint", lambda run: float(run.variant.split(",")[1]), _variant(0),
+    View("map-joints", "direct: turn of a joint", lambda run: float(run.variant.split(",")[1]), _variant(0),
           ("turn of an inner joint (rad)", "law, and what turns (-)"), None,
-          ((JOINT_LIMIT / LARGEST_JOINT, "joint's limit"), (1.0 / LARGEST_JOINT, "darboux"))),
-    _View("map-heavy-tip", "heavy tip", lambda run: float(run.variant.split("ratio-")[1]), _variant(0),
+          ((JOINT_LIMIT / LARGEST_JOINT, "joint's limit"), (1.0 / LARGEST_JOINT, "darboux")), log_x=False),
+    View("map-heavy-tip", "heavy tip", lambda run: float(run.variant.split("ratio-")[1]), _variant(0),
           ("density of the tip over the wire's (1)", "method (-)"),
           lambda run: f"direct,ratio-{run.variant.split('ratio-')[1]}"),
-    _View("map-xpbd", "xpbd under its own weight", lambda run: run.number("substeps"),
+    View("map-xpbd", "xpbd under its own weight", lambda run: run.number("substeps"),
           lambda run: run.number("constraintSolverSteps"), ("substeps of 1 ms (1)", "sweeps m (1)"),
           lambda _: "xpbd,substeps=800,constraintSolverSteps=30"),
-    _View("map-drag", "strong drag", lambda run: drag_of_a_step(run), lambda run: run.variant,
+    View("map-drag", "strong drag", lambda run: drag_of_a_step(run), lambda run: run.variant,
           ("drag times the step, or substep (1)", "method (-)"),
           lambda run: f"direct,massDamping={run.values['massDamping']!r}", ((_DRAG_LIMIT, "10 % off"),)),
 )
 
 
-def read_map(name: str, folder: Path) -> list[Cell]:
+def read_map(view: View, folder: Path) -> list[Cell]:
     """The runs of one map.
 
     Raises
@@ -118,19 +145,22 @@ def read_map(name: str, folder: Path) -> list[Cell]:
     LogError
         A run is missing or left no log.
     """
-    view = next(view for view in _VIEWS if view.study == name)
     runs = read_runs(folder)
-    tips = {key: _tip(run) for key, run in runs.items()}
+    tips = {} if view.reference is None else {key: _tip(run) for key, run in runs.items()}
     cells = []
     for key, run in runs.items():
         error = np.nan
-        if view.reference is not None and run.outcome not in ("diverged", "failed"):
+        if run.outcome in ("diverged", "failed"):
+            pass
+        elif view.error is not None:
+            error = view.error(run)
+        elif view.reference is not None:
             other = view.reference(run)
             if other not in tips:
                 raise LogError(f"{folder}: has no run {other}")
             start, end = tips[other]
             error = float(np.linalg.norm(tips[key][1] - end) / np.linalg.norm(end - start))
-        cells.append(Cell(view.x(run), view.y(run), kind_of(run, error), error))
+        cells.append(Cell(view.x(run), view.y(run), (view.kind or kind_of)(run, error), error))
     return cells
 
 
@@ -157,32 +187,42 @@ def _tip(run: Run) -> tuple[np.ndarray, np.ndarray]:
 @styled
 def draw_maps(folders: Mapping[str, Path]) -> tuple[Figure, str]:
     """One panel a map."""
-    found = {view.study: read_map(view.study, folders[view.study]) for view in _VIEWS}
+    found = {view.study: read_map(view, folders[view.study]) for view in VIEWS}
     figure = new_figure(15.0, 6.6)
     panels = figure.subplots(2, 4).ravel()
-    for name, axes, view in zip("abcdefg", panels, _VIEWS):
+    for name, axes, view in zip("abcdefg", panels, VIEWS):
         letter(axes, name, view.title)
-        _draw(axes, view, found[view.study])
-    panels[7].axis("off")
-    for kind, (marker, colour) in _CLASSES.items():
-        if kind != "converged":
-            panels[7].plot([], [], marker, color=colour, fillstyle="none",
-                           label="converged or finished" if kind == "finished" else kind)
-    panels[7].legend(loc="center", fontsize=8)
+        draw_map(axes, view, found[view.study])
+    draw_classes(panels[7])
     caption = _caption(found)
     add_caption(figure, caption)
     return figure, caption
 
 
-def _draw(axes: Axes, view: _View, cells: Sequence[Cell]) -> None:
+def draw_classes(axes: Axes, more: Sequence[str] = ()) -> None:
+    """What the markers are, `more` beside those of every map."""
+    axes.axis("off")
+    for kind, (marker, colour) in _CLASSES.items():
+        if kind != "converged" and (kind not in SOME or kind in more):
+            axes.plot([], [], marker, color=colour, fillstyle="none",
+                      label="converged or finished" if kind == "finished" else kind)
+    axes.legend(loc="center", fontsize=8)
+
+
+def draw_map(axes: Axes, view: View, cells: Sequence[Cell]) -> None:
+    """One panel."""
     names = list(dict.fromkeys(cell.y for cell in cells)) if isinstance(cells[0].y, str) else None
     for cell in cells:
         marker, colour = _CLASSES[cell.kind]
         axes.plot(cell.x, cell.y if names is None else names.index(cell.y), marker, color=colour, fillstyle="none")
-    if view.study != "map-joints":
+    if view.log_x:
         axes.set_xscale("log")
     if names is None:
         axes.set_yscale("log")
+        lines = sorted({cell.y for cell in cells})
+        if len(lines) <= _FEW:
+            axes.set_yticks(lines, [f"{y:g}" for y in lines])
+            axes.set_yticks([], minor=True)
     else:
         axes.set_yticks(range(len(names)), names)
         axes.margins(y=0.3)
@@ -192,7 +232,7 @@ def _draw(axes: Axes, view: _View, cells: Sequence[Cell]) -> None:
     axes.set(xlabel=view.labels[0], ylabel=view.labels[1])
 
 
-def _kinds(cells: Sequence[Cell], y: float | str | None = None) -> str:
+def kinds_of(cells: Sequence[Cell], y: float | str | None = None) -> str:
     """How many of each class, in words."""
     own = [cell.kind for cell in cells if y is None or cell.y == y]
     return ", ".join(f"{own.count(kind)} {kind}" for kind in dict.fromkeys(own))
@@ -206,7 +246,7 @@ def _held(cells: Sequence[Cell], y: str) -> str:
 
 
 def _caption(found: Mapping[str, Sequence[Cell]]) -> str:
-    push, slender, gap, joints, heavy, swept, drag = (found[view.study] for view in _VIEWS)
+    push, slender, gap, joints, heavy, swept, drag = (found[view.study] for view in VIEWS)
     substeps = {m: min((cell.x for cell in swept if cell.y == m and cell.kind != "diverged"), default=np.nan)
                 for m in sorted({cell.y for cell in swept})}
     worst = {name: max((cell.error for cell in heavy if cell.y == name), default=np.nan)
@@ -217,13 +257,13 @@ def _caption(found: Mapping[str, Sequence[Cell]]) -> str:
         "Figure maps. Where methods hold and where they fail. Inaccurate: the tip is off by more than "
         f"{percent(INACCURATE)} of the way that the reference's tip goes; penetrating: deeper than "
         f"{percent(_PENETRATING)} of the radius. (a) The same push of 100 units in a bent lumen in fewer, longer "
-        f"steps, against the shortest: barycentric {_kinds(push, 'barycentric')}; seed {_kinds(push, 'seed')}; none "
-        f"{_kinds(push, 'none')}. No step is too long for the walls, because its way is gone in parts of at most a "
+        f"steps, against the shortest: barycentric {kinds_of(push, 'barycentric')}; seed {kinds_of(push, 'seed')}; none "
+        f"{kinds_of(push, 'none')}. No step is too long for the walls, because its way is gone in parts of at most a "
         "radius, each swept; beyond a radius the wire has too few steps in which to follow. The published rule lets "
         "the wire in at any step. (b) Elements of up to five radii in the same bend, against the shortest: barycentric "
-        f"{_kinds(slender, 'barycentric')}; seed {_kinds(slender, 'seed')}; none {_kinds(slender, 'none')}. No length "
+        f"{kinds_of(slender, 'barycentric')}; seed {kinds_of(slender, 'seed')}; none {kinds_of(slender, 'none')}. No length "
         "passes the wall but with the published rule; all are off, because the stiffness of gains goes with n. (c) A "
-        f"wire that falls onto a plane, by contact distance and step: {_kinds(gap)}; no limit is found, barriers keep "
+        f"wire that falls onto a plane, by contact distance and step: {kinds_of(gap)}; no limit is found, barriers keep "
         "the wire inside whatever the step. (d) Rest shapes of six elements under a couple at the tip (rotationVector: "
         f"{_held(joints, 'rotationVector')}; darboux: {_held(joints, 'darboux')}) and twisted between clamps (twist: "
         f"{_held(joints, 'twist')}). Dashed: the softest joint, beside the clamp, turns by 7/6 of an inner one; it "
@@ -231,11 +271,11 @@ def _caption(found: Mapping[str, Sequence[Cell]]) -> str:
         "K sin, the darboux law, has no balance when they are beyond 6/7: both come before π and 1. (e) The last 15 "
         "mm of a wire under its own weight made heavier, against direct at the same ratio: worst distance "
         + ", ".join(f"{name} {percent(error)}" for name, error in worst.items() if name != "direct")
-        + f"; {_kinds(heavy)}. (f) xpbd holds from "
+        + f"; {kinds_of(heavy)}. (f) xpbd holds from "
         + ", ".join(f"{k:g} substeps with m = {m:g}" for m, k in substeps.items())
-        + f"; {_kinds(swept)}. There is no limit in closed form: what sweeps leave of an error the next substep takes "
+        + f"; {kinds_of(swept)}. There is no limit in closed form: what sweeps leave of an error the next substep takes "
           "for motion, and more sweeps leave less. (g) A drag a over steps, or substeps, of h, against direct: "
-        f"{_kinds(drag)}. xpbd and explicit damp the speed between substeps: a wire that falls is too fast by "
+        f"{kinds_of(drag)}. xpbd and explicit damp the speed between substeps: a wire that falls is too fast by "
         f"a h/(1 - exp(-a h)) - 1, within {percent(off)} of what is found, which is 10 % at a h = "
         f"{number(_DRAG_LIMIT, 2)} (dashed). direct takes the drag with the step and has no limit."
     )

@@ -19,6 +19,7 @@ CAPTION_ID = "caption"  # gid of the caption's text in the figure
 _CAPTION_SIZE = 8.5  # points
 _LINE_SPACING = 1.35
 _MARGIN = 0.15  # inches around the caption
+_SURELY = 0.95  # of a line's width: up to there its words by themselves say that they fit
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -81,11 +82,20 @@ def add_caption(figure: Figure, caption: str) -> None:
 def _wrap(figure: Figure, text: str, font: FontProperties, width: float) -> list[str]:
     """Breaks a text between words so that no line is wider than ``width`` pixels; "n = 60" stays together."""
     renderer = figure.canvas.get_renderer()
+
+    def measured(part: str) -> float:
+        return renderer.get_text_width_height_descent(part, font, False)[0]
+
     lines: list[str] = []
+    sum_of_words = 0.0
+    space = measured("a a") - measured("aa")
     for word in text.replace(" = ", "\u00a0=\u00a0").split(" "):
         longer = f"{lines[-1]} {word}" if lines else word
-        if lines and renderer.get_text_width_height_descent(longer, font, False)[0] <= width:
+        sum_of_words += space + measured(word)
+        fits = sum_of_words < _SURELY * width or (sum_of_words * _SURELY < width and measured(longer) <= width)
+        if lines and fits:
             lines[-1] = longer
         else:
             lines.append(word)
+            sum_of_words = measured(word)
     return lines

@@ -7,6 +7,7 @@ import io
 import json
 import math
 import re
+from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -15,6 +16,7 @@ import pytest
 
 from analysis.chart import figure, material, page, tables, walls
 from analysis.chart.points import LOST, METHODS, Charted, Point, Problem, Setting, _point, pareto
+from analysis.chart.published import PUBLISHED
 from analysis.figures.style import CAPTION_ID
 from analysis.runs import Run
 from analysis.validation import swing
@@ -95,6 +97,18 @@ def test_the_picture_of_steps_has_lines_for_loops() -> None:
     assert {"90 Hz", "1 kHz"} <= lines
     at = [line.get_xdata()[0] for line in drawn.axes[0].lines if line.get_linestyle() == "--"]
     np.testing.assert_allclose(sorted(at), [1.0, 1000.0 / 90.0])
+
+
+def test_what_others_state_stands_in_the_picture_of_steps_with_its_source_and_without_an_error() -> None:
+    pushed = replace(charted(*POINTS), problem=replace(PROBLEMS[-1], ask=lambda: None))
+    drawn, caption = figure.draw_steps([charted(*POINTS), pushed])
+    (one,) = PUBLISHED
+    bars = [[line for line in axes.lines if line.get_marker() == "|"] for axes in drawn.axes[:2]]
+    assert [len(own) for own in bars] == [0, 1]
+    assert list(bars[1][0].get_xdata()) == pytest.approx([1.0, 2.0])    # ms: 500 to 1,000 answers a second
+    assert f"published: {one.label}" in [text.get_text() for text in drawn.axes[1].texts]
+    assert "(b) 2 x 512 elements" in caption and "arXiv:2509.04277" in caption and "no error is said" in caption
+    assert "Grey bars" not in figure.draw_steps([charted(*POINTS)])[1]
 
 
 def test_tables_have_a_line_for_every_setting_and_say_which_to_take() -> None:

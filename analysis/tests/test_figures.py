@@ -12,8 +12,9 @@ import pytest
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, QuadMesh
 from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties
 
-from analysis.figures import FIGURES
+from analysis.figures import FIGURES, style
 from analysis.figures.captions import sweep_caption
 from analysis.figures.default_run import draw_time_evolution, read_default_run
 from analysis.figures.style import CAPTION_ID
@@ -255,3 +256,17 @@ def test_spans_join_what_reads_the_same() -> None:
     assert span([1.0, 3.0, np.nan]) == "1.00 to 3.00"
     assert span([0.5, 0.5000001]) == "0.500"
     assert span([np.nan]) == "no value"
+
+
+def test_a_caption_is_broken_where_the_next_word_would_leave_the_line() -> None:
+    figure = style.new_figure(6.0, 2.0)
+    font = FontProperties(size=8.5)
+    text = " ".join(f"{'word' * (k % 4)}{k}" for k in range(200))
+    lines = style._wrap(figure, text, font, 500.0)
+
+    def wide(part: str) -> float:
+        return figure.canvas.get_renderer().get_text_width_height_descent(part, font, False)[0]
+
+    assert " ".join(lines) == text and max(map(wide, lines)) <= 500.0
+    for line, after in zip(lines, lines[1:]):
+        assert wide(f"{line} {after.split(' ')[0]}") > 500.0

@@ -10,7 +10,8 @@ import pytest
 from analysis.figures import FIGURES
 from analysis.logs import LogError
 from analysis.stability import (
-    _sweep_across, _sweep_along, closed_form_along, limit_across, limit_along, limit_explicit, read_frontiers,
+    _sweep_across, _sweep_along, closed_form_along, limit_across, limit_along, limit_explicit, lost_turns,
+    read_frontiers,
 )
 from analysis.tests.turning_spring import ESDIRK4, TRBDF2, largest_energy
 from analysis.validation.wire import Wire
@@ -86,3 +87,28 @@ def test_gates_name_frontiers_that_are_elsewhere(studies: dict[str, Path], tmp_p
         "verlet,20,30,gain,1.5,1.6,diverged,holds below\n")
     (line,) = gates({**studies, "limit-stretch-across": tmp_path})
     assert "stretch gain, across" in line and "numberRodElements = 30" in line and "above its gate 1.5 %" in line
+
+
+@pytest.mark.parametrize("damping", [0.0, 0.5, 1.0])
+def test_the_limit_of_a_damped_wire_is_where_its_own_steps_begin_to_grow(damping: float) -> None:
+    """Steps of a chain, done one by one with one sweep each: p = (2 - d) x_k - (1 - d) x_(k-1)."""
+    n, limit = 10, limit_along(10, 1, damping)
+    l, w = LENGTH / n, np.array([0.0, *np.full(n, (n + 1) / MASS)])
+
+    def growth(gain: float) -> float:
+        before = x = np.concatenate([[0.0], np.random.default_rng(1).normal(size=n)])
+        sizes = []
+        for _ in range(2000):
+            before, x = x, (2.0 - damping) * x - (1.0 - damping) * before
+            for j in range(n):
+                stretch = gain * (x[j + 1] - x[j]) / (w[j] + w[j + 1] + 4.0 * l * l)
+                x[j], x[j + 1] = x[j] + w[j] * stretch, x[j + 1] - w[j + 1] * stretch
+            sizes.append(float(np.max(np.abs(x))))
+        return max(sizes[1000:]) / max(sizes[:1000])
+
+    assert growth(0.99 * limit) < 1.0 < growth(1.01 * limit)
+
+
+def test_a_turn_is_lost_where_a_joint_is_turned_by_more_than_it_gives_back() -> None:
+    """Two elements, the first held and turned by so much a step: it is followed where that is little."""
+    assert lost_turns(2, 1, 0.02, np.array([0.001, 0.1, 3.0]), 200).tolist() == [False, False, True]

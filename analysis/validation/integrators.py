@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -73,10 +74,10 @@ def _motion(run: Run) -> tuple[np.ndarray, np.ndarray]:
     return np.array(places), np.unwrap(turns)
 
 
-def _integrators() -> Plan:
+def _integrators(repeats: int) -> Plan:
     cases = {
         (problem, method): Case(f"{k}-{word}", {**_BASE, **overrides, "guidewireOffset": 0.0, "integrator": word,
-                                                "deltaThreshold": 0.0}, _REPEATS, start)
+                                                "deltaThreshold": 0.0}, repeats, start)
         for k, (problem, (overrides, start)) in enumerate(_PROBLEMS.items()) for method, word in _METHODS.items()
     }
     runs = yield list(cases.values())
@@ -163,5 +164,7 @@ def _caption(results: list[Result], costs: Mapping[tuple[str, str], float], load
     return " ".join(sentences)
 
 
-INTEGRATORS = Check("integrators", "Integrators", "Euler and Verlet, positions and orientations", _integrators)
+INTEGRATORS, INTEGRATORS_ONCE = (
+    Check("integrators", "Integrators", "Euler and Verlet, positions and orientations", partial(_integrators, repeats))
+    for repeats in (_REPEATS, 1))
 CHECKS = (INTEGRATORS,)

@@ -48,6 +48,20 @@ def test_the_index_keeps_figures_drawn_earlier_in_the_order_of_their_numbers(tmp
     assert text.index("figure-1.1.png") < text.index("figure-1.2.png")
 
 
+def test_figures_drawn_at_once_are_those_drawn_one_by_one(tmp_path):
+    def broken(folders):
+        raise LogError("study.json: no such file")
+
+    gated = replace(spec("1.3"), gates=lambda _: ["1.3 is beyond its gate"])
+    three = Catalogue({**TWO.specs, "1.2": FigureSpec("1.2", "broken", ("default",), broken), "1.3": gated}, {})
+    drawn = [gallery.draw(list(three.specs), {"default": Path("a")}, tmp_path / str(jobs), three, jobs)
+             for jobs in (1, 2)]
+    assert [(one.problems, one.failed_gates) for one in drawn] == [
+        (("figure 1.2 cannot be drawn: study.json: no such file",), ("1.3 is beyond its gate",))] * 2
+    files = [{path.name: path.read_bytes() for path in (tmp_path / jobs).iterdir()} for jobs in "12"]
+    assert files[0] == files[1] and len(files[0]) == 5
+
+
 def test_a_figure_that_cannot_be_drawn_is_told_and_the_others_are_drawn(tmp_path):
     def broken(folders):
         raise LogError("study.json: no such file")

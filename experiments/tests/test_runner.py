@@ -48,6 +48,34 @@ def test_a_check_tells_the_address_and_runs_nothing(fake, tmp_path):
     assert not fake.journal.exists()
 
 
+def test_a_runner_has_the_next_request_before_the_reply_is_read(fake, tmp_path):
+    first, second = requests(tmp_path, {"sleep": 0.01}, {})
+    with closing(Runner(fake.command)) as one:
+        assert one.run(first, following=second).name == "run-0"
+        until = time.monotonic() + 20.0
+        while len(fake.calls()) < 2 and time.monotonic() < until:
+            time.sleep(0.01)
+        assert [request["id"] for *_, request in fake.calls()] == ["run-0", "run-1"]    # nobody has asked for it yet
+        assert one.run(second).name == "run-1"
+    assert len(fake.calls()) == 2
+
+
+def test_a_runner_that_dies_takes_the_run_ahead_not_with_it(fake, tmp_path):
+    wanted = requests(tmp_path, {"die": 70}, {}, {})
+    with closing(Runner(fake.command)) as one:
+        answers = [one.run(request, following=after) for request, after in zip(wanted, [*wanted[1:], None])]
+    assert [answer.outcome for answer in answers] == [None, "converged", "converged"]
+
+
+def test_a_run_that_was_not_announced_gets_its_own_reply(fake, tmp_path):
+    first, announced, other = requests(tmp_path, {}, {}, {})
+    with closing(Runner(fake.command)) as one:
+        one.run(first, following=announced)
+        checked = one.check(other)
+        assert isinstance(checked, Checked)
+        assert one.run(other).name == "run-2"
+
+
 @pytest.mark.parametrize("wish, word", [
     ({"signal": signal.SIGKILL}, "killed by signal 9"),
     ({"die": 70}, "exit code 70"),

@@ -13,8 +13,9 @@ from studies.frontiers import FRONTIERS
 from studies.keys import checked_key, run_key, value_text
 from studies.maps import MAPS
 from studies.table import Axis, Case, Grid
+from studies.wire_maps import WIRE_MAPS
 
-GRIDS = {name: study for name, study in STUDIES.items() if study not in (*FRONTIERS, *MAPS)}
+GRIDS = {name: study for name, study in STUDIES.items() if study not in (*FRONTIERS, *MAPS, *WIRE_MAPS)}
 VALUES = st.one_of(
     st.integers(-10**30, 10**30), st.floats(allow_nan=False, allow_infinity=False), st.booleans(),
     st.text(max_size=6), st.sampled_from(["1", "1.0", "true", "a,b=1", "'1'", "%31", "..", "", "\ud800"]),
@@ -129,7 +130,8 @@ def test_every_thesis_sweep_holds_the_default_value():
         assert all(table_4_1[axis.key] in axis.values for axis in study.grid.axes)
 
 
-@pytest.mark.parametrize("study", (*GRIDS.values(), *MAPS), ids=lambda study: study.name)
+@pytest.mark.parametrize("study", (*GRIDS.values(), *MAPS, *(study for study in WIRE_MAPS if isinstance(study.grid, Grid))),
+                         ids=lambda study: study.name)
 def test_no_two_runs_share_a_name(study):
     keys = [case.key for case in study.grid.cases()]
     assert len({key.lower() for key in keys}) == len(keys)

@@ -11,7 +11,8 @@ namespace Guidewire.Io
         /// <summary>Largest file that is read, MiB.</summary>
         public const int LargestMebibytes = 256;
 
-        private const int Chunk = 1 << 20;
+        private const int SmallestChunk = 1 << 12;    // bytes
+        private const int LargestChunk = 1 << 20;
 
         /// <summary>All bytes of a file.</summary>
         /// <param name="file">Its name.</param>
@@ -60,8 +61,9 @@ namespace Guidewire.Io
             {
                 throw TooLarge(file);
             }
-            using var content = new MemoryStream(stream.CanSeek ? (int)stream.Length : 0);
-            var chunk = new byte[Chunk];
+            long told = stream.CanSeek ? stream.Length : 0;
+            using var content = new MemoryStream((int)told);
+            var chunk = new byte[Math.Clamp(told + 1, SmallestChunk, LargestChunk)];
             int count;
             while ((count = stream.Read(chunk, 0, chunk.Length)) > 0)
             {

@@ -108,7 +108,8 @@ namespace Guidewire.Io
                 return error;
             }
             // Compared as it reads, not as it is written: "a" and "\u0061" are the same key.
-            string name = JsonText.Parse(_text.Substring(start - 1, _at - start + 1)).ToString();
+            string written = _text.Substring(start, _at - start - 1);
+            string name = written.Contains('\\') ? JsonText.Parse("\"" + written + "\"").ToString() : written;
             if (!names.Add(name))
             {
                 _at = start;

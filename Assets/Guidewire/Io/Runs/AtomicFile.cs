@@ -1,4 +1,5 @@
 using System.IO;
+using System.Text;
 
 namespace Guidewire.Io
 {
@@ -22,7 +23,11 @@ namespace Guidewire.Io
         {
             try
             {
-                File.WriteAllText(path + Partial, text);
+                File.Delete(path + Partial);
+                // Not FileMode.Create: what is truncated goes to the disk when it is closed, and waits for that.
+                using var stream = new FileStream(path + Partial, FileMode.CreateNew, FileAccess.Write);
+                byte[] bytes = Encoding.UTF8.GetBytes(text);
+                stream.Write(bytes, 0, bytes.Length);
             }
             catch (IOException)
             {

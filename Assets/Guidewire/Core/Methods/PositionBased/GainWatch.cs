@@ -23,6 +23,7 @@ namespace Guidewire.Core
         private int _step;
         private bool _disturbed;
         private int _quietSteps;
+        private readonly TurnWatch _turns;
         private readonly StrainWatch _shortWatch = new StrainWatch(100);
         private readonly StrainWatch _longWatch = new StrainWatch(1000);
         private double _strainPutIn;
@@ -38,6 +39,7 @@ namespace Guidewire.Core
             Hold = hold;
             _origin = state.Positions[0];
             _drivenTo = _origin;
+            _turns = new TurnWatch(state);
             double sum = 0.0;
             for (int j = 0; j < state.ElementCount; j++)
             {
@@ -55,10 +57,14 @@ namespace Guidewire.Core
         /// <summary>What made the steady state, in one line, or null.</summary>
         public string? SteadyState { get; private set; }
 
+        /// <summary>Which turn the wire has lost, in one line, or null.</summary>
+        public string? LostTurn => _turns.Warning;
+
         /// <summary>Takes the wire after one more step.</summary>
         public void Look(RodState state, double predictionError)
         {
             _step++;
+            _turns.Look(state, _step);
             Loss = FindLoss(state, out double strain);
             if (Loss == null)
             {
@@ -78,6 +84,7 @@ namespace Guidewire.Core
             snapshot.Exchange(ref _drivenTo);
             _shortWatch.Exchange(snapshot);
             _longWatch.Exchange(snapshot);
+            _turns.Exchange(snapshot);
         }
 
         private string? FindSteadyState(double predictionError, double strain)

@@ -37,7 +37,7 @@ namespace Guidewire.Core
 
         /// <inheritdoc/>
         public override string? AccuracyWarning => Contacts == null || Contacts.StuckSteps < StepsThatAreStuck
-            ? null
+            ? _watch?.LostTurn
             : "the drive is stuck: in the last " + Contacts.StuckSteps.ToString(CultureInfo.InvariantCulture)
                 + " steps the walls gave sphere 0 less than 1 % of its way";
 
