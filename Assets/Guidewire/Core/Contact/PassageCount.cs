@@ -67,12 +67,27 @@ namespace Guidewire.Core
             for (int at = Array.IndexOf(_left, true); at >= 0; at = Array.IndexOf(_left, true, at + 1))
             {
                 ContactShape wall = _walls[at / points];
-                if (wall.Contains(Point(from, at % points)) && !wall.Contains(Point(to, at % points)))
+                if (wall.Contains(Point(from, at % points)) && !wall.Contains(Point(to, at % points))
+                    && !LeadsOut(wall, to))
                 {
                     Total++;
                 }
                 _left[at] = false;
             }
+        }
+
+        // Whether the wire, whose first sphere is inside, meets the wall nowhere: what is outside of it then left by a
+        // rim, whatever lay on the straight way of a long step.
+        private bool LeadsOut(ContactShape wall, Vector3d[] x)
+        {
+            bool isWhole = wall.Contains(x[0]);
+            for (int j = 0; j + 1 < x.Length && isWhole; j++)
+            {
+                int hint = -1;
+                isWhole = !wall.Nearest(x[j], x[j + 1], _clearance, ref hint, out SurfaceContact contact)
+                    || wall.SizeOf(contact.Distance) > _clearance;
+            }
+            return isWhole;
         }
 
         private void MarkElement(int w, Vector3d[] from, Vector3d[] to, int j)

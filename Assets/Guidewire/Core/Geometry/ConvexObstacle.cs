@@ -176,8 +176,8 @@ namespace Guidewire.Core
             _edges ??= HullEdges.Find(_points, _flatness);
             foreach (HullEdges.Edge edge in _edges)
             {
-                RidgeOfEdge.Add(
-                    a, b, _points[edge.Start], _points[edge.End], _radius, edge.Angle, range, ridges);
+                RidgeOfEdge.Add(a, b, _points[edge.Start], _points[edge.End], _radius,
+                    RidgeOfEdge.Weight(edge.Angle), range, ridges);
             }
         }
 

@@ -8,6 +8,15 @@ namespace Guidewire.Core
     internal static class RidgeOfEdge
     {
         private const double Fade = 0.01;         // of sin^2
+        private const double Sharp = 0.02;        // radians, from which an edge counts as one
+
+        /// <summary>Weight of an edge at which the wall turns by an angle, radians: tanh(angle/0.02).</summary>
+        /// <remarks>In proportion to small angles, so that a bend counts the same however finely it is cut; but not so
+        /// small for those of a coarse one that the one edge which is met holds the wire at a vanishing gap.</remarks>
+        public static double Weight(double angle)
+        {
+            return Math.Tanh(angle / Sharp);
+        }
 
         /// <summary>Adds the ridge if it is within a range of segment a b.</summary>
         /// <param name="a">First end of the segment.</param>

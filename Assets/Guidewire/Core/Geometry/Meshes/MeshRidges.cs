@@ -5,7 +5,7 @@ namespace Guidewire.Core
 {
     /// <summary>The ridges of a mesh: edges at which its two faces turn towards the free side, and edges of open
     /// rims.</summary>
-    /// <remarks>The weight of an edge is the angle between its faces, 1 at a rim.</remarks>
+    /// <remarks>The weight of an edge goes with the angle between its faces, and is 1 at a rim.</remarks>
     internal sealed class MeshRidges
     {
         private const double LeastAngle = 1e-6;   // radians
@@ -28,7 +28,7 @@ namespace Guidewire.Core
                 }
                 else if (place != edge)
                 {
-                    _weight[edge] = Angle(edge, place);
+                    _weight[edge] = RidgeOfEdge.Weight(Angle(edge, place));
                 }
             }
         }

@@ -62,5 +62,19 @@ namespace Guidewire.Core.Tests
             Assert.That(failed, Is.LessThanOrEqualTo(0.05 * runs));
             Assert.That(delivered[delivered.Count / 2], Is.GreaterThanOrEqualTo(0.95));
         }
+
+        /// <summary>An obstacle's face under a parallel element; edges that hardly bulge under the tip's element; a way
+        /// of one and a half elements a step out of an open rim.</summary>
+        [TestCase(39)]
+        [TestCase(1603)]
+        [TestCase(1754)]
+        [TestCase(1135)]
+        public void PushesThatOnceWentWrong_Finish(int seed)
+        {
+            var push = new RandomWallPush(seed);
+            Assert.That(push.Simulation.Outcome, Is.EqualTo(Outcome.Finished), push.ToString());
+            Assert.That(push.Contacts.Passages, Is.EqualTo(0), push.ToString());
+            Assert.That(push.PointsOutside, Is.EqualTo(0), push.ToString());
+        }
     }
 }
