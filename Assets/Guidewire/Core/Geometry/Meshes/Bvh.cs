@@ -308,8 +308,8 @@ namespace Guidewire.Core
             }
         }
 
-        // The part of the segment that may come to a body: what lies within reach of the middle of the ball around it. Of
-        // a long segment that turns about its touching place, that part moves little.
+        // The part of the segment that may come to a body: what lies within reach of the middle of the ball around it.
+        // Of a long segment that turns about its touching place, that part moves little.
         private static bool MayReach(in Vector3d a, in Vector3d b, double reach, in Vector3d middle, out double from,
             out double to)
         {
