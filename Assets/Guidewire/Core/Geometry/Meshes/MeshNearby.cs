@@ -167,8 +167,8 @@ namespace Guidewire.Core
             }
         }
 
-        // Whether a point that has come here, on a way too short to have crossed a wall and be as far behind it, keeps a
-        // distance. Where no ridge is near, the distance along a straight way is a concave function, so that of
+        // Whether a point that has come here, on a way too short to have crossed a wall and be as far behind it, keeps
+        // a distance. Where no ridge is near, the distance along a straight way is a concave function, so that of
         // its ends says it all; ridges are met by the segments on both sides of the point.
         private bool Keeps(in Vector3d x, double keep, double motion, FeatureRange among)
         {
