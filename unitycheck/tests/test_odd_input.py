@@ -44,10 +44,10 @@ words = st.text(max_size=12) | st.sampled_from(["{fileID: 0}", "{", "[]", "{a: {
                                                 "{fileID: 302, guid: 0, type: 3}", "&1", "--- !u!1 &1", "\t", "#"])
 
 
-def run(project: Project, path: str, data: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Every rule over the project with one odd file; the console program is not asked, which takes seconds."""
+def run(project: Project, changes: dict[str, bytes], monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every rule over the project with odd files; the console program is not asked, which takes seconds."""
     monkeypatch.setattr(sceneparameters, "program", lambda root: None)
-    for violation in checks.run(project.with_changes({path: data})):
+    for violation in checks.run(project.with_changes(changes)):
         assert str(violation)
 
 
@@ -55,7 +55,7 @@ def run(project: Project, path: str, data: bytes, monkeypatch: pytest.MonkeyPatc
 @settings(max_examples=EXAMPLES, deadline=None, suppress_health_check=list(HealthCheck))
 @given(path=st.sampled_from(JSON_FILES), value=objects)
 def test_odd_json(repository: Project, monkeypatch: pytest.MonkeyPatch, path: str, value: Any) -> None:  # noqa: F811
-    run(repository, path, json.dumps(value).encode("utf-8", "replace"), monkeypatch)
+    run(repository, {path: json.dumps(value).encode("utf-8", "replace")}, monkeypatch)
 
 
 @seed(12)
@@ -76,7 +76,7 @@ def test_odd_yaml(repository: Project, monkeypatch: pytest.MonkeyPatch, path: st
         else:
             word = data.draw(words)
             lines[place] = key + colon + word if how == "value" else word if how == "line" else "  " + lines[place]
-    run(repository, path, "\n".join(lines).encode("utf-8", "replace"), monkeypatch)
+    run(repository, {path: "\n".join(lines).encode("utf-8", "replace")}, monkeypatch)
 
 
 @seed(13)
@@ -96,17 +96,20 @@ def test_odd_source(repository: Project, data: Any) -> None:  # noqa: F811
     declarations.usings(source)
 
 
-@pytest.mark.parametrize("path", (*JSON_FILES, *YAML_FILES, HUD, f"{HUD}.meta", f"{GUIDEWIRE}/Io/csc.rsp",
-                                  "ProjectSettings/ProjectVersion.txt", "params/insertion.json", "docs/unity.md"))
+# Two files at once, of different kinds.
+@pytest.mark.parametrize("paths", zip(
+    (*JSON_FILES, HUD, f"{HUD}.meta", f"{GUIDEWIRE}/Io/csc.rsp", "ProjectSettings/ProjectVersion.txt"),
+    (*YAML_FILES, "params/insertion.json", "docs/unity.md"), strict=True), ids=" and ".join)
 @pytest.mark.parametrize("data", [b"", b"\n", b"\x00\xff\xfe", b"null", b"[" * 5000, b"{" * 5000, b'{"a":' * 5000,
                                   b"9" * 5000, b'"' * 999, b"- " * 3000, b"--- !u!1 &1\nA:\n" + b"  a: {" * 999],
                          ids=lambda data: f"{data[:16]!r} of {len(data)}")
-def test_odd_bytes(repository: Project, monkeypatch: pytest.MonkeyPatch, path: str, data: bytes) -> None:  # noqa: F811
-    run(repository, path, data, monkeypatch)
+def test_odd_bytes(repository: Project, monkeypatch: pytest.MonkeyPatch, paths: tuple[str, str],  # noqa: F811
+                   data: bytes) -> None:
+    run(repository, dict.fromkeys(paths, data), monkeypatch)
 
 
 @pytest.mark.parametrize("depth", [30, 200, 3000])
 def test_deep_blocks(repository: Project, monkeypatch: pytest.MonkeyPatch, depth: int) -> None:  # noqa: F811
     text = "%YAML 1.1\n%TAG !u! tag:unity3d.com,2011:\n--- !u!78 &1\nTagManager:\n"
     text += "".join(f"{'  ' * (k + 1)}a:\n" for k in range(depth))
-    run(repository, TAGS, text.encode(), monkeypatch)
+    run(repository, {TAGS: text.encode()}, monkeypatch)

@@ -14,7 +14,7 @@ namespace Guidewire.Core.Tests
         [Category("Long")]
         public void Wire_PassesNoWall_AndMoves_UnderRandomPushes()
         {
-            int runs = RandomGeometry.Cases(1_000, 40);
+            int runs = RandomGeometry.Cases(1_000, 60);
             var reached = new List<double>();
             var worst = new List<string>();
             long passages = 0;
