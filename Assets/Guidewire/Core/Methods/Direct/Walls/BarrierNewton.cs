@@ -93,6 +93,7 @@ namespace Guidewire.Core
             double rounding = LastPlace * (shape.X[0].Length + _totalLength)
                 * (10.0 * _axialSpring + _mass / (stageLength * stageLength));
             double left = double.PositiveInfinity;
+            bool hasValues = false;    // of the terms in this shape
             for (int k = 0; k < MostIterations; k++)
             {
                 double before = left;
@@ -118,17 +119,19 @@ namespace Guidewire.Core
                 }
                 Iterations++;
                 double scale = Scale(shape, out double size);
-                if (!Search(shape, k == 0, ref scale, size, out bool isHidden))
+                if (!Search(shape, !hasValues, ref scale, size, out bool isHidden))
                 {
                     if (wasFar)
                     {
                         // It was not, and rounding hides that the energy is as low as it gets.
                         isFar = false;
+                        hasValues = false;
                         continue;
                     }
                     return "no lower energy along the Newton step, " + Text(left) + " N out of balance";
                 }
                 shape.CopyFrom(_trial);
+                hasValues = true;
                 // A full step that no longer lowers the force left has come to what rounding leaves.
                 if (isHidden && scale == 1.0 && left >= 0.5 * before && size <= Tolerance)
                 {
@@ -222,10 +225,10 @@ namespace Guidewire.Core
         }
 
         // Cuts the step until the energy falls enough; the accepted shape is left in the trial.
-        private bool Search(RodShape shape, bool isFirst, ref double scale, double size, out bool isHidden)
+        private bool Search(RodShape shape, bool isNew, ref double scale, double size, out bool isHidden)
         {
             double slope = RodVectors.Dot(_gradient, _direction);
-            double start = isFirst ? EnergySum.Value(_terms, shape, _values, out double magnitude)
+            double start = isNew ? EnergySum.Value(_terms, shape, _values, out double magnitude)
                 : EnergySum.AnchoredValue(_terms, _values, out magnitude);
             double rounding = Rounding * magnitude;
             isHidden = -slope < 1e3 * rounding && size < 1e-2;
