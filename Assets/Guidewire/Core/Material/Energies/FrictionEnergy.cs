@@ -146,14 +146,7 @@ namespace Guidewire.Core
         {
             double s = contact.Position;
             double r = 1.0 - s;
-            b.A11 += r * r * h.A11; b.A21 += r * r * h.A21; b.A22 += r * r * h.A22;
-            b.A31 += r * r * h.A31; b.A32 += r * r * h.A32; b.A33 += r * r * h.A33;
-            next.A11 += s * s * h.A11; next.A21 += s * s * h.A21; next.A22 += s * s * h.A22;
-            next.A31 += s * s * h.A31; next.A32 += s * s * h.A32; next.A33 += s * s * h.A33;
-            double m = r * s;
-            b.D11 += m * h.A11; b.D12 += m * h.A21; b.D13 += m * h.A31;
-            b.D21 += m * h.A21; b.D22 += m * h.A22; b.D23 += m * h.A32;
-            b.D31 += m * h.A31; b.D32 += m * h.A32; b.D33 += m * h.A33;
+            RodBlock.AddAt(ref b, ref next, s, h);
             Vector3d w1 = Column(contact, turn, Vector3d.UnitX);
             Vector3d w2 = Column(contact, turn, Vector3d.UnitY);
             Vector3d w3 = Column(contact, turn, Vector3d.UnitZ);

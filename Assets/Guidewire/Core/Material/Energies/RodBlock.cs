@@ -16,5 +16,20 @@ namespace Guidewire.Core
         public double D11, D12, D13, D21, D22, D23, D31, D32, D33;
         public double E11, E12, E13, E21, E22, E23, E31, E32, E33;
         public double F11, F12, F13, F21, F22, F23, F31, F32, F33;
+
+        /// <summary>Adds a stiffness h against motions of the point at s of an element, from 0 at its node to 1 at the
+        /// next.</summary>
+        public static void AddAt(ref RodBlock node, ref RodBlock next, double s, in Symmetric3 h)
+        {
+            double r = 1.0 - s;
+            node.A11 += r * r * h.A11; node.A21 += r * r * h.A21; node.A22 += r * r * h.A22;
+            node.A31 += r * r * h.A31; node.A32 += r * r * h.A32; node.A33 += r * r * h.A33;
+            next.A11 += s * s * h.A11; next.A21 += s * s * h.A21; next.A22 += s * s * h.A22;
+            next.A31 += s * s * h.A31; next.A32 += s * s * h.A32; next.A33 += s * s * h.A33;
+            double m = r * s;
+            node.D11 += m * h.A11; node.D12 += m * h.A21; node.D13 += m * h.A31;
+            node.D21 += m * h.A21; node.D22 += m * h.A22; node.D23 += m * h.A32;
+            node.D31 += m * h.A31; node.D32 += m * h.A32; node.D33 += m * h.A33;
+        }
     }
 }

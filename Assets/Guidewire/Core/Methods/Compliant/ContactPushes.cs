@@ -61,19 +61,8 @@ namespace Guidewire.Core
                 if (contact.Push > 0.0 && j >= from && j < to)
                 {
                     Add(contact, shape, gradient);
-                    double s = contact.Position;
-                    double r = 1.0 - s;
-                    Symmetric3 h = Symmetric3.Outer(_stiffness, contact.Normal);
-                    ref RodBlock b = ref blocks[j];
-                    ref RodBlock next = ref blocks[j + 1];
-                    b.A11 += r * r * h.A11; b.A21 += r * r * h.A21; b.A22 += r * r * h.A22;
-                    b.A31 += r * r * h.A31; b.A32 += r * r * h.A32; b.A33 += r * r * h.A33;
-                    next.A11 += s * s * h.A11; next.A21 += s * s * h.A21; next.A22 += s * s * h.A22;
-                    next.A31 += s * s * h.A31; next.A32 += s * s * h.A32; next.A33 += s * s * h.A33;
-                    double m = r * s;
-                    b.D11 += m * h.A11; b.D12 += m * h.A21; b.D13 += m * h.A31;
-                    b.D21 += m * h.A21; b.D22 += m * h.A22; b.D23 += m * h.A32;
-                    b.D31 += m * h.A31; b.D32 += m * h.A32; b.D33 += m * h.A33;
+                    RodBlock.AddAt(ref blocks[j], ref blocks[j + 1], contact.Position,
+                        Symmetric3.Outer(_stiffness, contact.Normal));
                 }
             }
         }
