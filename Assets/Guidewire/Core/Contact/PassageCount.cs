@@ -44,7 +44,7 @@ namespace Guidewire.Core
                 double motion = Math.Max(Vector3d.Distance(from[j], to[j]), Vector3d.Distance(from[j + 1], to[j + 1]));
                 for (int w = 0; w < _walls.Length; w++)
                 {
-                    if (motion >= _search.ClearanceOf(w, j) && !_walls[w].Holds(to[j], to[j + 1], _hint[w * n + j])
+                    if (motion >= _search.ClearanceOf(w, j) && !_walls[w].Holds(to[j], to[j + 1], ref _hint[w * n + j])
                         && _walls[w].Nearest(
                             from[j], from[j + 1], motion + _clearance, ref _hint[w * n + j], out _))
                     {

@@ -178,7 +178,7 @@ namespace Guidewire.Core
 
         /// <summary>Whether the whole segment surely lies where the wire may be; false too where a shape cannot tell
         /// quickly.</summary>
-        internal virtual bool Holds(in Vector3d a, in Vector3d b, int hint)
+        internal virtual bool Holds(in Vector3d a, in Vector3d b, ref int hint)
         {
             return false;
         }

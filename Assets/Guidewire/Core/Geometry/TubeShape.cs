@@ -199,19 +199,21 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        internal override bool Holds(in Vector3d a, in Vector3d b, int hint)
+        internal override bool Holds(in Vector3d a, in Vector3d b, ref int hint)
         {
-            ref readonly TubePiece piece = ref _tree.Pieces[hint >= 0 && hint < _tree.Pieces.Length ? hint : 0];
-            return (piece.Distance(a) > 0.0 && piece.Distance(b) > 0.0) || HoldBoth(a, b)
+            hint = hint >= 0 && hint < _tree.Pieces.Length ? hint : 0;
+            ref readonly TubePiece piece = ref _tree.Pieces[hint];
+            return (piece.Distance(a) > 0.0 && piece.Distance(b) > 0.0) || HoldBoth(a, b, ref hint)
                 || LeastDistance(a, b) > 0.0;
         }
 
         // Whether the deepest piece at one end holds the part up to a place, and that at the other end the rest: pieces
         // are convex, so their ends say it of parts. The place is the one nearest to their common knot.
-        private bool HoldBoth(in Vector3d a, in Vector3d b)
+        private bool HoldBoth(in Vector3d a, in Vector3d b, ref int hint)
         {
-            int first = _tree.Deepest(a, 0, out double atA);
+            int first = _tree.Deepest(a, hint, out double atA);
             int last = _tree.Deepest(b, first, out double atB);
+            hint = first;
             if (!(atA > 0.0) || !(atB > 0.0) || Math.Abs(first - last) > 1)
             {
                 return false;

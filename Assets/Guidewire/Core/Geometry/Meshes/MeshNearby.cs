@@ -1,4 +1,5 @@
 using System;
+using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
@@ -100,7 +101,7 @@ namespace Guidewire.Core
         {
             for (int k = among.From; k < among.To && among.LeastDistance(k) <= distance; k++)
             {
-                if (LeastDistance(x, among[k]) <= distance)
+                if (MayBeWithin(x, distance, among[k]))
                 {
                     triangles.Add(among[k]);
                 }
@@ -137,7 +138,7 @@ namespace Guidewire.Core
             for (int k = among.From; k < among.To && among.LeastDistance(k) <= reach; k++)
             {
                 int i = among[k];
-                if (LeastDistance(from, i) <= reach)
+                if (MayBeWithin(from, reach, i))
                 {
                     Bvh.SweepTriangle(_mesh.Corners[3 * i], _mesh.Corners[3 * i + 1], _mesh.Corners[3 * i + 2],
                         from, from, to, to, keep, resolution, motion, ref impact);
@@ -176,7 +177,7 @@ namespace Guidewire.Core
             for (int k = among.From; k < among.To && among.LeastDistance(k) <= keep + motion; k++)
             {
                 int i = 3 * among[k];
-                if (LeastDistance(x, among[k]) <= keep && ClosestPoints.PointTriangle(
+                if (MayBeWithin(x, keep, among[k]) && ClosestPoints.PointTriangle(
                     x, _mesh.Corners[i], _mesh.Corners[i + 1], _mesh.Corners[i + 2], out _, out _) < limit)
                 {
                     return false;
@@ -200,6 +201,13 @@ namespace Guidewire.Core
             _mesh.EndsOf(edge, out int from, out int to);
             return Math.Sqrt(ClosestPoints.SegmentSegment(
                 a, b, _mesh.Corners[from], _mesh.Corners[to], out _, out _));
+        }
+
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        private bool MayBeWithin(in Vector3d x, double distance, int triangle)
+        {
+            double reach = distance + _radius[triangle];
+            return (x - _centre[triangle]).LengthSquared <= reach * reach;
         }
 
         private double LeastDistance(in Vector3d x, int triangle)

@@ -18,7 +18,7 @@ namespace Guidewire.Core
     {
         private const double LeftOfGap = 0.3;     // that a step leaves at least
         private const double MostLeft = 0.2;      // of the barrier's distance
-        private const double LongReach = 4.0;     // of the barrier's distance, between looks for walls
+        private const double LongReach = 20.0;    // of the barrier's distance, between looks for walls
         private const double Resolved = 1e-3;     // of the distance that is kept: an approach that is none
         private const double ResolvedOfWay = 0.05;    // the same, of the way to it
         private const double QuickShare = 0.9;    // of a gap that is only about right
@@ -43,6 +43,7 @@ namespace Guidewire.Core
         private readonly StructList<WallPlace> _places = new StructList<WallPlace>(16);
         private readonly StructList<WallRidge> _ridges = new StructList<WallRidge>(16);
         private readonly StructList<WallContact> _contacts = new StructList<WallContact>(64);
+        private double _leastGap;                 // of all of these
         private bool _hasBending = true;
         private bool _isKnown;
         private double _value;
@@ -195,10 +196,18 @@ namespace Guidewire.Core
         {
             Look(shape);
             double step = scale * _units;
+            double longest = 0.0;
             for (int i = 0; i < _x.Length; i++)
             {
                 RodVector d = direction[i];
-                _to[i] = _x[i] + step * new Vector3d(d.X1, d.X2, d.X3);
+                Vector3d move = step * new Vector3d(d.X1, d.X2, d.X3);
+                _to[i] = _x[i] + move;
+                longest = Math.Max(longest, move.LengthSquared);
+            }
+            double sure = QuickShare * _units * _leastGap;
+            if (longest < sure * sure)
+            {
+                return 1.0;
             }
             _near.Cover(_x, _to);
             double share = 1.0;
@@ -308,6 +317,15 @@ namespace Guidewire.Core
             for (int w = 0; w < _walls.Length; w++)
             {
                 AddWall(w);
+            }
+            _leastGap = _barrier.Distance;
+            for (int k = 0; k < _nodeGap.Length; k++)
+            {
+                _leastGap = Math.Min(_leastGap, _nodeGap[k]);
+            }
+            for (int k = 0; k < _ridgeGap.Length; k++)
+            {
+                _leastGap = Math.Min(_leastGap, _ridgeGap[k]);
             }
         }
 

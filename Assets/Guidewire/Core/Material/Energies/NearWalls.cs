@@ -12,6 +12,8 @@ namespace Guidewire.Core
         private const double WithRoom = 1.25;     // to the way that is expected
         private const double MostReach = 2.5;     // of the range: beyond, lists of features grow too long
         private const int MostLists = 8;          // of the features of all, before the list is begun anew
+        private const double HalfDiagonal = 0.8661;    // of a cell of the lattice of points, rounded up
+        private const double Finer = 0.5;         // of its cells than the reach
         private readonly ContactShape[] _walls;
         private readonly double[] _range;         // by element: its radius and the barrier's distance
         private readonly double _leastReach;
@@ -19,6 +21,7 @@ namespace Guidewire.Core
         private readonly NearPlace[] _node;       // by wall and node, where the wall has features of points
         private readonly int[] _hint;             // by wall and element
         private readonly StructList<WallFeature> _features = new StructList<WallFeature>(1024);
+        private readonly FeatureCells? _cells;    // of nodes
         private int _mostFeatures;
 
         /// <summary>For a wire that has not been looked for.</summary>
@@ -33,9 +36,11 @@ namespace Guidewire.Core
             _leastReach = leastReach;
             _element = new NearPlace[walls.Length * n];
             _node = new NearPlace[walls.Length * (n + 1)];
+            _cells = Array.Exists(walls, wall => wall.HasPointFeatures) ? new FeatureCells(walls) : null;
             _hint = new int[walls.Length * n];
             Array.Fill(_hint, -1);
-            Forget();
+            Forget(_element);
+            Forget(_node);
         }
 
         /// <summary>Looks for what has left its reach.</summary>
@@ -53,7 +58,12 @@ namespace Guidewire.Core
         {
             if (_features.Count > _mostFeatures)
             {
-                Forget();
+                _features.Clear();
+                Forget(_element);
+            }
+            if (_cells != null && _cells.Trim())
+            {
+                Forget(_node);
             }
             bool isNew = _features.Count == 0;
             int n = _range.Length;
@@ -68,9 +78,8 @@ namespace Guidewire.Core
                         double reach = ReachFor(Vector3d.Distance(x[i], to[i]), range, node.Covers(x[i], x[i]));
                         if (reach > 0.0)
                         {
-                            node.Begin(x[i], x[i], reach, _features.Count);
-                            node.End(_walls[w].FindFeatures(x[i], reach + range, _features), reach + range,
-                                _features.Count);
+                            double size = CellFor(reach, out double largest);
+                            _cells!.Find(w, x[i], size, HalfDiagonal * size + largest, range, ref node);
                         }
                     }
                 }
@@ -122,7 +131,7 @@ namespace Guidewire.Core
             int n = _range.Length;
             if (_walls[w].HasPointFeatures)
             {
-                return _node[w * (n + 1) + i].Features(_features, x, x);
+                return _node[w * (n + 1) + i].Features(_cells!.Features, x, x);
             }
             int j = w * n + i;
             return i < n && _element[j].IsNear ? _element[j].FeaturesAtA(_features, x)
@@ -170,7 +179,7 @@ namespace Guidewire.Core
         private FeatureRange OnWay(int w, int i, Vector3d[] x, Vector3d[] to)
         {
             ref NearPlace node = ref _node[w * (_range.Length + 1) + i];
-            return node.Covers(to[i], to[i]) ? node.Features(_features, x[i], x[i]) : default;
+            return node.Covers(to[i], to[i]) ? node.Features(_cells!.Features, x[i], x[i]) : default;
         }
 
         // 0 where the way is too long and where it sets out is within reach.
@@ -180,16 +189,19 @@ namespace Guidewire.Core
             return reach <= Math.Max(_leastReach, MostReach * range) ? reach : isCovered ? 0.0 : _leastReach;
         }
 
-        private void Forget()
+        // Of few sizes, so that lists are found again; the largest reach that comes to this size.
+        private static double CellFor(double reach, out double largest)
         {
-            _features.Clear();
-            for (int k = 0; k < _element.Length; k++)
+            double step = Math.Ceiling(2.0 * Math.Log(reach, 2.0));
+            largest = Math.Pow(2.0, 0.5 * step);
+            return Finer * largest;
+        }
+
+        private static void Forget(NearPlace[] places)
+        {
+            for (int k = 0; k < places.Length; k++)
             {
-                _element[k].Forget();
-            }
-            for (int k = 0; k < _node.Length; k++)
-            {
-                _node[k].Forget();
+                places[k].Forget();
             }
         }
 

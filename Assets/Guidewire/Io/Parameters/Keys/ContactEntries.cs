@@ -16,14 +16,16 @@ namespace Guidewire.Io
             },
             new NumberEntry("contactDistance", "m", NumberRange.NotNegative,
                 "gap between the wire's surface and a wall below which the wall pushes; 0: by rule, a tenth of the"
-                + " wire's radius or a twentieth of the drive's motion a step, at most half of the narrowest clearance",
+                + " wire's radius or a twentieth of the drive's motion a step, at most half of the narrowest clearance,"
+                + " in a mesh 0.3 radii",
                 p => p.Simulation.Contact.ContactDistance, (p, v) => p.Simulation.Contact.ContactDistance = v)
             {
                 Methods = Takers.Only(Solver.Direct),
             },
             new NumberEntry("contactStiffness", "N/m", NumberRange.NotNegative,
                 "stiffness k of a contact: direct pushes by 1.19 k contactDistance at half of that gap, 0: by rule,"
-                + " 10 EI/l^3 of the stiffest element; xpbd pushes by k times the depth, 0: contacts are rigid",
+                + " EI/(90 r)^2 over contactDistance, or more where walls straighten it; xpbd pushes by k times the"
+                + " depth, 0: contacts are rigid",
                 p => p.Simulation.Contact.ContactStiffness, (p, v) => p.Simulation.Contact.ContactStiffness = v)
             {
                 Methods = Takers.Only(Solver.Xpbd, Solver.Direct),

@@ -180,6 +180,7 @@ namespace Guidewire.Core
         public override double Value(RodShape shape)
         {
             double perSquare = 1.0 / (StageLength * StageLength);
+            double perTurn = PerTurn;
             double nodes = 0.0;
             double turns = 0.0;
             for (int i = 0; i < _diagonal.Length; i++)
@@ -192,7 +193,7 @@ namespace Guidewire.Core
                     nodes += _coupling[i] * Vector3d.Dot(d, e);
                     Vector3d turn = RotationVector.Log(_anchor[i].Conjugate * shape.Q[i]);
                     Vector3d rotary = _rotary[i];
-                    turns += Vector3d.Dot(_anchorCouple[i], turn) + 0.5 * PerTurn * (rotary.X * turn.X * turn.X
+                    turns += Vector3d.Dot(_anchorCouple[i], turn) + 0.5 * perTurn * (rotary.X * turn.X * turn.X
                         + rotary.Y * turn.Y * turn.Y + rotary.Z * turn.Z * turn.Z);
                 }
             }
@@ -236,6 +237,7 @@ namespace Guidewire.Core
             var measured = default(GradientMeasures);
             AddGradient(shape, gradient, from, to, ref measured);
             double perSquare = 1.0 / (StageLength * StageLength);
+            double perTurn = PerTurn;
             int end = Math.Min(to, _coupling.Length);
             for (int i = from; i < end; i++)
             {
@@ -245,7 +247,7 @@ namespace Guidewire.Core
                 b.D11 += coupling;
                 b.D22 += coupling;
                 b.D33 += coupling;
-                Vector3d rotary = PerTurn * _rotary[i];
+                Vector3d rotary = perTurn * _rotary[i];
                 b.C11 += rotary.X;
                 b.C22 += rotary.Y;
                 b.C33 += rotary.Z;

@@ -107,6 +107,7 @@ namespace Guidewire.Core.Tests
             Simulation run = Wires.Run(WallScenes.Compliant(scene, Young));
             SimulationParameters direct = WallScenes.Soft(scene, Young);
             direct.Contact.ContactDistance = 1e-5;
+            direct.Contact.ContactStiffness = 10.0;
             direct.Method.TimeStep = 1e-3;
             direct.Drive.DisplacementPerStep *= 0.1;
             direct.Method.MaxSimulationSteps *= 10;
