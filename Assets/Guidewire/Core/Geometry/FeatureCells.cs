@@ -11,13 +11,20 @@ namespace Guidewire.Core
         private const int Places = 1 << 13;
         private const int MostFeatures = 1 << 17;
         private const int LongestList = 1 << 13;    // that is expected
+        private const double HalfDiagonal = 0.8661;    // of a lattice's cell, rounded up
         private readonly ContactShape[] _walls;
+        private readonly double _size;
+        private readonly double _reach;
         private readonly Cell[] _cells = new Cell[Places];
 
         /// <summary>For walls that stay where they are.</summary>
-        public FeatureCells(ContactShape[] walls)
+        /// <param name="walls">The walls.</param>
+        /// <param name="reach">What is found holds at least this far about where it was asked for, units.</param>
+        public FeatureCells(ContactShape[] walls, double reach)
         {
             _walls = walls;
+            _size = 0.5 * reach;
+            _reach = reach + HalfDiagonal * _size;
         }
 
         /// <summary>The lists.</summary>
@@ -41,15 +48,13 @@ namespace Guidewire.Core
         /// <summary>Finds a wall about the lattice point next to a point.</summary>
         /// <param name="w">Which wall.</param>
         /// <param name="x">Units.</param>
-        /// <param name="size">Of the lattice, units.</param>
-        /// <param name="reach">From the lattice point, units.</param>
-        /// <param name="range">Beyond the reach, units.</param>
+        /// <param name="range">Of the features, beyond the reach, units.</param>
         /// <param name="place">Receives it, with its features among <see cref="Features"/>.</param>
-        public void Find(int w, in Vector3d x, double size, double reach, double range, ref NearPlace place)
+        public void Find(int w, in Vector3d x, double range, ref NearPlace place)
         {
             var centre = new Vector3d(
-                size * Math.Round(x.X / size), size * Math.Round(x.Y / size), size * Math.Round(x.Z / size));
-            double radius = reach + range;
+                _size * Math.Round(x.X / _size), _size * Math.Round(x.Y / _size), _size * Math.Round(x.Z / _size));
+            double radius = _reach + range;
             ref Cell cell = ref _cells[PlaceOf(w, centre, radius)];
             if (!cell.Is(w, centre, radius))
             {
@@ -57,7 +62,7 @@ namespace Guidewire.Core
                 double distance = _walls[w].FindFeatures(centre, radius, Features);
                 cell = new Cell(w, centre, radius, from, Features.Count, distance);
             }
-            place.Begin(centre, centre, reach, cell.From);
+            place.Begin(centre, centre, _reach, cell.From);
             place.End(cell.Distance, radius, cell.To);
         }
 

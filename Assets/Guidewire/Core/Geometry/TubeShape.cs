@@ -203,24 +203,24 @@ namespace Guidewire.Core
         {
             hint = hint >= 0 && hint < _tree.Pieces.Length ? hint : 0;
             ref readonly TubePiece piece = ref _tree.Pieces[hint];
-            return (piece.Distance(a) > 0.0 && piece.Distance(b) > 0.0) || HoldBoth(a, b, ref hint)
+            return (piece.Distance(a) > 0.0 && piece.Distance(b) > 0.0) || HoldParts(a, b, ref hint)
                 || LeastDistance(a, b) > 0.0;
         }
 
-        // Whether the deepest piece at one end holds the part up to a place, and that at the other end the rest: pieces
-        // are convex, so their ends say it of parts. The place is the one nearest to their common knot.
-        private bool HoldBoth(in Vector3d a, in Vector3d b, ref int hint)
+        // Whether each piece from the deepest at one end to the deepest at the other holds the part of the segment
+        // between the places nearest to its knots: pieces are convex, so the ends of a part say it.
+        private bool HoldParts(in Vector3d a, in Vector3d b, ref int hint)
         {
             int first = _tree.Deepest(a, hint, out double atA);
             int last = _tree.Deepest(b, first, out double atB);
             hint = first;
-            if (!(atA > 0.0) || !(atB > 0.0) || Math.Abs(first - last) > 1)
+            bool isHeld = atA > 0.0 && atB > 0.0;
+            for (int knot = Math.Min(first, last) + 1; knot <= Math.Max(first, last) && isHeld; knot++)
             {
-                return false;
+                Vector3d place = Vector3d.Lerp(a, b, ClosestPoints.PointSegment(_knots[knot], a, b));
+                isHeld = _tree.Pieces[knot - 1].Distance(place) > 0.0 && _tree.Pieces[knot].Distance(place) > 0.0;
             }
-            Vector3d knot = _knots[Math.Max(first, last)];
-            Vector3d between = Vector3d.Lerp(a, b, ClosestPoints.PointSegment(knot, a, b));
-            return _tree.Pieces[first].Distance(between) > 0.0 && _tree.Pieces[last].Distance(between) > 0.0;
+            return isHeld;
         }
 
         private int Deepest(in Vector3d x, FeatureRange features, out double distance)

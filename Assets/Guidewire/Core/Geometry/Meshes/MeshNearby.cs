@@ -11,6 +11,7 @@ namespace Guidewire.Core
     /// </remarks>
     internal sealed class MeshNearby
     {
+        private const double RoundedUp = 1.0 + 1e-9;
         private readonly MeshGeometry _mesh;
         private readonly Vector3d[] _centre;     // of the triangles
         private readonly double[] _radius;       // of the balls around them
@@ -126,7 +127,7 @@ namespace Guidewire.Core
         {
             if (!among.IsKnown)
             {
-                impact = Math.Min(impact, _mesh.Tree.Sweep(from, from, to, to, keep, resolution, -1));
+                SweepPoint(from, to, keep, resolution, ref impact);
                 return;
             }
             double motion = Vector3d.Distance(from, to);
@@ -134,7 +135,7 @@ namespace Guidewire.Core
             {
                 return;
             }
-            double reach = (keep + motion) * (1.0 + 1e-9);
+            double reach = (keep + motion) * RoundedUp;
             for (int k = among.From; k < among.To && among.LeastDistance(k) <= reach; k++)
             {
                 int i = among[k];
@@ -150,21 +151,45 @@ namespace Guidewire.Core
         public void SweepSegment(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
             double resolution, FeatureRange among, ref double impact)
         {
-            double motion = Math.Max(Vector3d.Distance(a0, a1), Vector3d.Distance(b0, b1));
-            double reach = (keep + motion) * (1.0 + 1e-9);
+            Vector3d stepA = a1 - a0;
+            Vector3d stepB = b1 - b0;
+            double motion = Math.Sqrt(Math.Max(stepA.LengthSquared, stepB.LengthSquared));
             if (among.IsKnown)
             {
+                double reach = (keep + motion) * RoundedUp;
                 for (int k = among.From; k < among.To && among.LeastDistance(k) <= reach; k++)
                 {
                     SweepRidge(among[k], a0, b0, a1, b1, keep, resolution, motion, ref impact);
                 }
                 return;
             }
+            // All that the segment comes to is within its motion across itself of the segment made longer by its motion
+            // along itself.
+            Vector3d along = Vector3d.Normalize(b0 - a0);
+            double alongA = Vector3d.Dot(stepA, along);
+            double alongB = Vector3d.Dot(stepB, along);
+            double across = Math.Sqrt(Math.Max(
+                (stepA - alongA * along).LengthSquared, (stepB - alongB * along).LengthSquared));
             _found.Clear();
-            _ridgeTree?.Within(a0, b0, reach, _found);
+            _ridgeTree?.Within(a0 + Math.Min(0.0, Math.Min(alongA, alongB)) * along,
+                b0 + Math.Max(0.0, Math.Max(alongA, alongB)) * along, (keep + across) * RoundedUp, _found);
             for (int k = 0; k < _found.Count; k++)
             {
                 SweepRidge(_ridge[_found[k]], a0, b0, a1, b1, keep, resolution, motion, ref impact);
+            }
+        }
+
+        // All that the point comes to is near its way.
+        private void SweepPoint(in Vector3d from, in Vector3d to, double keep, double resolution, ref double impact)
+        {
+            double motion = Vector3d.Distance(from, to);
+            _found.Clear();
+            _mesh.Tree.Within(from, to, keep * RoundedUp, _found);
+            for (int k = 0; k < _found.Count; k++)
+            {
+                int i = 3 * _found[k];
+                Bvh.SweepTriangle(_mesh.Corners[i], _mesh.Corners[i + 1], _mesh.Corners[i + 2],
+                    from, from, to, to, keep, resolution, motion, ref impact);
             }
         }
 

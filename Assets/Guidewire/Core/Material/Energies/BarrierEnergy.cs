@@ -19,6 +19,7 @@ namespace Guidewire.Core
         private const double LeftOfGap = 0.3;     // that a step leaves at least
         private const double MostLeft = 0.2;      // of the barrier's distance
         private const double LongReach = 20.0;    // of the barrier's distance, between looks for walls
+        private const double ReachInMesh = 0.5;   // of the wire's radius, the same at least
         private const double Resolved = 1e-3;     // of the distance that is kept: an approach that is none
         private const double ResolvedOfWay = 0.05;    // the same, of the way to it
         private const double QuickShare = 0.9;    // of a gap that is only about right
@@ -74,9 +75,10 @@ namespace Guidewire.Core
                 range[j] = _units * (Math.Max(_nodeRadius[j], _nodeRadius[j + 1]) + barrier.Distance);
             }
             // Lists of features of points grow with the square of the reach, all others hardly.
-            double reach = Array.Exists(walls, wall => wall.HasPointFeatures) ? barrier.Distance
-                : LongReach * barrier.Distance;
-            _near = new NearWalls(walls, range, _units * Math.Max(reach, rod.Radius[n - 1]));
+            double reach = Array.Exists(walls, wall => wall.HasPointFeatures)
+                ? Math.Max(barrier.Distance, ReachInMesh * rod.Radius[n - 1])
+                : Math.Max(LongReach * barrier.Distance, rod.Radius[n - 1]);
+            _near = new NearWalls(walls, range, _units * reach);
             _nodeGap = new double[walls.Length * (n + 1)];
             _ridgeGap = new double[walls.Length * n];
             _gradient = new Vector3d[n + 1];
@@ -209,7 +211,6 @@ namespace Guidewire.Core
             {
                 return 1.0;
             }
-            _near.Cover(_x, _to);
             double share = 1.0;
             for (int j = 0; j < _elementRadius.Length; j++)
             {
@@ -227,16 +228,14 @@ namespace Guidewire.Core
             return share;
         }
 
-        /// <summary>What is near another shape, and on the way to it unless that is too long; gaps are those of the
-        /// shape.</summary>
-        public NearWalls Cover(RodShape shape, RodShape to)
+        /// <summary>What is near a shape; gaps are those of another.</summary>
+        public NearWalls Near(RodShape shape, RodShape other)
         {
-            Look(shape);
+            Look(other);
             for (int i = 0; i < _to.Length; i++)
             {
-                _to[i] = _units * to.X[i];
+                _to[i] = _units * shape.X[i];
             }
-            _near.Cover(_x, _to);
             _near.Follow(_to);
             return _near;
         }

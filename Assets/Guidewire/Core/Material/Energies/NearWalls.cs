@@ -9,14 +9,11 @@ namespace Guidewire.Core
     internal sealed class NearWalls
     {
         private const double SureOfQuick = 0.9;   // of a quick distance there is surely room
-        private const double WithRoom = 1.25;     // to the way that is expected
-        private const double MostReach = 2.5;     // of the range: beyond, lists of features grow too long
         private const int MostLists = 8;          // of the features of all, before the list is begun anew
-        private const double HalfDiagonal = 0.8661;    // of a cell of the lattice of points, rounded up
-        private const double Finer = 0.5;         // of its cells than the reach
         private readonly ContactShape[] _walls;
         private readonly double[] _range;         // by element: its radius and the barrier's distance
-        private readonly double _leastReach;
+        private readonly double _reach;
+        private readonly bool[] _hasPoints;       // features of points
         private readonly NearPlace[] _element;    // by wall and element
         private readonly NearPlace[] _node;       // by wall and node, where the wall has features of points
         private readonly int[] _hint;             // by wall and element
@@ -27,16 +24,18 @@ namespace Guidewire.Core
         /// <summary>For a wire that has not been looked for.</summary>
         /// <param name="walls">The walls.</param>
         /// <param name="range">By element: what is farther does not count.</param>
-        /// <param name="leastReach">Nothing is looked for anew before it has gone this far.</param>
-        public NearWalls(ContactShape[] walls, double[] range, double leastReach)
+        /// <param name="reach">Nothing is looked for anew before it has gone this far.</param>
+        public NearWalls(ContactShape[] walls, double[] range, double reach)
         {
             int n = range.Length;
             _walls = walls;
             _range = range;
-            _leastReach = leastReach;
+            _reach = reach;
             _element = new NearPlace[walls.Length * n];
             _node = new NearPlace[walls.Length * (n + 1)];
-            _cells = Array.Exists(walls, wall => wall.HasPointFeatures) ? new FeatureCells(walls) : null;
+            _hasPoints = Array.ConvertAll(walls, wall => wall.HasPointFeatures);
+            _cells = Array.Exists(walls, wall => wall.HasPointFeatures) ? new FeatureCells(walls, reach)
+                : null;
             _hint = new int[walls.Length * n];
             Array.Fill(_hint, -1);
             Forget(_element);
@@ -46,15 +45,6 @@ namespace Guidewire.Core
         /// <summary>Looks for what has left its reach.</summary>
         /// <param name="x">The wire's n + 1 nodes.</param>
         public void Follow(Vector3d[] x)
-        {
-            Cover(x, x);
-        }
-
-        /// <summary>The same before the wire moves, so that all of its way is within reach, but for what goes too far
-        /// for that.</summary>
-        /// <param name="x">Its n + 1 nodes.</param>
-        /// <param name="to">Where they go to.</param>
-        public void Cover(Vector3d[] x, Vector3d[] to)
         {
             if (_features.Count > _mostFeatures)
             {
@@ -69,31 +59,21 @@ namespace Guidewire.Core
             int n = _range.Length;
             for (int w = 0; w < _walls.Length; w++)
             {
-                for (int i = 0; i <= n && _walls[w].HasPointFeatures; i++)
+                for (int i = 0; i <= n && _hasPoints[w]; i++)
                 {
                     ref NearPlace node = ref _node[w * (n + 1) + i];
-                    if (!node.Covers(x[i], x[i]) || !node.Covers(to[i], to[i]))
+                    if (!node.Covers(x[i], x[i]))
                     {
                         double range = Math.Max(_range[Math.Max(i - 1, 0)], _range[Math.Min(i, n - 1)]);
-                        double reach = ReachFor(Vector3d.Distance(x[i], to[i]), range, node.Covers(x[i], x[i]));
-                        if (reach > 0.0)
-                        {
-                            double size = CellFor(reach, out double largest);
-                            _cells!.Find(w, x[i], size, HalfDiagonal * size + largest, range, ref node);
-                        }
+                        _cells!.Find(w, x[i], range, ref node);
                     }
                 }
                 for (int j = 0; j < n; j++)
                 {
                     ref NearPlace element = ref _element[w * n + j];
-                    if (!element.Covers(x[j], x[j + 1]) || !element.Covers(to[j], to[j + 1]))
+                    if (!element.Covers(x[j], x[j + 1]))
                     {
-                        double way = Math.Max(Vector3d.Distance(x[j], to[j]), Vector3d.Distance(x[j + 1], to[j + 1]));
-                        double reach = ReachFor(way, _range[j], element.Covers(x[j], x[j + 1]));
-                        if (reach > 0.0)
-                        {
-                            FindAtElement(w, j, x, reach, ref element);
-                        }
+                        FindAtElement(w, j, x, ref element);
                     }
                 }
             }
@@ -107,14 +87,14 @@ namespace Guidewire.Core
         public bool IsNear(int w, int j)
         {
             return _element[w * _range.Length + j].IsNear
-                || (_walls[w].HasPointFeatures && (IsNodeNear(w, j) || IsNodeNear(w, j + 1)));
+                || (_hasPoints[w] && (IsNodeNear(w, j) || IsNodeNear(w, j + 1)));
         }
 
         /// <summary>Whether node i may.</summary>
         public bool IsNodeNear(int w, int i)
         {
             int n = _range.Length;
-            return _walls[w].HasPointFeatures ? _node[w * (n + 1) + i].IsNear
+            return _hasPoints[w] ? _node[w * (n + 1) + i].IsNear
                 : (i < n && _element[w * n + i].IsNear) || (i > 0 && _element[w * n + i - 1].IsNear);
         }
 
@@ -129,7 +109,7 @@ namespace Guidewire.Core
         public FeatureRange FeaturesOfNode(int w, int i, in Vector3d x)
         {
             int n = _range.Length;
-            if (_walls[w].HasPointFeatures)
+            if (_hasPoints[w])
             {
                 return _node[w * (n + 1) + i].Features(_cells!.Features, x, x);
             }
@@ -143,7 +123,7 @@ namespace Guidewire.Core
         {
             FeatureRange between = _element[w * _range.Length + j].Covers(to[j], to[j + 1])
                 ? FeaturesOf(w, j, x[j], x[j + 1]) : default;
-            return _walls[w].HasPointFeatures
+            return _hasPoints[w]
                 ? new ElementFeatures(between, OnWay(w, j, x, to), OnWay(w, j + 1, x, to))
                 : new ElementFeatures(between, between, between);
         }
@@ -171,7 +151,7 @@ namespace Guidewire.Core
         {
             int n = _range.Length;
             double room = _element[w * n + j].Clearance(x[j], x[j + 1]);
-            return !_walls[w].HasPointFeatures ? room
+            return !_hasPoints[w] ? room
                 : Math.Min(room, Math.Min(_node[w * (n + 1) + j].Clearance(x[j], x[j]),
                     _node[w * (n + 1) + j + 1].Clearance(x[j + 1], x[j + 1])));
         }
@@ -182,21 +162,6 @@ namespace Guidewire.Core
             return node.Covers(to[i], to[i]) ? node.Features(_cells!.Features, x[i], x[i]) : default;
         }
 
-        // 0 where the way is too long and where it sets out is within reach.
-        private double ReachFor(double way, double range, bool isCovered)
-        {
-            double reach = Math.Max(_leastReach, WithRoom * way);
-            return reach <= Math.Max(_leastReach, MostReach * range) ? reach : isCovered ? 0.0 : _leastReach;
-        }
-
-        // Of few sizes, so that lists are found again; the largest reach that comes to this size.
-        private static double CellFor(double reach, out double largest)
-        {
-            double step = Math.Ceiling(2.0 * Math.Log(reach, 2.0));
-            largest = Math.Pow(2.0, 0.5 * step);
-            return Finer * largest;
-        }
-
         private static void Forget(NearPlace[] places)
         {
             for (int k = 0; k < places.Length; k++)
@@ -205,12 +170,12 @@ namespace Guidewire.Core
             }
         }
 
-        private void FindAtElement(int w, int j, Vector3d[] x, double reach, ref NearPlace element)
+        private void FindAtElement(int w, int j, Vector3d[] x, ref NearPlace element)
         {
-            element.Begin(x[j], x[j + 1], reach, _features.Count);
-            double range = reach + _range[j];
-            double distance = SureOfQuick * Math.Abs(_walls[w].FindFeatures(x[j], x[j + 1], range / SureOfQuick, reach,
-                ref _hint[w * _range.Length + j], _features));
+            element.Begin(x[j], x[j + 1], _reach, _features.Count);
+            double range = _reach + _range[j];
+            double distance = SureOfQuick * Math.Abs(_walls[w].FindFeatures(
+                x[j], x[j + 1], range / SureOfQuick, _reach, ref _hint[w * _range.Length + j], _features));
             element.End(distance, range, _features.Count);
         }
     }

@@ -11,7 +11,6 @@ namespace Guidewire.Core
     {
         private const double PushedTo = 0.5;      // of the barrier's distance
         private const double LeastLever = 0.1;
-        private const double Touching = 0.99;     // of the barrier's distance: a gap with a force
         private const double Pulled = 5.0;        // barrier's distances, from where a node is still pulled back
         private readonly BarrierEnergy _barrier;
         private readonly double _units;           // per metre
@@ -31,7 +30,7 @@ namespace Guidewire.Core
         /// <param name="last">Up to n.</param>
         public void Apply(RodShape before, RodShape shape, int last)
         {
-            NearWalls near = _barrier.Cover(before, shape);
+            NearWalls near = _barrier.Near(shape, before);
             int n = shape.ElementCount;
             for (int w = 0; w < _barrier.Walls.Length; w++)
             {
@@ -57,7 +56,7 @@ namespace Guidewire.Core
             double radius = _barrier.RadiusOfNode(i);
             double distance = _barrier.Barrier.Distance;
             double before = _barrier.NodeGap(w, i);
-            bool touched = before < Touching * distance;
+            bool touched = before < distance;
             double asked = touched ? before : PushedTo * distance;
             double nearest = touched ? Pulled * distance : asked;
             _places.Clear();
