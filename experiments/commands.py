@@ -395,7 +395,7 @@ def _python(arguments: argparse.Namespace) -> int:
 
 def _bench(arguments: argparse.Namespace) -> int:
     if arguments.runs is None:
-        return _hand_to(_build_benchmarks())
+        return _hand_to([*_build_benchmarks(), str(ROOT / "params" / "sheath.json")])
     from experiments.overhead import measure
 
     print(measure(_build_runner(), arguments.runs, arguments.jobs))

@@ -37,6 +37,7 @@ namespace Guidewire.Benchmarks
             if (arguments.Contains("--sheath"))
             {
                 SheathFeed.Print();
+                PrintScenes(arguments);
                 return 0;
             }
             if (arguments.Contains("-lines"))
@@ -68,8 +69,17 @@ namespace Guidewire.Benchmarks
                 PrintCantilever();
                 PrintArch();
                 SheathFeed.Print();
+                PrintScenes(arguments);
             }
             return rows.All(row => row.Measured) ? 0 : 1;
+        }
+
+        private static void PrintScenes(string[] arguments)
+        {
+            foreach (string file in arguments.Where(word => word.EndsWith(".json", StringComparison.Ordinal)))
+            {
+                SceneRate.Print(file);
+            }
         }
 
         private static void PrintNewton()
@@ -132,24 +142,32 @@ namespace Guidewire.Benchmarks
 
         private static void PrintPush(string wall, ArchPush push, string speed)
         {
-            const int WarmUp = 3;
-            const int Turns = 8;
+            const int LeastTurns = 8;
+            TimeSpan warmUp = TimeSpan.FromSeconds(1.0);
+            TimeSpan timed = TimeSpan.FromSeconds(0.5);
             SteppedWire sweep = MotionCost.Sweep();
             double iterations = 0.0;
+            TimeSpan begin = Processor();
+            while (Processor() - begin < warmUp)
+            {
+                ArchPush.Finish(push.Start());
+                Repeat(SweepsATurn, sweep.Step);
+            }
             var one = default(TimeSpan);
             var other = default(TimeSpan);
-            for (int k = 0; k < WarmUp + Turns; k++)
+            int turns = 0;
+            for (; turns < LeastTurns || one < timed; turns++)
             {
                 Simulation run = push.Start();
                 TimeSpan start = Processor();
                 iterations = ArchPush.Finish(run);
                 TimeSpan middle = Processor();
                 Repeat(SweepsATurn, sweep.Step);
-                one += k < WarmUp ? default : middle - start;
-                other += k < WarmUp ? default : Processor() - middle;
+                one += middle - start;
+                other += Processor() - middle;
             }
-            double milliseconds = 1e3 * push.Duration * Turns;
-            double each = other.TotalMilliseconds / (Turns * SweepsATurn * MotionCost.ElementIterations);
+            double milliseconds = 1e3 * push.Duration * turns;
+            double each = other.TotalMilliseconds / (turns * SweepsATurn * MotionCost.ElementIterations);
             Console.WriteLine(string.Format(CultureInfo.InvariantCulture,
                 "push into an arch, {0}, at {1}: {2:0.0} Newton iterations a step, {3:0.00} us of a processor per"
                 + " simulated ms = {4:0} element-iterations, in turns (of {5:0.0} ns each)", wall, speed, iterations,

@@ -155,6 +155,13 @@ namespace Guidewire.Core
         /// <summary>Whether points have features of their own.</summary>
         internal virtual bool HasPointFeatures => false;
 
+        /// <summary>These features, kept for all that asks for them with this reach, units; null where there are
+        /// none.</summary>
+        internal virtual FeatureCells? CellsFor(double reach)
+        {
+            return null;
+        }
+
         /// <summary>Adds the features within a range of a point.</summary>
         /// <returns>Its distance in units, infinite beyond the range.</returns>
         internal virtual double FindFeatures(in Vector3d x, double range, StructList<WallFeature> features)

@@ -66,7 +66,7 @@ namespace Guidewire.Core
             {
                 return null;
             }
-            double move = scene.Metres * Math.Abs(parameters.Drive.DisplacementPerStep);
+            double move = parameters.Drive.LargestMove(parameters.Method.TimeStep, scene.Metres);
             Barrier barrier = BarrierRule.Of(scene.Rod, parameters.Contact, scene.Walls, scene.Metres, move);
             return WallTermsOf(parameters, scene, barrier,
                 new SupportSpring(scene.Rod, parameters.Drive.HubForceLimit));
@@ -76,7 +76,7 @@ namespace Guidewire.Core
         public static WallTerms WallTermsOf(SimulationParameters parameters, MaterialScene scene, Barrier barrier,
             SupportSpring spring)
         {
-            double move = scene.Metres * Math.Abs(parameters.Drive.DisplacementPerStep);
+            double move = parameters.Drive.LargestMove(parameters.Method.TimeStep, scene.Metres);
             var contact = new BarrierEnergy(scene.Rod, scene.Walls, scene.Metres, barrier);
             FrictionEnergy? friction = Array.Exists(scene.Walls, wall => wall.FrictionCoefficient > 0.0)
                 ? new FrictionEnergy(contact, scene.Rod.ElementCount, parameters.Contact.FrictionSpeed) : null;

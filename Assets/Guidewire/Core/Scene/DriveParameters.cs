@@ -58,6 +58,16 @@ namespace Guidewire.Core
             return largest;
         }
 
+        /// <summary>The farthest that it moves the hub in one step, m; 0 where a hand does.</summary>
+        /// <param name="timeStep">s.</param>
+        /// <param name="unitLength">m.</param>
+        internal double LargestMove(double timeStep, double unitLength)
+        {
+            double speed = System.Math.Max(System.Math.Abs(InsertionSpeed), Table?.Insertion.LargestRate ?? 0.0);
+            return Steering != null ? 0.0
+                : System.Math.Max(speed * timeStep, unitLength * System.Math.Abs(DisplacementPerStep));
+        }
+
         /// <summary>The same values; lists and walls are shared.</summary>
         internal DriveParameters Copy()
         {

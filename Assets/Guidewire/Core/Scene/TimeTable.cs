@@ -34,6 +34,20 @@ namespace Guidewire.Core
         /// <summary>From when on the value no longer changes, s.</summary>
         public double End => _times[_times.Length - 1];
 
+        /// <summary>The fastest that the value changes, 1/s.</summary>
+        internal double LargestRate
+        {
+            get
+            {
+                double rate = 0.0;
+                for (int i = 1; i < _times.Length; i++)
+                {
+                    rate = Math.Max(rate, Math.Abs((_values[i] - _values[i - 1]) / (_times[i] - _times[i - 1])));
+                }
+                return rate;
+            }
+        }
+
         /// <summary>The values of the rows from time 0 up to a time, s, and that at the time.</summary>
         internal IEnumerable<double> ValuesUntil(double time)
         {

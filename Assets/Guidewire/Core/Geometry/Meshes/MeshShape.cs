@@ -17,6 +17,7 @@ namespace Guidewire.Core
         private MeshPlaces? _places;
         private MeshRidges? _ridges;
         private MeshNearby? _nearby;
+        private FeatureCells? _cells;         // with the reach that was asked for last
         private (double Above, double Radius)? _narrowest;    // what was asked for last
 
         /// <summary>The wall at the place where its file has it.</summary>
@@ -58,6 +59,7 @@ namespace Guidewire.Core
         {
             _wall.Place(placement);
             _nearby = null;
+            _cells = null;
             _narrowest = null;
             if (_closed != _wall)
             {
@@ -103,6 +105,16 @@ namespace Guidewire.Core
 
         /// <inheritdoc/>
         internal override bool HasPointFeatures => true;
+
+        /// <inheritdoc/>
+        internal override FeatureCells? CellsFor(double reach)
+        {
+            if (_cells == null || _cells.Reach != reach)
+            {
+                _cells = new FeatureCells(this, reach);
+            }
+            return _cells;
+        }
 
         /// <summary>The triangles within the range.</summary>
         internal override double FindFeatures(in Vector3d x, double range, StructList<WallFeature> features)

@@ -287,7 +287,7 @@ namespace Guidewire.Core
         // Finds what the shape comes to, unless it is that of the last call.
         private void Look(RodShape shape)
         {
-            bool isSame = _isKnown;
+            bool isSame = _isKnown && _near.IsCurrent;
             for (int i = 0; i < _x.Length && isSame; i++)
             {
                 isSame = _units * shape.X[i] == _x[i];

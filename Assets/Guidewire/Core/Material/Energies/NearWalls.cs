@@ -13,12 +13,12 @@ namespace Guidewire.Core
         private readonly ContactShape[] _walls;
         private readonly double[] _range;         // by element: its radius and the barrier's distance
         private readonly double _reach;
-        private readonly bool[] _hasPoints;       // features of points
         private readonly NearPlace[] _element;    // by wall and element
         private readonly NearPlace[] _node;       // by wall and node, where the wall has features of points
         private readonly int[] _hint;             // by wall and element
         private readonly StructList<WallFeature> _features = new StructList<WallFeature>(1024);
-        private readonly FeatureCells? _cells;    // of nodes
+        private readonly FeatureCells?[] _cells;  // of nodes, by wall
+        private readonly int[] _version;          // of these when the nodes were found
         private int _mostFeatures;
 
         /// <summary>For a wire that has not been looked for.</summary>
@@ -33,13 +33,26 @@ namespace Guidewire.Core
             _reach = reach;
             _element = new NearPlace[walls.Length * n];
             _node = new NearPlace[walls.Length * (n + 1)];
-            _hasPoints = Array.ConvertAll(walls, wall => wall.HasPointFeatures);
-            _cells = Array.Exists(walls, wall => wall.HasPointFeatures) ? new FeatureCells(walls, reach)
-                : null;
+            _cells = Array.ConvertAll(walls, wall => wall.CellsFor(reach));
+            _version = new int[walls.Length];
             _hint = new int[walls.Length * n];
             Array.Fill(_hint, -1);
             Forget(_element);
             Forget(_node);
+        }
+
+        /// <summary>Whether what was found still holds where it was: others may have made a wall forget it.</summary>
+        public bool IsCurrent
+        {
+            get
+            {
+                bool isCurrent = true;
+                for (int w = 0; w < _cells.Length; w++)
+                {
+                    isCurrent &= _cells[w] == null || _cells[w]!.Version == _version[w];
+                }
+                return isCurrent;
+            }
         }
 
         /// <summary>Looks for what has left its reach.</summary>
@@ -51,23 +64,11 @@ namespace Guidewire.Core
                 _features.Clear();
                 Forget(_element);
             }
-            if (_cells != null && _cells.Trim())
-            {
-                Forget(_node);
-            }
             bool isNew = _features.Count == 0;
             int n = _range.Length;
             for (int w = 0; w < _walls.Length; w++)
             {
-                for (int i = 0; i <= n && _hasPoints[w]; i++)
-                {
-                    ref NearPlace node = ref _node[w * (n + 1) + i];
-                    if (!node.Covers(x[i], x[i]))
-                    {
-                        double range = Math.Max(_range[Math.Max(i - 1, 0)], _range[Math.Min(i, n - 1)]);
-                        _cells!.Find(w, x[i], range, ref node);
-                    }
-                }
+                FollowNodes(w, x);
                 for (int j = 0; j < n; j++)
                 {
                     ref NearPlace element = ref _element[w * n + j];
@@ -87,14 +88,14 @@ namespace Guidewire.Core
         public bool IsNear(int w, int j)
         {
             return _element[w * _range.Length + j].IsNear
-                || (_hasPoints[w] && (IsNodeNear(w, j) || IsNodeNear(w, j + 1)));
+                || (_cells[w] != null && (IsNodeNear(w, j) || IsNodeNear(w, j + 1)));
         }
 
         /// <summary>Whether node i may.</summary>
         public bool IsNodeNear(int w, int i)
         {
             int n = _range.Length;
-            return _hasPoints[w] ? _node[w * (n + 1) + i].IsNear
+            return _cells[w] != null ? _node[w * (n + 1) + i].IsNear
                 : (i < n && _element[w * n + i].IsNear) || (i > 0 && _element[w * n + i - 1].IsNear);
         }
 
@@ -109,9 +110,9 @@ namespace Guidewire.Core
         public FeatureRange FeaturesOfNode(int w, int i, in Vector3d x)
         {
             int n = _range.Length;
-            if (_hasPoints[w])
+            if (_cells[w] != null)
             {
-                return _node[w * (n + 1) + i].Features(_cells!.Features, x, x);
+                return _node[w * (n + 1) + i].Features(_cells[w]!.Features, x, x);
             }
             int j = w * n + i;
             return i < n && _element[j].IsNear ? _element[j].FeaturesAtA(_features, x)
@@ -123,7 +124,7 @@ namespace Guidewire.Core
         {
             FeatureRange between = _element[w * _range.Length + j].Covers(to[j], to[j + 1])
                 ? FeaturesOf(w, j, x[j], x[j + 1]) : default;
-            return _hasPoints[w]
+            return _cells[w] != null
                 ? new ElementFeatures(between, OnWay(w, j, x, to), OnWay(w, j + 1, x, to))
                 : new ElementFeatures(between, between, between);
         }
@@ -151,7 +152,7 @@ namespace Guidewire.Core
         {
             int n = _range.Length;
             double room = _element[w * n + j].Clearance(x[j], x[j + 1]);
-            return !_hasPoints[w] ? room
+            return _cells[w] == null ? room
                 : Math.Min(room, Math.Min(_node[w * (n + 1) + j].Clearance(x[j], x[j]),
                     _node[w * (n + 1) + j + 1].Clearance(x[j + 1], x[j + 1])));
         }
@@ -159,7 +160,29 @@ namespace Guidewire.Core
         private FeatureRange OnWay(int w, int i, Vector3d[] x, Vector3d[] to)
         {
             ref NearPlace node = ref _node[w * (_range.Length + 1) + i];
-            return node.Covers(to[i], to[i]) ? node.Features(_cells!.Features, x[i], x[i]) : default;
+            return node.Covers(to[i], to[i]) ? node.Features(_cells[w]!.Features, x[i], x[i]) : default;
+        }
+
+        private void FollowNodes(int w, Vector3d[] x)
+        {
+            FeatureCells? cells = _cells[w];
+            if (cells == null)
+            {
+                return;
+            }
+            int n = _range.Length;
+            cells.Trim();
+            bool isForgotten = cells.Version != _version[w];
+            _version[w] = cells.Version;
+            for (int i = 0; i <= n; i++)
+            {
+                ref NearPlace node = ref _node[w * (n + 1) + i];
+                if (isForgotten || !node.Covers(x[i], x[i]))
+                {
+                    double range = Math.Max(_range[Math.Max(i - 1, 0)], _range[Math.Min(i, n - 1)]);
+                    cells.Find(x[i], range, ref node);
+                }
+            }
         }
 
         private static void Forget(NearPlace[] places)

@@ -28,7 +28,8 @@ namespace Guidewire.Core
             var even = new RodSupports { Clamp = ClampRule.HalfElement };
             Joints = whole.Rod.Joints(even);
             _jointLengths = whole.Rod.JointLengths(even);
-            _barrier = BarrierRule.Of(whole.Rod, parameters.Contact, whole.Walls, whole.Metres, 0.0);
+            _barrier = BarrierRule.Of(whole.Rod, parameters.Contact, whole.Walls, whole.Metres,
+                parameters.Drive.LargestMove(parameters.Method.TimeStep, whole.Metres));
             _support = new SupportSpring(whole.Rod, parameters.Drive.HubForceLimit);
         }
 

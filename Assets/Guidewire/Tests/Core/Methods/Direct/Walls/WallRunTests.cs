@@ -282,6 +282,25 @@ namespace Guidewire.Core.Tests
             Assert.That(run.Reason, Does.Contain(named));
         }
 
+        /// <summary>A twentieth of the motion a step, whichever key states it, and the force of the wire's bending over
+        /// spans of 90 radii.</summary>
+        [TestCase(2.0, 0.0, 1e-4)]
+        [TestCase(0.0, 0.2, 1e-4)]
+        [TestCase(0.0, 0.01, 4e-5)]
+        public void Barrier_ByRule_GoesWithTheMotionAStep(double perStep, double speed, double distance)
+        {
+            SimulationParameters parameters = WallScenes.Arch(30, 0.01, 50.0, 100.0);
+            parameters.Drive.DisplacementPerStep = perStep;
+            parameters.Drive.InsertionSpeed = speed;
+            Simulation run = Simulation.Create(parameters);
+            run.Step();
+            Assert.That(run.Report()!.ContactDistance, Is.EqualTo(distance).Within(1e-12));
+            double bend = parameters.Material.YoungsModulus * Math.PI / 4.0
+                * Math.Pow(parameters.Material.WireRadius, 4.0);
+            double span = 90.0 * parameters.Material.WireRadius;
+            Assert.That(run.Report()!.ContactStiffness, Is.EqualTo(bend / (span * span * distance)).Within(1e-9).Percent);
+        }
+
         [Test]
         public void DriveWhoseWayTheWallsBar_EndsTheRunWithAReason()
         {
