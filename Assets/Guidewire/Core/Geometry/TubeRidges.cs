@@ -43,13 +43,13 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Distance of segment a b from the wall where it crosses creases; infinite where it crosses
-        /// none.</summary>
-        public double Nearest(in Vector3d a, in Vector3d b)
+        /// <summary>Distance of segment a b from the wall where it crosses creases, from that at one knot to that at
+        /// another; infinite where it crosses none.</summary>
+        public double Nearest(in Vector3d a, in Vector3d b, int from, int to)
         {
             double nearest = double.PositiveInfinity;
             double size = Vector3d.Distance(a, b);
-            for (int k = 1; k + 1 < _knots.Length; k++)
+            for (int k = Math.Max(from, 1); k <= Math.Min(to, _knots.Length - 2); k++)
             {
                 nearest = Math.Min(nearest, DistanceAt(k, a, b, size));
             }

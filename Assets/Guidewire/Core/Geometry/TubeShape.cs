@@ -149,8 +149,8 @@ namespace Guidewire.Core
         {
             int guess = hint >= 0 && hint < _tree.Pieces.Length ? hint : 0;
             hint = _tree.Deepest(a, guess, out double atA);
-            _tree.Deepest(b, hint, out double atB);
-            return Math.Min(Math.Min(atA, atB), Ridges.Nearest(a, b));
+            int last = _tree.Deepest(b, hint, out double atB);
+            return Math.Min(Math.Min(atA, atB), Ridges.Nearest(a, b, Math.Min(hint, last), Math.Max(hint, last) + 1));
         }
 
         /// <summary>Pieces that hold something within the reach of the segment, along the centreline.</summary>

@@ -40,6 +40,7 @@ namespace Guidewire.Core
         private readonly Symmetric3[] _ownBending;      // what elements' contacts add by their second derivatives
         private readonly Symmetric3[] _couplingBending;
         private readonly Vector3d[] _couplingTurn;      // the same, t of the part v -> t x v
+        private readonly bool[] _isTouched;       // by node: whether these are not 0
         private readonly Vector3d[] _resultant;   // of each wall on the wire, N
         private readonly StructList<WallPlace> _places = new StructList<WallPlace>(16);
         private readonly StructList<WallRidge> _ridges = new StructList<WallRidge>(16);
@@ -87,6 +88,7 @@ namespace Guidewire.Core
             _ownBending = new Symmetric3[n + 1];
             _couplingBending = new Symmetric3[n];
             _couplingTurn = new Vector3d[n];
+            _isTouched = new bool[n + 1];
             _resultant = new Vector3d[walls.Length];
         }
 
@@ -160,6 +162,10 @@ namespace Guidewire.Core
             double largest = 0.0;
             for (int i = from; i < end; i++)
             {
+                if (!_isTouched[i])
+                {
+                    continue;
+                }
                 largest = Math.Max(largest, _gradient[i].LengthSquared);
                 gradient[i].X1 += _gradient[i].X;
                 gradient[i].X2 += _gradient[i].Y;
@@ -176,6 +182,10 @@ namespace Guidewire.Core
             int end = Math.Min(to, _gradient.Length);
             for (int i = from; i < end; i++)
             {
+                if (!_isTouched[i])
+                {
+                    continue;
+                }
                 ref RodBlock b = ref blocks[i];
                 Symmetric3 a = _hasBending ? _own[i] + _ownBending[i] : _own[i];
                 b.A11 += a.A11; b.A21 += a.A21; b.A22 += a.A22;
@@ -296,36 +306,49 @@ namespace Guidewire.Core
             {
                 return;
             }
+            ClearTouched();
             for (int i = 0; i < _x.Length; i++)
             {
                 _x[i] = _units * shape.X[i];
-                _gradient[i] = Vector3d.Zero;
-                _own[i] = default;
-                _ownBending[i] = default;
             }
-            Array.Clear(_couplingBending, 0, _couplingBending.Length);
-            Array.Clear(_couplingTurn, 0, _couplingTurn.Length);
-            _contacts.Clear();
-            Array.Clear(_coupling, 0, _coupling.Length);
             Array.Clear(_resultant, 0, _resultant.Length);
             _isKnown = true;
             _value = 0.0;
             _near.Follow(_x);
             Array.Fill(_nodeGap, _barrier.Distance);
             Array.Fill(_ridgeGap, _barrier.Distance);
+            _leastGap = _barrier.Distance;
             for (int w = 0; w < _walls.Length; w++)
             {
                 AddWall(w);
             }
-            _leastGap = _barrier.Distance;
-            for (int k = 0; k < _nodeGap.Length; k++)
+        }
+
+        // What the contacts of the last shape have come to: most of a long wire touches nothing.
+        private void ClearTouched()
+        {
+            for (int k = 0; k < _contacts.Count; k++)
             {
-                _leastGap = Math.Min(_leastGap, _nodeGap[k]);
+                int j = _contacts[k].Element;
+                for (int i = j; i <= j + 1; i++)
+                {
+                    _isTouched[i] = false;
+                    _gradient[i] = Vector3d.Zero;
+                    _own[i] = default;
+                    _ownBending[i] = default;
+                }
+                _coupling[j] = default;
+                _couplingBending[j] = default;
+                _couplingTurn[j] = Vector3d.Zero;
             }
-            for (int k = 0; k < _ridgeGap.Length; k++)
-            {
-                _leastGap = Math.Min(_leastGap, _ridgeGap[k]);
-            }
+            _contacts.Clear();
+        }
+
+        private void Touch(int w, int j, double position, in Vector3d force)
+        {
+            _contacts.Add(new WallContact(w, j, position, force));
+            _isTouched[j] = true;
+            _isTouched[j + 1] = true;
         }
 
         private void AddWall(int w)
@@ -359,6 +382,7 @@ namespace Guidewire.Core
                 ref WallPlace place = ref _places[k];
                 double gap = place.Contact.Distance / _units - radius;
                 nearest = Math.Min(nearest, gap);
+                _leastGap = Math.Min(_leastGap, gap);
                 double value = _barrier.At(gap, out double slope, out double curvature);
                 if (value == 0.0)
                 {
@@ -384,7 +408,7 @@ namespace Guidewire.Core
                 return;
             }
             bool isLast = i == _elementRadius.Length;
-            _contacts.Add(new WallContact(w, isLast ? i - 1 : i, isLast ? 1.0 : 0.0, -gradient));
+            Touch(w, isLast ? i - 1 : i, isLast ? 1.0 : 0.0, -gradient);
             _gradient[i] += gradient;
             _resultant[w] -= gradient;
             _own[i] += mayBeNegative ? second.PositivePart() : second;
@@ -402,6 +426,7 @@ namespace Guidewire.Core
                 ref WallRidge ridge = ref _ridges[k];
                 double gap = ridge.Distance / _units - radius;
                 nearest = Math.Min(nearest, gap);
+                _leastGap = Math.Min(_leastGap, gap);
                 double value = _barrier.At(gap, out double slope, out double curvature);
                 if (value == 0.0 || ridge.Weight == 0.0)
                 {
@@ -418,7 +443,7 @@ namespace Guidewire.Core
                 Vector3d force = (ridge.Weight * slope) * ridge.Normal;
                 Vector3d first = r * force + (value * _units) * ridge.WeightAlongA;
                 Vector3d second = s * force + (value * _units) * ridge.WeightAlongB;
-                _contacts.Add(new WallContact(w, j, s, -force));
+                Touch(w, j, s, -force);
                 _gradient[j] += first;
                 _gradient[j + 1] += second;
                 _resultant[w] -= first + second;

@@ -19,7 +19,7 @@ namespace Guidewire.Core
         private const double Rounding = 1e-13;           // of the energies' magnitudes
         private const double LastPlace = 1.0 / (1L << 52);
         private const double LeastShift = 1e-4;          // of EI/L^2
-        private const double Far = 1e5;                  // times what may be unbalanced: not there after one iteration
+        private const double Far = 1e4;                  // times what may be unbalanced: not there after one iteration
         private const int MostStiffened = 4;             // iterations of a stage
         private const double FreeParts = 5.0;            // L over what is free of a wire that touches walls
         private const int MostCuts = 30;

@@ -8,14 +8,14 @@ namespace Guidewire.Core
     /// <remarks>The distance g0 is a tenth of the wire's radius, or a twentieth of what the drive moves in a step where
     /// that is more: a wire that moves farther than 20 g0 in a step leaves its barriers behind. It is at most half of
     /// the clearance where the walls are narrowest and still wider than the wire, because two barriers that overlap
-    /// would hold the wire back; in a mesh at most 0.3 of the radius, because the triangles that are looked at grow with
-    /// its square; and at least a hundredth of the radius.
+    /// would hold the wire back; in a mesh at most 0.3 of the radius, because the triangles that are looked at grow
+    /// with its square; and at least a hundredth of the radius.
     ///
-    /// The stiffness is F/g0 with F of the size of the forces that walls exert: EI/(90 r)^2, of a wire that bends between
-    /// places that hold it 45 diameters apart, or EI k/l, of an element of rest curvature k that they hold straight; of
-    /// the element for which it is largest. Contacts then keep about half of g0. Stiffer ones work where all but a little
-    /// of it is left and hardly push until they push too much; softer ones close their gaps to nothing. It does not
-    /// depend on how finely a wire is divided, as EI/l^3 would.</remarks>
+    /// The stiffness is F/g0 with F of the size of the forces that walls exert: EI/(90 r)^2, of a wire that bends
+    /// between places that hold it 45 diameters apart, or EI k/l, of an element of rest curvature k that they hold
+    /// straight; of the element for which it is largest. Contacts then keep about half of g0. Stiffer ones work where
+    /// all but a little of it is left and hardly push until they push too much; softer ones close their gaps to
+    /// nothing. It does not depend on how finely a wire is divided, as EI/l^3 would.</remarks>
     internal static class BarrierRule
     {
         /// <summary>Ways in g0 that the drive may move in one step.</summary>

@@ -298,7 +298,8 @@ namespace Guidewire.Core.Tests
             double bend = parameters.Material.YoungsModulus * Math.PI / 4.0
                 * Math.Pow(parameters.Material.WireRadius, 4.0);
             double span = 90.0 * parameters.Material.WireRadius;
-            Assert.That(run.Report()!.ContactStiffness, Is.EqualTo(bend / (span * span * distance)).Within(1e-9).Percent);
+            Assert.That(run.Report()!.ContactStiffness,
+                Is.EqualTo(bend / (span * span * distance)).Within(1e-9).Percent);
         }
 
         [Test]
