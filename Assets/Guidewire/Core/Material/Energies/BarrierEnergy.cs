@@ -34,17 +34,10 @@ namespace Guidewire.Core
         private readonly Vector3d[] _to;          // where its nodes go, units
         private readonly double[] _nodeGap;       // by wall and node, m, no more than the barrier's distance
         private readonly double[] _ridgeGap;      // by wall and element, between its nodes
-        private readonly Vector3d[] _gradient;    // of the shape at hand, by node, N
-        private readonly Symmetric3[] _own;       // (x_i, x_i), N/m
-        private readonly Symmetric3[] _coupling;  // (x_i+1, x_i)
-        private readonly Symmetric3[] _ownBending;      // what elements' contacts add by their second derivatives
-        private readonly Symmetric3[] _couplingBending;
-        private readonly Vector3d[] _couplingTurn;      // the same, t of the part v -> t x v
-        private readonly bool[] _isTouched;       // by node: whether these are not 0
+        private readonly ContactSums _sums;       // of the shape at hand
         private readonly Vector3d[] _resultant;   // of each wall on the wire, N
         private readonly StructList<WallPlace> _places = new StructList<WallPlace>(16);
         private readonly StructList<WallRidge> _ridges = new StructList<WallRidge>(16);
-        private readonly StructList<WallContact> _contacts = new StructList<WallContact>(64);
         private double _leastGap;                 // of all of these
         private bool _hasBending = true;
         private bool _isKnown;
@@ -82,13 +75,7 @@ namespace Guidewire.Core
             _near = new NearWalls(walls, range, _units * reach);
             _nodeGap = new double[walls.Length * (n + 1)];
             _ridgeGap = new double[walls.Length * n];
-            _gradient = new Vector3d[n + 1];
-            _own = new Symmetric3[n + 1];
-            _coupling = new Symmetric3[n];
-            _ownBending = new Symmetric3[n + 1];
-            _couplingBending = new Symmetric3[n];
-            _couplingTurn = new Vector3d[n];
-            _isTouched = new bool[n + 1];
+            _sums = new ContactSums(n);
             _resultant = new Vector3d[walls.Length];
         }
 
@@ -105,13 +92,13 @@ namespace Guidewire.Core
         public Barrier Barrier => _barrier;
 
         /// <summary>Whether a wall pushes the wire in the shape last looked at.</summary>
-        public bool Touches => _contacts.Count > 0;
+        public bool Touches => _sums.Contacts.Count > 0;
 
         /// <summary>Where walls push the wire in a shape, wall by wall and along the wire.</summary>
         public StructList<WallContact> ContactsOf(RodShape shape)
         {
             Look(shape);
-            return _contacts;
+            return _sums.Contacts;
         }
 
         /// <summary>Units in a metre.</summary>
@@ -136,7 +123,7 @@ namespace Guidewire.Core
         public Vector3d ForceOn(RodShape shape, int node)
         {
             Look(shape);
-            return -_gradient[node];
+            return -_sums.GradientAt(node);
         }
 
         /// <summary>A distance in units by which element j is farther from all walls than 0 at least, in the shape last
@@ -158,20 +145,7 @@ namespace Guidewire.Core
             ref GradientMeasures measured)
         {
             Look(shape);
-            int end = Math.Min(to, _gradient.Length);
-            double largest = 0.0;
-            for (int i = from; i < end; i++)
-            {
-                if (!_isTouched[i])
-                {
-                    continue;
-                }
-                largest = Math.Max(largest, _gradient[i].LengthSquared);
-                gradient[i].X1 += _gradient[i].X;
-                gradient[i].X2 += _gradient[i].Y;
-                gradient[i].X3 += _gradient[i].Z;
-            }
-            measured.IncludeForce(Math.Sqrt(largest));
+            _sums.AddGradient(gradient, from, to, ref measured);
         }
 
         /// <inheritdoc/>
@@ -179,26 +153,7 @@ namespace Guidewire.Core
         {
             var measured = default(GradientMeasures);
             AddGradient(shape, gradient, from, to, ref measured);
-            int end = Math.Min(to, _gradient.Length);
-            for (int i = from; i < end; i++)
-            {
-                if (!_isTouched[i])
-                {
-                    continue;
-                }
-                ref RodBlock b = ref blocks[i];
-                Symmetric3 a = _hasBending ? _own[i] + _ownBending[i] : _own[i];
-                b.A11 += a.A11; b.A21 += a.A21; b.A22 += a.A22;
-                b.A31 += a.A31; b.A32 += a.A32; b.A33 += a.A33;
-                if (i < _coupling.Length)
-                {
-                    Symmetric3 d = _hasBending ? _coupling[i] + _couplingBending[i] : _coupling[i];
-                    Vector3d t = _hasBending ? _couplingTurn[i] : Vector3d.Zero;
-                    b.D11 += d.A11; b.D12 += d.A21 - t.Z; b.D13 += d.A31 + t.Y;
-                    b.D21 += d.A21 + t.Z; b.D22 += d.A22; b.D23 += d.A32 - t.X;
-                    b.D31 += d.A31 - t.Y; b.D32 += d.A32 + t.X; b.D33 += d.A33;
-                }
-            }
+            _sums.AddBlocks(blocks, from, to, _hasBending);
         }
 
         /// <summary>Leaves at least 30 % of every gap, or a fifth of the barrier's distance, on the straight way of all
@@ -306,7 +261,7 @@ namespace Guidewire.Core
             {
                 return;
             }
-            ClearTouched();
+            _sums.Clear();
             for (int i = 0; i < _x.Length; i++)
             {
                 _x[i] = _units * shape.X[i];
@@ -322,33 +277,6 @@ namespace Guidewire.Core
             {
                 AddWall(w);
             }
-        }
-
-        // What the contacts of the last shape have come to: most of a long wire touches nothing.
-        private void ClearTouched()
-        {
-            for (int k = 0; k < _contacts.Count; k++)
-            {
-                int j = _contacts[k].Element;
-                for (int i = j; i <= j + 1; i++)
-                {
-                    _isTouched[i] = false;
-                    _gradient[i] = Vector3d.Zero;
-                    _own[i] = default;
-                    _ownBending[i] = default;
-                }
-                _coupling[j] = default;
-                _couplingBending[j] = default;
-                _couplingTurn[j] = Vector3d.Zero;
-            }
-            _contacts.Clear();
-        }
-
-        private void Touch(int w, int j, double position, in Vector3d force)
-        {
-            _contacts.Add(new WallContact(w, j, position, force));
-            _isTouched[j] = true;
-            _isTouched[j + 1] = true;
         }
 
         private void AddWall(int w)
@@ -407,11 +335,8 @@ namespace Guidewire.Core
             {
                 return;
             }
-            bool isLast = i == _elementRadius.Length;
-            Touch(w, isLast ? i - 1 : i, isLast ? 1.0 : 0.0, -gradient);
-            _gradient[i] += gradient;
             _resultant[w] -= gradient;
-            _own[i] += mayBeNegative ? second.PositivePart() : second;
+            _sums.AddNode(w, i, gradient, mayBeNegative ? second.PositivePart() : second);
         }
 
         private void AddElement(int w, int j)
@@ -437,49 +362,9 @@ namespace Guidewire.Core
                     _value = value;
                     return;
                 }
-                double s = ridge.Position;
-                double r = 1.0 - s;
                 _value += ridge.Weight * value;
-                Vector3d force = (ridge.Weight * slope) * ridge.Normal;
-                Vector3d first = r * force + (value * _units) * ridge.WeightAlongA;
-                Vector3d second = s * force + (value * _units) * ridge.WeightAlongB;
-                Touch(w, j, s, -force);
-                _gradient[j] += first;
-                _gradient[j + 1] += second;
-                _resultant[w] -= first + second;
-                double stiffness = ridge.Weight * curvature;
-                _own[j] += Symmetric3.Outer(stiffness * r * r, ridge.Normal);
-                _own[j + 1] += Symmetric3.Outer(stiffness * s * s, ridge.Normal);
-                _coupling[j] += Symmetric3.Outer(stiffness * r * s, ridge.Normal);
-                AddBending(j, ridge, _units * ridge.Weight * slope);
-                AddPairs(j, _units * slope, r * ridge.Normal, s * ridge.Normal, ridge.WeightAlongA,
-                    ridge.WeightAlongB);
+                _resultant[w] -= _sums.AddRidge(w, j, ridge, _x[j + 1] - _x[j], _units, value, slope, curvature);
             }
-        }
-
-        // The force of a ridge times the second derivative of its distance.
-        private void AddBending(int j, in WallRidge ridge, double force)
-        {
-            double s = ridge.Position;
-            double r = 1.0 - s;
-            Symmetric3 h = ridge.Curvature;
-            _ownBending[j] += (force * r * r) * h;
-            _ownBending[j + 1] += (force * s * s) * h;
-            _couplingBending[j] += (force * r * s) * h;
-            Vector3d u = _x[j + 1] - _x[j];
-            Vector3d hu = h.Times(u);
-            double half = 0.5 * Vector3d.Dot(u, hu);
-            AddPairs(j, force, r * hu - ridge.Normal + half * ridge.SlideAlongA,
-                s * hu + ridge.Normal + half * ridge.SlideAlongB, ridge.SlideAlongA, ridge.SlideAlongB);
-        }
-
-        // weight (c d^T + d c^T) of vectors over both nodes of an element.
-        private void AddPairs(int j, double weight, in Vector3d c, in Vector3d cNext, in Vector3d d, in Vector3d dNext)
-        {
-            _ownBending[j] += Symmetric3.Pair(weight, c, d);
-            _ownBending[j + 1] += Symmetric3.Pair(weight, cNext, dNext);
-            _couplingBending[j] += Symmetric3.Pair(0.5 * weight, cNext, d) + Symmetric3.Pair(0.5 * weight, dNext, c);
-            _couplingTurn[j] -= (0.5 * weight) * (Vector3d.Cross(cNext, d) + Vector3d.Cross(dNext, c));
         }
     }
 }

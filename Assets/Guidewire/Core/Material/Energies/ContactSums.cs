@@ -1,0 +1,180 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>What the contacts of a wire with walls come to in one shape: where they are, and the first and second
+    /// derivatives of their energy by the nodes' places.</summary>
+    /// <remarks>An element's contact at s acts on its two nodes with weights 1 - s and s. What its second derivative
+    /// owes to its force is kept apart. Most of a long wire touches nothing, and is passed over.</remarks>
+    internal sealed class ContactSums
+    {
+        private readonly Vector3d[] _gradient;    // by node, N
+        private readonly Symmetric3[] _own;       // (x_i, x_i), N/m
+        private readonly Symmetric3[] _coupling;  // (x_i+1, x_i)
+        private readonly Symmetric3[] _ownBending;      // what elements' contacts add by their second derivatives
+        private readonly Symmetric3[] _couplingBending;
+        private readonly Vector3d[] _couplingTurn;      // the same, t of the part v -> t x v
+        private readonly bool[] _isTouched;       // by node: whether these are not 0
+
+        /// <summary>Of a wire of this many elements that touches nothing.</summary>
+        public ContactSums(int elementCount)
+        {
+            int nodes = elementCount + 1;
+            _gradient = new Vector3d[nodes];
+            _own = new Symmetric3[nodes];
+            _coupling = new Symmetric3[elementCount];
+            _ownBending = new Symmetric3[nodes];
+            _couplingBending = new Symmetric3[elementCount];
+            _couplingTurn = new Vector3d[elementCount];
+            _isTouched = new bool[nodes];
+        }
+
+        /// <summary>Wall by wall and along the wire.</summary>
+        public StructList<WallContact> Contacts { get; } = new StructList<WallContact>(64);
+
+        /// <summary>By the place of node i, N.</summary>
+        public Vector3d GradientAt(int i)
+        {
+            return _gradient[i];
+        }
+
+        /// <summary>Nothing touches.</summary>
+        public void Clear()
+        {
+            for (int k = 0; k < Contacts.Count; k++)
+            {
+                int j = Contacts[k].Element;
+                for (int i = j; i <= j + 1; i++)
+                {
+                    _isTouched[i] = false;
+                    _gradient[i] = Vector3d.Zero;
+                    _own[i] = default;
+                    _ownBending[i] = default;
+                }
+                _coupling[j] = default;
+                _couplingBending[j] = default;
+                _couplingTurn[j] = Vector3d.Zero;
+            }
+            Contacts.Clear();
+        }
+
+        /// <summary>A contact of node i with wall w.</summary>
+        /// <param name="w">Which wall.</param>
+        /// <param name="i">Which node.</param>
+        /// <param name="gradient">N.</param>
+        /// <param name="second">N/m.</param>
+        public void AddNode(int w, int i, in Vector3d gradient, in Symmetric3 second)
+        {
+            bool isLast = i == _coupling.Length;
+            Touch(w, isLast ? i - 1 : i, isLast ? 1.0 : 0.0, -gradient);
+            _gradient[i] += gradient;
+            _own[i] += second;
+        }
+
+        /// <summary>A contact of the inside of element j with a ridge.</summary>
+        /// <param name="w">Which wall.</param>
+        /// <param name="j">Which element.</param>
+        /// <param name="ridge">In units.</param>
+        /// <param name="chord">x_j+1 - x_j, units.</param>
+        /// <param name="units">Per metre.</param>
+        /// <param name="value">b of the gap, J.</param>
+        /// <param name="slope">b', N.</param>
+        /// <param name="curvature">b'', N/m.</param>
+        /// <returns>The sum of the gradients, N.</returns>
+        public Vector3d AddRidge(int w, int j, in WallRidge ridge, in Vector3d chord, double units, double value,
+            double slope, double curvature)
+        {
+            double s = ridge.Position;
+            double r = 1.0 - s;
+            Vector3d force = (ridge.Weight * slope) * ridge.Normal;
+            Vector3d first = r * force + (value * units) * ridge.WeightAlongA;
+            Vector3d second = s * force + (value * units) * ridge.WeightAlongB;
+            Touch(w, j, s, -force);
+            _gradient[j] += first;
+            _gradient[j + 1] += second;
+            double stiffness = ridge.Weight * curvature;
+            _own[j] += Symmetric3.Outer(stiffness * r * r, ridge.Normal);
+            _own[j + 1] += Symmetric3.Outer(stiffness * s * s, ridge.Normal);
+            _coupling[j] += Symmetric3.Outer(stiffness * r * s, ridge.Normal);
+            AddBending(j, ridge, chord, units * ridge.Weight * slope);
+            AddPairs(j, units * slope, r * ridge.Normal, s * ridge.Normal, ridge.WeightAlongA, ridge.WeightAlongB);
+            return first + second;
+        }
+
+        /// <summary>Adds the first derivatives of nodes from one (inclusive) to another (exclusive).</summary>
+        public void AddGradient(RodVector[] gradient, int from, int to, ref GradientMeasures measured)
+        {
+            int end = Math.Min(to, _gradient.Length);
+            double largest = 0.0;
+            for (int i = from; i < end; i++)
+            {
+                if (!_isTouched[i])
+                {
+                    continue;
+                }
+                largest = Math.Max(largest, _gradient[i].LengthSquared);
+                gradient[i].X1 += _gradient[i].X;
+                gradient[i].X2 += _gradient[i].Y;
+                gradient[i].X3 += _gradient[i].Z;
+            }
+            measured.IncludeForce(Math.Sqrt(largest));
+        }
+
+        /// <summary>Adds the second derivatives of nodes from one (inclusive) to another (exclusive), with or without
+        /// what goes with the forces of elements' contacts.</summary>
+        public void AddBlocks(RodBlock[] blocks, int from, int to, bool hasBending)
+        {
+            int end = Math.Min(to, _gradient.Length);
+            for (int i = from; i < end; i++)
+            {
+                if (!_isTouched[i])
+                {
+                    continue;
+                }
+                ref RodBlock b = ref blocks[i];
+                Symmetric3 a = hasBending ? _own[i] + _ownBending[i] : _own[i];
+                b.A11 += a.A11; b.A21 += a.A21; b.A22 += a.A22;
+                b.A31 += a.A31; b.A32 += a.A32; b.A33 += a.A33;
+                if (i < _coupling.Length)
+                {
+                    Symmetric3 d = hasBending ? _coupling[i] + _couplingBending[i] : _coupling[i];
+                    Vector3d t = hasBending ? _couplingTurn[i] : Vector3d.Zero;
+                    b.D11 += d.A11; b.D12 += d.A21 - t.Z; b.D13 += d.A31 + t.Y;
+                    b.D21 += d.A21 + t.Z; b.D22 += d.A22; b.D23 += d.A32 - t.X;
+                    b.D31 += d.A31 - t.Y; b.D32 += d.A32 + t.X; b.D33 += d.A33;
+                }
+            }
+        }
+
+        private void Touch(int w, int j, double position, in Vector3d force)
+        {
+            Contacts.Add(new WallContact(w, j, position, force));
+            _isTouched[j] = true;
+            _isTouched[j + 1] = true;
+        }
+
+        // The force of a ridge times the second derivative of its distance.
+        private void AddBending(int j, in WallRidge ridge, in Vector3d chord, double force)
+        {
+            double s = ridge.Position;
+            double r = 1.0 - s;
+            Symmetric3 h = ridge.Curvature;
+            _ownBending[j] += (force * r * r) * h;
+            _ownBending[j + 1] += (force * s * s) * h;
+            _couplingBending[j] += (force * r * s) * h;
+            Vector3d hu = h.Times(chord);
+            double half = 0.5 * Vector3d.Dot(chord, hu);
+            AddPairs(j, force, r * hu - ridge.Normal + half * ridge.SlideAlongA,
+                s * hu + ridge.Normal + half * ridge.SlideAlongB, ridge.SlideAlongA, ridge.SlideAlongB);
+        }
+
+        // weight (c d^T + d c^T) of vectors over both nodes of an element.
+        private void AddPairs(int j, double weight, in Vector3d c, in Vector3d cNext, in Vector3d d, in Vector3d dNext)
+        {
+            _ownBending[j] += Symmetric3.Pair(weight, c, d);
+            _ownBending[j + 1] += Symmetric3.Pair(weight, cNext, dNext);
+            _couplingBending[j] += Symmetric3.Pair(0.5 * weight, cNext, d) + Symmetric3.Pair(0.5 * weight, dNext, c);
+            _couplingTurn[j] -= (0.5 * weight) * (Vector3d.Cross(cNext, d) + Vector3d.Cross(dNext, c));
+        }
+    }
+}
