@@ -143,8 +143,8 @@ namespace Guidewire.Benchmarks
         private static void PrintPush(string wall, ArchPush push, string speed)
         {
             const int LeastTurns = 8;
-            TimeSpan warmUp = TimeSpan.FromSeconds(1.0);
-            TimeSpan timed = TimeSpan.FromSeconds(0.5);
+            TimeSpan warmUp = TimeSpan.FromSeconds(3.0);
+            TimeSpan timed = TimeSpan.FromSeconds(1.0);
             SteppedWire sweep = MotionCost.Sweep();
             double iterations = 0.0;
             TimeSpan begin = Processor();
