@@ -28,7 +28,7 @@ namespace Guidewire.Core
         private const double Span = 90.0;           // times the radius, between places that hold a wire
         private const double LeastOfRule = 0.01;    // below, gaps close to nothing
         private const double MostOfRule = 1e8;
-        private const double MostDistance = 20.0;   // times the rule's
+        private const double MostDistance = 2.0;    // times the rule's: what it leaves of a clearance is used up
 
         /// <summary>What to change about a barrier with which a step has no solution, in one phrase, or null where the
         /// barrier is as good as that of the rule.</summary>

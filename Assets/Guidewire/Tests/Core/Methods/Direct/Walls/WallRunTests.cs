@@ -302,6 +302,28 @@ namespace Guidewire.Core.Tests
                 Is.EqualTo(bend / (span * span * distance)).Within(1e-9).Percent);
         }
 
+        /// <summary>In a stenosis of 1.2 radii barriers of 2.5 times half of the clearance push from both sides.
+        /// </summary>
+        [Test]
+        public void BarrierThatFillsAStenosis_IsNamed()
+        {
+            SimulationParameters parameters = WallScenes.Arch(60, 0.01, 50.0, 100.0);
+            parameters.Scene.Walls = new ContactShape[] { new TubeShape(
+                new[]
+                {
+                    new Vector3d(0.0, 0.0, -320.0), new Vector3d(0.0, 0.0, 10.0), new Vector3d(0.0, 0.0, 20.0),
+                    new Vector3d(0.0, 0.0, 22.0), new Vector3d(0.0, 0.0, 32.0), new Vector3d(0.0, 40.0, 200.0),
+                },
+                new[] { 3.0, 3.0, 0.48, 0.48, 3.0, 3.0 }, true, true) };
+            Simulation run = Wires.Run(parameters);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            parameters.Contact.ContactDistance = 1e-4;
+            run = Wires.Run(parameters);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Failed), run.Reason);
+            Assert.That(run.Reason, Does.Contain("contactDistance = 0.0001 m is too long")
+                .And.Contain("4E-05 m is by rule"));
+        }
+
         [Test]
         public void DriveWhoseWayTheWallsBar_EndsTheRunWithAReason()
         {
