@@ -269,7 +269,7 @@ namespace Guidewire.Core.Tests
 
         [TestCase(1e-300, 0.0, "contactStiffness = 1E-300 N/m is too soft")]
         [TestCase(1e300, 0.0, "contactStiffness = 1E+300 N/m is beyond")]
-        [TestCase(0.0, 1e-12, "contactDistance = 1E-12 m is too short")]
+        [TestCase(0.0, 1e-14, "contactDistance = 1E-14 m is too short")]
         [TestCase(0.0, 1.0, "contactDistance = 1 m is too long")]
         public void BarrierThatCannotWork_IsNamedWhereAStepHasNoSolution(double stiffness, double distance,
             string named)
