@@ -5,17 +5,20 @@ namespace Guidewire.Core
     /// <summary>What points of a wire are asked again and again: features of a wall about the points of a lattice, each
     /// found once and kept. A wire that is pushed goes through the same places node after node.</summary>
     /// <remarks>One place in the table for each hash: what was there before is forgotten; and all is where the lists
-    /// have grown long. Nothing is allocated once it stands.</remarks>
+    /// have grown long. Nothing is allocated once it stands, unless one wire needs longer lists.</remarks>
     internal sealed class FeatureCells
     {
         private const int Places = 1 << 13;
         private const int MostFeatures = 1 << 17;
         private const int LongestList = 1 << 13;    // that is expected
+        private const int MostLists = 8;            // of all that a wire asks for at once
         private const double HalfDiagonal = 0.8661;    // of a lattice's cell, rounded up
         private readonly ContactShape _wall;
         private readonly double _size;
         private readonly double _reach;    // from a point of the lattice
         private readonly Cell[] _cells = new Cell[Places];
+        private int _most = MostFeatures;
+        private int _before;    // features when they were looked through last
 
         /// <summary>For a wall that stays where it is.</summary>
         /// <param name="wall">It has features of points.</param>
@@ -38,15 +41,18 @@ namespace Guidewire.Core
         public StructList<WallFeature> Features { get; } =
             new StructList<WallFeature>(MostFeatures + LongestList);
 
-        /// <summary>Forgets all where the lists have grown too long.</summary>
+        /// <summary>Forgets all where the lists have grown too long, but not before they hold several times what was
+        /// asked for since the last call: a wire of many elements in a fine mesh needs long ones.</summary>
         public void Trim()
         {
-            if (Features.Count > MostFeatures)
+            _most = Math.Max(_most, MostLists * (Features.Count - _before));
+            if (Features.Count > _most)
             {
                 Features.Clear();
                 Array.Clear(_cells, 0, _cells.Length);
                 Version++;
             }
+            _before = Features.Count;
         }
 
         /// <summary>Finds the wall about the lattice point next to a point.</summary>
@@ -71,14 +77,15 @@ namespace Guidewire.Core
 
         private static int PlaceOf(in Vector3d centre, double radius)
         {
-            unchecked
-            {
-                ulong hash = (ulong)BitConverter.DoubleToInt64Bits(centre.X);
-                hash = 0x9E3779B97F4A7C15UL * (hash ^ (hash >> 29)) + (ulong)BitConverter.DoubleToInt64Bits(centre.Y);
-                hash = 0x9E3779B97F4A7C15UL * (hash ^ (hash >> 29)) + (ulong)BitConverter.DoubleToInt64Bits(centre.Z);
-                hash = 0x9E3779B97F4A7C15UL * (hash ^ (hash >> 29)) + (ulong)BitConverter.DoubleToInt64Bits(radius);
-                return (int)((0x9E3779B97F4A7C15UL * (hash ^ (hash >> 29))) >> 40) & (Places - 1);
-            }
+            ulong hash = Mixed(Mixed(Mixed(Mixed(0UL, centre.X), centre.Y), centre.Z), radius);
+            return (int)(hash >> 40) & (Places - 1);
+        }
+
+        private static ulong Mixed(ulong hash, double value)
+        {
+            const ulong factor = 0x9E3779B97F4A7C15UL;    // 2^64 over the golden ratio
+            hash ^= unchecked((ulong)BitConverter.DoubleToInt64Bits(value));
+            return unchecked(factor * (hash ^ (hash >> 29)));
         }
 
         private readonly struct Cell

@@ -302,6 +302,32 @@ namespace Guidewire.Core.Tests
                 Is.EqualTo(bend / (span * span * distance)).Within(1e-9).Percent);
         }
 
+        /// <summary>A mesh keeps what it was asked for, for all that ask.</summary>
+        [Test]
+        public void TwoWiresInOneMesh_InTurns_MoveAsEachAlone()
+        {
+            SimulationParameters parameters = WallScenes.Arch(30, 0.01, 100.0, 60.0);
+            parameters.Scene.Walls = new ContactShape[] { WallScenes.ArchMesh(16, 24) };
+            Vector3d alone = Wires.Run(parameters).State.Positions[30];
+            parameters.Scene.Walls = new ContactShape[] { WallScenes.ArchMesh(16, 24) };
+            Simulation first = Simulation.Create(parameters);
+            Simulation second = Simulation.Create(parameters);
+            for (int k = 0; first.Outcome == Outcome.Running || second.Outcome == Outcome.Running; k++)
+            {
+                if (first.Outcome == Outcome.Running)
+                {
+                    first.Step();
+                }
+                if (k >= 20 && second.Outcome == Outcome.Running)
+                {
+                    second.Step();
+                }
+            }
+            Assert.That(first.Contacts!.LargestForce, Is.GreaterThan(0.0));
+            Assert.That(first.State.Positions[30], Is.EqualTo(alone));
+            Assert.That(second.State.Positions[30], Is.EqualTo(alone));
+        }
+
         /// <summary>In a stenosis of 1.2 radii barriers of 2.5 times half of the clearance push from both sides.
         /// </summary>
         [Test]
