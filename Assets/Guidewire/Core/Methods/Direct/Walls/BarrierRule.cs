@@ -15,7 +15,7 @@ namespace Guidewire.Core
     /// between places that hold it 45 diameters apart, or EI k/l, of an element of rest curvature k that they hold
     /// straight; of the element for which it is largest. Contacts then keep about half of g0. Stiffer ones work where
     /// all but a little of it is left and hardly push until they push too much; softer ones close their gaps to
-    /// nothing. It does not depend on how finely a wire is divided, as EI/l^3 would.</remarks>
+    /// nothing. Of a straight wire it does not depend on the division, as EI/l^3 would.</remarks>
     internal static class BarrierRule
     {
         /// <summary>Ways in g0 that the drive may move in one step.</summary>
