@@ -228,6 +228,12 @@ class Session:
             process.wait()
         process.stdout.close()
 
+    def kill(self) -> None:
+        """End the runner at once, whatever it is doing; from any thread. A step under way raises SessionError."""
+        process = self._process
+        if process is not None:
+            process.kill()
+
     def __enter__(self) -> Session:
         return self
 

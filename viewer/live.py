@@ -1,7 +1,8 @@
 """A run under the hand of one page, while others look on. The runner simulates; here is only who asks it for what.
 
 A page says what it wants in short JSON messages, `_DO` below lists them, and is told the run's status as JSON where
-that has changed, and each new state as doubles: the number of the page's last message of its hand, then all channels.
+that has changed, and each new state as doubles: the number of the page's last message of its hand, the largest size
+that each channel has had (so that the scales of all pages agree), then all channels.
 """
 
 from __future__ import annotations
@@ -9,10 +10,12 @@ from __future__ import annotations
 import asyncio
 import json
 import math
+import re
 import time
 import warnings
 from collections.abc import Awaitable, Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +24,9 @@ from aiohttp import WSCloseCode, WSMsgType, web
 
 from analysis.surfaces import Surface
 from experiments.session import Session, SessionError, State
-from viewer.recording import Recording, facts_of, make_channels, name_walls, radius_of, sheath_of, units_of
+from viewer.recording import (
+    Channel, Recording, facts_of, largest_shown, make_channels, name_walls, radius_of, sheath_of, units_of,
+)
 
 PUSH_SPEED = 40.0              # units a second of in-game time, as in the Unity scene
 TURN_SPEED = math.radians(180.0)  # rad a second of in-game time
@@ -29,6 +34,8 @@ PACES = (0.01, 0.1, 0.5, 1, 2, 5, 10)  # of in-game time against the clock, wher
 _FRAME = 1.0 / 60.0            # s of in-game time that a picture shows, where the machine is fast enough
 _LONGEST = 0.025               # s of wall time that one request may take, so that keys are answered
 _BEHIND = 0.1                  # s; what is lost beyond that is not made up for
+_LONGEST_WAIT = 1.0            # s of wall time between two steps, however long a step is
+_PATIENCE = 3.0                # s that a start anew waits for a step under way, before the runner is ended
 _MOST_ON_THE_WAY = 2           # pictures that a page has not shown yet; further ones are left out
 _SMOOTHING = 0.1               # share of the newest request in the step time shown
 _ENDLESS = {"maxSimulationSteps": 1_000_000_000, "deltaThreshold": 0}
@@ -67,6 +74,7 @@ class LiveRun:
         self._session: Session | None = None
         self._walls: list[Surface] = []
         self._sheath: np.ndarray | None = None
+        self._largest = np.zeros(0)
         self._warnings: list[str] = []
         self._opened = 0
         self._is_paused = True
@@ -126,8 +134,15 @@ class LiveRun:
             if state.outcome is not None:
                 self._is_paused = True
                 await self._tell()
-            due = max(due + steps * dt / self._pace, time.monotonic() - _BEHIND)
-            await asyncio.sleep(max(0.0, due - time.monotonic()))
+            now = time.monotonic()
+            due = min(max(due + steps * dt / self._pace, now - _BEHIND), now + _LONGEST_WAIT)
+            await self._wait_until(due)
+
+    async def _wait_until(self, due: float) -> None:
+        """Until the next step is due, or a page has asked for something that need not wait for it."""
+        self._wake.clear()
+        with suppress(asyncio.TimeoutError):
+            await asyncio.wait_for(self._wake.wait(), max(0.0, due - time.monotonic()))
 
     async def serve(self, socket: web.WebSocketResponse) -> None:
         """Talk with a page until it goes away. The first has the hand; a page that has it and goes pauses the run."""
@@ -193,13 +208,15 @@ class LiveRun:
         self._steps_asked = 1
 
     async def _do_reset(self, _: Mapping[str, Any]) -> None:
-        self._problem = ""
-        if self._session is None:  # it died: a new one takes its place
+        await self._stop_step()
+        if self._session is None or not self._session.is_open:  # it is gone: a new one takes its place
             await self._in_thread(lambda: self._open(self._scene))
-            return
-        await self._in_thread(self._session.reset)
-        self._is_paused = not self._session.hand
-        self._opened += 1
+        else:
+            await self._in_thread(self._session.reset)
+            self._is_paused = not self._session.hand
+            self._opened += 1
+            self._largest = largest_shown(self._channels(self._session, self._session.state))
+        self._problem = ""
 
     async def _do_pace(self, message: Mapping[str, Any]) -> None:
         if message["value"] not in PACES:
@@ -210,8 +227,9 @@ class LiveRun:
         scene = message["scene"]
         if scene not in self._scenes:
             raise ValueError("no such scene")
-        self._problem = ""
         by_hand = bool(message.get("hand", True))
+        await self._stop_step()
+        self._problem = ""
         await self._in_thread(lambda: self._open(scene, by_hand))
 
     async def _do_set(self, message: Mapping[str, Any]) -> None:
@@ -221,7 +239,13 @@ class LiveRun:
         self._problem = ""
         if isinstance(value, float) and value.is_integer():
             value = int(value)
-        await self._in_thread(lambda: self._session.change(**{key: value}))
+        try:
+            await self._in_thread(lambda: self._session.change(**{key: value}))
+        except SessionError as error:
+            if not self._session.is_open:
+                raise
+            self._problem = _refusal(key, value, str(error))  # nothing has changed, and the wire goes on
+            return
         self._cost = 0.0
 
     def _open(self, scene: str, by_hand: bool = True) -> None:
@@ -236,6 +260,7 @@ class LiveRun:
         self._sheath = sheath_of(session.parameters, self._numbers(session, session.state))
         self._opened += 1
         self._cost = 0.0
+        self._largest = largest_shown(self._channels(session, session.state))
 
     def _close_session(self) -> None:
         session, self._session = self._session, None
@@ -249,9 +274,10 @@ class LiveRun:
         return Recording(
             self._scene, "", self._warnings, facts_of(session.parameters, None), radius_of(session.parameters),
             self._channels(session, session.state), name_walls(session.parameters, self._walls), self._sheath,
+            self._largest,
         )
 
-    def _channels(self, session: Session, state: State) -> list[Any]:
+    def _channels(self, session: Session, state: State) -> list[Channel]:
         return make_channels(units_of(session.parameters), self._numbers(session, state))
 
     def _numbers(self, session: Session, state: State) -> dict[str, Any]:
@@ -276,7 +302,8 @@ class LiveRun:
 
     async def _show(self, mark: int, session: Session, state: State) -> None:
         channels = self._channels(session, state)
-        frame = np.concatenate([[float(mark)], *(channel.values.ravel() for channel in channels)])
+        self._largest = np.maximum(self._largest, largest_shown(channels))
+        frame = np.concatenate([[float(mark)], self._largest, *(channel.values.ravel() for channel in channels)])
         block = frame.astype("<f8").tobytes()
         for page in list(self._pages):
             if page.on_the_way < _MOST_ON_THE_WAY:
@@ -309,6 +336,17 @@ class LiveRun:
             self._session = None
         await self._tell()
 
+    async def _stop_step(self) -> None:
+        """Wait for a step under way; one that takes too long ends with its runner."""
+        idle = asyncio.ensure_future(self._in_thread(lambda: None))
+        session = self._session
+        try:
+            await asyncio.wait_for(asyncio.shield(idle), _PATIENCE)
+        except asyncio.TimeoutError:
+            if session is not None:
+                session.kill()
+            await idle
+
     async def _in_thread(self, work: Callable[[], Any]) -> Any:
         """One thing at a time is asked of the runner."""
         return await asyncio.get_running_loop().run_in_executor(self._asking, work)
@@ -328,6 +366,25 @@ def _start(scene: Path, by_hand: bool) -> Session:
         except SessionError:
             pass  # what is wrong with the file itself is said below
     return Session(scene, hand=False)
+
+
+_NOT_ALLOWED = re.compile(r"(?:.*: )?(\w+) = .* is not allowed: (needs .*)", re.DOTALL)
+
+
+def _refusal(key: str, value: Any, message: str) -> str:
+    """Why a field's new value is refused, for who typed it: which value, and what is allowed.
+
+    Parameters
+    ----------
+    key, value : of the field.
+    message : the runner's line. Where the value does not go with another key, it names that key with its file.
+    """
+    said = _NOT_ALLOWED.fullmatch(message)
+    if said is None:
+        return message.removeprefix("command line: ")
+    named, needs = said.groups()
+    asked = f"{key} = {json.dumps(value)}"
+    return f"{asked} is not allowed: {needs}" if named == key else f"{asked} does not go with {named}, which {needs}"
 
 
 def _read_off(state: State) -> dict[str, np.ndarray]:

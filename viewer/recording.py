@@ -64,6 +64,7 @@ class Recording:
     channels : "time", "step" and "positions" are always among them.
     walls : triangles with "vessel" or "obstacle".
     sheath : (2, 3), units: where it ends, and the farthest back that the wire begins in it; None without one.
+    largest : as of `largest_shown`, where more was seen than these frames; None: of these.
     """
 
     title: str
@@ -74,18 +75,20 @@ class Recording:
     channels: Sequence[Channel]
     walls: Sequence[tuple[str, Surface]]
     sheath: np.ndarray | None = None
+    largest: np.ndarray | None = None
 
     def to_bytes(self, exact: bool = True) -> bytes:
         """The block for the page; where it need not be exact, of 16 bits a number between the lowest and the highest
         of its kind (time: 32 bits)."""
         arrays = _Arrays()
+        largest = largest_shown(self.channels) if self.largest is None else self.largest
         channels = [{
             "name": channel.name, "label": channel.label, "unit": channel.unit, "place": channel.place,
-            "isSigned": channel.is_signed, "width": channel.values.shape[1],
+            "isSigned": channel.is_signed, "width": channel.values.shape[1], "largest": float(size),
             **(arrays.add(channel.values, "f8") if exact else
                arrays.add(channel.values, "f4") if channel.place == "frame" else
                arrays.quantise(channel.values, 3 if channel.place == "vector" else 1)),
-        } for channel in self.channels]
+        } for channel, size in zip(self.channels, largest)]
         walls = [{
             "kind": kind,
             "vertices": arrays.add(wall.vertices, "f4") if exact else arrays.quantise(wall.vertices, 3),
@@ -98,6 +101,24 @@ class Recording:
         }, allow_nan=False).encode()
         header += b" " * (-(len(header) + 4) % _ALIGNED)
         return struct.pack("<I", len(header)) + header + arrays.bytes()
+
+
+def largest_shown(channels: Sequence[Channel]) -> np.ndarray:
+    """Largest size of each channel's finite numbers, 0 where there are none: what scales go by. What is in a sheath is
+    not shown and does not count."""
+    in_body = next((channel.values[:, 0] for channel in channels if channel.name == "inBody"), None)
+    return np.array([_largest(channel, in_body) for channel in channels])
+
+
+def _largest(channel: Channel, in_body: np.ndarray | None) -> float:
+    values = np.abs(channel.values)
+    seen = np.isfinite(values)
+    if in_body is not None and channel.place != "frame":
+        per_node = 3 if channel.place == "vector" else 1
+        nodes = values.shape[1] // per_node + (1 if channel.place == "element" else 0)
+        first = np.maximum(nodes - 1 - in_body, 0)  # the last sphere that is in the sheath
+        seen &= np.arange(values.shape[1]) // per_node >= first[:, None]
+    return float(values.max(where=seen, initial=0.0))
 
 
 class _Arrays:

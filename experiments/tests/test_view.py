@@ -23,7 +23,8 @@ from experiments.prepare import ROOT, PreparationError
 from viewer import parts
 from viewer.command import view
 from viewer.export import to_html
-from viewer.recording import Recording, Units, make_channels, sheath_of
+from viewer.live import LiveRun
+from viewer.recording import Recording, Units, largest_shown, make_channels, sheath_of
 from viewer.server import LONGEST_MESSAGE, MOST_PAGES, page_files
 
 SCENE = {"guidewireLength": 60, "numberRodElements": 6, "guidewireOffset": -60, "displacement": 0, "sphereRadius": 2,
@@ -86,6 +87,7 @@ def with_pages(address, talk, count=1):
             for _ in range(count):
                 pages.append(await session.ws_connect(address + "live", headers={"Origin": origin}, max_msg_size=0))
                 await pages[-1].receive_json(timeout=10)
+                pages[-1].session, pages[-1].recording = session, address + "recording/0"
             try:
                 return await asyncio.wait_for(talk(*pages), 30)
             finally:
@@ -101,18 +103,30 @@ async def hear(page, wanted):
         message = await page.receive()
         if message.type in (aiohttp.WSMsgType.CLOSE, aiohttp.WSMsgType.CLOSED, aiohttp.WSMsgType.ERROR):
             raise AssertionError(f"closed: {message}")
+        if message.type == aiohttp.WSMsgType.BINARY:
+            await page.send_json({"do": "shown"})
         if message.type == aiohttp.WSMsgType.TEXT and wanted(json.loads(message.data)):
             return json.loads(message.data)
 
 
+async def take_hand(page):
+    """Wait until the page before is gone, and take the hand."""
+    status = {"hand": False}
+    while not status["hand"]:
+        await page.send_json({"do": "take"})
+        status = await hear(page, lambda status: status["hand"] or status["isFree"])
+
+
 async def see(page, count):
-    """So many states, each an array of doubles."""
+    """So many states: the mark of the hand, then the channels, without the largest of each that stand between."""
+    async with page.session.get(page.recording) as answer:
+        channels = len(unpack(await answer.read()))
     states = []
     while len(states) < count:
         message = await page.receive()
         if message.type == aiohttp.WSMsgType.BINARY:
             await page.send_json({"do": "shown"})
-            states.append(np.frombuffer(message.data))
+            states.append(np.delete(np.frombuffer(message.data), slice(1, 1 + channels)))
     return np.array(states)
 
 
@@ -197,9 +211,13 @@ def test_a_hand_pauses_steps_changes_and_opens_scenes(live):
         (later,) = await see(page, 1)
         assert later[1] - after[1] == pytest.approx(0.004)
         await page.send_json({"do": "set", "key": "timeStep", "value": -1})
-        assert "timeStep = -1" in (await hear(page, lambda status: status["problem"]))["problem"]
-        await page.send_json({"do": "set", "key": "solver", "value": "direct"})
-        assert "solver" in (await hear(page, lambda status: "solver" in status["problem"]))["problem"]
+        refused = await hear(page, lambda status: status["problem"])
+        assert refused["problem"] == "timeStep = -1 is not allowed: needs a number > 0 (s)"
+        assert refused["values"]["timeStep"] == 0.004
+        await page.send_json({"do": "set", "key": "solver", "value": "explicit"})
+        assert (await hear(page, lambda status: "solver" in status["problem"]))["problem"] == (
+            'solver = "explicit" does not go with vessel, which needs solver pbd, xpbd or direct; this run has solver '
+            'explicit')
         await page.send_json({"do": "open", "scene": "cantilever.json"})
         status = await hear(page, lambda status: status["scene"] == "cantilever.json")
         assert status["isSteered"] and not status["isPaused"] and status["values"]["solver"] == "direct"
@@ -210,6 +228,50 @@ def test_a_hand_pauses_steps_changes_and_opens_scenes(live):
         await hear(page, lambda status: status["isSteered"])
 
     with_pages(live[0], talk)
+
+
+def test_a_refused_value_and_a_long_time_step_leave_the_wire_going(live):
+    async def talk(page):
+        await take_hand(page)
+        await page.send_json({"do": "open", "scene": "scene.json"})
+        await hear(page, lambda status: not status["isPaused"])
+        await page.send_json({"do": "set", "key": "timeStep", "value": -1})
+        assert not (await hear(page, lambda status: status["problem"]))["isPaused"]
+        assert len(await see(page, 2)) == 2
+        # A step of 1000 s of in-game time is no wait of 1000 s on the clock, for a start anew least of all.
+        await page.send_json({"do": "set", "key": "timeStep", "value": 1000})
+        await hear(page, lambda status: status["values"]["timeStep"] == 1000)
+        assert len(await see(page, 3)) == 3
+        began = time.monotonic()
+        await page.send_json({"do": "reset"})
+        await page.send_json({"do": "set", "key": "timeStep", "value": 0.01})
+        await hear(page, lambda status: status["values"]["timeStep"] == 0.01)
+        assert len(await see(page, 5)) == 5 and time.monotonic() - began < 5.0
+
+    with_pages(live[0], talk)
+
+
+def test_a_start_anew_ends_a_step_that_takes_too_long(runner_command, tmp_path, monkeypatch):
+    (tmp_path / "slow.json").write_text(json.dumps({
+        **SCENE, "numberRodElements": 400, "constraintSolverSteps": 1_000_000}))
+    monkeypatch.setattr("viewer.live._PATIENCE", 0.1)
+
+    async def talk():
+        run = LiveRun({"slow": tmp_path / "slow.json"}, "slow", lambda *_: [], {})
+        run.open()
+        run._hand, run._is_paused = object(), False
+        going = asyncio.ensure_future(run.go())
+        await asyncio.sleep(0.3)  # its first step, of some 20 s, is under way
+        began = time.monotonic()
+        await run._do_reset({})
+        assert time.monotonic() - began < 5.0 and run._session.is_open and run._session.state.step == 0
+        run._is_paused = True
+        run._session.kill()
+        going.cancel()
+        await asyncio.gather(going, return_exceptions=True)
+        await run.close()
+
+    asyncio.run(talk())
 
 
 @pytest.mark.parametrize("said", [
@@ -362,6 +424,18 @@ def test_what_is_read_off_at_the_hub_is_shown_and_where_a_sheath_ends():
     assert sheath_of(parameters, by_length) == pytest.approx(np.array([[0.0, 0.0, -5.0], [0.0, 0.0, -30.0]]))
     given = sheath_of({**parameters, "sheath": {"exit": [0, 0, -7]}}, numbers)
     assert given.tolist() == [[0.0, 0.0, -7.0], [0.0, 0.0, -30.0]]
+
+
+def test_scales_go_by_what_is_shown():
+    first = np.array([[0.0, 0.0, z] for z in (-30.0, -20.0, -10.0, 0.0, 10.0)])
+    forces = np.zeros((1, 5, 3))
+    forces[0, 1, 0], forces[0, 4, 1] = 7.0, -2.0  # the first is in the sheath
+    channels = make_channels(Units(1e-3), {
+        "step": np.array([0]), "time": np.array([0.0]), "positions": first[None], "contact_forces": forces,
+        "curvature": np.full((1, 5, 3), [np.nan, 0.0, 0.0]), "inBody": np.array([2])})
+    largest = dict(zip((channel.name for channel in channels), largest_shown(channels)))
+    assert largest["contactForce"] == largest["contactForces"] == 2.0
+    assert largest["curvature"] == 0.0  # not a number: nothing to go by
 
 
 def test_300_frames_and_a_vessel_of_50_000_triangles_are_a_file_of_less_than_4_MB(tmp_path):

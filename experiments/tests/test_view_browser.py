@@ -122,6 +122,26 @@ def test_two_replays_show_the_positions_of_their_logs_side_by_side_and_one_over_
     assert is_drawn(tmp_path / "side.png") and is_drawn(tmp_path / "over.png")
 
 
+def test_a_refused_value_goes_from_its_field_and_axes_tell_their_ends_apart(browse, runner_command, tmp_path):
+    field = "[...document.querySelectorAll('#controls label')].find((one) => one.textContent === 'timeStep').firstElementChild"
+    enter = (f"{{ const field = {field}; field.focus(); field.value = '-1';"
+             " field.dispatchEvent(new Event('change')); }")
+    labels = "import('./curves.js').then(({endLabels}) => [endLabels(300.001, 300.0012), endLabels(2, 2), endLabels(0, 1)])"
+    rows = "import('./colours.js').then(({row, roundUp}) => [row(0, 0, false), row(0, 0, true), row(0, 1, true), roundUp(0), roundUp(0.0473)])"
+    with serving(tmp_path, str(ROOT / "params/insertion.json"), with_three=True) as (address, _):
+        seen = browse(
+            ["open", address], DRAWN, ["see", "document.getElementById('hint').textContent"], ["see", enter],
+            ["until", "document.getElementById('said').textContent"], ["until", f"Number({field}.value) > 0"],
+            ["see", "document.getElementById('said').textContent"], ["see", "viewer.shown.status.isPaused"],
+            ["see", labels], ["see", rows], ["see", "document.getElementById('thicker').textContent"],
+        )["seen"]
+    assert seen[0].startswith("W push") and "H help" in seen[0]
+    assert seen[2] == "timeStep = -1 is not allowed: needs a number > 0 (s)" and seen[3] is False
+    assert seen[4] == [["300.001", "300.0012"], ["2", "2"], ["0", "1"]]
+    assert seen[5] == [0, 128, 128, 0, pytest.approx(0.048)]
+    assert seen[6] == ""  # a wire of 10 units across is seen as it is
+
+
 def is_drawn(path):
     """Whether the picture shows more than its background where the wire is."""
     with Image.open(path) as picture:

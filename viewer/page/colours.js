@@ -18,23 +18,17 @@ export function ramp(isSigned) {
   return colours;
 }
 
-/** Row of a ramp that shows a value. @param {number} value @param {number} full @param {boolean} isSigned */
+/** Row of a ramp that shows a value. @param {number} value @param {number} full 0: nothing is there @param {boolean} isSigned */
 export function row(value, full, isSigned) {
-  const share = isSigned ? 0.5 + (0.5 * value) / full : value / full;
-  return Math.min(STEPS - 1, Math.max(0, Math.round(share * (STEPS - 1)))) || 0;
+  const fraction = full > 0 ? value / full : 0;
+  return Math.min(STEPS - 1, Math.max(0, Math.round((isSigned ? 0.5 + 0.5 * fraction : fraction) * (STEPS - 1)))) || 0;
 }
 
-/** The next number of the form 1, 2 or 5 times a power of ten. @param {number} value above 0 */
+/** The next number of two digits; 0 of 0. @param {number} value 0 or more */
 export function roundUp(value) {
-  const power = 10 ** Math.floor(Math.log10(value));
-  return [1, 2, 5, 10].map((step) => step * power).find((step) => value <= step * (1 + 1e-12)) ?? value;
-}
-
-/** Largest size of numbers that are finite. @param {Float64Array} values */
-export function largest(values) {
-  let most = 0;
-  for (const value of values) if (Math.abs(value) > most && Number.isFinite(value)) most = Math.abs(value);
-  return most;
+  if (!(value > 0)) return 0;
+  const unit = 10 ** (Math.floor(Math.log10(value)) - 1);
+  return Math.ceil((value / unit) * (1 - 1e-12)) * unit;
 }
 
 /** A number as people read it. @param {number} value @param {number} [digits] */
@@ -42,14 +36,14 @@ export function brief(value, digits = 4) {
   if (!Number.isFinite(value)) return "-";
   const size = Math.abs(value);
   const isFar = size !== 0 && (size < 1e-3 || size >= 1e5);
-  return isFar ? value.toExponential(1) : String(Number(value.toPrecision(digits)));
+  return isFar ? String(value.toExponential(Math.max(digits - 3, 1))) : String(Number(value.toPrecision(digits)));
 }
 
 /**
  * The scale beside a picture.
  * @param {HTMLCanvasElement} canvas
  * @param {{label: string, unit: string, isSigned: boolean} | null} channel null: the wire is plain
- * @param {number} full value of full red
+ * @param {number} full value of full red; 0: all that is shown is zero
  */
 export function drawScale(canvas, channel, full) {
   canvas.hidden = !channel;
@@ -57,13 +51,13 @@ export function drawScale(canvas, channel, full) {
   const pen = prepare(canvas);
   const width = canvas.clientWidth;
   const scale = pen.createLinearGradient(0, 0, width, 0);
-  (channel.isSigned ? [BLUE, GREY, RED] : [GREY, RED]).forEach((colour, k, { length }) =>
+  (full === 0 ? [GREY, GREY] : channel.isSigned ? [BLUE, GREY, RED] : [GREY, RED]).forEach((colour, k, { length }) =>
     scale.addColorStop(k / (length - 1), `rgb(${colour.map((part) => Math.round(255 * part))})`));
   pen.fillStyle = scale;
   pen.fillRect(0, 0, width, 14);
   pen.fillStyle = "#e1e1e6";
-  pen.fillText(channel.isSigned ? brief(-full) : "0", 0, 28);
-  const end = `${brief(full)} ${channel.unit}`;
+  pen.fillText(channel.isSigned && full > 0 ? brief(-full) : "0", 0, 28);
+  const end = full > 0 ? `${brief(full)} ${channel.unit}` : `0 ${channel.unit}`;
   pen.fillText(end, width - pen.measureText(end).width, 28);
   pen.fillText(channel.label, 0.5 * (width - pen.measureText(channel.label).width), 28);
 }

@@ -1,11 +1,10 @@
 // @ts-check
-import { brief as number, prepare } from "./colours.js";
+import { brief, prepare } from "./colours.js";
 
 const LINES = ["#e1e1e6", "#ff9d2e"]; // of the first run and the second
-const LEFT = 46;
 const BOTTOM = 16;
-
-const brief = (/** @type {number} */ value) => number(value, 3); // as many digits as there is room for
+const GAP = 4; // points between an axis and what stands beside it
+const MOST_DIGITS = 12;
 
 /**
  * Draws curves with their axes.
@@ -20,19 +19,22 @@ export function drawCurves(canvas, curves, xLabel, yLabel, cursor) {
   const [width, height] = [canvas.clientWidth, canvas.clientHeight];
   const [left, right] = range(curves.map((curve) => curve.x));
   const [low, high] = range(curves.map((curve) => curve.y));
-  const toX = (/** @type {number} */ x) => LEFT + ((x - left) / (right - left || 1)) * (width - LEFT - 4);
-  const room = height - BOTTOM - 20;
-  const toY = (/** @type {number} */ y) => height - BOTTOM - 4 - ((y - low) / (high - low || 1)) * room;
+  const [lowText, highText] = endLabels(low, high);
+  const [leftText, rightText] = endLabels(left, right);
+  const margin = GAP + Math.max(pen.measureText(lowText).width, pen.measureText(highText).width);
+  const toX = (/** @type {number} */ x) => margin + ((x - left) / (right - left || 1)) * (width - margin - GAP);
+  const clearance = height - BOTTOM - 20;
+  const toY = (/** @type {number} */ y) => height - BOTTOM - 4 - ((y - low) / (high - low || 1)) * clearance;
   pen.fillStyle = "#9aa";
   pen.strokeStyle = "#444b5a";
-  pen.strokeRect(LEFT, 14, width - LEFT - 4, height - BOTTOM - 16);
-  pen.fillText(yLabel, LEFT, 10);
-  pen.fillText(brief(high), 0, 24);
-  pen.fillText(brief(low), 0, height - BOTTOM - 2);
-  pen.fillText(brief(left), LEFT, height - 4);
-  const end = `${brief(right)}  ${xLabel}`;
-  pen.fillText(end, width - 4 - pen.measureText(end).width, height - 4);
-  if (low < 0 && high > 0) line(pen, LEFT, toY(0), width - 4, toY(0));
+  pen.strokeRect(margin, 14, width - margin - GAP, height - BOTTOM - 16);
+  pen.fillText(yLabel, Math.max(0, Math.min(margin, width - GAP - pen.measureText(yLabel).width)), 10);
+  if (highText !== lowText) pen.fillText(highText, 0, 24);
+  pen.fillText(lowText, 0, height - BOTTOM - 2);
+  pen.fillText(leftText, margin, height - 4);
+  const end = rightText === leftText ? xLabel : `${rightText}  ${xLabel}`;
+  pen.fillText(end, width - GAP - pen.measureText(end).width, height - 4);
+  if (low < 0 && high > 0) line(pen, margin, toY(0), width - GAP, toY(0));
   curves.forEach(({ x, y }, k) => {
     pen.strokeStyle = LINES[k % LINES.length];
     pen.beginPath();
@@ -49,10 +51,22 @@ export function drawCurves(canvas, curves, xLabel, yLabel, cursor) {
     }
     pen.stroke();
   });
-  if (cursor !== undefined) {
+  if (cursor !== undefined && cursor >= left && cursor <= right) {
     pen.strokeStyle = "#c33";
     line(pen, toX(cursor), 14, toX(cursor), height - BOTTOM - 2);
   }
+}
+
+/**
+ * What stands at both ends of an axis: with as many digits as it takes to tell them apart, the same only where they are.
+ * @param {number} low @param {number} high @returns {[string, string]}
+ */
+export function endLabels(low, high) {
+  for (let digits = 3; digits <= MOST_DIGITS; digits++) {
+    const [first, last] = [brief(low, digits), brief(high, digits)];
+    if (first !== last) return [first, last];
+  }
+  return [brief(low, 3), brief(low, 3)];
 }
 
 /** @param {CanvasRenderingContext2D} pen @param {number} x @param {number} y @param {number} toX @param {number} toY */

@@ -43,6 +43,8 @@ export class Live {
     /** Times from a key to the picture that shows what it did, ms. @type {number[]} */
     this.delays = [];
     this._held = new Set();
+    /** Whether a value was sent that the server has not answered. */
+    this._isSent = false;
     this._mark = 0;
     this._marks = new Map();
     this._newest = 0;
@@ -108,7 +110,7 @@ export class Live {
     this.model = new Model(recording);
     this._stage.set([[this.model]]);
     this._panel.set([this.model], false);
-    this._panel.show([0]);
+    this.show();
     if (before !== recording.title) this._stage.frameAll(true);
     this._label();
   }
@@ -122,8 +124,16 @@ export class Live {
     if (!this.model) return;
     const { recording } = this.model;
     recording.append(numbers.subarray(1));
-    this._panel.show([recording.count - 1]);
+    this.model.frame = recording.count - 1;
+    this.show();
     this._label();
+  }
+
+  /** Shows the newest frame with what is chosen beside it. */
+  show() {
+    if (!this.model) return;
+    const { recording, frame } = this.model;
+    this._panel.show([frame], recording.at("time", frame)[0]);
   }
 
   _shown() {
@@ -171,9 +181,14 @@ export class Live {
       button(status.isSteered ? "file's drive" : "by hand",
         { do: "open", scene: status.scene, hand: !status.isSteered }), paces, scenes,
     ] : [button("take the hand", { do: "take" })]));
-    if (byId("controls").contains(document.activeElement)) return; // a value that is being typed
+    const typed = byId("controls").contains(document.activeElement) ? document.activeElement : null;
+    if (typed && !this._isSent) return; // a value that is being typed
+    this._isSent = false;
     byId("controls").replaceChildren(...(isOurs ? Object.entries(status.values).map(([key, value]) => {
-      const set = () => this.send({ do: "set", key, value: key in status.choices ? input.value : Number(input.value) });
+      const set = () => {
+        this._isSent = true; // the answer puts what is in force into the field, also where the value is refused
+        this.send({ do: "set", key, value: key in status.choices ? input.value : Number(input.value) });
+      };
       const input = key in status.choices
         ? make("select", { onchange: set }, ...status.choices[key].map((word) =>
           make("option", { value: word, selected: word === value }, word)))

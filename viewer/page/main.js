@@ -10,7 +10,7 @@ const stage = new Stage(byId("picture"), byId("panes"));
 let shown = null;
 const panel = new Panel(stage, () => {
   if (shown instanceof Replay) shown.show();
-  else if (shown?.model) panel.show([shown.model.frame]);
+  else shown?.show();
 });
 
 /** Runs that stand in this file, where it works without a server. @type {ArrayBuffer[] | undefined} */
@@ -24,6 +24,7 @@ if (what.isLive) {
   shown = new Replay(stage, panel, bytes.map((one) => new Recording(one)));
 }
 
+byId("hint").textContent = what.isLive ? "W push, S pull, A and D turn, space pause, H help" : "space play, H help";
 byId("keys").textContent = `${what.isLive ? LIVE_KEYS : REPLAY_KEYS}
 C  colour
 F  contact forces

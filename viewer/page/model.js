@@ -4,7 +4,7 @@ import {
   LineSegments, Mesh, MeshLambertMaterial, Vector2, Vector3,
 } from "three";
 
-import { largest, ramp, roundUp, row } from "./colours.js";
+import { ramp, roundUp, row } from "./colours.js";
 import { Tube } from "./tube.js";
 
 /** @typedef {import("./recording.js").Recording} Recording */
@@ -14,6 +14,7 @@ export const [BEHIND, BEFORE] = [1, 2];
 const PLAIN = [1, 0.62, 0.18]; // a wire that is not coloured, such as the second of two in one picture
 const ARROWS = 0x7fe07f;
 const LONGEST_ARROW = 0.2; // share of the wire's length
+const LEAST_RADIUS = 2; // points of the screen that a wire takes so that it is seen
 const SHEATH_COLOUR = 0x8fa9c4;
 const SHEATH = 2; // radius of a sheath over that of the wire in it
 
@@ -47,10 +48,14 @@ export class Model {
     if (this._sheath) this.group.add(this._sheath);
     /** Name of the channel that colours the wire; "" for none. */
     this.colour = "";
-    this.thickness = 1;
+    /** How many times thicker than it is the wire is drawn; null: as much as it takes to be seen. @type {number | null} */
+    this.thickness = null;
+    /** Units of a point of the screen, where the camera looks. */
+    this.unitsPerPoint = 0;
     this.frame = 0;
-    /** @type {Map<string, number>} */
-    this._full = new Map();
+    this._drawnThickness = 1;
+    /** @type {number | undefined} */
+    this._shared = undefined;
     this._ramps = [ramp(false), ramp(true)];
   }
 
@@ -70,28 +75,40 @@ gl_FragColor.rgb = gl_FragColor.rgb * (1.0 - tint.a) + tint.rgb;`)}`;
     return material;
   }
 
-  /** The value that full red stands for; grows with a run that goes on. @param {string} name of a channel */
+  /** The value that full red stands for; grows with a run that goes on. 0: all is zero. @param {string} name of a
+   * channel */
   full(name) {
-    const channel = this.recording.channel(name);
-    const known = this._full.get(name);
-    const seen = known === undefined ? channel.values : this.recording.at(name, this.frame);
-    const full = Math.max(known ?? 0, roundUp(largest(seen) || 1e-9));
-    this._full.set(name, full);
-    return full;
+    return roundUp(this.recording.channel(name).largest);
   }
 
   /** Shows a frame. @param {number} frame @param {number} [full] value of full red, where two share a scale */
   show(frame, full) {
     this.frame = frame;
+    this._shared = full;
     const positions = this.recording.at("positions", frame);
     const first = this.recording.firstShown(frame);
-    this.tube.place(positions, this.recording.radius * this.thickness, first);
-    this._sheath?.children[0].scale.set(this.thickness, 1, this.thickness);
+    this._drawnThickness = this.shownThickness;
+    this.tube.place(positions, this.recording.radius * this._drawnThickness, first);
+    this._sheath?.children[0].scale.set(this._drawnThickness, 1, this._drawnThickness);
     this._line.geometry.setDrawRange(first, Infinity);
     this._line.geometry.getAttribute("position").array.set(positions);
     this._line.geometry.getAttribute("position").needsUpdate = true;
     this._paint(full);
     this._point(positions, first);
+  }
+
+  /** How many times its radius the wire's drawn one is. */
+  get shownThickness() {
+    return this.thickness ?? Math.max(1, (LEAST_RADIUS * this.unitsPerPoint) / this.recording.radius);
+  }
+
+  /** Takes what a point of the screen is now. @param {number} units @returns {boolean} whether the wire is drawn in
+   * another thickness now */
+  takeScale(units) {
+    this.unitsPerPoint = units;
+    const isOther = Math.abs(this.shownThickness / this._drawnThickness - 1) > 0.05;
+    if (isOther) this.show(this.frame, this._shared);
+    return isOther;
   }
 
   /** The place of the last sphere, units. */
@@ -149,7 +166,8 @@ gl_FragColor.rgb = gl_FragColor.rgb * (1.0 - tint.a) + tint.rgb;`)}`;
       return;
     }
     const forces = this.recording.at("contactForces", this.frame);
-    const unit = (LONGEST_ARROW * this._length(positions.subarray(3 * first))) / this.full("contactForces");
+    const unit = (LONGEST_ARROW * this._length(positions.subarray(3 * first)))
+      / (this.full("contactForces") || 1);
     for (let i = 0; i < positions.length; i += 3) {
       for (let part = 0; part < 3; part++) {
         ends.array[2 * i + part] = positions[i + part];

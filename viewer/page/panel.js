@@ -1,5 +1,5 @@
 // @ts-check
-import { drawScale } from "./colours.js";
+import { brief, drawScale } from "./colours.js";
 import { drawCurves } from "./curves.js";
 
 /** @typedef {import("./model.js").Model} Model */
@@ -31,12 +31,14 @@ export class Panel {
     this.models = [];
     /** @type {number[]} */
     this._frames = [];
+    this._time = 0;
     this._full = 1;
     this._drawn = -BETWEEN_CURVES;
     this._isWaiting = false;
     this._coloured = 1; // how many of them take the colours; the others are plain
     for (const id of ["colour", "first", "second", "thickness"]) byId(id).onchange = changed;
     for (const id of ["walls", "arrows", "follow"]) byId(id).onchange = changed;
+    stage.onThickness = () => this._sayThickness();
   }
 
   /** @param {Model[]} models @param {boolean} areOver whether the second lies over the first in one picture */
@@ -61,6 +63,13 @@ export class Panel {
     byId("said").textContent = lines.join("\n");
   }
 
+  _sayThickness() {
+    const [model] = this.models;
+    if (!model) return;
+    const times = model.shownThickness;
+    byId("thicker").textContent = times > 1 ? `drawn ${brief(times, 2)} times its true radius` : "";
+  }
+
   /** Takes the next of the colours. */
   nextColour() {
     const choice = byId("colour");
@@ -68,18 +77,24 @@ export class Panel {
     choice.onchange();
   }
 
-  /** Puts what is chosen into the models and asks for a picture. @param {number[]} frames of each model */
-  show(frames) {
+  /**
+   * Puts what is chosen into the models and asks for a picture.
+   * @param {number[]} frames of each model
+   * @param {number} time s, of the line in the curves
+   */
+  show(frames, time) {
+    this._time = time;
     const name = byId("colour").value;
     const coloured = this.models.slice(0, this._coloured).filter((model) => model.recording.channels.has(name));
     const full = coloured.length ? Math.max(...coloured.map((model) => model.full(name))) : 1;
     this.models.forEach((model, k) => {
       model.colour = k < this._coloured ? name : "";
-      model.thickness = Number(byId("thickness").value);
+      model.thickness = Number(byId("thickness").value) || null;
       model.walls.visible = byId("walls").checked && (k === 0 || this._coloured > 1);
       model.arrows.visible = byId("arrows").checked;
       model.show(frames[k], full);
     });
+    this._sayThickness();
     this._stage.followsTip = byId("follow").checked;
     this._stage.ask();
     this._frames = frames;
@@ -124,8 +139,7 @@ export class Panel {
     if (!drawn.length) return;
     const { label, unit } = drawn[0].recording.channel(name);
     const curves = drawn.map(({ recording }) => ({ x: recording.overTime("time"), y: recording.overTime(name) }));
-    const [{ recording, frame }] = this.models;
-    drawCurves(byId(`${which}Curve`), curves, "t, s", `${label}, ${unit}`, recording.overTime("time")[frame]);
+    drawCurves(byId(`${which}Curve`), curves, "t, s", `${label}, ${unit}`, this._time);
   }
 }
 

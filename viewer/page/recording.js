@@ -11,6 +11,7 @@
  *     rod element, or three at each sphere
  * @property {boolean} isSigned whether values below zero mean another direction
  * @property {number} width
+ * @property {number} largest size of its numbers so far, what is in a sheath left out
  * @property {Float64Array} values frame after frame
  *
  * @typedef {object} Wall
@@ -91,11 +92,12 @@ export class Recording {
     return this.channels.has("inBody") ? Math.max(spheres - 1 - this.at("inBody", frame)[0], 0) : 0;
   }
 
-  /** Adds a frame. @param {Float64Array} numbers of all channels, one behind the other */
+  /** Adds a frame. @param {Float64Array} numbers the largest of each channel, then all channels one behind the other */
   append(numbers) {
     if (this._count >= LONGEST) this._forget(LONGEST / 2);
-    let from = 0;
-    for (const channel of this._columns) {
+    let from = this._columns.length;
+    for (const [k, channel] of this._columns.entries()) {
+      channel.largest = numbers[k];
       const end = (this._count + 1) * channel.width;
       if (channel.values.length < end) {
         const longer = new Float64Array(2 * end);

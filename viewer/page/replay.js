@@ -52,7 +52,7 @@ export class Replay {
     this._stage.set(areOver ? [this.models] : this.models.map((model) => [model]));
     this._panel.set(this.models, areOver);
     this.show();
-    this._stage.frameAll();
+    this._stage.frameAll(true);
   }
 
   /** Goes to a moment. @param {number} time s */
@@ -89,7 +89,7 @@ export class Replay {
   show() {
     this._slider.value = String((this.time - this._start) / (this._end - this._start || 1));
     const { frames } = this;
-    this._panel.show(frames);
+    this._panel.show(frames, this.time);
     const texts = this.models.map(({ recording }, k) =>
       `${recording.title}\nt = ${brief(this._times(k)[frames[k]])} s   step ${recording.at("step", frames[k])[0]}`);
     if (this.areOver) this._stage.label(0, `${texts[0]}\norange: ${texts[1]}`);

@@ -110,6 +110,8 @@ export class Stage {
     this.drawn = 0;
     /** Told after every picture. @type {() => void} */
     this.onDrawn = () => {};
+    /** Told where wires are drawn thicker or thinner, since the camera went nearer or farther. @type {() => void} */
+    this.onThickness = () => {};
     new ResizeObserver(() => this.ask()).observe(canvas);
   }
 
@@ -178,6 +180,9 @@ export class Stage {
     this._camera.updateProjectionMatrix();
     this._camera.updateMatrixWorld();
     this._light.position.copy(this._camera.position).sub(this._controls.target);
+    const away = this._camera.position.distanceTo(this._controls.target);
+    const unitsPerPoint = (2 * away * Math.tan((0.5 * this._camera.fov * Math.PI) / 180)) / height;
+    if (this._models.filter((model) => model.takeScale(unitsPerPoint)).length) this.onThickness();
     this._panes.forEach((pane, k) => {
       pane.scene.add(this._light);
       const shown = pane.models.map((model) => model.walls.visible);
