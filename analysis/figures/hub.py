@@ -1,4 +1,4 @@
-"""What is read off at the hub and at the tip: way and turn, force and torque, tip and curvature over time."""
+"""What is read off at the hub and at the tip over time: insertion and turn, force and torque, tip and curvature."""
 
 from __future__ import annotations
 
@@ -13,29 +13,29 @@ from analysis.hub import HubLog
 def draw_hub(log: HubLog) -> Figure:
     """The six panels of one run."""
     figure = new_figure(12.0, 7.0)
-    way, turn, tip, force, torque, bend = figure.subplots(2, 3).flat
-    way.plot(log.time, 1e3 * log.insertion)
-    way.set(ylabel="insertion (mm)")
+    insertion, turn, tip, force, torque, bend = figure.subplots(2, 3).flat
+    insertion.plot(log.time, 1e3 * log.insertion)
+    insertion.set(ylabel="insertion (mm)")
     turn.plot(log.time, np.degrees(log.turn), label="hub")
-    turn.plot(log.time, np.degrees(log.turn + log.twist), "--", label="tip: hub and twist of the wire")
+    turn.plot(log.time, np.degrees(log.turn + log.twist), "--", label="tip (hub plus twist of the wire)")
     turn.set(ylabel="turn (degrees)")
     turn.legend()
     for values, axis in zip((log.tip - log.tip[0]).T, "xyz", strict=True):
         tip.plot(log.time, values, label=f"${axis}$")
-    tip.set(ylabel="way of the tip (units)")
+    tip.set(ylabel="displacement of the tip (units)")
     tip.legend()
     force.plot(log.time, log.force)
-    force.set(ylabel="force of the hub (N)")
+    force.set(ylabel="force at the hub (N)")
     torque.plot(log.time, 1e3 * log.torque)
-    torque.set(ylabel="torque of the hub (mN m)")
+    torque.set(ylabel="torque at the hub (mN m)")
     bend.plot(log.time, log.largest_curvature)
     bend.set(ylabel="largest curvature (1/m)")
-    titles = ("how far the hub has gone", "how far it has turned", "where the tip is", "push", "torque", "bending")
+    titles = ("insertion", "rotation", "tip", "force", "torque", "curvature")
     for axes, name, title in zip(figure.axes, "abcdef", titles, strict=True):
         axes.set(xlabel="time $t$ (s)")
         letter(axes, name, title)
-    add_caption(figure, f"The hub and the tip in {log.time.size} entries up to t = {log.time[-1]:g} s: (a) way of the"
-                " hub along its axis; (b) its turn, and that of the tip, the twist of all joints added; (c) way of the"
-                " last sphere; (d, e) force and torque of the hub on the wire, a push and a turn to the right positive;"
-                " (f) largest curvature of any joint.")
+    add_caption(figure, f"Hub and tip in {log.time.size} log entries up to t = {log.time[-1]:g} s: (a) insertion of the"
+                " hub; (b) rotation of the hub, and of the tip, which is that of the hub plus the twist of all joints; (c)"
+                " displacement of the last sphere; (d, e) force and torque of the hub on the wire, positive where it"
+                " pushes and turns to the right; (f) largest curvature of any joint.")
     return figure

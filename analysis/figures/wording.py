@@ -48,4 +48,6 @@ def beside(loads: Sequence[float | None]) -> str:
     known = [load for load in loads if load is not None]
     if not known:
         return "and nobody looked what other programs did beside them"
-    return f"while other programs kept at most {number(max(known), 2)} processors busy"
+    busiest = max(known)
+    load = f"at most {number(busiest, 2)} processors" if busiest >= 0.01 else "less than 0.01 of a processor"
+    return f"while other programs kept {load} busy"
