@@ -45,8 +45,8 @@ namespace Guidewire.Core
                 for (int w = 0; w < _walls.Length; w++)
                 {
                     if (motion >= _search.ClearanceOf(w, j) && !_walls[w].Holds(to[j], to[j + 1], ref _hint[w * n + j])
-                        && _walls[w].Nearest(
-                            from[j], from[j + 1], motion + _clearance, ref _hint[w * n + j], out _))
+                        && _walls[w].MayMeet(
+                            from[j], from[j + 1], to[j], to[j + 1], _clearance, ref _hint[w * n + j]))
                     {
                         MarkElement(w, from, to, j);
                     }

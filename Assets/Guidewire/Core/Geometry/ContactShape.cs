@@ -152,6 +152,15 @@ namespace Guidewire.Core
             return QuickDistance(a, b, range, ref hint);
         }
 
+        /// <summary>False where surely nothing of the wall comes within a distance, units, of a segment that moves from
+        /// (a0, b0) to (a1, b1). The hint is that of <see cref="Nearest"/>.</summary>
+        internal virtual bool MayMeet(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double distance,
+            ref int hint)
+        {
+            double motion = Math.Max(Vector3d.Distance(a0, a1), Vector3d.Distance(b0, b1));
+            return Nearest(a0, b0, motion + distance, ref hint, out _);
+        }
+
         /// <summary>Whether points have features of their own.</summary>
         internal virtual bool HasPointFeatures => false;
 

@@ -13,13 +13,17 @@ namespace Guidewire.Core
         private readonly int[] _order;
         private readonly int[] _leaf;          // node that holds a triangle, per triangle
         private readonly Vector3d[] _corners;
+        private readonly Vector3d[]? _givenNormals;
         private readonly Vector3d[] _normals;  // sum of its triangles' area vectors, per node
         private readonly int[] _from;          // first of its triangles, per node
         private readonly int[] _count;         // number of its triangles, per node
 
         /// <summary>The tree over triangles 0 to corners.Length/3 - 1, three corners each, in units.</summary>
-        public Bvh(Vector3d[] corners)
+        /// <param name="normals">One a triangle, whose sums the slabs lie across; null: the triangles' own. Those of no
+        /// area, such as edges, have none.</param>
+        public Bvh(Vector3d[] corners, Vector3d[]? normals = null)
         {
+            _givenNormals = normals;
             _nodes = BvhBuilder.Build(corners, out _order);
             _corners = new Vector3d[corners.Length];
             _normals = new Vector3d[_nodes.Length];
@@ -140,6 +144,74 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>Adds every triangle that a moving segment may come near to, and perhaps some others.</summary>
+        public void Within(in SweptSegment swept, StructList<int> triangles)
+        {
+            var search = new SegmentSearch(swept.A0, swept.B0, swept.Range);
+            Span<int> stack = stackalloc int[StackSize];
+            int depth = 0;
+            stack[depth++] = 0;
+            while (depth > 0)
+            {
+                ref readonly BvhNode node = ref _nodes[stack[--depth]];
+                if (!swept.MayMeet(node) || !search.MayHold(node, out _))
+                {
+                    continue;
+                }
+                if (node.Count == 0)
+                {
+                    stack[depth++] = node.First;
+                    stack[depth++] = node.First + 1;
+                    continue;
+                }
+                for (int k = node.First; k < node.First + node.Count; k++)
+                {
+                    triangles.Add(_order[k]);
+                }
+            }
+        }
+
+        /// <summary>False where surely no triangle comes within the distance of a moving segment.</summary>
+        public bool MayMeet(in SweptSegment swept)
+        {
+            var search = new SegmentSearch(swept.A0, swept.B0, swept.Range);
+            Span<int> stack = stackalloc int[StackSize];
+            int depth = 0;
+            stack[depth++] = 0;
+            while (depth > 0)
+            {
+                ref readonly BvhNode node = ref _nodes[stack[--depth]];
+                if (!swept.MayMeet(node) || !search.MayHold(node, out _))
+                {
+                    continue;
+                }
+                if (node.Count == 0)
+                {
+                    stack[depth++] = node.First;
+                    stack[depth++] = node.First + 1;
+                    continue;
+                }
+                for (int k = node.First; k < node.First + node.Count; k++)
+                {
+                    if (MayMeet(swept, k, search.Squared))
+                    {
+                        return true;
+                    }
+                }
+            }
+            return false;
+        }
+
+        private bool MayMeet(in SweptSegment swept, int slot, double squaredRange)
+        {
+            ref readonly Vector3d v0 = ref _corners[3 * slot];
+            ref readonly Vector3d v1 = ref _corners[3 * slot + 1];
+            ref readonly Vector3d v2 = ref _corners[3 * slot + 2];
+            return !StaysOnOneSide(swept.A0, swept.B0, swept.A1, swept.B1, v0, v1, v2, RoundedUp * swept.Distance)
+                && ClosestPoints.SegmentTriangle(swept.A0, swept.B0, v0, v1, v2, squaredRange, out _, out _, out _)
+                    <= squaredRange;
+        }
+
         // The call goes to the nearer child, the loop to the other: no list of what is left to do has to be cleared
         // for a search that mostly ends after a few nodes.
         private void Descend(int current, ref SegmentSearch search)
@@ -193,11 +265,10 @@ namespace Guidewire.Core
             in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep, double resolution,
             int hint)
         {
-            var swept = new BvhNode();
-            swept.EncloseSwept(a0, b0, a1, b1, keep);
+            var swept = new SweptSegment(a0, b0, a1, b1, keep);
             double impact = ContactShape.NoImpact;
-            double motion = Math.Max(Vector3d.Distance(a0, a1), Vector3d.Distance(b0, b1));
-            var search = new SegmentSearch(a0, b0, RoundedUp * (keep + motion));
+            double motion = swept.Motion;
+            var search = new SegmentSearch(a0, b0, swept.Range);
             if (hint >= 0)
             {
                 SweepLeaf(_nodes[_leaf[hint]], a0, b0, a1, b1, keep, resolution, motion, ref search, ref impact);
@@ -208,7 +279,7 @@ namespace Guidewire.Core
             while (depth > 0)
             {
                 ref readonly BvhNode node = ref _nodes[stack[--depth]];
-                if (!swept.Overlaps(node) || !search.MayHold(node, out _))
+                if (!swept.MayMeet(node) || !search.MayHold(node, out _))
                 {
                     continue;
                 }
@@ -284,6 +355,14 @@ namespace Guidewire.Core
         private Vector3d SumOfAreas(int first, int count)
         {
             Vector3d sum = Vector3d.Zero;
+            if (_givenNormals != null)
+            {
+                for (int k = first; k < first + count; k++)
+                {
+                    sum += _givenNormals[_order[k]];
+                }
+                return sum;
+            }
             for (int k = 3 * first; k < 3 * (first + count); k += 3)
             {
                 sum += Vector3d.Cross(_corners[k + 1] - _corners[k], _corners[k + 2] - _corners[k]);

@@ -90,6 +90,13 @@ namespace Guidewire.Core
             return _twin[edge] < 0;
         }
 
+        /// <summary>Unit normal of an edge: the sum of its faces' normals, of a rim's edge that of its one
+        /// face.</summary>
+        public Vector3d NormalOfEdge(int edge)
+        {
+            return FeatureNormal(edge / 3, ClosestPoints.Edge + edge % 3, out _);
+        }
+
         /// <summary>Places of an edge's two ends, that of the lower vertex first, so that the edge runs one way
         /// whatever its triangles do.</summary>
         public void EndsOf(int edge, out int from, out int to)

@@ -16,6 +16,7 @@ namespace Guidewire.Core
         private readonly Vector3d[] _centre;     // of the triangles
         private readonly double[] _radius;       // of the balls around them
         private readonly int[] _ridge;           // places of the edges that are ridges
+        private readonly Vector3d[] _ridgeNormal; // between those of an edge's faces, unit vectors
         private readonly Bvh? _ridgeTree;
         private readonly StructList<int> _found = new StructList<int>(256);
 
@@ -36,6 +37,7 @@ namespace Guidewire.Core
                 }
             }
             _ridge = ridges.Edges();
+            _ridgeNormal = Array.ConvertAll(_ridge, mesh.NormalOfEdge);
             if (_ridge.Length > 0)
             {
                 var corners = new Vector3d[3 * _ridge.Length];
@@ -46,7 +48,7 @@ namespace Guidewire.Core
                     corners[3 * k + 1] = mesh.Corners[to];
                     corners[3 * k + 2] = mesh.Corners[to];
                 }
-                _ridgeTree = new Bvh(corners);
+                _ridgeTree = new Bvh(corners, _ridgeNormal);
             }
         }
 
@@ -163,19 +165,15 @@ namespace Guidewire.Core
                 }
                 return;
             }
-            // All that the segment comes to is within its motion across itself of the segment made longer by its motion
-            // along itself.
-            Vector3d along = Vector3d.Normalize(b0 - a0);
-            double alongA = Vector3d.Dot(stepA, along);
-            double alongB = Vector3d.Dot(stepB, along);
-            double across = Math.Sqrt(Math.Max(
-                (stepA - alongA * along).LengthSquared, (stepB - alongB * along).LengthSquared));
             _found.Clear();
-            _ridgeTree?.Within(a0 + Math.Min(0.0, Math.Min(alongA, alongB)) * along,
-                b0 + Math.Max(0.0, Math.Max(alongA, alongB)) * along, (keep + across) * RoundedUp, _found);
+            var swept = new SweptSegment(a0, b0, a1, b1, keep);
+            _ridgeTree?.Within(swept, _found);
             for (int k = 0; k < _found.Count; k++)
             {
-                SweepRidge(_ridge[_found[k]], a0, b0, a1, b1, keep, resolution, motion, ref impact);
+                if (!IsBeside(_found[k], swept))
+                {
+                    SweepRidge(_ridge[_found[k]], a0, b0, a1, b1, keep, resolution, motion, ref impact);
+                }
             }
         }
 
@@ -209,6 +207,15 @@ namespace Guidewire.Core
                 }
             }
             return true;
+        }
+
+        // Whether the motion stays on one side of a plane, or a thin slab, that a ridge lies in.
+        private bool IsBeside(int ridge, in SweptSegment swept)
+        {
+            _mesh.EndsOf(_ridge[ridge], out int from, out int to);
+            double start = Vector3d.Dot(_ridgeNormal[ridge], _mesh.Corners[from]);
+            double end = Vector3d.Dot(_ridgeNormal[ridge], _mesh.Corners[to]);
+            return swept.IsBeside(_ridgeNormal[ridge], Math.Min(start, end), Math.Max(start, end));
         }
 
         private void SweepRidge(int edge, in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
