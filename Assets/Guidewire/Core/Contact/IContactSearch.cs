@@ -2,14 +2,8 @@ namespace Guidewire.Core
 {
     /// <summary>Tells which spheres and rod elements are near which wall, and where. It does nothing about it. One
     /// implementation a rule of contact, chosen once.</summary>
-    internal interface IContactSearch
+    internal interface IContactSearch : IWallClearance
     {
-        /// <summary>The walls that are searched.</summary>
-        ContactShape[] Walls { get; }
-
-        /// <summary>r of the spheres, units.</summary>
-        double Radius { get; }
-
         /// <summary>Whether spheres may not pass a wall, so that the swept test looks for places where they
         /// would.</summary>
         bool GuardsSpheres { get; }
@@ -28,9 +22,5 @@ namespace Guidewire.Core
         /// <param name="from">Where the n + 1 spheres are, units; under a rule that guards, clear of the walls.</param>
         /// <param name="to">Where the prediction takes them.</param>
         void Find(Vector3d[] from, Vector3d[] to);
-
-        /// <summary>Lower bound of the distance of element j from wall w at <c>from</c>, as the last search saw it,
-        /// units.</summary>
-        double ClearanceOf(int w, int j);
     }
 }

@@ -11,20 +11,19 @@ namespace Guidewire.Core
     internal sealed class PassageCount
     {
         private const int SamplesPerElement = 10;
-        private readonly IContactSearch _search;
+        private readonly IWallClearance _bounds;
         private readonly ContactShape[] _walls;
         private readonly double _clearance;
         private readonly int[] _hint;     // where the nearest place was, per wall and element
         private readonly bool[] _left;    // whether a point left across a wall in this step, per wall and point
 
-        /// <param name="search">Its walls and radius; it knows for each element a lower bound of its distance from the
-        /// walls at the start of a part.</param>
+        /// <param name="bounds">Walls, radius, and the distances of elements where a part of a step begins.</param>
         /// <param name="elementCount">n.</param>
-        public PassageCount(IContactSearch search, int elementCount)
+        public PassageCount(IWallClearance bounds, int elementCount)
         {
-            _search = search;
-            _walls = search.Walls;
-            _clearance = SweptSearch.ClearanceFor(search.Radius);
+            _bounds = bounds;
+            _walls = bounds.Walls;
+            _clearance = SweptSearch.ClearanceFor(bounds.Radius);
             _hint = new int[_walls.Length * elementCount];
             Array.Fill(_hint, -1);
             _left = new bool[_walls.Length * PointsOf(elementCount)];
@@ -44,7 +43,7 @@ namespace Guidewire.Core
                 double motion = Math.Max(Vector3d.Distance(from[j], to[j]), Vector3d.Distance(from[j + 1], to[j + 1]));
                 for (int w = 0; w < _walls.Length; w++)
                 {
-                    if (motion >= _search.ClearanceOf(w, j) && !_walls[w].Holds(to[j], to[j + 1], ref _hint[w * n + j])
+                    if (motion >= _bounds.ClearanceOf(w, j) && !_walls[w].Holds(to[j], to[j + 1], ref _hint[w * n + j])
                         && _walls[w].MayMeet(
                             from[j], from[j + 1], to[j], to[j + 1], _clearance, ref _hint[w * n + j]))
                     {

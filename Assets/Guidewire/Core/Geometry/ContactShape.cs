@@ -28,17 +28,22 @@ namespace Guidewire.Core
         public abstract bool Nearest(
             in Vector3d a, in Vector3d b, double range, ref int hint, out SurfaceContact contact);
 
-        /// <summary>Adds to <paramref name="places"/> the places of the wall within <paramref name="range"/> of segment
-        /// a b, each once; a = b for a point. Beyond a plane, tube or obstacle negative distances always count; of a
-        /// mesh, places whose distance is no larger than the range by its size.</summary>
+        /// <summary>Adds to <paramref name="places"/> the places of the wall within <paramref name="range"/> of a point,
+        /// each once. Beyond a plane, tube or obstacle negative distances always count; of a mesh, places whose
+        /// distance is no larger than the range by its size.</summary>
+        /// <param name="x">The point, units.</param>
+        /// <param name="range">Units.</param>
+        /// <param name="features">The wall's features near the point, where they are known: they make the query
+        /// quicker.</param>
+        /// <param name="places">Receives the places.</param>
         /// <remarks>Which places those are, each shape says; the nearest, as <see cref="Nearest"/> finds it, is among
         /// them. Their weights make sums over them continuous: for any function f that is 0 from the range on, the sum
-        /// of Weight f(Distance) has no jump when the segment moves, though places come and go. A place of weight -1
-        /// takes off what two places to both sides of it have in common. The order follows from wall and segment alone.
+        /// of Weight f(Distance) has no jump when the point moves, though places come and go. A place of weight -1
+        /// takes off what two places to both sides of it have in common. The order follows from wall and point alone.
         /// Nothing is allocated once the list, and the shape's own scratch memory, have been as long before; one object
         /// serves one thread.</remarks>
-        internal abstract void FindPlaces(
-            in Vector3d a, in Vector3d b, double range, StructList<WallPlace> places);
+        internal abstract void FindPlaces(in Vector3d x, double range, FeatureRange features,
+            StructList<WallPlace> places);
 
         /// <summary>True where the wire may be: in a vessel's lumen, outside an obstacle.</summary>
         public abstract bool Contains(in Vector3d point);
@@ -176,13 +181,6 @@ namespace Guidewire.Core
         internal virtual double FindFeatures(in Vector3d x, double range, StructList<WallFeature> features)
         {
             return double.PositiveInfinity;
-        }
-
-        /// <summary>The places within a range of a point, by the features near it.</summary>
-        internal virtual void FindPlaces(in Vector3d x, double range, FeatureRange features,
-            StructList<WallPlace> places)
-        {
-            FindPlaces(x, x, range, places);
         }
 
         /// <summary>The ridges within a range of a segment, by the features near it.</summary>

@@ -80,11 +80,11 @@ namespace Guidewire.Core
         /// is stated.</summary>
         /// <remarks>The points that lie highest along the normal are the corner, the edge or the face of the hull on
         /// which the place lies; the curvature is that about them.</remarks>
-        internal override void FindPlaces(
-            in Vector3d a, in Vector3d b, double range, StructList<WallPlace> places)
+        internal override void FindPlaces(in Vector3d x, double range, FeatureRange features,
+            StructList<WallPlace> places)
         {
             int hint = -1;
-            if (!Nearest(a, b, range, ref hint, out SurfaceContact contact))
+            if (!Nearest(x, x, range, ref hint, out SurfaceContact contact))
             {
                 return;
             }

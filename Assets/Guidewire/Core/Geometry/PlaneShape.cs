@@ -37,13 +37,12 @@ namespace Guidewire.Core
             return contact.Distance <= range;
         }
 
-        /// <summary>The nearest place, also of a segment whose two ends are both within the range; its middle where it
-        /// lies parallel to the plane.</summary>
-        internal override void FindPlaces(
-            in Vector3d a, in Vector3d b, double range, StructList<WallPlace> places)
+        /// <summary>The foot of the perpendicular.</summary>
+        internal override void FindPlaces(in Vector3d x, double range, FeatureRange features,
+            StructList<WallPlace> places)
         {
             int hint = -1;
-            if (Nearest(a, b, range, ref hint, out SurfaceContact contact))
+            if (Nearest(x, x, range, ref hint, out SurfaceContact contact))
             {
                 places.Add(WallPlace.Flat(contact, 1));
             }

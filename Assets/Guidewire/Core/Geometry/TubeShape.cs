@@ -16,7 +16,6 @@ namespace Guidewire.Core
         private readonly double[] _radii;
         private readonly TubeTree _tree;
         private readonly TubeSweep _sweep;
-        private TubePlaces? _places;
         private TubeRidges? _ridges;
         private TubeKeeping? _keeping;
         private TubePlanes? _planes;
@@ -132,18 +131,6 @@ namespace Guidewire.Core
             return distance;
         }
 
-        /// <summary>The least and the largest distances along the segment, by turns: ends that it approaches the wall
-        /// with, creases where two pieces meet at the inner side of a bend, and with weight -1 the places between that
-        /// are farthest from the wall; see <see cref="TubePlaces"/>. A straight stretch parallel to the wall counts by
-        /// its middle. At a crease normal and curvature are those of one of the pieces. On a piece's centreline the
-        /// normal is 0 and no curvature is stated.</summary>
-        internal override void FindPlaces(
-            in Vector3d a, in Vector3d b, double range, StructList<WallPlace> places)
-        {
-            _places ??= new TubePlaces(this);
-            _places.Find(a, b, range, places);
-        }
-
         /// <summary>At the ends of the segment and where it crosses creases.</summary>
         internal override double QuickDistance(in Vector3d a, in Vector3d b, double range, ref int hint)
         {
@@ -169,21 +156,25 @@ namespace Guidewire.Core
             return Math.Min(Math.Min(atA, atB), Ridges.Nearest(a, b, found));
         }
 
-        /// <inheritdoc/>
+        /// <summary>The place of the deepest piece. On a piece's centreline the normal is 0 and no curvature is
+        /// stated.</summary>
         internal override void FindPlaces(in Vector3d x, double range, FeatureRange features,
             StructList<WallPlace> places)
         {
-            if (features.From == features.To)
+            int piece = features.From == features.To ? _tree.Deepest(x, 0, out double distance)
+                : Deepest(x, features, out distance);
+            if (distance > range)
             {
-                FindPlaces(x, x, range, places);
                 return;
             }
-            int piece = Deepest(x, features, out double distance);
-            if (distance <= range)
-            {
-                _places ??= new TubePlaces(this);
-                _places.Add(x, piece, distance, places);
-            }
+            _tree.Pieces[piece].Distance(x, out Vector3d centre, out double along);
+            double radius = Vector3d.Distance(centre, x);
+            Vector3d normal = Vector3d.Normalize(centre - x);
+            var contact = new SurfaceContact(0.0, x - distance * normal, normal, distance);
+            Vector3d around = Vector3d.Normalize(Vector3d.Cross(_knots[piece + 1] - _knots[piece], normal));
+            bool isRound = along <= 0.0 || along >= 1.0;
+            places.Add(isRound ? WallPlace.Corner(contact, 1, -radius)
+                : WallPlace.Edge(contact, 1, Vector3d.Cross(around, normal), -radius));
         }
 
         /// <inheritdoc/>
@@ -263,13 +254,6 @@ namespace Guidewire.Core
         {
             _keeping ??= new TubeKeeping(_tree.Pieces, Planes);
             return _keeping.Keeping(a0, b0, a1, b1, keep, hint);
-        }
-
-        /// <summary>d(x), and the piece that gives it, which is looked for from a guess on.</summary>
-        internal double Largest(in Vector3d x, int guess, out int piece)
-        {
-            piece = _tree.Deepest(x, guess, out double distance);
-            return distance;
         }
 
         private TubeRidges Ridges => _ridges ??= new TubeRidges(this, _tree.Pieces, Planes);

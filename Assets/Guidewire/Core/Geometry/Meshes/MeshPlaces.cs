@@ -1,13 +1,13 @@
 namespace Guidewire.Core
 {
-    /// <summary>All places of a mesh within a range of a segment.</summary>
+    /// <summary>All places of a mesh within a range of a point.</summary>
     /// <remarks>By inclusion and exclusion: the surface is the union of its closed triangles, two neighbours share an
     /// edge, all around an inner corner share that corner. So triangles count 1, inner edges -1, inner corners 1, each
-    /// with the place of it that is nearest to the segment; an edge or corner of an open rim is shared by nobody and
+    /// with the place of it that is nearest to the point; an edge or corner of an open rim is shared by nobody and
     /// counts 0 of itself. That place lies inside a face, inside an edge or at a corner, and a feature's weight is what
     /// the triangles, edges and corners whose nearest place it holds count together. Where the wall is flat all but the
     /// foot cancel, however finely it is cut; an edge that bulges into the free side is left with 1, the edge of a
-    /// valley between two feet with -1. Each triangle's distance changes continuously with the segment, and so does the
+    /// valley between two feet with -1. Each triangle's distance changes continuously with the point, and so does the
     /// sum of any function of the distances over all of them.</remarks>
     internal sealed class MeshPlaces
     {
@@ -26,27 +26,26 @@ namespace Guidewire.Core
             _weight = new int[mesh.Corners.Length + mesh.VertexCount];
         }
 
-        /// <summary>Adds the places within <paramref name="range"/> of segment a b: first faces in the order of the
+        /// <summary>Adds the places within <paramref name="range"/> of a point: first faces in the order of the
         /// triangles, then edges and corners in the order in which those faces and their neighbours lead to
         /// them.</summary>
-        public void Find(in Vector3d a, in Vector3d b, double range, StructList<WallPlace> places)
-        {
-            _triangles.Clear();
-            _mesh.Tree.Within(a, b, range, _triangles);
-            AddPlaces(a, b, range, places);
-        }
-
-        /// <summary>The same for a point, by the triangles near it.</summary>
+        /// <param name="x">The point, units.</param>
+        /// <param name="range">Units.</param>
+        /// <param name="nearby">Chooses from the features.</param>
+        /// <param name="among">The triangles near the point; all are searched where they are not known.</param>
+        /// <param name="places">Receives the places.</param>
         public void Find(in Vector3d x, double range, MeshNearby nearby, FeatureRange among,
             StructList<WallPlace> places)
         {
             _triangles.Clear();
-            nearby.Choose(x, range, among, _triangles);
-            AddPlaces(x, x, range, places);
-        }
-
-        private void AddPlaces(in Vector3d a, in Vector3d b, double range, StructList<WallPlace> places)
-        {
+            if (among.IsKnown)
+            {
+                nearby.Choose(x, range, among, _triangles);
+            }
+            else
+            {
+                _mesh.Tree.Within(x, x, range, _triangles);
+            }
             int first = places.Count;
             _triangles.Sort(0);
             _nearest = double.PositiveInfinity;
@@ -55,7 +54,7 @@ namespace Guidewire.Core
             double limit = range * range;
             for (int i = 0; i < _triangles.Count; i++)
             {
-                CountTriangle(a, b, limit, _triangles[i], places);
+                CountTriangle(x, limit, _triangles[i], places);
             }
             for (int i = 0; i < _features.Count; i++)
             {
@@ -64,7 +63,7 @@ namespace Guidewire.Core
                 _weight[feature] = 0;
                 if (weight != 0)
                 {
-                    AddFeature(a, b, feature, weight, places);
+                    AddFeature(x, feature, weight, places);
                 }
             }
             for (int i = first; i < places.Count && _isBehind; i++)
@@ -74,23 +73,19 @@ namespace Guidewire.Core
         }
 
         // The triangle, and those of its edges and corners that are counted with it.
-        private void CountTriangle(
-            in Vector3d a, in Vector3d b, double limit, int triangle, StructList<WallPlace> places)
+        private void CountTriangle(in Vector3d x, double limit, int triangle, StructList<WallPlace> places)
         {
             ref readonly Vector3d v0 = ref _mesh.Corners[3 * triangle];
             ref readonly Vector3d v1 = ref _mesh.Corners[3 * triangle + 1];
             ref readonly Vector3d v2 = ref _mesh.Corners[3 * triangle + 2];
-            double s = 0.0;
-            double squared = a == b
-                ? ClosestPoints.PointTriangle(a, v0, v1, v2, out Vector3d point, out int feature)
-                : ClosestPoints.SegmentTriangle(a, b, v0, v1, v2, limit, out s, out point, out feature);
+            double squared = ClosestPoints.PointTriangle(x, v0, v1, v2, out Vector3d point, out int feature);
             if (squared > limit)
             {
                 return;
             }
             if (feature == ClosestPoints.Face)
             {
-                SurfaceContact contact = Unsigned(a, b, s, point, triangle, feature);
+                SurfaceContact contact = Unsigned(x, point, triangle, feature);
                 places.Add(WallPlace.Flat(contact, 1));
             }
             else if (feature >= ClosestPoints.Corner)
@@ -105,25 +100,21 @@ namespace Guidewire.Core
             {
                 if (_mesh.EdgeOf(place) == place && !_mesh.IsRimEdge(place))
                 {
-                    CountEdge(a, b, limit, place);
+                    CountEdge(x, limit, place);
                 }
-                if (_mesh.PlaceOfVertex(_mesh.VertexAt(place)) == place && !_mesh.IsRimVertex(_mesh.VertexAt(place)))
+                if (_mesh.PlaceOfVertex(_mesh.VertexAt(place)) == place && !_mesh.IsRimVertex(_mesh.VertexAt(place))
+                    && (x - _mesh.Corners[place]).LengthSquared <= limit)
                 {
-                    double at = ClosestPoints.PointSegment(_mesh.Corners[place], a, b);
-                    if ((Vector3d.Lerp(a, b, at) - _mesh.Corners[place]).LengthSquared <= limit)
-                    {
-                        Count(VertexOf(place), 1);
-                    }
+                    Count(VertexOf(place), 1);
                 }
             }
         }
 
-        private void CountEdge(in Vector3d a, in Vector3d b, double limit, int edge)
+        private void CountEdge(in Vector3d x, double limit, int edge)
         {
             _mesh.EndsOf(edge, out int from, out int to);
-            double squared = ClosestPoints.SegmentSegment(
-                a, b, _mesh.Corners[from], _mesh.Corners[to], out _, out double t);
-            if (squared <= limit)
+            double t = ClosestPoints.PointSegment(x, _mesh.Corners[from], _mesh.Corners[to]);
+            if ((x - Vector3d.Lerp(_mesh.Corners[from], _mesh.Corners[to], t)).LengthSquared <= limit)
             {
                 Count(t <= 0.0 ? VertexOf(from) : t >= 1.0 ? VertexOf(to) : edge, -1);
             }
@@ -144,14 +135,13 @@ namespace Guidewire.Core
             _weight[feature] += weight;
         }
 
-        private void AddFeature(in Vector3d a, in Vector3d b, int feature, int weight, StructList<WallPlace> places)
+        private void AddFeature(in Vector3d x, int feature, int weight, StructList<WallPlace> places)
         {
             if (feature >= _mesh.Corners.Length)
             {
                 int place = _mesh.PlaceOfVertex(feature - _mesh.Corners.Length);
                 Vector3d corner = _mesh.Corners[place];
-                double s = ClosestPoints.PointSegment(corner, a, b);
-                SurfaceContact contact = Unsigned(a, b, s, corner, place / 3, ClosestPoints.Corner + place % 3);
+                SurfaceContact contact = Unsigned(x, corner, place / 3, ClosestPoints.Corner + place % 3);
                 places.Add(WallPlace.Corner(contact, weight, contact.Distance));
             }
             else
@@ -159,27 +149,25 @@ namespace Guidewire.Core
                 _mesh.EndsOf(feature, out int from, out int to);
                 Vector3d start = _mesh.Corners[from];
                 Vector3d end = _mesh.Corners[to];
-                ClosestPoints.SegmentSegment(a, b, start, end, out double s, out double t);
+                double t = ClosestPoints.PointSegment(x, start, end);
                 SurfaceContact contact = Unsigned(
-                    a, b, s, Vector3d.Lerp(start, end, t), feature / 3, ClosestPoints.Edge + feature % 3);
+                    x, Vector3d.Lerp(start, end, t), feature / 3, ClosestPoints.Edge + feature % 3);
                 places.Add(WallPlace.Edge(contact, weight, Vector3d.Normalize(end - start), contact.Distance));
             }
         }
 
         // The contact as the free side sees it. Only of the nearest feature of all does the side say on which side of
-        // the wall the segment lies.
-        private SurfaceContact Unsigned(
-            in Vector3d a, in Vector3d b, double s, in Vector3d point, int triangle, int feature)
+        // the wall the point lies.
+        private SurfaceContact Unsigned(in Vector3d x, in Vector3d point, int triangle, int feature)
         {
-            Vector3d x = Vector3d.Lerp(a, b, s);
             double distance = Vector3d.Distance(x, point);
-            SurfaceContact contact = _mesh.ContactAt(x, s, point, distance, triangle, feature);
+            SurfaceContact contact = _mesh.ContactAt(x, 0.0, point, distance, triangle, feature);
             if (distance < _nearest)
             {
                 _nearest = distance;
                 _isBehind = contact.Distance < 0.0;
             }
-            return contact.Distance < 0.0 ? new SurfaceContact(s, point, -contact.Normal, distance) : contact;
+            return contact.Distance < 0.0 ? new SurfaceContact(0.0, point, -contact.Normal, distance) : contact;
         }
     }
 }

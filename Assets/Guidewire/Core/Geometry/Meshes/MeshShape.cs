@@ -87,13 +87,13 @@ namespace Guidewire.Core
 
         /// <summary>The nearest places of all triangles, edges and corners, less those that cancel each other: feet
         /// inside faces, and what of edges and corners is left over; see <see cref="MeshPlaces"/>. All have the sign of
-        /// the nearest, for a segment that meets no wall lies on one side of it. On an edge or corner itself, at
+        /// the nearest. On an edge or corner itself, at
         /// distance 0, no curvature is stated.</summary>
-        internal override void FindPlaces(
-            in Vector3d a, in Vector3d b, double range, StructList<WallPlace> places)
+        internal override void FindPlaces(in Vector3d x, double range, FeatureRange features,
+            StructList<WallPlace> places)
         {
             _places ??= new MeshPlaces(_wall);
-            _places.Find(a, b, range, places);
+            _places.Find(x, range, Nearby, features, places);
         }
 
         /// <summary>Edges that bulge into the lumen, and those of open rims; see <see cref="MeshRidges"/>.</summary>
@@ -127,19 +127,6 @@ namespace Guidewire.Core
             StructList<WallFeature> features)
         {
             return Nearby.FindRidges(a, b, range, features);
-        }
-
-        /// <inheritdoc/>
-        internal override void FindPlaces(in Vector3d x, double range, FeatureRange features,
-            StructList<WallPlace> places)
-        {
-            if (!features.IsKnown)
-            {
-                FindPlaces(x, x, range, places);
-                return;
-            }
-            _places ??= new MeshPlaces(_wall);
-            _places.Find(x, range, Nearby, features, places);
         }
 
         /// <inheritdoc/>

@@ -25,17 +25,16 @@ namespace Guidewire.Core.Tests
             int cases = RandomGeometry.Cases(2_000);
             for (int i = 0; i < cases; i++)
             {
-                Vector3d[] s = { random.Point(), random.Point() };
-                s[1] = random.Index(3) == 0 ? s[0] : s[0] + random.Number(0.0, 1.0) * (s[1] - s[0]);
+                Vector3d x = random.Point();
                 double range = random.Number(0.05, 0.6);
-                List<Expected>? expected = Enumerate(mesh, s, range);
+                List<Expected>? expected = Enumerate(mesh, x, range);
                 if (expected == null)
                 {
                     continue;
                 }
                 tested++;
                 places.Clear();
-                shape.FindPlaces(s[0], s[1], range, places);
+                shape.FindPlaces(x, range, default, places);
                 Assert.That(places.Count, Is.EqualTo(expected.Count), "case " + i);
                 foreach (Expected place in expected)
                 {
@@ -75,11 +74,11 @@ namespace Guidewire.Core.Tests
             int most = 0;
             for (int i = 0; i < RandomGeometry.Cases(20_000); i++)
             {
-                Vector3d[] s = { random.Point(), random.Point() };
+                Vector3d x = random.Point();
                 first.Clear();
                 second.Clear();
-                shape.FindPlaces(s[0], s[1], 0.3, first);
-                shuffled.FindPlaces(s[0], s[1], 0.3, second);
+                shape.FindPlaces(x, 0.3, default, first);
+                shuffled.FindPlaces(x, 0.3, default, second);
                 Assert.That(Sorted(second), Is.EqualTo(Sorted(first)), "case " + i);
                 most = Math.Max(most, first.Count);
             }
@@ -101,12 +100,11 @@ namespace Guidewire.Core.Tests
             var whole = new StructList<WallPlace>(1);
             for (int i = 0; i < RandomGeometry.Cases(20_000); i++)
             {
-                Vector3d a = NearTheBottom(random);
-                Vector3d b = random.Index(3) == 0 ? a : NearTheBottom(random);
+                Vector3d x = NearTheBottom(random);
                 cut.Clear();
                 whole.Clear();
-                shape.FindPlaces(a, b, 0.4, cut);
-                plane.FindPlaces(a, b, 0.4, whole);
+                shape.FindPlaces(x, 0.4, default, cut);
+                plane.FindPlaces(x, 0.4, default, whole);
                 Assert.That(cut.Count, Is.EqualTo(1), "case " + i);
                 Assert.That(cut[0].Weight, Is.EqualTo(1), "case " + i);
                 Assert.That(cut[0].Curvature, Is.Zero, "case " + i);
@@ -122,7 +120,7 @@ namespace Guidewire.Core.Tests
             var shape = new MeshShape(TestMeshes.Cube().Build());
             var places = new StructList<WallPlace>(1);
             var x = new Vector3d(0.3, -0.9, -0.8);
-            shape.FindPlaces(x, x, 0.5, places);
+            shape.FindPlaces(x, 0.5, default, places);
             Assert.That(places.Count, Is.EqualTo(3));
             Assert.That(places[0].Weight + places[1].Weight, Is.EqualTo(2));
             Assert.That(
@@ -161,12 +159,9 @@ namespace Guidewire.Core.Tests
 
         // Inclusion and exclusion over all triangles, edges of two triangles and corners inside the surface, each with
         // the smallest of its own corners, edges and face that is as near. Null where a choice is in doubt.
-        private static List<Expected>? Enumerate(TestMeshes mesh, Vector3d[] segment, double range)
+        private static List<Expected>? Enumerate(TestMeshes mesh, in Vector3d x, double range)
         {
-            if (segment[0] == segment[1])
-            {
-                segment = new[] { segment[0] };
-            }
+            var point = new[] { x };
             Vector3d[] vertices = mesh.Vertices;
             var simplices = new SortedDictionary<string, (int[] Corners, int Count, double Distance)>();
             int[] triangles = mesh.Triangles;
@@ -182,7 +177,7 @@ namespace Guidewire.Core.Tests
                     string key = string.Join(",", corners);
                     int count = simplices.TryGetValue(key, out var known) ? known.Count : 0;
                     double distance = count > 0 ? known.Distance
-                        : BruteForce.Distance(segment, Array.ConvertAll(corners, v => vertices[v]));
+                        : BruteForce.Distance(point, Array.ConvertAll(corners, v => vertices[v]));
                     simplices[key] = (corners, count + 1, distance);
                 }
             }

@@ -4,7 +4,7 @@ namespace Guidewire.Core
 {
     /// <summary>Counts, from the positions alone and apart from what the solver knows, what of a wire passes walls, and
     /// takes down the forces of contact.</summary>
-    internal sealed class WallWatch : IContactSearch
+    internal sealed class WallWatch : IWallClearance
     {
         private const double Near = 1.02;      // in radii, where a distance is asked for exactly
 
@@ -50,23 +50,6 @@ namespace Guidewire.Core
 
         /// <inheritdoc/>
         public double Radius { get; }
-
-        /// <inheritdoc/>
-        public bool GuardsSpheres => true;
-
-        /// <inheritdoc/>
-        public bool GuardsElements => true;
-
-        /// <inheritdoc/>
-        public StructList<WireContact> Contacts { get; } = new StructList<WireContact>(1);
-
-        /// <inheritdoc/>
-        public StructList<WireContact> Impacts { get; } = new StructList<WireContact>(1);
-
-        /// <inheritdoc/>
-        public void Find(Vector3d[] from, Vector3d[] to)
-        {
-        }
 
         /// <inheritdoc/>
         public double ClearanceOf(int w, int j)

@@ -162,7 +162,7 @@ namespace Guidewire.Core.Tests
                 var places = new StructList<WallPlace>(8);
                 var exact = new StructList<WallPlace>(8);
                 wall.FindPlaces(a, range, atA, places);
-                wall.FindPlaces(a, a, range, exact);
+                wall.FindPlaces(a, range, default, exact);
                 Assert.That(places.Count, Is.EqualTo(exact.Count), "case " + i);
                 double sum = 0.0;
                 for (int k = 0; k < places.Count; k++)
