@@ -71,8 +71,7 @@ namespace Guidewire.Core
             {
                 throw new ArgumentException(conflict.Key + " needs " + conflict.Needed);
             }
-            MethodTraits method = MethodTable.Of(parameters.Method.Solver);
-            MethodStart start = method.Build(parameters, new Scene(parameters));
+            MethodStart start = MethodBuilder.Build(parameters, new Scene(parameters));
             var simulation = new Simulation(start, parameters);
             if (start.Failure != null)
             {

@@ -28,8 +28,8 @@ namespace Guidewire.Core
         public abstract bool Nearest(
             in Vector3d a, in Vector3d b, double range, ref int hint, out SurfaceContact contact);
 
-        /// <summary>Adds to <paramref name="places"/> the places of the wall within <paramref name="range"/> of a point,
-        /// each once. Beyond a plane, tube or obstacle negative distances always count; of a mesh, places whose
+        /// <summary>Adds to <paramref name="places"/> the places of the wall within <paramref name="range"/> of a
+        /// point, each once. Beyond a plane, tube or obstacle negative distances always count; of a mesh, places whose
         /// distance is no larger than the range by its size.</summary>
         /// <param name="x">The point, units.</param>
         /// <param name="range">Units.</param>

@@ -3,7 +3,7 @@ using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
-    /// <summary>Every method, once: what it takes and how it is built.</summary>
+    /// <summary>What every method takes, once.</summary>
     public static class MethodTable
     {
         // Planes of contact are used again until the wire has gone some way, and sweeps leave a little.
@@ -23,7 +23,6 @@ namespace Guidewire.Core
                     Integrator.Verlet, Integrator.Euler, Integrator.OrientationVerlet,
                     Integrator.EulerOrientationVerlet,
                 },
-                Build = GainSetup.Build,
             },
             new MethodTraits
             {
@@ -32,7 +31,6 @@ namespace Guidewire.Core
                 MeetsWalls = true,
                 DepthInRadii = CompliantDepth,
                 SetDefaults = SetMaterialDefaults,
-                Build = (p, scene) => MaterialSetup.Build(p, scene, MaterialSetup.Compliant),
             },
             new MethodTraits
             {
@@ -52,7 +50,6 @@ namespace Guidewire.Core
                 },
                 IntegratorBetweenWalls = Integrator.ImplicitEuler,
                 SetDefaults = SetDirectDefaults,
-                Build = (p, scene) => MaterialSetup.Build(p, scene, MaterialSetup.Direct),
             },
             new MethodTraits
             {
@@ -61,7 +58,6 @@ namespace Guidewire.Core
                 TakesTipMoment = true,
                 TakesDarbouxLaw = true,
                 SetDefaults = SetMaterialDefaults,
-                Build = (p, scene) => MaterialSetup.Build(p, scene, MaterialSetup.Explicit),
             },
         };
 

@@ -47,9 +47,5 @@ namespace Guidewire.Core
 
         /// <summary>Sets the defaults that are not those of the thesis (table 4.1).</summary>
         internal Action<SimulationParameters> SetDefaults { get; set; } = _ => { };
-
-        /// <summary>Builds the wire and what steps it.</summary>
-        internal Func<SimulationParameters, Scene, MethodStart> Build { get; set; } =
-            (_, _) => throw new InvalidOperationException("a method without a step");
     }
 }

@@ -118,13 +118,16 @@ namespace Guidewire.Core
         /// wire.</summary>
         public Vector3d[] RestDarbouxVectors { get; }
 
-        /// <summary>Takes over the start of a scene whose lengths are units.</summary>
-        internal void Load(Scene scene)
+        /// <summary>Takes over a start.</summary>
+        /// <param name="shape">Its lengths are units.</param>
+        /// <param name="velocities">Of the spheres, units/s.</param>
+        /// <param name="spins">Of the elements, rad/s, in each one's own frame.</param>
+        internal void Start(RodShape shape, Vector3d[] velocities, Vector3d[] spins)
         {
-            Array.Copy(scene.Shape.X, Positions, SphereCount);
-            Array.Copy(scene.Velocities, Velocities, SphereCount);
-            Array.Copy(scene.Spins, AngularVelocities, ElementCount);
-            Array.Copy(scene.Shape.Q, Orientations, ElementCount);
+            Array.Copy(shape.X, Positions, SphereCount);
+            Array.Copy(velocities, Velocities, SphereCount);
+            Array.Copy(spins, AngularVelocities, ElementCount);
+            Array.Copy(shape.Q, Orientations, ElementCount);
             Rest();
         }
 

@@ -56,10 +56,11 @@ namespace Guidewire.Core.Tests
         /// <summary>Gives a wire another start.</summary>
         public static void Load(RodState state, RodStart start)
         {
-            state.Load(new Scene(new SimulationParameters
+            var scene = new Scene(new SimulationParameters
             {
                 Scene = { NumberRodElements = state.ElementCount, Start = start },
-            }));
+            });
+            state.Start(scene.Shape, scene.Velocities, scene.Spins);
         }
 
         /// <summary>Runs to its end.</summary>

@@ -16,7 +16,7 @@ namespace Guidewire.Core
             }
             var state = new RodState(parameters.Scene.NumberRodElements, parameters.Scene.GuidewireLength,
                 parameters.Gains.TotalMass, parameters.Scene.GuidewireOffset);
-            state.Load(scene);
+            state.Start(scene.Shape, scene.Velocities, scene.Spins);
             Vector3d asked = state.Positions[0] + scene.Displacement;
             IDriveMotion? drive = CreateDrive(parameters, scene, state);
             IPositionPrediction prediction = CreatePrediction(parameters);

@@ -265,7 +265,7 @@ namespace Guidewire.Core.Tests
         {
             public Motion(SimulationParameters parameters)
             {
-                MethodStart start = MethodTable.Of(parameters.Method.Solver).Build(parameters, new Scene(parameters));
+                MethodStart start = MethodBuilder.Build(parameters, new Scene(parameters));
                 State = start.State;
                 Stepper = start.Stepper;
                 Assert.That(start.Failure, Is.Null);

@@ -1,0 +1,35 @@
+"""Inside Core no folder uses what lies above it, and no method uses another."""
+
+import re
+
+from experiments.prepare import ROOT
+
+CORE = ROOT / "Assets" / "Guidewire" / "Core"
+# From the bottom up; folders within these are part of them, but each method is a folder of its own.
+LAYERS = ("Numbers", "Geometry", "Parameters", "Rod", "Scene", "Contact", "Material", "Methods", "Methods/*", ".")
+_NOT_CODE = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\])*"', re.DOTALL)
+_TYPE = re.compile(r"^    (?:\w+ )*(?:class|struct|interface|enum|delegate \w+) (\w+)", re.MULTILINE)
+_MEMBER = re.compile(r"^        (?:\w+[?\]\[]* )+(\w+)(?= \{| =|;|\()", re.MULTILINE)
+
+
+def folder(path):
+    parts = path.relative_to(CORE).parts[:-1]
+    return "/".join(parts[:2]) if parts[:1] == ("Methods",) else parts[0] if parts else "."
+
+
+def layer(name):
+    return LAYERS.index("Methods/*" if name.startswith("Methods/") else name)
+
+
+def test_arrows_between_folders_go_down_and_no_method_knows_another():
+    texts = {path: _NOT_CODE.sub("", path.read_text(encoding="utf-8")) for path in CORE.rglob("*.cs")}
+    home = {name: path for path, text in texts.items() for name in _TYPE.findall(text)}
+    assert len(home) > 200
+    wrong = []
+    for path, text in texts.items():
+        own = set(_MEMBER.findall(text))  # a member may have the name of a type, such as Scene
+        for name in set(re.findall(r"\b[A-Z]\w+", text)) - own:
+            below, above = folder(home.get(name, path)), folder(path)
+            if below != above and layer(below) >= layer(above):
+                wrong.append(f"{path.relative_to(CORE)} uses {name} of {below}")
+    assert sorted(wrong) == []
