@@ -112,8 +112,7 @@ def test_editor_api_in_player(breakage) -> None:
 
 def test_module_missing(breakage) -> None:
     breakage("Assets/Guidewire/Runtime/Spinner.cs", "            Turn();",
-             "            Physics = 1;\n            Turn();\n        }\n\n        private int Physics { get; set; }\n\n"
-             "        private void Stop()\n        {\n            Turn();", "module-missing")
+             "            int Physics = 0;\n            Turn();", "module-missing")
 
 
 def test_module_present(sample) -> None:

@@ -60,7 +60,6 @@ def test_breakages_are_found_and_named(repository: Project, names: Sequence[str]
         assert_named(repository, breakage)
 
 
-@pytest.mark.built
 @pytest.mark.parametrize("name", scenes.READ)
 def test_breakage_is_found_by_the_reader_itself(repository: Project, name: str) -> None:
     if sceneparameters.program(str(repository.root)) is None:

@@ -42,7 +42,7 @@ def test_types_of_stored_fields(sample) -> None:
                            " [UnityEngine.Serialization.FormerlySerializedAs(\"f\"), Range(0.01f, 2)] public float F;"
                            " public class B { public enum C { One = 1, Four = 4 } }")
     assert {name: (item.kind, item.type, item.is_list, item.is_needed) for name, item in found.items()} == {
-        "A": ("number", "int", True, False), "_b": ("number", "float", True, False), "D": ("enum", "B.C", False, False),
+        "A": ("number", "int", True, False), "_b": ("number", "float", True, False), "D": ("enum", "C", False, False),
         "E": ("object", "Camera", False, True), "F": ("number", "float", False, False)}
     assert (found["D"].values, found["F"].names, found["F"].range) == ({1, 4}, ("f",), (0.01, 2.0))
 
@@ -72,7 +72,8 @@ def test_message_that_unity_never_sends(sample, wrong: str) -> None:
 
 
 def test_static_message(breakage) -> None:
-    breakage(SPINNER, "private void Update()", "private static void Update()", "script-message")
+    breakage(SPINNER, "private void Update()\n        {\n            Turn();", "private static void Update()\n        {",
+             "script-message")
 
 
 def test_private_method_that_is_called_passes(sample) -> None:
