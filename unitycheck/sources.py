@@ -21,7 +21,8 @@ from unitycheck.packages import MODULE_OF
 from unitycheck.project import Project
 from unitycheck.violation import Violation
 
-PROGRAM = "experiments/headless/Guidewire.UnityCheck/bin/Release/net10.0/Guidewire.UnityCheck.dll"
+PROJECT = "experiments/headless/Guidewire.UnityCheck"
+PROGRAM = f"{PROJECT}/bin/Release/net10.0/Guidewire.UnityCheck.dll"
 _HOME = Path(__file__).resolve().parents[1]
 _EVENT = re.compile(r"m_MethodName: (\w+)$", re.MULTILINE)
 
@@ -107,10 +108,11 @@ def check(project: Project) -> Iterator[Violation]:
                             f"{word['text']} needs com.unity.modules.{MODULE_OF[word['text']]} in the manifest")
     names = {asmdef.name for asmdef in assemblies(project)}
     for friend in table(project, "friends"):
-        is_dotnet = project.exists(f"experiments/headless/{friend['text']}") or not project.exists("experiments/headless")
-        if friend["text"] not in names and not is_dotnet:
+        name = friend["text"]
+        is_dotnet = project.exists(f"experiments/headless/{name}") or not project.exists("experiments/headless")
+        if name not in names and not is_dotnet:
             yield Violation(friend["path"], friend["line"], "internals",
-                            f"there is no assembly '{friend['text']}' to see the internals")
+                            f"there is no assembly '{name}' to see the internals")
 
 
 def _script(data: dict[str, Any]) -> Script:
@@ -152,7 +154,8 @@ def _form(project: Project, asmdef: Asmdef, files: list[str]) -> dict[str, Any]:
     return {"name": asmdef.name, "files": files, "libraries": libraries,
             "references": [target.name if target else name for name, target in targets(project, asmdef)],
             "isEditorOnly": asmdef.is_editor_only, "isTest": asmdef.is_test,
-            "hasEngine": asmdef.data.get("noEngineReferences") is not True and not asmdef.folder.startswith(ENGINE_FREE),
+            "hasEngine": asmdef.data.get("noEngineReferences") is not True
+            and not asmdef.folder.startswith(ENGINE_FREE),
             "isUnsafeAllowed": asmdef.data.get("allowUnsafeCode") is True}
 
 

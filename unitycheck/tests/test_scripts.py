@@ -38,8 +38,8 @@ def test_stored_fields(sample) -> None:
 
 
 def test_types_of_stored_fields(sample) -> None:
-    found = fields(sample, "public int[] A; [SerializeField] private List<float> _b; public B.C D; public Camera E = null!;"
-                           " [UnityEngine.Serialization.FormerlySerializedAs(\"f\"), Range(0.01f, 2)] public float F;"
+    found = fields(sample, "public int[] A; [SerializeField] private List<float> _b; public B.C D;"
+                           " public Camera E = null!; [UnityEngine.Serialization.FormerlySerializedAs(\"f\"), Range(0.01f, 2)] public float F;"
                            " public class B { public enum C { One = 1, Four = 4 } }")
     assert {name: (item.kind, item.type, item.is_list, item.is_needed) for name, item in found.items()} == {
         "A": ("number", "int", True, False), "_b": ("number", "float", True, False), "D": ("enum", "C", False, False),
@@ -72,8 +72,8 @@ def test_message_that_unity_never_sends(sample, wrong: str) -> None:
 
 
 def test_static_message(breakage) -> None:
-    breakage(SPINNER, "private void Update()\n        {\n            Turn();", "private static void Update()\n        {",
-             "script-message")
+    breakage(SPINNER, "private void Update()\n        {\n            Turn();",
+             "private static void Update()\n        {", "script-message")
 
 
 def test_private_method_that_is_called_passes(sample) -> None:
