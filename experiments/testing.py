@@ -90,7 +90,6 @@ def run_tests(full: bool) -> int:
     program, _ = dotnet()
     builds = {part: [sys.executable, "-m", "experiments.building", part] for part in PARTS}
     total = run_suites(builds, suites(program, full), environment, _SUITE_SECONDS[full], os.cpu_count() or 1)
-    total += check_unity_files(ROOT)
     print(total, flush=True)
     return 0 if total.failed == 0 and total.passed > 0 else 1
 
@@ -202,27 +201,6 @@ def _count(suite: Suite, process: Process) -> Count:
          + (f": {problem}" if problem else ""))
     if count.failed:
         _say(process.last_lines())
-    return count
-
-
-def check_unity_files(root: Path) -> Count:
-    """The Unity project's files under every family of rules; each family is one check."""
-    started = time.monotonic()
-    count = Count()
-    try:
-        from unitycheck import checks
-        from unitycheck.project import Project
-
-        project = Project(root)
-        for family in checks.MODULES:
-            violations = sorted(family.check(project))
-            count += Count(failed=1) if violations else Count(passed=1)
-            for violation in violations:
-                _say(str(violation))
-    except Exception as error:  # whatever it is, the check did not run to its end, and the sum has to say so
-        _say(f"unity check: it broke off ({type(error).__name__}: {error})")
-        count += Count(failed=1)
-    _say(f"unity check: {count} ({time.monotonic() - started:.0f} s)")
     return count
 
 

@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from experiments import testing
-from experiments.testing import Count, Suite, check_unity_files, read_junit, read_trx, run_suites, suites
+from experiments.testing import Count, Suite, read_junit, read_trx, run_suites, suites
 
 BUILD = {"Runner": [sys.executable, "-c", ""], "Tests": [sys.executable, "-c", ""]}
 
@@ -131,12 +131,6 @@ def test_what_is_left_out_of_one_suite_is_in_another():
     assert left_out == taken and all((testing.ROOT / path).is_file() for path in taken)
     # Whoever is not timed is in the first two, whoever is timed in the third, whatever the file.
     assert [command[command.index("-m", 2) + 1] for command in commands] == ["not timed", "not timed", "timed"]
-
-
-def test_a_unity_check_that_breaks_off_is_a_failure(tmp_path, monkeypatch, capsys):
-    monkeypatch.setitem(sys.modules, "unitycheck", None)
-    assert check_unity_files(tmp_path).failed == 1
-    assert "it broke off" in capsys.readouterr().out
 
 
 def test_junit_counts_agree_with_a_real_pytest(tmp_path):
