@@ -61,7 +61,7 @@ class _Scene:
 
     def check(self) -> Iterator[Violation]:
         for document in self._seen.values():
-            if document.class_id == 114 and scripts(self._project) is not None:
+            if document.class_id == 114 and not document.is_stripped and scripts(self._project) is not None:
                 yield from self._script(document)
         for document in self._seen.values():
             if document.file_id in self._scripts:

@@ -102,7 +102,7 @@ def components(game_object: Document) -> list[int]:
 def _hierarchy(path: str, seen: dict[int, Document]) -> Iterator[Violation]:
     listed: dict[int, int] = {}
     for document in seen.values():
-        if document.class_id != 1:
+        if document.class_id != 1 or document.is_stripped:
             continue
         ids = components(document)
         classes = [seen[number].class_id for number in ids if number in seen]

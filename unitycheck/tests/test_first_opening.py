@@ -20,6 +20,11 @@ SINGLE = (".gitattributes", "unitycheck/known_guids.txt", "README.md", "experime
 TUBE = f"{GUIDEWIRE}/Tests/Unity/TubeMeshTests.cs"
 
 
+def guid_of(project: Project, path: str) -> str:
+    """The guid of an asset, as its .meta has it."""
+    return project.text(f"{path}.meta").split("guid: ")[1].split("\n")[0]
+
+
 def with_meta(path: str, text: str, importer: str) -> Change:
     """A new asset with the .meta that Unity gives it, and its guid among the known ones."""
     guid = hashlib.md5(path.encode()).hexdigest()
@@ -57,7 +62,7 @@ def test_a_newer_editor_passes(repository: Project) -> None:  # noqa: F811
     assert [str(v) for v in checks.run(repository.with_changes(firstopening.newer(repository), ()))] == []
 
 
-# A prefab's instance at the root, and a Transform of its own that scene objects may name.
+# A prefab's instance at the root, and objects within it that others in the scene name.
 PREFAB = """--- !u!1001 &900
 PrefabInstance:
   m_ObjectHideFlags: 0
@@ -72,6 +77,19 @@ Transform:
   m_CorrespondingSourceObject: {fileID: 0}
   m_PrefabInstance: {fileID: 900}
   m_PrefabAsset: {fileID: 0}
+--- !u!1 &902 stripped
+GameObject:
+  m_CorrespondingSourceObject: {fileID: 0}
+  m_PrefabInstance: {fileID: 900}
+  m_PrefabAsset: {fileID: 0}
+--- !u!114 &903 stripped
+MonoBehaviour:
+  m_CorrespondingSourceObject: {fileID: 0}
+  m_PrefabInstance: {fileID: 900}
+  m_PrefabAsset: {fileID: 0}
+  m_GameObject: {fileID: 902}
+  m_Enabled: 1
+  m_Script: {fileID: 11500000, guid: HUD, type: 3}
 """
 
 # What is right and once was named wrong, or might be.
@@ -109,6 +127,10 @@ RIGHT = {
         " [System.Serializable] private struct Pair { public int A; } public Dictionary<int, int> NotAsked;"),
     "generic base with a static helper": script("private static int Count<T>(List<T> a) { return a.Count; }"
                                                 " public int N => Count(new List<int>());"),
+    "behaviour in two files": both(
+        replace(HUD, "public sealed class Hud", "public sealed partial class Hud"),
+        with_meta(f"{RUNTIME}/Views/HudText.cs", "namespace Guidewire.Runtime\n{\n    public sealed partial class Hud"
+                                                 "\n    {\n    }\n}\n", "MonoImporter")),
     "abstract behaviour": both(with_meta(ODD, behaviour("").replace("sealed", "abstract"), "MonoImporter"), replace(
         LOOP, "SimulationLoop : MonoBehaviour", "SimulationLoop : Odd")),
     "picture": with_meta(f"{GUIDEWIRE}/A.png", "", "TextureImporter"),
@@ -152,7 +174,8 @@ RIGHT = {
                 '[UnityEngine.Serialization.FormerlySerializedAs("_pace")] private float _rate = 1f;\n'
                 "        private float _pace => _rate;"), lambda project: {}),
     "instance of a prefab with its stripped Transform": lambda project: {firstopening.SCENE: project.text(
-        firstopening.SCENE).replace("--- !u!1 &500\n", PREFAB + "--- !u!1 &500\n").replace(
+        firstopening.SCENE).replace("--- !u!1 &500\n", PREFAB.replace("HUD", guid_of(project, HUD))
+                                                     + "--- !u!1 &500\n").replace(
             "  m_Roots:\n", "  m_Roots:\n  - {fileID: 900}\n").encode()},
     "checked menu entry": insert(
         f"{GUIDEWIRE}/Editor/BatchEntry.cs", '[MenuItem("Guidewire/One")] public static void One() { }'

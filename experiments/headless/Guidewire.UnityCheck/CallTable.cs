@@ -7,7 +7,8 @@ using Microsoft.CodeAnalysis.CSharp.Syntax;
 
 namespace Guidewire.UnityCheck
 {
-    /// <summary>Words and calls whose meaning stands in assets and settings, which the compiler does not read.</summary>
+    /// <summary>Words and calls whose meaning stands in assets and settings, which the compiler does not
+    /// read.</summary>
     internal static class CallTable
     {
         public static void Add(Source source, IReadOnlyCollection<string> words, Reply reply)
@@ -23,7 +24,8 @@ namespace Guidewire.UnityCheck
                     reply.Words.Add(new Word(source.Path, Source.Line(token.GetLocation()), token.ValueText));
                 }
             }
-            foreach (InvocationExpressionSyntax call in source.Root.DescendantNodes().OfType<InvocationExpressionSyntax>())
+            foreach (InvocationExpressionSyntax call in source.Root.DescendantNodes()
+                .OfType<InvocationExpressionSyntax>())
             {
                 ExpressionSyntax? first = call.ArgumentList.Arguments.FirstOrDefault()?.Expression;
                 if (first is LiteralExpressionSyntax literal && literal.IsKind(SyntaxKind.StringLiteralExpression))

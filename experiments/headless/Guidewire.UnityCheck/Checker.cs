@@ -51,6 +51,11 @@ namespace Guidewire.UnityCheck
             return reply;
         }
 
+        private static bool IsFriendly(string attribute)
+        {
+            return attribute.StartsWith("InternalsVisibleTo", StringComparison.Ordinal);
+        }
+
         private static void Judge(Source source, Reply reply)
         {
             foreach (Diagnostic error in source.Model.GetDiagnostics()
@@ -60,7 +65,7 @@ namespace Guidewire.UnityCheck
                     error.GetMessage(System.Globalization.CultureInfo.InvariantCulture)));
             }
             reply.Friends.AddRange(source.Root.DescendantNodes().OfType<AttributeSyntax>()
-                .Where(attribute => attribute.Name.ToString().StartsWith("InternalsVisibleTo", StringComparison.Ordinal))
+                .Where(attribute => IsFriendly(attribute.Name.ToString()))
                 .SelectMany(attribute => attribute.DescendantNodes().OfType<LiteralExpressionSyntax>())
                 .Select(text => new Word(source.Path, Source.Line(text.GetLocation()), text.Token.ValueText)));
             LibraryRules.Check(source);

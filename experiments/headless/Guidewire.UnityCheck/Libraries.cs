@@ -8,17 +8,21 @@ using Microsoft.CodeAnalysis.CSharp;
 
 namespace Guidewire.UnityCheck
 {
-    /// <summary>The libraries that sources are compiled against; where they lie was written down by the build.</summary>
+    /// <summary>The libraries that sources are compiled against; where they lie was written down by the
+    /// build.</summary>
     internal static class Libraries
     {
         private static readonly Lazy<MetadataReference[]> LazyStandard = new Lazy<MetadataReference[]>(() =>
             Directory.GetFiles(Given("Standard"), "*.dll").OrderBy(path => path, StringComparer.Ordinal)
                 .Select(path => (MetadataReference)MetadataReference.CreateFromFile(path)).ToArray());
 
-        private static readonly Dictionary<string, MetadataReference> Known = new Dictionary<string, MetadataReference>();
+        private static readonly Dictionary<string, MetadataReference> Known =
+            new Dictionary<string, MetadataReference>();
+
+        private static readonly string[] FrameworkNames = { "mscorlib", "System", "System.Core", "System.Numerics" };
 
         private static readonly Lazy<Compilation> LazyFramework = new Lazy<Compilation>(() =>
-            CSharpCompilation.Create("Framework", references: new[] { "mscorlib", "System", "System.Core", "System.Numerics" }
+            CSharpCompilation.Create("Framework", references: FrameworkNames
                 .Select(name => MetadataReference.CreateFromFile(Path.Combine(Given("Framework"), name + ".dll")))));
 
         /// <summary>.NET Standard 2.1, which players and most assemblies of the editor get.</summary>
@@ -27,7 +31,8 @@ namespace Guidewire.UnityCheck
         /// <summary>The stand-in for Unity's own assemblies.</summary>
         public static MetadataReference UnityStubs => Find("UnityStubs")!;
 
-        /// <summary>.NET Framework 4.7.2, next to the profile that editor-only assemblies may be compiled for.</summary>
+        /// <summary>.NET Framework 4.7.2, next to the profile that editor-only assemblies may be compiled
+        /// for.</summary>
         public static Compilation Framework => LazyFramework.Value;
 
         /// <summary>A library by its file's name; null where it is none of a package's.</summary>

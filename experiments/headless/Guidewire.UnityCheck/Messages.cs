@@ -65,7 +65,8 @@ namespace Guidewire.UnityCheck
     /// <summary>A method as command lines and menus see it.</summary>
     internal sealed record Method(string Path, int Line, bool IsStatic, bool HasParameters, bool IsGeneric);
 
-    /// <summary>A behaviour. Bases: the names of its class and of all above it. IsEditorOnly: no player has it.</summary>
+    /// <summary>A behaviour. Bases: the names of its class and of all above it. IsEditorOnly: no player has
+    /// it.</summary>
     internal sealed record Script(string Name, bool IsAttachable, bool IsEditorOnly, string[] Bases,
         Dictionary<string, StoredField> Fields);
 

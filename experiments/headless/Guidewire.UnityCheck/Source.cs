@@ -36,7 +36,7 @@ namespace Guidewire.UnityCheck
         public SyntaxNode Root => Tree.GetRoot();
 
         /// <summary>The name of the file without its ending.</summary>
-        public string Stem => System.IO.Path.GetFileNameWithoutExtension(Path);
+        public string Stem => StemOf(Tree);
 
         /// <summary>Every type that the source declares, nested ones behind their outer one.</summary>
         public IReadOnlyList<INamedTypeSymbol> Types { get; }
@@ -45,7 +45,14 @@ namespace Guidewire.UnityCheck
         public IEnumerable<T> Members<T>(INamedTypeSymbol type)
             where T : ISymbol
         {
-            return type.GetMembers().OfType<T>().Where(member => member.Locations.Any(place => place.SourceTree == Tree));
+            return type.GetMembers().OfType<T>().Where(
+                member => member.Locations.Any(place => place.SourceTree == Tree));
+        }
+
+        /// <summary>The name of a source's file without its ending.</summary>
+        public static string StemOf(SyntaxTree? tree)
+        {
+            return System.IO.Path.GetFileNameWithoutExtension(tree?.FilePath ?? "");
         }
 
         /// <summary>The line of a symbol's name in this source, from 1.</summary>

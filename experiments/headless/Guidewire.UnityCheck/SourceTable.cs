@@ -10,6 +10,9 @@ namespace Guidewire.UnityCheck
     /// <summary>What scenes, menus and command lines need to know of the player's and the editor's sources.</summary>
     internal static class SourceTable
     {
+        private static readonly SymbolDisplayFormat Short = SymbolDisplayFormat.MinimallyQualifiedFormat
+            .WithMiscellaneousOptions(SymbolDisplayMiscellaneousOptions.UseSpecialTypes);
+
         public static void Add(Source source, Reply reply)
         {
             foreach (INamedTypeSymbol type in source.Types)
@@ -25,7 +28,8 @@ namespace Guidewire.UnityCheck
                     Add(source, method, reply);
                 }
                 reply.Markers.AddRange(source.Members<IFieldSymbol>(type)
-                    .Where(field => field.Name == "Marker" && field.IsConst).Select(field => field.ConstantValue as string)
+                    .Where(field => field.Name == "Marker" && field.IsConst)
+                    .Select(field => field.ConstantValue as string)
                     .OfType<string>());
             }
         }
@@ -66,8 +70,7 @@ namespace Guidewire.UnityCheck
                 .Where(attribute => UnityTypes.Name(attribute) == "FormerlySerializedAs")
                 .SelectMany(attribute => attribute.ConstructorArguments).Select(argument => argument.Value as string)
                 .OfType<string>().ToArray();
-            string typeName = type.ToDisplayString(SymbolDisplayFormat.MinimallyQualifiedFormat.WithMiscellaneousOptions(
-                SymbolDisplayMiscellaneousOptions.UseSpecialTypes));
+            string typeName = type.ToDisplayString(Short);
             return new StoredField(kind, typeName, !SymbolEqualityComparer.Default.Equals(type, field.Type),
                 IsNeeded(field), former, FieldRules.Limits(field), values, fields);
         }

@@ -16,7 +16,8 @@ namespace Guidewire.UnityCheck
     {
         private static readonly string[] Editor =
         {
-            "UNITY_EDITOR", "UNITY_EDITOR_64", "UNITY_6000_0", "UNITY_6000_0_OR_NEWER", "UNITY_5_3_OR_NEWER", "UNITY_64",
+            "UNITY_EDITOR", "UNITY_EDITOR_64", "UNITY_6000_0", "UNITY_6000_0_OR_NEWER", "UNITY_5_3_OR_NEWER",
+            "UNITY_64",
             "UNITY_STANDALONE", "UNITY_INCLUDE_TESTS", "ENABLE_LEGACY_INPUT_MANAGER", "NETSTANDARD", "NETSTANDARD2_1",
             "NET_STANDARD", "NET_STANDARD_2_1", "CSHARP_7_3_OR_NEWER", "DEBUG", "TRACE",
         };
@@ -25,12 +26,14 @@ namespace Guidewire.UnityCheck
             CSharpParseOptions.Default.WithLanguageVersion(LanguageVersion.CSharp9).WithPreprocessorSymbols(Editor);
 
         private static readonly CSharpParseOptions InPlayer =
-            InEditor.WithPreprocessorSymbols(Editor.Where(symbol => !symbol.StartsWith("UNITY_EDITOR", StringComparison.Ordinal)));
+            InEditor.WithPreprocessorSymbols(Editor.Where(
+                symbol => !symbol.StartsWith("UNITY_EDITOR", StringComparison.Ordinal)));
 
         private readonly Dictionary<string, (DateTime Time, SyntaxTree Tree)> _files =
             new Dictionary<string, (DateTime, SyntaxTree)>();
 
-        private readonly Dictionary<string, CSharpCompilation> _compilations = new Dictionary<string, CSharpCompilation>();
+        private readonly Dictionary<string, CSharpCompilation> _compilations =
+            new Dictionary<string, CSharpCompilation>();
 
         private readonly ConditionalWeakTable<CSharpCompilation, MetadataReference> _references =
             new ConditionalWeakTable<CSharpCompilation, MetadataReference>();

@@ -22,7 +22,8 @@ namespace Guidewire.UnityCheck
         /// <summary>Whether a class stands below one of the engine's, by that one's name.</summary>
         public static bool DerivesFrom(ITypeSymbol type, string name)
         {
-            return Chain(type).Skip(1).Any(above => above.Name == name && !above.Locations.Any(place => place.IsInSource));
+            return Chain(type).Skip(1).Any(above => above.Name == name
+                && !above.Locations.Any(place => place.IsInSource));
         }
 
         /// <summary>A type and those above it, nearest first.</summary>

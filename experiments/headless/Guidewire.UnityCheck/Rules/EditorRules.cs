@@ -21,7 +21,8 @@ namespace Guidewire.UnityCheck.Rules
         {
             foreach (INamedTypeSymbol type in source.Types)
             {
-                if (!type.IsAbstract && type.BaseType != null && Drawers.TryGetValue(type.BaseType.Name, out string? needed)
+                if (!type.IsAbstract && type.BaseType != null
+                    && Drawers.TryGetValue(type.BaseType.Name, out string? needed)
                     && !UnityTypes.Has(type, needed))
                 {
                     source.Report(type, "editor-drawer", type.Name + " draws nothing without [" + needed + "]");
@@ -56,7 +57,8 @@ namespace Guidewire.UnityCheck.Rules
             return entry.ConstructorArguments.Any(argument => argument.Value is true);
         }
 
-        private static string? MenuReason(Source source, INamedTypeSymbol type, IMethodSymbol method, AttributeData entry)
+        private static string? MenuReason(Source source, INamedTypeSymbol type, IMethodSymbol method,
+            AttributeData entry)
         {
             string? path = MenuPath(entry);
             bool isCheck = IsCheck(entry);
@@ -83,7 +85,8 @@ namespace Guidewire.UnityCheck.Rules
 
         private static IEnumerable<IMethodSymbol> OtherSources(Source source, IMethodSymbol method)
         {
-            return source.Model.Compilation.GetSymbolsWithName(name => true, SymbolFilter.Member).OfType<IMethodSymbol>()
+            return source.Model.Compilation.GetSymbolsWithName(name => true, SymbolFilter.Member)
+                .OfType<IMethodSymbol>()
                 .Where(other => other.Locations.All(place => place.SourceTree != source.Tree));
         }
     }

@@ -8,8 +8,8 @@ using Microsoft.CodeAnalysis.CSharp.Syntax;
 
 namespace Guidewire.UnityCheck.Rules
 {
-    /// <summary>Fields that Unity stores, those that it leaves out without a word though an attribute asks for them, and
-    /// initialisers that ask the engine too early.</summary>
+    /// <summary>Fields that Unity stores, those that it leaves out without a word though an attribute asks for them,
+    /// and initialisers that ask the engine too early.</summary>
     internal static class FieldRules
     {
         private static readonly HashSet<string> Inspector = new HashSet<string>
@@ -25,14 +25,16 @@ namespace Guidewire.UnityCheck.Rules
         private static readonly HashSet<string> Statics = new HashSet<string>
         {
             "Time", "Application", "Screen", "Input", "Camera", "Resources", "GameObject", "Random", "SystemInfo",
-            "Physics", "PlayerPrefs", "QualitySettings", "SceneManager", "Shader", "Graphics", "RenderSettings", "Cursor",
+            "Physics", "PlayerPrefs", "QualitySettings", "SceneManager", "Shader", "Graphics", "RenderSettings",
+            "Cursor",
             "GUI", "GUILayout", "GUIUtility", "AssetDatabase", "EditorPrefs", "EditorApplication", "Display",
             "ScriptableObject",
         };
 
         private static readonly HashSet<string> Searches = new HashSet<string>
         {
-            "FindObjectOfType", "FindObjectsOfType", "FindFirstObjectByType", "FindAnyObjectByType", "FindObjectsByType",
+            "FindObjectOfType", "FindObjectsOfType", "FindFirstObjectByType", "FindAnyObjectByType",
+            "FindObjectsByType",
             "Instantiate", "GetComponent", "GetComponentInChildren", "GetComponentInParent", "AddComponent",
             "CreateInstance",
         };
@@ -75,7 +77,8 @@ namespace Guidewire.UnityCheck.Rules
         /// <summary>The type that an array or list holds, or the type itself.</summary>
         public static ITypeSymbol Element(ITypeSymbol type)
         {
-            return type is IArrayTypeSymbol array ? array.ElementType : IsList(type) ? ((INamedTypeSymbol)type).TypeArguments[0]
+            return type is IArrayTypeSymbol array ? array.ElementType : IsList(type)
+                ? ((INamedTypeSymbol)type).TypeArguments[0]
                 : type;
         }
 
@@ -88,8 +91,10 @@ namespace Guidewire.UnityCheck.Rules
         /// <summary>The limits of [Range]; empty where there is none.</summary>
         public static double[] Limits(IFieldSymbol field)
         {
-            AttributeData? range = field.GetAttributes().FirstOrDefault(attribute => UnityTypes.Name(attribute) == "Range");
-            return range == null ? Array.Empty<double>() : range.ConstructorArguments.Where(argument => argument.Value != null)
+            AttributeData? range = field.GetAttributes()
+                .FirstOrDefault(attribute => UnityTypes.Name(attribute) == "Range");
+            return range == null ? Array.Empty<double>()
+                : range.ConstructorArguments.Where(argument => argument.Value != null)
                 // By its digits: 0.01f is 0.01 in a file, not the double next to it.
                 .Select(argument => Convert.ToDouble(Convert.ToDecimal(argument.Value, CultureInfo.InvariantCulture),
                     CultureInfo.InvariantCulture)).ToArray();
@@ -100,7 +105,8 @@ namespace Guidewire.UnityCheck.Rules
         private static bool IsStored(IFieldSymbol field)
         {
             bool asked = UnityTypes.Has(field, "SerializeField") || UnityTypes.Has(field, "SerializeReference");
-            bool isOpen = field.DeclaredAccessibility == Accessibility.Public && !UnityTypes.Has(field, "NonSerialized");
+            bool isOpen = field.DeclaredAccessibility == Accessibility.Public
+                && !UnityTypes.Has(field, "NonSerialized");
             return (asked || isOpen) && !field.IsStatic && !field.IsConst && !field.IsReadOnly
                 && !(field.AssociatedSymbol is IEventSymbol);
         }
@@ -135,10 +141,12 @@ namespace Guidewire.UnityCheck.Rules
                     ? name + " has 64 bits" : null;
             }
             return type.TypeKind == TypeKind.Interface ? name + " is an interface (SerializeReference stores one)"
-                : type.Locations.All(place => !place.IsInSource) || type.IsTupleType || type.TypeKind == TypeKind.Delegate
+                : type.Locations.All(place => !place.IsInSource) || type.IsTupleType
+                    || type.TypeKind == TypeKind.Delegate
                     ? name + " is no type that it stores"
                 : !((INamedTypeSymbol)type).IsSerializable ? name + " is not [Serializable]"
-                : type.TypeKind == TypeKind.Class && type.IsAbstract ? name + " is abstract (SerializeReference stores one)"
+                : type.TypeKind == TypeKind.Class && type.IsAbstract
+                    ? name + " is abstract (SerializeReference stores one)"
                 : null;
         }
 
@@ -167,9 +175,11 @@ namespace Guidewire.UnityCheck.Rules
             string name = type.Name + "." + home.Name;
             string? reason = asked && !holds ? type.Name + " is neither a behaviour nor [Serializable]"
                 : field == null ? "a property is not stored; its field is with [field: SerializeField]"
-                : field.IsConst || field.IsStatic || field.IsReadOnly ? "constant, static and readonly fields are not stored"
+                : field.IsConst || field.IsStatic || field.IsReadOnly
+                    ? "constant, static and readonly fields are not stored"
                 : UnityTypes.Has(field, "NonSerialized") ? "it is [NonSerialized] as well"
-                : !IsStored(field) ? "[" + UnityTypes.Name(asking[0]) + "] on a field that is neither public nor [SerializeField]"
+                : !IsStored(field) ? "[" + UnityTypes.Name(asking[0])
+                    + "] on a field that is neither public nor [SerializeField]"
                 : Refusal(field);
             if (reason != null && (asked || holds))
             {
@@ -187,7 +197,8 @@ namespace Guidewire.UnityCheck.Rules
                 || UnityTypes.Chain(attribute.AttributeClass).Any(above => above.Name == "PropertyAttribute");
         }
 
-        private static void CheckDrawing(Source source, string name, ISymbol home, IFieldSymbol field, AttributeData[] asking)
+        private static void CheckDrawing(Source source, string name, ISymbol home, IFieldSymbol field,
+            AttributeData[] asking)
         {
             ITypeSymbol type = Element(field.Type);
             foreach (AttributeData attribute in asking)
@@ -205,8 +216,8 @@ namespace Guidewire.UnityCheck.Rules
                 };
                 if (!isDrawn && type.TypeKind != TypeKind.Error)
                 {
-                    source.Report(home, "field-attribute", name + ": [" + UnityTypes.Name(attribute) + "] cannot draw a "
-                        + type.Name);
+                    source.Report(home, "field-attribute",
+                        name + ": [" + UnityTypes.Name(attribute) + "] cannot draw a " + type.Name);
                 }
             }
             double[] limits = Limits(field);
@@ -230,8 +241,7 @@ namespace Guidewire.UnityCheck.Rules
                 return;
             }
             // What runs later, in a lambda, may ask anything; names in nameof and typeof are not asked at all.
-            foreach (SyntaxNode node in value.DescendantNodesAndSelf(node => !(node is AnonymousFunctionExpressionSyntax)
-                && !(node is TypeOfExpressionSyntax) && !IsNameOf(node)))
+            foreach (SyntaxNode node in value.DescendantNodesAndSelf(IsAskedNow))
             {
                 string? early = node switch
                 {
@@ -250,9 +260,10 @@ namespace Guidewire.UnityCheck.Rules
             }
         }
 
-        private static bool IsNameOf(SyntaxNode node)
+        private static bool IsAskedNow(SyntaxNode node)
         {
-            return node is InvocationExpressionSyntax call && CallTable.CalledName(call) == "nameof";
+            return !(node is AnonymousFunctionExpressionSyntax || node is TypeOfExpressionSyntax
+                || (node is InvocationExpressionSyntax call && CallTable.CalledName(call) == "nameof"));
         }
 
         private static bool IsEngineStatic(ExpressionSyntax owner)
@@ -271,7 +282,8 @@ namespace Guidewire.UnityCheck.Rules
         {
             foreach (IFieldSymbol field in source.Members<IFieldSymbol>(type).Where(IsStored))
             {
-                if (UnityTypes.Chain(type.BaseType).SelectMany(above => above.GetMembers(field.Name)).OfType<IFieldSymbol>()
+                if (UnityTypes.Chain(type.BaseType).SelectMany(above => above.GetMembers(field.Name))
+                    .OfType<IFieldSymbol>()
                     .Any(IsStored))
                 {
                     source.Report(field, "field-stored", type.Name + "." + field.Name

@@ -15,7 +15,8 @@ namespace Guidewire.UnityCheck.Rules
         private static readonly HashSet<string> Around = new HashSet<string>
             { "SetUp", "TearDown", "OneTimeSetUp", "OneTimeTearDown" };
 
-        private static readonly HashSet<string> Framed = new HashSet<string> { "UnityTest", "UnitySetUp", "UnityTearDown" };
+        private static readonly HashSet<string> Framed = new HashSet<string>
+            { "UnityTest", "UnitySetUp", "UnityTearDown" };
 
         private static readonly HashSet<string> Filling = new HashSet<string>
             { "Values", "ValueSource", "Range", "Random" };
@@ -24,9 +25,11 @@ namespace Guidewire.UnityCheck.Rules
         {
             foreach (INamedTypeSymbol type in source.Types)
             {
-                List<IMethodSymbol> marked = source.Members<IMethodSymbol>(type).Where(method => UnityTypes.Attributes(method)
+                List<IMethodSymbol> marked = source.Members<IMethodSymbol>(type)
+                    .Where(method => UnityTypes.Attributes(method)
                     .Any(name => Tests.Contains(name) || Around.Contains(name) || Framed.Contains(name))).ToList();
-                if (marked.Count == 0 && !UnityTypes.Has(type, "TestFixture") && !UnityTypes.Has(type, "TestFixtureSource"))
+                if (marked.Count == 0 && !UnityTypes.Has(type, "TestFixture")
+                    && !UnityTypes.Has(type, "TestFixtureSource"))
                 {
                     continue;
                 }
@@ -49,11 +52,13 @@ namespace Guidewire.UnityCheck.Rules
             {
                 return;
             }
-            List<AttributeData> given = type.GetAttributes().Where(attribute => UnityTypes.Name(attribute) == "TestFixture")
+            List<AttributeData> given = type.GetAttributes()
+                .Where(attribute => UnityTypes.Name(attribute) == "TestFixture")
                 .ToList();
             HashSet<int> counts = given.Select(Given).DefaultIfEmpty(0).ToHashSet();
             HashSet<int> takes = type.InstanceConstructors
-                .Where(made => made.DeclaredAccessibility == Accessibility.Public).Select(made => made.Parameters.Length)
+                .Where(made => made.DeclaredAccessibility == Accessibility.Public)
+                .Select(made => made.Parameters.Length)
                 .ToHashSet();
             bool fromSource = UnityTypes.Has(type, "TestFixtureSource");
             bool isPlain = counts.SetEquals(new[] { 0 }) && !fromSource;
@@ -110,18 +115,21 @@ namespace Guidewire.UnityCheck.Rules
         private static string? PlainReason(IMethodSymbol method, HashSet<string> names)
         {
             bool expects = names.Contains("TestCaseSource") ? !method.ReturnsVoid
-                : method.GetAttributes().Any(attribute => attribute.NamedArguments.Any(pair => pair.Key == "ExpectedResult"));
+                : method.GetAttributes().SelectMany(attribute => attribute.NamedArguments)
+                    .Any(pair => pair.Key == "ExpectedResult");
             // Tasks that are awaited came with test framework 1.3; NUnit waits for no method that returns void.
             bool isTask = method.ReturnType.Name == "Task";
             return method.ReturnType.Name == "IEnumerator" ? "yields frames that nobody makes: UnityTest, not Test"
                 : method.IsAsync && method.ReturnsVoid ? "is not waited for: it must return a Task"
                 : method.IsGenericMethod && !names.Overlaps(new[] { "TestCase", "TestCaseSource" })
                     ? "is generic and gets no types"
-                : !method.ReturnsVoid && !isTask && !expects ? "returns " + method.ReturnType.Name + " and expects no result"
+                : !method.ReturnsVoid && !isTask && !expects
+                    ? "returns " + method.ReturnType.Name + " and expects no result"
                 : method.ReturnsVoid && expects ? "expects a result and returns none" : null;
         }
 
-        private static void CheckArguments(Source source, INamedTypeSymbol type, IMethodSymbol method, HashSet<string> names)
+        private static void CheckArguments(Source source, INamedTypeSymbol type, IMethodSymbol method,
+            HashSet<string> names)
         {
             int count = method.Parameters.Length;
             bool isOpen = count > 0 && method.Parameters[count - 1].Type is IArrayTypeSymbol;
@@ -131,7 +139,8 @@ namespace Guidewire.UnityCheck.Rules
                 int given = name == "TestCase" ? Given(attribute) : count;
                 if (given != count && !(isOpen && given >= count - 1))
                 {
-                    source.Report(method, "test-method", method.Name + " has " + count + " parameters, its case " + given);
+                    source.Report(method, "test-method", method.Name + " has " + count + " parameters, its case "
+                        + given);
                 }
                 CheckSource(source, type, method, attribute);
             }
@@ -148,7 +157,8 @@ namespace Guidewire.UnityCheck.Rules
         }
 
         /// <summary>A source of cases or values must be a static member.</summary>
-        private static void CheckSource(Source source, INamedTypeSymbol type, IMethodSymbol method, AttributeData attribute)
+        private static void CheckSource(Source source, INamedTypeSymbol type, IMethodSymbol method,
+            AttributeData attribute)
         {
             string kind = UnityTypes.Name(attribute);
             if (kind != "TestCaseSource" && kind != "ValueSource")
@@ -158,7 +168,8 @@ namespace Guidewire.UnityCheck.Rules
             ITypeSymbol home = attribute.ConstructorArguments.Select(argument => argument.Value).OfType<ITypeSymbol>()
                 .FirstOrDefault() ?? type;
             // A name that does not exist is an error of the compiler's in nameof, and has no value then.
-            string? name = attribute.ConstructorArguments.Select(argument => argument.Value).OfType<string>().FirstOrDefault();
+            string? name = attribute.ConstructorArguments.Select(argument => argument.Value).OfType<string>()
+                .FirstOrDefault();
             if (name == null)
             {
                 return;

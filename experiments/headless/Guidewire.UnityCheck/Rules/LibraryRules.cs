@@ -18,7 +18,8 @@ namespace Guidewire.UnityCheck.Rules
         };
 
         /// <summary>Members that Unity's profile has and .NET Framework has not.</summary>
-        private static readonly HashSet<string> OnlyUnitys = new HashSet<string> { "System.Math.Clamp", "System.Array.Fill" };
+        private static readonly HashSet<string> OnlyUnitys = new HashSet<string>
+            { "System.Math.Clamp", "System.Array.Fill" };
 
         public static void Check(Source source)
         {
@@ -33,7 +34,8 @@ namespace Guidewire.UnityCheck.Rules
                 if (assembly == "nunit.framework" && symbol.ContainingType != null
                     && NewerThanUnitys.Contains(symbol.ContainingType.Name + "." + symbol.Name))
                 {
-                    source.Report(name, "nunit", symbol.ContainingType.Name + "." + symbol.Name + " came after NUnit 3.5");
+                    source.Report(name, "nunit", symbol.ContainingType.Name + "." + symbol.Name
+                        + " came after NUnit 3.5");
                 }
                 if (source.Assembly.IsEditorOnly && assembly == "netstandard" && IsMissing(symbol))
                 {
@@ -68,7 +70,8 @@ namespace Guidewire.UnityCheck.Rules
             }
             // Names of a tuple's elements are the compiler's alone.
             string? id = definition.ContainingType?.IsTupleType == true ? null : definition.GetDocumentationCommentId();
-            return id != null && !OnlyUnitys.Contains(definition.ContainingType?.ToDisplayString() + "." + definition.Name)
+            return id != null
+                && !OnlyUnitys.Contains(definition.ContainingType?.ToDisplayString() + "." + definition.Name)
                 && DocumentationCommentId.GetFirstSymbolForDeclarationId(id, Libraries.Framework) == null;
         }
 

@@ -45,7 +45,8 @@ namespace Guidewire.UnityCheck.Rules
             {
                 return;
             }
-            foreach (InvocationExpressionSyntax call in source.Root.DescendantNodes().OfType<InvocationExpressionSyntax>())
+            foreach (InvocationExpressionSyntax call in source.Root.DescendantNodes()
+                .OfType<InvocationExpressionSyntax>())
             {
                 CheckCall(source, call);
             }
@@ -56,13 +57,14 @@ namespace Guidewire.UnityCheck.Rules
         {
             var table = new Dictionary<string, string[]>();
             Add(table, "Awake Start Update FixedUpdate LateUpdate OnEnable OnDisable OnDestroy OnGUI OnValidate Reset "
-                + "OnDrawGizmos OnDrawGizmosSelected OnApplicationQuit OnRenderObject OnPreRender OnPostRender OnPreCull "
-                + "OnWillRenderObject OnBecameVisible OnBecameInvisible OnMouseDown OnMouseUp OnMouseDrag OnMouseEnter "
+                + "OnDrawGizmos OnDrawGizmosSelected OnApplicationQuit OnRenderObject OnPreRender OnPostRender "
+                + "OnPreCull OnWillRenderObject OnBecameVisible OnBecameInvisible OnMouseDown OnMouseUp OnMouseDrag "
+                + "OnMouseEnter "
                 + "OnMouseExit OnMouseOver OnMouseUpAsButton OnTransformChildrenChanged OnTransformParentChanged "
                 + "OnBeforeTransformParentChanged OnAnimatorMove OnParticleTrigger OnParticleSystemStopped "
                 + "OnParticleUpdateJobScheduled OnCanvasGroupChanged OnCanvasHierarchyChanged "
-                + "OnRectTransformDimensionsChange OnDidApplyAnimationProperties OnConnectedToServer OnServerInitialized",
-                "");
+                + "OnRectTransformDimensionsChange OnDidApplyAnimationProperties OnConnectedToServer "
+                + "OnServerInitialized", "");
             Add(table, "OnCollisionEnter OnCollisionStay OnCollisionExit", "", "Collision");
             Add(table, "OnCollisionEnter2D OnCollisionStay2D OnCollisionExit2D", "", "Collision2D");
             Add(table, "OnTriggerEnter OnTriggerStay OnTriggerExit", "", "Collider");
@@ -109,13 +111,15 @@ namespace Guidewire.UnityCheck.Rules
             {
                 string parameters = string.Join(",", method.Parameters.Select(parameter =>
                     parameter.Type.ToDisplayString(SymbolDisplayFormat.MinimallyQualifiedFormat)));
-                bool mayWait = IsCoroutine(method) && Coroutines.Any(start => name.StartsWith(start, StringComparison.Ordinal));
+                bool mayWait = IsCoroutine(method) && Coroutines.Any(
+                    start => name.StartsWith(start, StringComparison.Ordinal));
                 string? reason = method.IsStatic || method.IsGenericMethod
                         ? "must be an instance method without type parameters"
                     : !method.ReturnsVoid && !mayWait && !Tasks.Contains(method.ReturnType.Name)
                         ? "returns " + method.ReturnType.Name + "; Unity's message is void"
                     : !allowed.Contains(parameters) && !method.IsOverride
-                        ? "(" + parameters + ") is never sent; its parameters are (" + string.Join(") or (", allowed) + ")"
+                        ? "(" + parameters + ") is never sent; its parameters are (" + string.Join(") or (", allowed)
+                        + ")"
                     : null;
                 if (reason != null)
                 {
@@ -127,7 +131,8 @@ namespace Guidewire.UnityCheck.Rules
             {
                 return;
             }
-            string? right = Messages.Keys.FirstOrDefault(message => message.Equals(name, StringComparison.OrdinalIgnoreCase));
+            string? right = Messages.Keys.FirstOrDefault(
+                message => message.Equals(name, StringComparison.OrdinalIgnoreCase));
             if (right == null && method.ReturnsVoid && !IsNamed(source, method))
             {
                 right = Messages.Keys.FirstOrDefault(message => IsNear(message, name));
@@ -166,16 +171,17 @@ namespace Guidewire.UnityCheck.Rules
 
         private static void CheckCall(Source source, InvocationExpressionSyntax call)
         {
-            if (call.Parent is ExpressionStatementSyntax && source.Model.GetSymbolInfo(call).Symbol is IMethodSymbol called
+            if (call.Parent is ExpressionStatementSyntax
+                && source.Model.GetSymbolInfo(call).Symbol is IMethodSymbol called
                 && IsCoroutine(called) && UnityTypes.IsBehaviour(called.ContainingType)
                 && called.Locations.Any(place => place.IsInSource))
             {
                 source.Report(call, "script-coroutine", called.Name + "() alone runs nothing: StartCoroutine("
                     + called.Name + "())");
             }
-            string way = CallTable.CalledName(call);
-            bool isSent = SentCalls.Contains(way);
-            bool isOwn = OwnCalls.Contains(way) && !(call.Expression is MemberAccessExpressionSyntax access
+            string calling = CallTable.CalledName(call);
+            bool isSent = SentCalls.Contains(calling);
+            bool isOwn = OwnCalls.Contains(calling) && !(call.Expression is MemberAccessExpressionSyntax access
                 && !(access.Expression is ThisExpressionSyntax)) && !(call.Expression is MemberBindingExpressionSyntax);
             string? name = isSent || isOwn ? FirstName(call) : null;
             if (name == null)
@@ -183,16 +189,19 @@ namespace Guidewire.UnityCheck.Rules
                 return;
             }
             INamedTypeSymbol? home = source.Model.GetEnclosingSymbol(call.SpanStart)?.ContainingType;
-            IMethodSymbol? target = UnityTypes.Chain(home).SelectMany(type => type.GetMembers(name)).OfType<IMethodSymbol>()
+            IMethodSymbol? target = UnityTypes.Chain(home).SelectMany(type => type.GetMembers(name))
+                .OfType<IMethodSymbol>()
                 .FirstOrDefault();
             string? reason = isSent ? (source.Usage.IsKnown(name) ? null : "no script has a method " + name)
                 : target == null ? "this script has no method " + name
-                : way.EndsWith("Coroutine", StringComparison.Ordinal) && !IsCoroutine(target) ? name + " returns no IEnumerator"
-                : way.StartsWith("Invoke", StringComparison.Ordinal) && target.Parameters.Length > 0 ? name + " has parameters"
+                : calling.EndsWith("Coroutine", StringComparison.Ordinal) && !IsCoroutine(target)
+                    ? name + " returns no IEnumerator"
+                : calling.StartsWith("Invoke", StringComparison.Ordinal) && target.Parameters.Length > 0
+                    ? name + " has parameters"
                 : null;
             if (reason != null)
             {
-                source.Report(call, "script-invoke", way + ": " + reason);
+                source.Report(call, "script-invoke", calling + ": " + reason);
             }
         }
 
@@ -202,7 +211,8 @@ namespace Guidewire.UnityCheck.Rules
         {
             return call.ArgumentList.Arguments.FirstOrDefault()?.Expression switch
             {
-                LiteralExpressionSyntax text when text.IsKind(SyntaxKind.StringLiteralExpression) => text.Token.ValueText,
+                LiteralExpressionSyntax text when text.IsKind(SyntaxKind.StringLiteralExpression)
+                    => text.Token.ValueText,
                 InvocationExpressionSyntax inner when CallTable.CalledName(inner) == "nameof" =>
                     inner.ArgumentList.Arguments.FirstOrDefault()?.Expression.ToString(),
                 _ => null,

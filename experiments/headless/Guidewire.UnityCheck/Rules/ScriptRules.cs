@@ -54,7 +54,8 @@ namespace Guidewire.UnityCheck.Rules
                 source.Report(type, "script-name", type.Name + " is nested in " + type.ContainingType.Name
                     + "; no scene can hold it");
             }
-            else if (!source.Assembly.IsTest && type.Name != source.Stem)
+            else if (!source.Assembly.IsTest && type.Locations.All(
+                place => Source.StemOf(place.SourceTree) != type.Name))
             {
                 source.Report(type, "script-name", "class " + type.Name + " must be called like its file");
             }
@@ -62,7 +63,8 @@ namespace Guidewire.UnityCheck.Rules
             {
                 return;
             }
-            if (type.DeclaredAccessibility != Accessibility.Public || type.IsAbstract || type.IsStatic || type.IsGenericType)
+            if (type.DeclaredAccessibility != Accessibility.Public || type.IsAbstract || type.IsStatic
+                || type.IsGenericType)
             {
                 source.Report(type, "script-form", type.Name
                     + " must be public, not abstract, not generic to go on an object");
