@@ -1,4 +1,4 @@
-"""Builds the programs of the headless solution, where they were made from something else than what is there now.
+"""Builds programs of the headless solution, where they were made from something else than what is there now.
 
 After a build a stamp says what each program came from and what it is: the content of every file that a build can read,
 the .NET SDKs, and size and time of the files written. Where all three are as stamped, nothing is built.
@@ -36,12 +36,14 @@ except ImportError:
 
 HEADLESS = ROOT / "experiments" / "headless"
 SDK_MAJOR = 10
-SOLUTION = "Guidewire.sln"
 RUNNER = "Guidewire.Cli"
+CHECKER = "Guidewire.UnityCheck"
 BENCHMARKS = "Guidewire.Benchmarks"
-DOTNET_TESTS = ("Guidewire.Core.Tests", "Guidewire.Core.Tests.NetStandard", "Guidewire.Unity.Tests")
+DOTNET_TESTS = ("Guidewire.Core.Tests", "Guidewire.Unity.Tests")
+# What tests need, in the order in which it is built: programs by the part of the solution that makes them.
+PARTS = {"Runner": (RUNNER, CHECKER), "Tests": DOTNET_TESTS}
 
-_WRITTEN = ("**/*.dll", "*.deps.json", "*.runtimeconfig.json")
+_WRITTEN = ("**/*.dll", "*/*.deps.json", "*/*.runtimeconfig.json")
 # What dotnet and MSBuild look for in every folder above a project.
 _ABOVE = ("global.json", "nuget.config", "NuGet.config", "NuGet.Config", ".editorconfig", ".globalconfig",
           "Directory.Build.props", "Directory.Build.targets", "Directory.Build.rsp", "Directory.Packages.props",
@@ -80,13 +82,13 @@ def build(project: str, tell: Callable[[str], None]) -> list[str]:
     """
     program, sdks = dotnet()
     _bring_up_to_date(program, sdks, HEADLESS / project / f"{project}.csproj", (project,), tell)
-    return [program, str(_output(project) / f"{project}.dll")]
+    return [program, str(_output(project) / f"net{SDK_MAJOR}.0" / f"{project}.dll")]
 
 
-def build_solution(tell: Callable[[str], None]) -> None:
-    """Build every program of the solution if need be; parameters and errors as of `build`."""
+def build_part(part: str, tell: Callable[[str], None]) -> None:
+    """Build the programs of one of PARTS if need be; `tell` and errors as of `build`."""
     program, sdks = dotnet()
-    _bring_up_to_date(program, sdks, HEADLESS / SOLUTION, (RUNNER, BENCHMARKS, *DOTNET_TESTS), tell)
+    _bring_up_to_date(program, sdks, HEADLESS / f"{part}.slnf", PARTS[part], tell)
 
 
 def dotnet() -> tuple[str, str]:
@@ -168,7 +170,7 @@ def _files_below(root: Path) -> Iterator[str]:
 
 
 def _output(project: str) -> Path:
-    return HEADLESS / project / "bin" / "Release" / f"net{SDK_MAJOR}.0"
+    return HEADLESS / project / "bin" / "Release"
 
 
 def _written(project: str) -> dict[str, list[int]]:
@@ -235,9 +237,9 @@ def _log() -> Path:
 
 
 def main() -> int:
-    """Build the solution, as `python -m experiments.building`; the compiler's output is shown where it fails."""
+    """Build a part, as `python -m experiments.building PART`; the compiler's output is shown where it fails."""
     try:
-        build_solution(print)
+        build_part(sys.argv[1], print)
     except PreparationError as error:
         if _log().exists():
             print(_log().read_text("utf-8", "replace"))

@@ -3,8 +3,8 @@
 Counts come from result files (TRX, JUnit XML), never from exit codes alone; a runner that left no such file, or an
 empty one, did not run and counts as one failure.
 
-Suites run side by side, one a processor, beside the build where they do not need it; the checker's tests that do have
-the marker `built`. Tests that measure or sleep (the marker `timed`) are a suite of their own, which runs last and
+Suites run side by side, one a processor, each as soon as the part of the build that it needs is there. Tests that
+measure or sleep (the marker `timed`) are a suite of their own, which runs last and
 alone.
 """
 
@@ -18,7 +18,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from experiments.building import DOTNET_TESTS, HEADLESS, dotnet
+from experiments.building import HEADLESS, PARTS, dotnet
 from experiments.prepare import ROOT
 from experiments.process import Process, file_name
 
@@ -26,7 +26,13 @@ RESULTS = ROOT / "results" / "tests"
 FULL_CAMPAIGNS = "GUIDEWIRE_ALL"
 # The build that Unity compiles has the same sources and runs here on the same runtime as the other. Where campaigns do
 # not run in full it makes the tests of what the two do in different ways: how sweeps are made and numbers are written.
-BY_TARGET = ("Guidewire.Core.Tests.NetStandard",)
+BY_TARGET = ("Guidewire.Core.Tests, netstandard2.1",)
+# Tests of the solution by the folder that they and their libraries were built into.
+_DOTNET = {
+    "Guidewire.Core.Tests": "Guidewire.Core.Tests/bin/Release/net10.0/Guidewire.Core.Tests.dll",
+    BY_TARGET[0]: "Guidewire.Core.Tests/bin/Release/netstandard2.1/Guidewire.Core.Tests.dll",
+    "Guidewire.Unity.Tests": "Guidewire.Unity.Tests/bin/Release/net10.0/Guidewire.Unity.Tests.dll",
+}
 # The longest files of experiments/tests: a suite of their own, so that the rest runs beside it.
 LONGEST = ("test_validation.py", "test_random_parameters.py", "test_core_against_reference.py")
 _SUITE_SECONDS = {False: 900, True: 6 * 3600}
@@ -58,7 +64,7 @@ class Suite:
     command : what starts it.
     report : the file in RESULTS that it writes.
     read : how that file is read.
-    needs_build : starts only after a build that went well.
+    needs : the part of the build after which it starts; empty where it needs none.
     alone : runs with nothing beside it.
     """
 
@@ -66,7 +72,7 @@ class Suite:
     command: Sequence[str]
     report: str
     read: Callable[[Path], Count]
-    needs_build: bool = True
+    needs: str = "Tests"
     alone: bool = False
 
 
@@ -82,9 +88,8 @@ def run_tests(full: bool) -> int:
     if full:
         environment[FULL_CAMPAIGNS] = "1"
     program, _ = dotnet()
-    build = [sys.executable, "-m", "experiments.building"]
-    total = run_suites(build, suites(program, full), environment, _SUITE_SECONDS[full], os.cpu_count() or 1)
-    total += check_unity_files(ROOT)
+    builds = {part: [sys.executable, "-m", "experiments.building", part] for part in PARTS}
+    total = run_suites(builds, suites(program, full), environment, _SUITE_SECONDS[full], os.cpu_count() or 1)
     print(total, flush=True)
     return 0 if total.failed == 0 and total.passed > 0 else 1
 
@@ -101,27 +106,27 @@ def suites(program: str, full: bool) -> list[Suite]:
     longest = [f"{tests}/{name}" for name in LONGEST]
     not_timed = ["-m", "not timed"]
     return [
-        _pytest_suite("analysis/tests", ["analysis/tests"], needs_build=False),
-        _pytest_suite("unitycheck/tests", ["-m", "not built", "unitycheck/tests"], needs_build=False),
+        _pytest_suite("analysis/tests", ["analysis/tests"], needs=""),
+        _pytest_suite("unitycheck/tests", ["unitycheck/tests"]),
         _pytest_suite(f"{tests}, the rest", [*not_timed, tests, *(f"--ignore={path}" for path in longest)]),
+        *(_dotnet_suite(program, name, full) for name in _DOTNET),
         _pytest_suite(f"{tests}, the longest", [*not_timed, *longest]),
-        *(_dotnet_suite(program, name, full) for name in DOTNET_TESTS),
-        _pytest_suite("unitycheck/tests, of what is built", ["-m", "built", "unitycheck/tests"]),
         _pytest_suite(f"{tests}, timed", ["-m", "timed", tests], alone=True),
     ]
 
 
 def run_suites(
-    build: Sequence[str], suites: Sequence[Suite], environment: Mapping[str, str], seconds: float, places: int
+    builds: Mapping[str, Sequence[str]], suites: Sequence[Suite], environment: Mapping[str, str], seconds: float,
+    places: int,
 ) -> Count:
     """Build and run suites, `places` processes at once, and return the sum of their counts.
 
     Each has its line in the output, and what it wrote where it failed, when it has ended. A build that fails counts as
-    one failure, and so does each suite that needs it: they do not run.
+    one failure, and so does each suite that needs it or a later part: they do not run.
 
     Parameters
     ----------
-    build : the command that builds.
+    builds : part of the build to the command that makes it, one after the other in this order.
     suites : started in this order, as far as they may start.
     environment : of every process.
     seconds : how long each may take; then it is killed with the processes that it started.
@@ -129,8 +134,14 @@ def run_suites(
     """
     total = Count()
     waiting = list(suites)
-    built = False
-    running: dict[Process, Suite | None] = {Process("build", build, environment, RESULTS, seconds): None}
+    parts = list(builds)    # still to be built, the first one under way
+    running: dict[Process, Suite | None] = {}
+
+    def build_next() -> None:
+        if parts:
+            running[Process(f"build {parts[0]}", builds[parts[0]], environment, RESULTS, seconds)] = None
+
+    build_next()
     try:
         while running:
             for process, suite in [(p, s) for p, s in running.items() if p.has_ended()]:
@@ -138,15 +149,18 @@ def run_suites(
                 if suite is not None:
                     total += _count(suite, process)
                     continue
-                built = process.code == 0
-                _say(f"build: {'ok' if built else 'FAILED'} ({process.wall:.0f} s)")
-                if not built:
-                    _say(process.last_lines())
-                    missing = [other for other in waiting if other.needs_build]
-                    waiting = [other for other in waiting if not other.needs_build]
-                    _say("\n".join(f"{other.name}: not run" for other in missing))
-                    total += Count(failed=1 + len(missing))
-            while (suite := _next(waiting, built, list(running.values()), places)) is not None:
+                _say(f"build {parts[0]}: {'ok' if process.code == 0 else 'FAILED'} "
+                     f"({process.wall:.0f} s, processor {process.processor:.0f} s)")
+                if process.code == 0:
+                    parts.pop(0)
+                    build_next()
+                    continue
+                _say(process.last_lines())
+                missing = [other for other in waiting if other.needs in parts]
+                waiting = [other for other in waiting if other.needs not in parts]
+                _say("\n".join(f"{other.name}: not run" for other in missing))
+                total += Count(failed=1 + len(missing))
+            while (suite := _next(waiting, parts, list(running.values()), places)) is not None:
                 waiting.remove(suite)
                 (RESULTS / suite.report).unlink(missing_ok=True)
                 running[Process(suite.name, suite.command, environment, RESULTS, seconds)] = suite
@@ -157,15 +171,17 @@ def run_suites(
     return total
 
 
-def _next(waiting: Sequence[Suite], built: bool, running: Sequence[Suite | None], places: int) -> Suite | None:
-    """The suite that may start now, or None."""
+def _next(
+    waiting: Sequence[Suite], parts: Sequence[str], running: Sequence[Suite | None], places: int
+) -> Suite | None:
+    """The suite that may start now, or None. parts : what is not built."""
     if len(running) >= places or any(suite is not None and suite.alone for suite in running):
         return None
     for suite in waiting:
         if suite.alone:
             if not running and len(waiting) == sum(other.alone for other in waiting):
                 return suite
-        elif built or not suite.needs_build:
+        elif suite.needs not in parts:
             return suite
     return None
 
@@ -185,27 +201,6 @@ def _count(suite: Suite, process: Process) -> Count:
          + (f": {problem}" if problem else ""))
     if count.failed:
         _say(process.last_lines())
-    return count
-
-
-def check_unity_files(root: Path) -> Count:
-    """The Unity project's files under every family of rules; each family is one check."""
-    started = time.monotonic()
-    count = Count()
-    try:
-        from unitycheck import checks
-        from unitycheck.project import Project
-
-        project = Project(root)
-        for family in checks.MODULES:
-            violations = sorted(family.check(project))
-            count += Count(failed=1) if violations else Count(passed=1)
-            for violation in violations:
-                _say(str(violation))
-    except Exception as error:  # whatever it is, the check did not run to its end, and the sum has to say so
-        _say(f"unity check: it broke off ({type(error).__name__}: {error})")
-        count += Count(failed=1)
-    _say(f"unity check: {count} ({time.monotonic() - started:.0f} s)")
     return count
 
 
@@ -231,22 +226,20 @@ def read_junit(path: Path) -> Count:
 
 
 def _dotnet_suite(program: str, name: str, full: bool) -> Suite:
-    report = f"{name}.trx"
-    command = [
-        program, "test", str(HEADLESS / name / f"{name}.csproj"), "-c", "Release", "--no-build", "--nologo",
-        "--logger", f"trx;LogFileName={report}", "--results-directory", str(RESULTS),
-    ]
+    report = f"{file_name(name)}.trx"
+    command = [program, "test", str(HEADLESS / _DOTNET[name]), "--nologo", "--logger", f"trx;LogFileName={report}",
+               "--results-directory", str(RESULTS)]
     if not full and name in BY_TARGET:
         command += ["--filter", "TestCategory=Target&TestCategory!=Long"]
     return Suite(name, command, report, read_trx)
 
 
-def _pytest_suite(name: str, arguments: Sequence[str], needs_build: bool = True, alone: bool = False) -> Suite:
+def _pytest_suite(name: str, arguments: Sequence[str], needs: str = "Runner", alone: bool = False) -> Suite:
     report = file_name(name) + ".xml"
     command = [
         sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", f"--junitxml={RESULTS / report}", *arguments,
     ]
-    return Suite(name, command, report, read_junit, needs_build, alone)
+    return Suite(name, command, report, read_junit, needs, alone)
 
 
 def _say(text: str) -> None:

@@ -6,7 +6,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from unitycheck import checks, metas, scenewriter
+from unitycheck import checks, metas, scenewriter, sources
 from unitycheck.project import Project
 
 
@@ -31,6 +31,9 @@ def main(arguments: list[str] | None = None) -> int:
     violations = checks.run(project)
     for violation in violations:
         print(violation)
+    if not sources.is_built():
+        print("unity-check: the C# sources, what scenes hold of them and the guide's command lines were not judged; "
+              f"that needs the build: dotnet build -c Release {sources.PROJECT}")
     print(f"unity-check: {len(project.asset_files)} files under Assets, {len(violations)} violations")
     return 1 if violations else 0
 

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import functools
 import re
 from collections import Counter
 from dataclasses import dataclass, field
 from typing import Any, Iterator
 
-from unitycheck.csharp import Token, tokens
 from unitycheck.metas import guids
-from unitycheck.packages import MODULE_OF, dependencies, parsed
+from unitycheck.packages import dependencies, parsed
 from unitycheck.project import Project
 from unitycheck.violation import Violation
 
@@ -34,7 +32,6 @@ PLATFORMS = {"Editor", "Android", "iOS", "LinuxStandalone64", "macOSStandalone",
              "Switch", "Switch2", "tvOS", "VisionOS", "EmbeddedLinux", "QNX", "LinuxHeadlessSimulation", "Stadia",
              "Lumin", "CloudRendering", "Kepler", "ReservedCFE"}
 PLAYERS = {"LinuxStandalone64", "WindowsStandalone64"}  # what Editor/PlayerBuild.cs builds
-_ENGINE_NAMESPACES = {"UnityEngine", "UnityEditor", "Unity"}
 # Symbols that Unity defines in this project's editor or players, apart from versionDefines.
 _DEFINED = re.compile(r"^(UNITY_(EDITOR(_WIN|_OSX|_LINUX|_64)?|STANDALONE(_WIN|_OSX|_LINUX)?|INCLUDE_TESTS|64|"
                       r"ASSERTIONS|5_\d_OR_NEWER|5_3_OR_NEWER|(20(1[789]|2[0123])(_\d)?|6000_0)_OR_NEWER|6000_0_\d+|"
@@ -136,7 +133,7 @@ def owner(asmdefs: list[Asmdef], path: str) -> Asmdef | None:
 
 
 def check(project: Project) -> Iterator[Violation]:
-    """Rules asmdef-*, asmref, engine-in-core, editor-in-player, module-missing."""
+    """Rules asmdef-* and asmref."""
     asmdefs, problems = project.derived("assemblies", load)
     yield from problems
     seen: dict[str, str] = {}
@@ -164,7 +161,9 @@ def check(project: Project) -> Iterator[Violation]:
         if asmdef.is_test:
             yield from _test_form(asmdef)
     yield from _cycles(project, asmdefs)
-    yield from _sources(project, asmdefs)
+    for path in project.assets(".cs"):
+        if owner(asmdefs, path) is None:
+            yield Violation(path, 0, "asmdef-outside", "stands in no assembly definition's folder")
 
 
 def _form(asmdef: Asmdef, seen: dict[str, str]) -> Iterator[Violation]:
@@ -299,41 +298,3 @@ def _cycles(project: Project, asmdefs: list[Asmdef]) -> Iterator[Violation]:
             elif name in after and name not in path and name not in done:
                 path.append(name)
                 stack.append(iter(after[name]))
-
-
-def _sources(project: Project, asmdefs: list[Asmdef]) -> Iterator[Violation]:
-    modules = {name.rpartition(".")[2] for name in dependencies(project) if name.startswith("com.unity.modules.")}
-    for path in project.assets(".cs"):
-        asmdef = owner(asmdefs, path)
-        if asmdef is None:
-            yield Violation(path, 0, "asmdef-outside", "stands in no assembly definition's folder")
-        engine_free = path.startswith(ENGINE_FREE) or (asmdef is not None and asmdef.data.get("noEngineReferences"))
-        source = project.text(path)
-        for before, token, after in _telling(source):
-            if engine_free and token.text in _ENGINE_NAMESPACES and before not in (".", "namespace") \
-                    and (after in (".", ";") or before == "using"):
-                yield Violation(path, token.line, "engine-in-core", f"{token.text} in an engine-free folder")
-            module = MODULE_OF.get(token.text)
-            if module is not None and not engine_free and module not in modules:
-                yield Violation(path, token.line, "module-missing",
-                                f"{token.text} needs com.unity.modules.{module} in the manifest")
-            if token.text == "unsafe" and asmdef is not None and asmdef.data.get("allowUnsafeCode") is not True:
-                yield Violation(path, token.line, "asmdef-unsafe", f"unsafe code: {asmdef.name} does not allow it")
-        if "UnityEditor" in source and not engine_free and asmdef is not None and not asmdef.is_editor_only:
-            yield from _editor_in_player(path, source, asmdef.name)
-
-
-@functools.lru_cache(maxsize=4096)
-def _telling(source: str) -> tuple[tuple[str, Token, str], ...]:
-    """The words that say something of an assembly, each with the tokens beside it."""
-    items = [Token("mark", "", 0), *tokens(source), Token("mark", "", 0)]
-    return tuple((items[i - 1].text, items[i], items[i + 1].text) for i in range(1, len(items) - 1)
-                 if items[i].kind == "word" and (items[i].text in _ENGINE_NAMESPACES or items[i].text in MODULE_OF
-                                                 or items[i].text == "unsafe"))
-
-
-def _editor_in_player(path: str, source: str, name: str) -> Iterator[Violation]:
-    items = tokens(source, is_player=True)
-    for i, token in enumerate(items):
-        if token.kind == "word" and token.text == "UnityEditor" and (i == 0 or items[i - 1].text != "."):
-            yield Violation(path, token.line, "editor-in-player", f"UnityEditor in {name}, which players contain")

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from unitycheck import (
-    api, asmdefs, assemblyuse, compileroptions, components, editorentries, fields, language, materials, messages, metas,
-    names, nunit, packages, references, sceneparameters, scenes, scripts, settings, testshapes, textfiles,
+    asmdefs, compileroptions, components, editorentries, materials, metas, names, packages, references, sceneparameters,
+    scenes, settings, sources, textfiles,
 )
 from unitycheck.project import Project
 from unitycheck.violation import Violation
 
-MODULES = (metas, textfiles, packages, settings, asmdefs, assemblyuse, compileroptions, scripts, messages, fields,
-           references, scenes, components, sceneparameters, names, materials, editorentries, language, api, nunit,
-           testshapes)
+MODULES = (metas, textfiles, packages, settings, asmdefs, compileroptions, sources, references, scenes, components,
+           sceneparameters, names, materials, editorentries)
 
 
 def run(project: Project) -> list[Violation]:

@@ -5,15 +5,12 @@ from __future__ import annotations
 import re
 from typing import Any, Iterator
 
-from unitycheck.asmdefs import assemblies, owner
-from unitycheck.behaviours import OBJECTS, ROOTS, behaviours, by_name, chain, descendants
 from unitycheck.classids import CLASSES
-from unitycheck.declarations import Declaration, Field
-from unitycheck.fields import NUMBERS, element, numbers, stored_fields
 from unitycheck.metas import guids
 from unitycheck.project import Project
 from unitycheck.scenes import components, documents, local_id, number
 from unitycheck.scenetable import AT_ORIGIN, BESIDE, NEEDED
+from unitycheck.sources import Field, Script, scripts
 from unitycheck.unityyaml import Document
 from unitycheck.violation import Violation
 
@@ -44,7 +41,10 @@ _BASES = {"Camera": {"Behaviour", "Component"}, "Light": {"Behaviour", "Componen
 
 
 def check(project: Project) -> Iterator[Violation]:
-    """Rules scene-script, scene-needs, scene-camera, scene-light, field-unknown, field-value, reference-*."""
+    """Rules scene-script, scene-needs, scene-camera, scene-light, field-unknown, field-value, reference-*.
+
+    What scripts store is the compiler's to say: where it is not built, their fields are not judged.
+    """
     for path in project.assets(".unity"):
         found, problem = documents(project, path)
         if problem is None:
@@ -56,11 +56,12 @@ class _Scene:
         self._project = project
         self._path = path
         self._seen = {document.file_id: document for document in found}
-        self._scripts: dict[int, Declaration] = {}
+        self._known = scripts(project) or {}
+        self._scripts: dict[int, Script] = {}
 
     def check(self) -> Iterator[Violation]:
         for document in self._seen.values():
-            if document.class_id == 114:
+            if document.class_id == 114 and not document.is_stripped and scripts(self._project) is not None:
                 yield from self._script(document)
         for document in self._seen.values():
             if document.file_id in self._scripts:
@@ -83,101 +84,86 @@ class _Scene:
         if not source.endswith(".cs"):
             yield self._violation(document, "scene-script", f"MonoBehaviour &{document.file_id}: m_Script is no script")
             return
-        stem = source.rpartition("/")[2][:-len(".cs")]
-        script = next((item for item in behaviours(self._project).get(source, ())
-                       if item.name == stem and not item.outer), None)
-        if script is None or not any(base in descendants(self._project, {"MonoBehaviour"}) for base in script.bases):
+        script = self._known.get(source)
+        if script is None or not script.is_attachable:
+            stem = source.rpartition("/")[2][:-len(".cs")]
             yield self._violation(document, "scene-script", f"{source} holds no MonoBehaviour {stem}")
             return
         self._scripts[document.file_id] = script
-        assembly = owner(assemblies(self._project), source)
-        if assembly is not None and assembly.is_editor_only:
+        if script.is_editor_only:
             yield self._violation(document, "scene-script", f"{source} exists in the editor only")
 
-    def _fields(self, document: Document, script: Declaration) -> Iterator[Violation]:
-        stored = stored_fields(self._project, script)
+    def _fields(self, document: Document, script: Script) -> Iterator[Violation]:
+        names = {name: key for key, item in script.fields.items() for name in (*item.names, key)}
         for key, value in document.data.items():
             if key in _OWN_KEYS:
                 continue
-            if key not in stored:
+            if key not in names:
                 yield self._violation(document, "field-unknown", f"{script.name} stores no field '{key}' "
-                                      f"(it stores {', '.join(sorted(stored)) or 'none'})")
+                                      f"(it stores {', '.join(sorted(script.fields)) or 'none'})")
             else:
-                yield from self._value(document, script.name, stored[key], value)
-        for key, item in stored.items():
-            # `= null!` says that the scene fills the field.
-            is_needed = [token.text for token in item.value] == ["null", "!"]
-            if is_needed and key not in document.data:
+                yield from self._value(document, f"{script.name}.{key}", script.fields[names[key]], value)
+        for key, item in script.fields.items():
+            if item.is_needed and not {key, *item.names} & document.data.keys():
                 yield self._violation(document, "reference-unset", f"{script.name}.{key} is not set")
 
     def _value(self, document: Document, name: str, item: Field, value: Any) -> Iterator[Violation]:
-        bare = element(item.type)
-        is_list = item.type.rstrip("?").endswith("[]") or "List<" in item.type
-        if is_list:
+        values = [value]
+        if item.is_list:
             if not isinstance(value, list) and not (isinstance(value, str) and re.match(r"^([0-9a-f]{2})*$", value)):
-                yield self._violation(document, "field-value", f"{name}.{item.name} is a {item.type}, not '{value}'")
+                yield self._violation(document, "field-value", f"{name} is a list of {item.type}, not '{value}'")
                 return
             values = value if isinstance(value, list) else []
-        else:
-            values = [value]
         for one in values:
-            reason = self._reason(document, item, bare, one)
+            reason = self._reason(item, one)
             if reason is not None:
-                yield self._violation(document, reason[0], f"{name}.{item.name} {reason[1]}")
+                yield self._violation(document, reason[0], f"{name} {reason[1]}")
 
-    def _reason(self, document: Document, item: Field, bare: str, value: Any) -> tuple[str, str] | None:
-        said = f"is a {bare}, not '{value}'"
-        if bare in NUMBERS or bare == "bool":
-            if not isinstance(value, str) or not (_INTEGER if bare not in ("float",
-                                                                           "double") else _NUMBER).match(value):
-                return "field-value", said
-            low, high = (0, 2) if bare == "bool" else _WHOLE.get(bare, (-float("inf"), float("inf")))
-            limits = next((numbers(attribute.arguments) for attribute in item.attributes if attribute.name == "Range"),
-                          [])
+    def _reason(self, item: Field, value: Any) -> tuple[str, str] | None:
+        said = "field-value", f"is a {item.type}, not '{value}'"
+        if item.kind in ("number", "bool"):
+            is_whole = item.kind == "bool" or item.type in _WHOLE
+            if not isinstance(value, str) or not (_INTEGER if is_whole else _NUMBER).match(value):
+                return said
+            low, high = (0, 2) if item.kind == "bool" else _WHOLE.get(item.type, (-float("inf"), float("inf")))
             if not low <= float(value) < high:
-                return "field-value", said
-            if len(limits) == 2 and not limits[0] <= float(value) <= limits[1]:
-                return "field-value", f"= {value} is outside its Range {limits[0]:g} to {limits[1]:g}"
-            return None
-        if bare in ("string", "char"):
-            return None if isinstance(value, str) else ("field-value", said)
-        if bare in _AXES:
-            is_whole = isinstance(value, dict) and set(value) == set(_AXES[bare]) \
+                return said
+            if len(item.range) == 2 and not item.range[0] <= float(value) <= item.range[1]:
+                return "field-value", f"= {value} is outside its Range {item.range[0]:g} to {item.range[1]:g}"
+        elif item.kind == "text":
+            return None if isinstance(value, str) else said
+        elif item.type in _AXES:
+            is_whole = isinstance(value, dict) and set(value) == set(_AXES[item.type]) \
                 and all(isinstance(part, str) and _NUMBER.match(part) for part in value.values())
-            return None if is_whole else ("field-value", said)
-        declared = by_name(self._project).get(bare, [])
-        enums = [declaration for declaration in declared if declaration.kind == "enum"]
-        if enums:
-            is_flags = enums[0].has("Flags")
+            return None if is_whole else said
+        elif item.kind == "enum":
             if not isinstance(value, str) or not _INTEGER.match(value) or \
-                    (int(value) not in enums[0].values and not is_flags):
-                return "field-value", f"is none of {bare}'s values {sorted(enums[0].values)}: '{value}'"
-            return None
-        if bare in OBJECTS or bare in descendants(self._project, ROOTS):
-            return self._reference(item, bare, value)
-        if any(declaration.has("Serializable") for declaration in declared) and not isinstance(value, dict):
-            return "field-value", said
-        if declared and isinstance(value, dict):
-            known = {key for declaration in declared for key in stored_fields(self._project, declaration)}
-            wrong = sorted(set(value) - known)
+                    (item.values is not None and int(value) not in item.values):
+                return "field-value", f"is none of {item.type}'s values {sorted(item.values or ())}: '{value}'"
+        elif item.kind == "object":
+            return self._reference(item, value)
+        elif item.kind == "class":
+            if not isinstance(value, dict):
+                return said
+            wrong = sorted(set(value) - item.fields)
             if wrong and "fileID" not in value:
-                return "field-unknown", f"has no field '{wrong[0]}' (a {bare} stores {', '.join(sorted(known))})"
+                return "field-unknown", \
+                    f"has no field '{wrong[0]}' (a {item.type} stores {', '.join(sorted(item.fields))})"
         return None
 
-    def _reference(self, item: Field, bare: str, value: Any) -> tuple[str, str] | None:
+    def _reference(self, item: Field, value: Any) -> tuple[str, str] | None:
         if not isinstance(value, dict) or "fileID" not in value:
             return "field-value", f"is a reference, not '{value}'"
         guid = str(value.get("guid", ""))
         if not guid:
             target = self._seen.get(local_id(value))
             if local_id(value) == 0:
-                is_needed = [token.text for token in item.value] == ["null", "!"]
-                return ("reference-unset", "is not set") if is_needed else None
+                return ("reference-unset", "is not set") if item.is_needed else None
             if target is None:
                 return None  # the scenes' rules say so
             kinds = self._kinds(target)
-            if kinds is not None and bare not in kinds | {"Object"}:
-                return "reference-class", f"is a {bare}; &{target.file_id} is a {sorted(kinds)[0]}"
+            if kinds is not None and item.type not in kinds | {"Object"}:
+                return "reference-class", f"is a {item.type}; &{target.file_id} is a {sorted(kinds)[0]}"
             return None
         target_path = guids(self._project).get(guid)
         if target_path is None:
@@ -186,8 +172,8 @@ class _Scene:
         else:
             suffix = target_path[target_path.rfind("."):] if "." in target_path.rpartition("/")[2] else ""
             kinds = _ASSETS.get(suffix)
-        if kinds is not None and bare not in kinds | {"Object"}:
-            return "reference-class", f"is a {bare}, not what {target_path or 'a built-in asset'} holds"
+        if kinds is not None and item.type not in kinds | {"Object"}:
+            return "reference-class", f"is a {item.type}, not what {target_path or 'a built-in asset'} holds"
         return None
 
     def _kinds(self, target: Document) -> set[str] | None:
@@ -196,8 +182,7 @@ class _Scene:
             script = self._scripts.get(target.file_id)
             if script is None:
                 return None
-            names = {name for base in chain(self._project, script) for name in (base.name, *base.bases)}
-            return names | {"MonoBehaviour", "Behaviour", "Component"}
+            return set(script.bases)
         name = CLASSES.get(target.class_id)
         return None if name is None else {name} | _BASES.get(name, set())
 
@@ -220,7 +205,7 @@ class _Scene:
     def _needs(self) -> Iterator[Violation]:
         if any(script.name in NEEDED for script in self._scripts.values()):
             yield from self._lights()
-        existing = {script.name for scripts in behaviours(self._project).values() for script in scripts}
+        existing = {script.name for script in self._known.values()}
         for name in NEEDED:
             if name not in existing:
                 continue

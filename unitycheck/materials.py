@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import functools
 import re
 from typing import Any, Iterator
 
-from unitycheck.csharp import tokens
 from unitycheck.project import Project
+from unitycheck.sources import table
 from unitycheck.unityyaml import FormError, parse
 from unitycheck.violation import Violation
 
@@ -40,13 +39,6 @@ _CALLS = {"SetFloat": FLOATS, "GetFloat": FLOATS, "SetColor": COLOURS, "GetColor
           "SetInt": FLOATS, "SetInteger": FLOATS, "HasProperty": FLOATS | COLOURS | TEXTURES,
           "PropertyToID": FLOATS | COLOURS | TEXTURES, "EnableKeyword": KEYWORDS, "DisableKeyword": KEYWORDS,
           "IsKeywordEnabled": KEYWORDS}
-_ASKS = re.compile("|".join((r"Shader\.", r"Keyword\(", *_CALLS)))
-
-
-@functools.lru_cache(maxsize=4096)
-def _asks(source: str) -> bool:
-    """Whether a source may hold one of the calls; quick."""
-    return _ASKS.search(source) is not None
 
 
 def check(project: Project) -> Iterator[Violation]:
@@ -63,8 +55,7 @@ def check(project: Project) -> Iterator[Violation]:
             yield from _material(path, material.line, material.data)
     own = {name for path in project.assets(".shader")
            for name in re.findall(r'^\s*Shader\s+"([^"]+)"', project.text(path), re.MULTILINE)}
-    for path in project.assets(".cs"):
-        yield from _calls(path, project.text(path), own)
+    yield from _calls(project, own)
 
 
 def _material(path: str, line: int, data: dict[str, Any]) -> Iterator[Violation]:
@@ -124,19 +115,14 @@ def _standard(path: str, line: int, data: dict[str, Any]) -> Iterator[Violation]
         yield Violation(path, line, "material-mode", f"_Mode {mode:g} is drawn from queue {queue} on, not {asked}")
 
 
-def _calls(path: str, source: str, own: set[str]) -> Iterator[Violation]:
-    if not _asks(source):
-        return
-    items = tokens(source)
-    for i in range(1, len(items) - 2):
-        text = items[i + 2]
-        if items[i + 1].text != "(" or text.kind != "text" or text.text != '"' or items[i - 1].text != ".":
-            continue
-        if items[i].text == "Find" and items[i - 2].text == "Shader":
-            if text.value not in NAMES | own:
-                yield Violation(path, text.line, "shader-find", f"there is no shader '{text.value}'")
-            elif text.value not in IN_PLAYERS | own and "/Editor/" not in path and "/Tests/" not in path:
-                yield Violation(path, text.line, "shader-find", f"players do not contain the shader '{text.value}'")
-        elif items[i].text in _CALLS and not own and text.value not in _CALLS[items[i].text]:
-            rule = "material-keyword" if "Keyword" in items[i].text else "material-property"
-            yield Violation(path, text.line, rule, f"{items[i].text}: Standard has no '{text.value}'")
+def _calls(project: Project, own: set[str]) -> Iterator[Violation]:
+    for call in table(project, "calls"):
+        path, line, name, text = call["path"], call["line"], call["name"], call["text"]
+        if name == "Find" and call["owner"] == "Shader":
+            if text not in NAMES | own:
+                yield Violation(path, line, "shader-find", f"there is no shader '{text}'")
+            elif text not in IN_PLAYERS | own and "/Editor/" not in path and "/Tests/" not in path:
+                yield Violation(path, line, "shader-find", f"players do not contain the shader '{text}'")
+        elif name in _CALLS and call["owner"] and not own and text not in _CALLS[name]:
+            rule = "material-keyword" if "Keyword" in name else "material-property"
+            yield Violation(path, line, rule, f"{name}: Standard has no '{text}'")

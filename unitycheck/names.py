@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import functools
 import re
 from typing import Iterator
 
-from unitycheck.csharp import tokens
 from unitycheck.project import Project
 from unitycheck.scenes import LAYERS, TAGS, own_labels
+from unitycheck.sources import table
 from unitycheck.violation import Violation
 
 _AXES = {"Horizontal", "Vertical", "Fire1", "Fire2", "Fire3", "Jump", "Mouse X", "Mouse Y", "Mouse ScrollWheel",
@@ -18,35 +17,19 @@ _LAYER_NAMES = {"Default", "TransparentFX", "Ignore Raycast", "Water", "UI"}
 _CALLS = {"LoadScene": "scene", "LoadSceneAsync": "scene", "FindWithTag": "tag", "FindGameObjectWithTag": "tag",
           "FindGameObjectsWithTag": "tag", "CompareTag": "tag", "NameToLayer": "layer", "GetMask": "layer",
           "GetAxis": "axis", "GetAxisRaw": "axis", "GetButton": "axis", "GetButtonDown": "axis", "GetButtonUp": "axis"}
-_ASKS = re.compile("|".join((*_CALLS, "Resources")))
-
-
-@functools.lru_cache(maxsize=4096)
-def _asks(source: str) -> bool:
-    """Whether a source may hold one of the calls; quick."""
-    return _ASKS.search(source) is not None
 
 
 def check(project: Project) -> Iterator[Violation]:
     """Rule name-unknown."""
     known = project.derived("names", _known)
-    for path in project.assets(".cs"):
-        if _asks(project.text(path)):
-            items = tokens(project.text(path))
-            for i in range(1, len(items) - 2):
-                kind = _CALLS.get(items[i].text)
-                if kind is not None and items[i + 1].text == "(" and items[i + 2].text == '"' \
-                        and items[i + 2].value not in known[kind]:
-                    yield Violation(path, items[i].line, "name-unknown", f"there is no {kind} '{items[i + 2].value}'")
-                if items[i].text == "Resources" and items[i + 1].text == ".":
-                    yield from _resource(project, path, [token for token in items[i + 2:i + 12]])
-
-
-def _resource(project: Project, path: str, items: list) -> Iterator[Violation]:
-    name = next((token for token in items if token.kind == "text"), None)
-    if items and items[0].text.startswith("Load") and name is not None and name.text == '"' and not any(
-            re.search(rf"/Resources/{re.escape(name.value)}(\.\w+|/.*)?$", asset) for asset in project.asset_files):
-        yield Violation(path, name.line, "name-unknown", f"no folder Resources holds '{name.value}'")
+    for call in table(project, "calls"):
+        kind = _CALLS.get(call["name"])
+        if kind is not None and call["text"] not in known[kind]:
+            yield Violation(call["path"], call["line"], "name-unknown", f"there is no {kind} '{call['text']}'")
+        if call["owner"] == "Resources" and call["name"].startswith("Load") and not any(
+                re.search(rf"/Resources/{re.escape(call['text'])}(\.\w+|/.*)?$", asset)
+                for asset in project.asset_files):
+            yield Violation(call["path"], call["line"], "name-unknown", f"no folder Resources holds '{call['text']}'")
 
 
 def _known(project: Project) -> dict[str, set[str]]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 import json
 from pathlib import Path
-from typing import Any, Callable, Iterator, Mapping
+from typing import Any, Callable, Iterable, Iterator, Mapping
 
 YAML_SUFFIXES = (".unity", ".mat", ".asset", ".prefab")
 TEXT_SUFFIXES = YAML_SUFFIXES + (".meta", ".cs", ".asmdef", ".json", ".rsp", ".txt", ".md")
@@ -38,13 +38,17 @@ def strict_json(text: str) -> Any:
 
 
 class Project:
-    """The repository at `root`, listed once; paths are repository paths with forward slashes."""
+    """The repository at `root`, listed once; paths are repository paths with forward slashes.
+
+    only : the C# sources that are judged; None for all.
+    """
 
     def __init__(self, root: Path) -> None:
         self.root = root
         self.asset_files: list[str] = []
         self.asset_folders: list[str] = []
         self._settings: list[str] = []
+        self.only: frozenset[str] | None = None
         self._changes: dict[str, bytes | None] = {}
         self._data: dict[str, bytes] = {}
         self._text: dict[str, str] = {}
@@ -56,9 +60,18 @@ class Project:
             self._settings = [f"ProjectSettings/{entry.name}" for entry in sorted((root / "ProjectSettings").iterdir())
                               if entry.is_file() and is_visible(entry.name)]
 
-    def with_changes(self, changes: Mapping[str, bytes | None]) -> Project:
-        """The same project with other bytes in some files, or (None) without them; nothing on disk is touched."""
+    @property
+    def changed(self) -> set[str]:
+        """The files that have other bytes than on disk, or are gone."""
+        return set(self._changes)
+
+    def with_changes(self, changes: Mapping[str, bytes | None], only: Iterable[str] | None = None) -> Project:
+        """The same project with other bytes in some files, or (None) without them; nothing on disk is touched.
+
+        Of the C# sources `only` these are judged, where it is given.
+        """
         other = copy.copy(self)
+        other.only = None if only is None else frozenset(only)
         other._changes = {**self._changes, **changes}
         other._text = {path: text for path, text in self._text.items() if path not in changes}
         other._derived = {}

@@ -15,7 +15,6 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any, Iterator
 
-from unitycheck.behaviours import behaviours
 from unitycheck.metas import guids
 from unitycheck.packages import parsed
 from unitycheck.project import Project
@@ -42,7 +41,7 @@ def known_keys(project: Project) -> set[str]:
 
 def check(project: Project) -> Iterator[Violation]:
     """Rule scene-parameters."""
-    sources = {path for path, scripts in behaviours(project).items() for script in scripts if script.name == LOOP}
+    sources = {path for path in project.assets(f"/{LOOP}.cs")}
     asked = []
     for path in project.assets(".unity"):
         for document in documents(project, path)[0]:

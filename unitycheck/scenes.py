@@ -15,6 +15,7 @@ from unitycheck.violation import Violation
 
 SETTINGS = {1: 29, 2: 104, 3: 157, 4: 196}
 ROOTS = 1660057539
+INSTANCE = 1001
 TRANSFORMS = (4, 224)
 _SINGLE = (20, 23, 33, 81, 108, 120)    # components of which an object has one at most
 _INTEGER = re.compile(r"^-?\d{1,20}$")
@@ -101,7 +102,7 @@ def components(game_object: Document) -> list[int]:
 def _hierarchy(path: str, seen: dict[int, Document]) -> Iterator[Violation]:
     listed: dict[int, int] = {}
     for document in seen.values():
-        if document.class_id != 1:
+        if document.class_id != 1 or document.is_stripped:
             continue
         ids = components(document)
         classes = [seen[number].class_id for number in ids if number in seen]
@@ -121,10 +122,10 @@ def _hierarchy(path: str, seen: dict[int, Document]) -> Iterator[Violation]:
                 yield Violation(path, target.line, "scene-component",
                                 f"{target.type} &{component}: m_GameObject must be &{document.file_id}, which lists it")
     for document in seen.values():
-        if "m_GameObject" in document.data and document.file_id not in listed:
+        if "m_GameObject" in document.data and not document.is_stripped and document.file_id not in listed:
             yield Violation(path, document.line, "scene-component",
                             f"{document.type} &{document.file_id} is in no m_Component list")
-        if document.class_id in TRANSFORMS:
+        if document.class_id in TRANSFORMS and not document.is_stripped:
             yield from _family(path, document, seen)
             yield from _place(path, document)
 
@@ -137,7 +138,7 @@ def _family(path: str, document: Document, seen: dict[int, Document]) -> Iterato
         if ids.count(child) > 1 or (target is not None and target.class_id not in TRANSFORMS):
             yield Violation(path, document.line, "scene-parent",
                             f"Transform &{document.file_id}: m_Children names &{child} twice, or no Transform")
-        if target is not None and local_id(target.data.get("m_Father")) != document.file_id:
+        if target is not None and not target.is_stripped and local_id(target.data.get("m_Father")) != document.file_id:
             yield Violation(path, target.line, "scene-parent",
                             f"Transform &{child}: m_Father must be &{document.file_id}")
     above, ancestor = {document.file_id}, seen.get(local_id(document.data.get("m_Father")))
@@ -148,17 +149,25 @@ def _family(path: str, document: Document, seen: dict[int, Document]) -> Iterato
         yield Violation(path, document.line, "scene-parent",
                         f"Transform &{document.file_id}: its fathers go in a circle")
     father = seen.get(local_id(document.data.get("m_Father")))
-    if father is not None:
+    if father is not None and not father.is_stripped:
         listed = father.data.get("m_Children")
         if not isinstance(listed, list) or document.file_id not in [local_id(item) for item in listed]:
             yield Violation(path, father.line, "scene-parent",
                             f"Transform &{father.file_id}: m_Children lacks &{document.file_id}")
 
 
+def _is_root(instance: Document) -> bool:
+    changes = instance.data.get("m_Modification")
+    return isinstance(changes, dict) and local_id(changes.get("m_TransformParent")) == 0
+
+
 def _roots(path: str, seen: dict[int, Document]) -> Iterator[Violation]:
     roots = [document for document in seen.values() if document.class_id == ROOTS]
-    fathers = {document.file_id for document in seen.values()
-               if document.class_id in TRANSFORMS and local_id(document.data.get("m_Father")) == 0}
+    fathers = {document.file_id for document in seen.values() if document.class_id in TRANSFORMS
+               and not document.is_stripped and local_id(document.data.get("m_Father")) == 0}
+    # An instance of a prefab is listed itself; its Transform is the prefab's, and stripped here.
+    fathers |= {document.file_id for document in seen.values() if document.class_id == INSTANCE
+                and _is_root(document)}
     if len(roots) != 1 or roots[0].file_id != 2**63 - 1:
         yield Violation(path, 0, "scene-roots", "needs one SceneRoots &9223372036854775807")
         return

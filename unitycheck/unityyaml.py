@@ -23,7 +23,8 @@ class FormError(ValueError):
 class Document:
     """One object. class_id: Unity's class number; file_id: its number in the file; line: of its header.
 
-    type: the name above its keys; data: nested dicts, lists and strings.
+    type: the name above its keys; data: nested dicts, lists and strings; is_stripped: it stands for an object within a
+    prefab's instance, and the prefab holds its keys.
     """
 
     class_id: int
@@ -31,6 +32,7 @@ class Document:
     line: int
     type: str
     data: dict[str, Any]
+    is_stripped: bool = False
 
 
 def flow(text: str, line: int) -> Any:
@@ -97,7 +99,8 @@ def parse(text: str) -> list[Document]:
         data, rest = _block(body, 1, 2)
         if rest != len(body):
             raise FormError(body[rest][0], "indented less than its object")
-        documents.append(Document(int(match.group(1)), int(match.group(2)), start + 1, body[0][1][:-1], data))
+        documents.append(Document(int(match.group(1)), int(match.group(2)), start + 1, body[0][1][:-1], data,
+                                  match.group(3) is not None))
     return documents
 
 

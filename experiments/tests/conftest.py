@@ -10,6 +10,7 @@ import pytest
 
 from experiments import building
 from experiments.key_table import read_key_table
+from experiments.runner import Runner
 from run_claims import Campaign
 
 
@@ -43,6 +44,14 @@ def fake(tmp_path):
 def runner_command():
     """The real runner's command."""
     return building.build(building.RUNNER, print)
+
+
+@pytest.fixture(scope="session")
+def live(runner_command):
+    """One runner for every test that only asks how a scene is answered; each start of a process costs 0.1 s."""
+    runner = Runner(runner_command)
+    yield runner
+    runner.close()
 
 
 @pytest.fixture(scope="session")

@@ -18,7 +18,7 @@ def main(folder, *arguments):
     if (folder / "fail").exists():
         print((folder / "fail").read_text())
         return 1
-    target = Path(next(word for word in arguments if word.endswith((".csproj", ".sln"))))
+    target = Path(next(word for word in arguments if word.endswith((".csproj", ".slnf"))))
     projects = [target] if target.suffix == ".csproj" else sorted(target.parent.glob("*/*.csproj"))
     text = sources(target)
     outputs = [path.parent / "bin" / "Release" / "net10.0" / f"{path.stem}.dll" for path in projects]

@@ -8,6 +8,8 @@ import subprocess
 
 import pytest
 
+from experiments.runner import Request
+
 GOOD = {"numberRodElements": 4, "constraintSolverSteps": 10, "maxSimulationSteps": 5}
 
 
@@ -30,6 +32,16 @@ def assert_one_line(done, *words):
     assert done.stdout == ""
     for trace in ("   at ", "Exception", "Newtonsoft", ".cs:"):
         assert trace not in lines[0]
+
+
+def assert_answered(answer, *words):
+    """Exit code 2 and one line with these words, no stack trace."""
+    assert (answer.exit_code, answer.outcome) == (2, None), answer
+    assert len(answer.message.splitlines()) == 1
+    for word in words:
+        assert word in answer.message
+    for trace in ("   at ", "Exception", "Newtonsoft", ".cs:"):
+        assert trace not in answer.message
 
 
 @pytest.fixture(scope="module")
@@ -94,15 +106,25 @@ BAD_FILES = {
 
 
 @pytest.mark.parametrize("text, words", BAD_FILES.values(), ids=BAD_FILES)
-def test_a_bad_file_is_one_line_and_writes_nothing(runner_command, tmp_path, earlier, text, words):
+def test_a_bad_file_is_one_line_and_writes_nothing(live, tmp_path, earlier, text, words):
     scene = tmp_path / "scene.json"
     scene.write_text(text)
     before = contents(earlier)
-    assert_one_line(run(runner_command, "-parameters", scene, "-out", earlier), str(scene), *words)
+    assert_answered(live.run(Request("bad", scene, earlier)), str(scene), *words)
     assert contents(earlier) == before
-    fresh = tmp_path / "fresh"
-    assert_one_line(run(runner_command, "-parameters", scene, "-out", fresh), str(scene), *words)
-    assert not fresh.exists()
+    assert_answered(live.run(Request("bad", scene, tmp_path / "fresh")), str(scene), *words)
+    assert not (tmp_path / "fresh").exists()
+
+
+@pytest.mark.parametrize("name", ["not JSON", "misspelt key", "nested beyond any meaning"])
+def test_the_console_says_the_line_of_the_answer(runner_command, live, tmp_path, earlier, name):
+    scene = tmp_path / "scene.json"
+    scene.write_text(BAD_FILES[name][0])
+    before = contents(earlier)
+    done = run(runner_command, "-parameters", scene, "-out", earlier)
+    assert_one_line(done, str(scene))
+    assert done.stderr == f"guidewire: {live.run(Request('bad', scene, earlier)).message}\n"
+    assert contents(earlier) == before
 
 
 BAD_ARGUMENTS = {
@@ -208,10 +230,10 @@ BAD_STARTS = {
 
 
 @pytest.mark.parametrize("change, words", BAD_STARTS.values(), ids=BAD_STARTS)
-def test_a_bad_file_to_start_from_is_one_line_and_writes_nothing(runner_command, tmp_path, change, words):
+def test_a_bad_file_to_start_from_is_one_line_and_writes_nothing(live, tmp_path, change, words):
     start, scene = tmp_path / "start.json", tmp_path / "scene.json"
     start.write_text(json.dumps({**STRAIGHT, **change}))
     scene.write_text(json.dumps({"numberRodElements": 1, "guidewireLength": 1, "startFile": str(start)}))
-    done = run(runner_command, "-parameters", scene, "-out", tmp_path / "out")
-    assert_one_line(done, str(scene), "startFile", str(start), *words)
+    answer = live.run(Request("start", scene, tmp_path / "out"))
+    assert_answered(answer, str(scene), "startFile", str(start), *words)
     assert not (tmp_path / "out").exists()

@@ -9,30 +9,30 @@ import numpy as np
 import pytest
 
 from experiments.prepare import ROOT
+from experiments.runner import Request
 
 LIMIT = 30.0  # s of wall time for a refusal; a file without end takes for ever
 
 
-def run(command, folder, scene):
-    """The runner's end of a scene: (exit code, lines on stderr, folder of the run)."""
+def run(live, folder, scene):
+    """The runner's answer to a scene: (exit code, lines of its message, folder of the run)."""
     path = folder / "scene.json"
     settings = {"maxSimulationSteps": 1, "constraintSolverSteps": 5, "guidewireOffset": -300.0}
     path.write_text(json.dumps({**settings, **scene}))
     shutil.rmtree(folder / "out", ignore_errors=True)
-    done = subprocess.run([*command, "-parameters", str(path), "-out", str(folder / "out")], capture_output=True,
-                          text=True, timeout=LIMIT)
-    return done.returncode, done.stderr.splitlines(), folder / "out"
+    answer = live.run(Request("walls", path, folder / "out"), LIMIT)
+    return answer.exit_code, answer.message.splitlines(), folder / "out"
 
 
-def assert_refused(command, folder, scene, *words):
-    code, lines, out = run(command, folder, scene)
+def assert_refused(live, folder, scene, *words):
+    code, lines, out = run(live, folder, scene)
     assert (code, len(lines)) == (2, 1), lines
     assert all(word in lines[0] for word in words), lines[0]
     assert not out.exists()
 
 
-def warnings_of(command, folder, scene):
-    code, lines, out = run(command, folder, scene)
+def warnings_of(live, folder, scene):
+    code, lines, out = run(live, folder, scene)
     assert code == 0, lines
     warnings = json.loads((out / "summary.json").read_text())["warnings"]
     # These runs end while the first displacement still presses the wire together.
@@ -61,25 +61,25 @@ def write_obj(path, vertices, faces):
     return path
 
 
-def test_a_folder_as_mesh_is_named_as_one(runner_command, tmp_path):
+def test_a_folder_as_mesh_is_named_as_one(live, tmp_path):
     (tmp_path / "vessel.obj").mkdir()
-    assert_refused(runner_command, tmp_path, mesh("vessel.obj"), "vessel.obj: is a folder, a mesh file is needed")
+    assert_refused(live, tmp_path, mesh("vessel.obj"), "vessel.obj: is a folder, a mesh file is needed")
 
 
 @pytest.mark.parametrize("name", ["/dev/zero", "endless.obj", "endless.stl"])
-def test_a_mesh_without_end_is_refused(runner_command, tmp_path, name):
+def test_a_mesh_without_end_is_refused(live, tmp_path, name):
     for link in ("endless.obj", "endless.stl"):
         (tmp_path / link).symlink_to("/dev/zero")
     words = ["ends in .obj or .stl"] if name == "/dev/zero" else ["endless", "holds more than 256 MiB"]
-    assert_refused(runner_command, tmp_path, mesh(name), *words)
+    assert_refused(live, tmp_path, mesh(name), *words)
 
 
 @pytest.mark.parametrize("key", ["parameters", "startFile", "loadTables"])
-def test_another_file_without_end_is_refused(runner_command, tmp_path, key):
+def test_another_file_without_end_is_refused(runner_command, live, tmp_path, key):
     scene = {"startFile": "/dev/zero"} if key == "startFile" else {
         "solver": "direct", "loadTables": {"gravity": "/dev/zero"}}
     if key != "parameters":
-        assert_refused(runner_command, tmp_path, scene, key, "/dev/zero: holds more than 256 MiB")
+        assert_refused(live, tmp_path, scene, key, "/dev/zero: holds more than 256 MiB")
         return
     done = subprocess.run([*runner_command, "-parameters", "/dev/zero", "-out", str(tmp_path / "out")],
                           capture_output=True, text=True, timeout=LIMIT)
@@ -87,27 +87,27 @@ def test_another_file_without_end_is_refused(runner_command, tmp_path, key):
     assert "/dev/zero: holds more than 256 MiB, which no file of a run may" in done.stderr
 
 
-def test_coordinates_of_1e300_are_refused_where_they_stand(runner_command, tmp_path):
+def test_coordinates_of_1e300_are_refused_where_they_stand(live, tmp_path):
     vertices, faces = cylinder([20.0, 20.0])
     vertices[3, 1] = 1e300
     file = write_obj(tmp_path / "far.obj", vertices, faces)
-    assert_refused(runner_command, tmp_path, mesh(file), "far.obj", "vertex 4 of 32", "1E+300", "up to 1e9 units")
+    assert_refused(live, tmp_path, mesh(file), "far.obj", "vertex 4 of 32", "1E+300", "up to 1e9 units")
     tube = {"shape": "tube", "knots": [[0, 0, -400], [0, 0, 1e300]], "radius": 10}
-    assert_refused(runner_command, tmp_path, {"vessel": tube}, "vessel.knots[1]", "1E+300", "1e9 at most")
+    assert_refused(live, tmp_path, {"vessel": tube}, "vessel.knots[1]", "1E+300", "1e9 at most")
     plane = {"shape": "plane", "point": [0, -1e300, 0], "normal": [0, 1, 0]}
-    assert_refused(runner_command, tmp_path, {"vessel": plane}, "vessel.point", "1E+300", "1e9 at most")
+    assert_refused(live, tmp_path, {"vessel": plane}, "vessel.point", "1E+300", "1e9 at most")
     ball = {"shape": "sphere", "centre": [0, 0, 0], "radius": 1e300}
-    assert_refused(runner_command, tmp_path, {"obstacles": [ball]}, "obstacles[0].radius", "1E+300", "1e9 at most")
+    assert_refused(live, tmp_path, {"obstacles": [ball]}, "obstacles[0].radius", "1E+300", "1e9 at most")
 
 
-def test_a_wire_outside_is_told_where_it_and_the_vessel_are(runner_command, tmp_path):
+def test_a_wire_outside_is_told_where_it_and_the_vessel_are(live, tmp_path):
     file = write_obj(tmp_path / "tube.obj", *cylinder([20.0, 20.0]))
-    assert_refused(runner_command, tmp_path, {**mesh(file), "position": [100, 0, 0]}, "starts outside",
+    assert_refused(live, tmp_path, {**mesh(file), "position": [100, 0, 0]}, "starts outside",
                    "the wire reaches from (0, 0, -300) to (0, 0, 0)",
                    "the vessel from (80, -20, -350) to (120, 20, 50)")
 
 
-def test_corners_that_differ_by_rounding_are_one(runner_command, tmp_path):
+def test_corners_that_differ_by_rounding_are_one(live, tmp_path):
     vertices, faces = cylinder([20.0, 20.0, 20.0])
     soup = np.concatenate([vertices[face] for face in faces])
     counts = np.cumsum([0] + [len(face) for face in faces])
@@ -115,50 +115,50 @@ def test_corners_that_differ_by_rounding_are_one(runner_command, tmp_path):
     shifts = np.random.default_rng(5).uniform(-0.5, 0.5, soup.shape)
     size = 400.0
     file = write_obj(tmp_path / "soup.obj", soup + 1e-9 * size * shifts, apart)
-    assert warnings_of(runner_command, tmp_path, mesh(file)) == []
+    assert warnings_of(live, tmp_path, mesh(file)) == []
     file = write_obj(tmp_path / "soup.obj", soup + 1e-6 * size * shifts, apart)
-    assert_refused(runner_command, tmp_path, mesh(file), "soup.obj", "separate surfaces")
+    assert_refused(live, tmp_path, mesh(file), "soup.obj", "separate surfaces")
 
 
-def test_a_mesh_that_goes_through_itself_is_warned_of_with_the_place(runner_command, tmp_path):
+def test_a_mesh_that_goes_through_itself_is_warned_of_with_the_place(live, tmp_path):
     vertices, faces = cylinder([20.0, 20.0, 20.0, 20.0])
     vertices[16] = [-60.0, 5.0, vertices[16, 2]]  # a corner of the second ring, at (20, 0), pulled through the far side
     file = write_obj(tmp_path / "through.obj", vertices, faces)
     scene = {**mesh(file), "guidewireOffset": 20.0, "guidewireLength": 20.0, "sphereRadius": 1.0}
-    (warning,) = warnings_of(runner_command, tmp_path, scene)
+    (warning,) = warnings_of(live, tmp_path, scene)
     assert "through.obj: the mesh goes through itself" in warning
     place = [float(text) for text in warning.split("the first at (")[1].split(")")[0].split(",")]
     assert np.hypot(place[0], place[1]) == pytest.approx(20.0, rel=0.05)
 
 
 @pytest.mark.parametrize("factor, word", [(1000.0, "4E+05 units long"), (1.0, None)])
-def test_a_vessel_of_another_unit_is_warned_of_with_both_sizes(runner_command, tmp_path, factor, word):
+def test_a_vessel_of_another_unit_is_warned_of_with_both_sizes(live, tmp_path, factor, word):
     file = write_obj(tmp_path / "tube.obj", *cylinder([20.0, 20.0]))
-    warnings = warnings_of(runner_command, tmp_path, mesh(file, metresPerUnit=1e-3 * factor))
+    warnings = warnings_of(live, tmp_path, mesh(file, metresPerUnit=1e-3 * factor))
     assert len(warnings) == (word is not None)
     if word:
         assert word in warnings[0] and "the wire 300 units long with a radius of 5" in warnings[0]
 
 
-def test_a_vessel_a_thousandth_as_large_is_refused_with_both_extents(runner_command, tmp_path):
+def test_a_vessel_a_thousandth_as_large_is_refused_with_both_extents(live, tmp_path):
     file = write_obj(tmp_path / "tube.obj", *cylinder([20.0, 20.0]))
-    assert_refused(runner_command, tmp_path, mesh(file, metresPerUnit=1e-6), "starts outside", "(0, 0, -300)",
+    assert_refused(live, tmp_path, mesh(file, metresPerUnit=1e-6), "starts outside", "(0, 0, -300)",
                    "from (-0.02, -0.02, -0.35) to (0.02, 0.02, 0.05)")
 
 
-def test_a_wire_wider_than_a_narrow_place_on_its_way_is_refused_with_the_place(runner_command, tmp_path):
+def test_a_wire_wider_than_a_narrow_place_on_its_way_is_refused_with_the_place(live, tmp_path):
     radii = np.full(81, 20.0)
     radii[73:78] = [14.0, 8.0, 4.0, 8.0, 14.0]  # narrowest at z = 25
     file = write_obj(tmp_path / "narrow.obj", *cylinder(radii, sides=32))
     scene = {**mesh(file), "drive": "push", "displacementPerStep": 1.0, "maxSimulationSteps": 60}
-    code, (line,), out = run(runner_command, tmp_path, scene)
+    code, (line,), out = run(live, tmp_path, scene)
     found = re.search(r"sphereRadius = 5 is larger than the lumen on the wire's way: (\S+) units at \((.*)\)", line)
     assert code == 2 and not out.exists() and found, line
     assert 3.9 < float(found[1]) <= 4.0  # the 32-sided ring's apothem is 3.98
     assert [float(text) for text in found[2].split(",")] == pytest.approx([0.0, 0.0, 25.0], abs=1.0)
-    assert warnings_of(runner_command, tmp_path, {**scene, "sphereRadius": 3.5, "maxSimulationSteps": 1}) == []
+    assert warnings_of(live, tmp_path, {**scene, "sphereRadius": 3.5, "maxSimulationSteps": 1}) == []
     tube = {"shape": "tube", "knots": [[0, 0, -400], [0, 0, 10], [0, 0, 20], [0, 0, 30]], "radius": [9, 9, 3, 9]}
-    assert_refused(runner_command, tmp_path, {**scene, "vessel": tube}, "sphereRadius = 5", "3 units at (0, 0, 20)")
+    assert_refused(live, tmp_path, {**scene, "vessel": tube}, "sphereRadius = 5", "3 units at (0, 0, 20)")
 
 
 def test_the_scenes_of_the_repository_are_free_of_warnings(runner_command, tmp_path):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import signal
@@ -19,6 +20,7 @@ from experiments.prepare import ROOT, PreparationError
 PROJECT = building.RUNNER
 FAKE = Path(__file__).with_name("fake_dotnet.py")
 PATIENCE = 60.0
+PROGRAMS = (building.BENCHMARKS, *(name for names in building.PARTS.values() for name in names))
 DRIVER = (
     "import sys; from pathlib import Path; from experiments import building\n"
     "building.ROOT = Path(sys.argv[1]); building.HEADLESS = building.ROOT / 'experiments' / 'headless'\n"
@@ -33,9 +35,9 @@ class Workshop:
         self.root, self.bench, self.told = root, bench, []
         self.core = self.put("Assets/Guidewire/Core/Rod.cs", "class Rod { int a; }\n")
         self.put("Assets/Guidewire/Io/Log.cs", "class Log { }\n")
-        for project in (building.RUNNER, building.BENCHMARKS, *building.DOTNET_TESTS):
+        for project in PROGRAMS:
             self.put(f"experiments/headless/{project}/{project}.csproj", "<Project/>\n")
-        for name in ("Directory.Build.props", "Directory.Packages.props", building.SOLUTION):
+        for name in ("Directory.Build.props", "Directory.Packages.props", *(f"{part}.slnf" for part in building.PARTS)):
             self.put(f"experiments/headless/{name}", "<Project/>\n")
         self.output = root / "experiments/headless" / PROJECT / "bin/Release/net10.0" / f"{PROJECT}.dll"
         self.install(bench, "10.0.401 [/usr/share/dotnet/sdk]\n")
@@ -169,11 +171,11 @@ def test_msbuild_builds_upon_what_is_there_only_where_it_can_see_the_change(shop
     assert len(shop.builds()) == 4
 
 
-def test_a_build_of_the_solution_counts_for_each_of_its_programs(shop: Workshop) -> None:
-    building.build_solution(shop.told.append)
+def test_a_build_of_a_part_counts_for_each_of_its_programs(shop: Workshop) -> None:
+    building.build_part("Runner", shop.told.append)
     shop.build()
-    building.build(building.BENCHMARKS, shop.told.append)
-    building.build_solution(shop.told.append)
+    building.build(building.CHECKER, shop.told.append)
+    building.build_part("Runner", shop.told.append)
     assert len(shop.builds()) == 1
 
 
@@ -273,11 +275,17 @@ def test_of_two_at_once_one_builds_and_the_other_waits_and_uses_it(shop: Worksho
 
 
 def test_every_program_of_the_solution_has_a_stamp() -> None:
-    solution = (building.HEADLESS / building.SOLUTION).read_text(encoding="utf-8-sig")
+    solution = (building.HEADLESS / "Guidewire.sln").read_text(encoding="utf-8-sig")
     projects = re.findall(r'= "([^"]+)", "[^"]+\.csproj"', solution)
-    programs = {name for name in projects
-                if "<TargetFramework>" in (building.HEADLESS / name / f"{name}.csproj").read_text(encoding="utf-8")}
-    assert programs == {building.RUNNER, building.BENCHMARKS, *building.DOTNET_TESTS}
+    texts = {name: (building.HEADLESS / name / f"{name}.csproj").read_text(encoding="utf-8") for name in projects}
+    programs = {name for name, text in texts.items() if "<OutputType>Exe" in text or "Microsoft.NET.Test.Sdk" in text}
+    assert programs == set(PROGRAMS)
+
+
+@pytest.mark.parametrize("part", building.PARTS)
+def test_a_part_of_the_solution_is_what_its_file_names(part: str) -> None:
+    filtered = json.loads((building.HEADLESS / f"{part}.slnf").read_text(encoding="utf-8"))["solution"]
+    assert tuple(path.split("\\")[0] for path in filtered["projects"]) == building.PARTS[part]
 
 
 def test_a_missing_dotnet_is_one_clear_line(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -13,6 +13,7 @@ import time
 import pytest
 from distributed import LocalCluster
 
+from experiments import cluster
 from experiments.prepare import ROOT, PreparationError
 from experiments.sweep import WALL_TIMES, Means, sweep
 from studies.table import Axis, Grid, Study
@@ -93,7 +94,8 @@ def test_workers_of_another_version_are_one_line(processes, fake, tmp_path, monk
     assert list(tmp_path.iterdir()) == []
 
 
-def test_no_scheduler_at_the_address_and_one_without_workers_are_one_line(fake, tmp_path):
+def test_no_scheduler_at_the_address_and_one_without_workers_are_one_line(fake, tmp_path, monkeypatch):
+    monkeypatch.setattr(cluster, "_TO_ANSWER", 1.0)
     with pytest.raises(PreparationError, match="^no scheduler answers at tcp://127.0.0.1:9: start one"):
         sweep([(study_of("one"), tmp_path)], tmp_path / "runs", Means(fake.command, 1, "tcp://127.0.0.1:9"))
     with LocalCluster(n_workers=0, host="127.0.0.1", dashboard_address=None, processes=True) as empty:

@@ -44,7 +44,7 @@ def test_the_demo_a_second_time_runs_nothing_again(demo):
     logs = list(folder.glob("runs/*/*/positions.json"))
     before = [log.stat().st_mtime_ns for log in logs]
     assert len(logs) == 6
-    assert guidewire("demo", "--out", folder).returncode == 0
+    assert commands.run(commands.parse(["demo", "--out", str(folder)])) == 0
     assert [log.stat().st_mtime_ns for log in logs] == before
 
 

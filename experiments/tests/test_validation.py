@@ -118,6 +118,7 @@ def test_stable_substep_that_a_run_states_is_that_of_the_linear_chain(
         assert stated[name] <= limit * ROUNDED, name
 
 
+@pytest.mark.skipif(FULL_CAMPAIGNS not in os.environ, reason="it needs the benchmarks, which are built for it alone")
 def test_a_motion_timed_in_turns_is_the_motion_of_its_run(tmp_path: Path, runner_command: list[str]) -> None:
     """The stopwatch times the very steps that a run makes, and its figure is its own quotient. How large it is, is no
     matter of a test: other work on the machine would decide."""

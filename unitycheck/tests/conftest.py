@@ -182,7 +182,3 @@ def breakage(sample: Sample) -> Callable[..., None]:
         assert sample.broken() == {(named or path, rule)}
 
     return break_it
-
-
-def pytest_configure(config: pytest.Config) -> None:
-    config.addinivalue_line("markers", "built: asks what the build of the solution has made")

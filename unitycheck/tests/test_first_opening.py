@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from unitycheck import __main__, checks
+from unitycheck import checks
 from unitycheck.project import Project
 from unitycheck.tests import firstopening
 from unitycheck.tests.breakages import GUIDEWIRE, HUD, LOOP, ODD, RUNTIME, Change, behaviour, both, insert, replace
@@ -18,6 +18,11 @@ from unitycheck.tests.test_mutations import ROOT, repository  # noqa: F401
 PARTS = ("Assets", "Packages", "ProjectSettings", "params", "docs")
 SINGLE = (".gitattributes", "unitycheck/known_guids.txt", "README.md", "experiments/unity_runner.py")
 TUBE = f"{GUIDEWIRE}/Tests/Unity/TubeMeshTests.cs"
+
+
+def guid_of(project: Project, path: str) -> str:
+    """The guid of an asset, as its .meta has it."""
+    return project.text(f"{path}.meta").split("guid: ")[1].split("\n")[0]
 
 
 def with_meta(path: str, text: str, importer: str) -> Change:
@@ -33,7 +38,7 @@ def script(body: str, name: str = "Odd") -> Change:
     return with_meta(f"{RUNTIME}/{name}.cs", behaviour(body, name), "MonoImporter")
 
 
-def test_a_copy_that_unity_has_opened_passes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_copy_that_unity_has_opened_passes(tmp_path: Path) -> None:
     for name in PARTS:
         shutil.copytree(ROOT / name, tmp_path / name)
     for name in SINGLE:
@@ -41,7 +46,9 @@ def test_a_copy_that_unity_has_opened_passes(tmp_path: Path, capsys: pytest.Capt
         shutil.copy(ROOT / name, tmp_path / name)
     for path, data in firstopening.files(Project(tmp_path)).items():
         (tmp_path / path).write_bytes(data)
-    assert __main__.main([str(tmp_path)]) == 0, capsys.readouterr().out
+    project = Project(tmp_path)
+    project.only = frozenset()    # its sources are the repository's
+    assert [str(violation) for violation in checks.run(project)] == []
 
 
 def test_all_class_numbers_are_there() -> None:
@@ -52,8 +59,38 @@ def test_all_class_numbers_are_there() -> None:
 
 
 def test_a_newer_editor_passes(repository: Project) -> None:  # noqa: F811
-    assert [str(v) for v in checks.run(repository.with_changes(firstopening.newer(repository)))] == []
+    assert [str(v) for v in checks.run(repository.with_changes(firstopening.newer(repository), ()))] == []
 
+
+# A prefab's instance at the root, and objects within it that others in the scene name.
+PREFAB = """--- !u!1001 &900
+PrefabInstance:
+  m_ObjectHideFlags: 0
+  serializedVersion: 2
+  m_Modification:
+    serializedVersion: 3
+    m_TransformParent: {fileID: 0}
+    m_Modifications: []
+  m_SourcePrefab: {fileID: 0}
+--- !u!4 &901 stripped
+Transform:
+  m_CorrespondingSourceObject: {fileID: 0}
+  m_PrefabInstance: {fileID: 900}
+  m_PrefabAsset: {fileID: 0}
+--- !u!1 &902 stripped
+GameObject:
+  m_CorrespondingSourceObject: {fileID: 0}
+  m_PrefabInstance: {fileID: 900}
+  m_PrefabAsset: {fileID: 0}
+--- !u!114 &903 stripped
+MonoBehaviour:
+  m_CorrespondingSourceObject: {fileID: 0}
+  m_PrefabInstance: {fileID: 900}
+  m_PrefabAsset: {fileID: 0}
+  m_GameObject: {fileID: 902}
+  m_Enabled: 1
+  m_Script: {fileID: 11500000, guid: HUD, type: 3}
+"""
 
 # What is right and once was named wrong, or might be.
 RIGHT = {
@@ -90,6 +127,10 @@ RIGHT = {
         " [System.Serializable] private struct Pair { public int A; } public Dictionary<int, int> NotAsked;"),
     "generic base with a static helper": script("private static int Count<T>(List<T> a) { return a.Count; }"
                                                 " public int N => Count(new List<int>());"),
+    "behaviour in two files": both(
+        replace(HUD, "public sealed class Hud", "public sealed partial class Hud"),
+        with_meta(f"{RUNTIME}/Views/HudText.cs", "namespace Guidewire.Runtime\n{\n    public sealed partial class Hud"
+                                                 "\n    {\n    }\n}\n", "MonoImporter")),
     "abstract behaviour": both(with_meta(ODD, behaviour("").replace("sealed", "abstract"), "MonoImporter"), replace(
         LOOP, "SimulationLoop : MonoBehaviour", "SimulationLoop : Odd")),
     "picture": with_meta(f"{GUIDEWIRE}/A.png", "", "TextureImporter"),
@@ -124,6 +165,18 @@ RIGHT = {
               "\n[TestCaseSource(nameof(Counts))] public void A(int n) { }"
               "\n[Test] public void B([Values(1, 2)] int n) { }"
               "\n[TestCase(1, ExpectedResult = 1)] public int C(int n) { return n; }"),
+    "test that awaits": insert(TUBE, "[Test] public async System.Threading.Tasks.Task A() "
+                                     "{ await System.Threading.Tasks.Task.Yield(); }"),
+    "what Unity's profile has and .NET Framework lacks": insert(
+        TUBE, "[Test] public void A() { System.Array.Fill(new int[1], System.Math.Clamp(1, 0, 2)); }"),
+    "field under its former name": both(
+        replace(LOOP, "private float _pace = 1f;",
+                '[UnityEngine.Serialization.FormerlySerializedAs("_pace")] private float _rate = 1f;\n'
+                "        private float _pace => _rate;"), lambda project: {}),
+    "instance of a prefab with its stripped Transform": lambda project: {firstopening.SCENE: project.text(
+        firstopening.SCENE).replace("--- !u!1 &500\n", PREFAB.replace("HUD", guid_of(project, HUD))
+                                                     + "--- !u!1 &500\n").replace(
+            "  m_Roots:\n", "  m_Roots:\n  - {fileID: 900}\n").encode()},
     "checked menu entry": insert(
         f"{GUIDEWIRE}/Editor/BatchEntry.cs", '[MenuItem("Guidewire/One")] public static void One() { }'
         '\n[MenuItem("Guidewire/One", true)] public static bool MayOne() { return true; }'),
@@ -132,7 +185,8 @@ RIGHT = {
 
 @pytest.mark.parametrize("name", RIGHT)
 def test_what_is_right_passes(repository: Project, name: str) -> None:  # noqa: F811
-    changed = repository.with_changes(RIGHT[name](repository))
+    changes = RIGHT[name](repository)
+    changed = repository.with_changes(changes, changes)
     found = [str(v) for v in checks.run(changed)
              if v.rule != "text-wide" and (v.rule, v.path) != ("meta-missing", f"{RUNTIME}/Views/More")]
     assert found == []

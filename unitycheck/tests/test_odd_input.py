@@ -10,7 +10,7 @@ import pytest
 from hypothesis import HealthCheck, given, seed, settings
 from hypothesis import strategies as st
 
-from unitycheck import checks, csharp, declarations, sceneparameters
+from unitycheck import checks, sceneparameters, sources
 from unitycheck.project import Project
 from unitycheck.tests.breakages import GUIDEWIRE, HUD, MANIFEST, SCENE
 from unitycheck.tests.test_mutations import repository  # noqa: F401
@@ -47,7 +47,7 @@ words = st.text(max_size=12) | st.sampled_from(["{fileID: 0}", "{", "[]", "{a: {
 def run(project: Project, changes: dict[str, bytes], monkeypatch: pytest.MonkeyPatch) -> None:
     """Every rule over the project with odd files; the console program is not asked, which takes seconds."""
     monkeypatch.setattr(sceneparameters, "program", lambda root: None)
-    for violation in checks.run(project.with_changes(changes)):
+    for violation in checks.run(project.with_changes(changes, changes)):
         assert str(violation)
 
 
@@ -91,9 +91,7 @@ def test_odd_source(repository: Project, data: Any) -> None:  # noqa: F811
         place = data.draw(st.integers(0, len(source)))
         source = source[:place] + data.draw(tokens | st.text(max_size=3)) + source[place + data.draw(st.integers(0,
                                                                                                                  30)):]
-    csharp.tokens(source)
-    declarations.declarations(source)
-    declarations.usings(source)
+    assert sources.answer(repository.with_changes({HUD: source.encode("utf-8", "replace")}, [HUD])) is not None
 
 
 # Two files at once, of different kinds.

@@ -4,20 +4,22 @@ from __future__ import annotations
 
 import pytest
 
-from unitycheck.declarations import declarations
-from unitycheck.fields import is_stored, stored_name
+from unitycheck import sources
+from unitycheck.project import Project
 
 SPINNER = "Assets/Guidewire/Runtime/Spinner.cs"
 
 
-def fields(body: str) -> list[str]:
-    declaration = declarations(f"public class A : MonoBehaviour {{ {body} }}")[0]
-    return [stored_name(field) for field in declaration.fields if is_stored(field)]
+def fields(sample, body: str) -> dict[str, sources.Field]:
+    """What a scene may hold for a behaviour with these members."""
+    sample.write(SPINNER, "using System;\nusing System.Collections.Generic;\nusing UnityEngine;\nnamespace A\n{\n"
+                          f"public class Spinner : MonoBehaviour {{ {body} }}\n}}\n")
+    return sources.scripts(Project(sample.root))[SPINNER].fields
 
 
-@pytest.mark.parametrize("body, stored", [
-    ("public int A;", ["A"]), ("int _a;", []), ("private float _a = 3f;", []), ("[SerializeField] float _a = F(1, 2);",
-                                                                                ["_a"]),
+STORED = (
+    ("public int A;", ["A"]), ("int _a;", []), ("private float _a = 3f;", []),
+    ("[SerializeField] float _a = F(1, 2); static float F(int a, int b) => a;", ["_a"]),
     ("[SerializeField, Range(0, 1)] private float _a, _b = 2f;", ["_a", "_b"]), ("public static int A;", []),
     ("public const int A = 3;", []), ("public readonly int A = 3;", []), ("[NonSerialized] public int A;", []),
     ("public int P { get; set; }", []), ("[field: SerializeField] public int P { get; set; } = 3;",
@@ -27,15 +29,22 @@ def fields(body: str) -> list[str]:
     ("[field: SerializeField] public int P { get; }", []), ("[SerializeField] private int P { get; set; }", []),
     ("void F() { int a; } public int B;", ["B"]), ("int F(int a) => a; public int B;", ["B"]),
     ("[Header(\"a\")] [Tooltip(\"b\")] [SerializeField] private string[] _names = { \"a\" };", ["_names"]),
-    ("private struct P { public int X; } public int B;", ["B"]), ("public A() : this(3) { } public int B;", ["B"])])
-def test_stored_fields(body: str, stored: list[str]) -> None:
-    assert fields(body) == stored
+    ("private struct P { public int X; } public int B;", ["B"]))
 
 
-def test_types_of_stored_fields() -> None:
-    source = "class A : MonoBehaviour { public int[] A; [SerializeField] private List<float> _b; public B.C D; }"
-    assert [(field.name, field.type) for field in declarations(source)[0].fields if is_stored(field)] == [
-        ("A", "int[]"), ("_b", "List<float>"), ("D", "B.C")]
+def test_stored_fields(sample) -> None:
+    for body, stored in STORED:
+        assert list(fields(sample, body)) == stored, body
+
+
+def test_types_of_stored_fields(sample) -> None:
+    found = fields(sample, "public int[] A; [SerializeField] private List<float> _b; public B.C D;"
+                           " public Camera E = null!; [UnityEngine.Serialization.FormerlySerializedAs(\"f\"), Range(0.01f, 2)] public float F;"
+                           " public class B { public enum C { One = 1, Four = 4 } }")
+    assert {name: (item.kind, item.type, item.is_list, item.is_needed) for name, item in found.items()} == {
+        "A": ("number", "int", True, False), "_b": ("number", "float", True, False), "D": ("enum", "C", False, False),
+        "E": ("object", "Camera", False, True), "F": ("number", "float", False, False)}
+    assert (found["D"].values, found["F"].names, found["F"].range) == ({1, 4}, ("f",), (0.01, 2.0))
 
 
 def test_class_called_otherwise(sample) -> None:
@@ -63,7 +72,8 @@ def test_message_that_unity_never_sends(sample, wrong: str) -> None:
 
 
 def test_static_message(breakage) -> None:
-    breakage(SPINNER, "private void Update()", "private static void Update()", "script-message")
+    breakage(SPINNER, "private void Update()\n        {\n            Turn();",
+             "private static void Update()\n        {", "script-message")
 
 
 def test_private_method_that_is_called_passes(sample) -> None:

@@ -54,7 +54,13 @@ namespace Guidewire.Editor
                 targetGroup = BuildTargetGroup.Standalone,
                 locationPathName = path,
             };
-            BuildSummary summary = BuildPipeline.BuildPlayer(options).summary;
+            BuildReport? report = BuildPipeline.BuildPlayer(options);
+            if (report == null)    // Unity gives none where it does not even begin
+            {
+                Debug.LogError("guidewire: no player was built -> " + path);
+                return false;
+            }
+            BuildSummary summary = report.summary;
             Debug.Log("guidewire: build " + summary.result + ", " + summary.totalErrors + " errors -> " + path);
             if (summary.result != BuildResult.Succeeded)
             {

@@ -52,14 +52,14 @@ namespace Guidewire.Unity.Tests
             return new List<string>(own) { "-out", folder }.ToArray();
         }
 
+        /// <summary>The console program as it was built: it comes first, see Runner.slnf.</summary>
         private static int Console(params string[] own)
         {
-            string folder = TestContext.CurrentContext.TestDirectory;
+            string folder = Path.GetFileName(TestContext.CurrentContext.TestDirectory.TrimEnd('/', '\\'));
+            string configuration = Path.GetFileName(Path.GetDirectoryName(TestContext.CurrentContext.TestDirectory))!;
             var start = new ProcessStartInfo("dotnet") { RedirectStandardOutput = true, RedirectStandardError = true };
-            start.ArgumentList.Add("exec");
-            start.ArgumentList.Add("--runtimeconfig");
-            start.ArgumentList.Add(Path.Combine(folder, "Guidewire.Unity.Tests.runtimeconfig.json"));
-            start.ArgumentList.Add(Path.Combine(folder, "Guidewire.Cli.dll"));
+            start.ArgumentList.Add(Path.Combine(Stage.Root, "experiments", "headless", "Guidewire.Cli", "bin",
+                configuration, folder, "Guidewire.Cli.dll"));
             foreach (string argument in own)
             {
                 start.ArgumentList.Add(argument);

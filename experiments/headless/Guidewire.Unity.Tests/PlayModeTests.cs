@@ -1,5 +1,6 @@
 using System.Collections;
 using NUnit.Framework;
+using UnityEngine.TestTools;
 using UnityStubs;
 
 namespace Guidewire.Unity.Tests
@@ -12,11 +13,13 @@ namespace Guidewire.Unity.Tests
         public void WirePlayTests_Pass()
         {
             Engine.Reset(Stage.Root);
+            LogAssert.Begin();
             IEnumerator frames = new WirePlayTests().Loop_StepsTheWire_FrameByFrame();
             while (frames.MoveNext())
             {
                 Engine.Frame(Stage.Frame);
             }
+            Assert.That(LogAssert.Problem(), Is.Empty);
         }
     }
 }

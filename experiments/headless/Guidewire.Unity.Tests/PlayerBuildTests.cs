@@ -51,7 +51,8 @@ namespace Guidewire.Unity.Tests
         [TestCase(BuildResult.Failed)]
         [TestCase(BuildResult.Cancelled)]
         [TestCase(BuildResult.Unknown)]
-        public void FailedBuild_NeverEndsWith0(BuildResult result)
+        [TestCase(null)]
+        public void FailedBuild_NeverEndsWith0(BuildResult? result)
         {
             BuildPipeline.Next = result;
             PlayerBuild.Windows();

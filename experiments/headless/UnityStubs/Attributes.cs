@@ -1,4 +1,6 @@
 using System;
+using System.Collections.Generic;
+using System.Text.RegularExpressions;
 
 namespace UnityEngine
 {
@@ -78,6 +80,21 @@ namespace UnityEngine
     }
 }
 
+namespace UnityEngine.Serialization
+{
+    /// <summary>Names a field that a file still holds under another name.</summary>
+    [AttributeUsage(AttributeTargets.Field, AllowMultiple = true)]
+    public sealed class FormerlySerializedAsAttribute : Attribute
+    {
+        public FormerlySerializedAsAttribute(string oldName)
+        {
+            this.oldName = oldName;
+        }
+
+        public string oldName { get; }
+    }
+}
+
 namespace UnityEngine.TestTools
 {
     /// <summary>A test that yields frames. NUnit does not know it; the stub engine's tests run it frame by
@@ -87,11 +104,45 @@ namespace UnityEngine.TestTools
     {
     }
 
+    /// <summary>What Unity's test runner makes of the log: a test fails on an error that nobody expected, and on a line
+    /// that was expected and did not come.</summary>
     public static class LogAssert
     {
-        /// <summary>Takes a logged error as expected; one that is not expected fails a test in Unity.</summary>
-        public static void Expect(LogType type, System.Text.RegularExpressions.Regex message)
+        private static readonly List<(LogType Type, Regex Message)> Expected = new List<(LogType, Regex)>();
+        private static readonly List<string> Unexpected = new List<string>();
+
+        /// <summary>The next lines of this type are held against this text until one matches.</summary>
+        public static void Expect(LogType type, Regex message)
         {
+            Expected.Add((type, message));
+        }
+
+        /// <summary>Forgets what was expected and what came: a test begins.</summary>
+        internal static void Begin()
+        {
+            Expected.Clear();
+            Unexpected.Clear();
+        }
+
+        internal static void Take(LogType type, string text)
+        {
+            int place = Expected.FindIndex(line => line.Type == type && line.Message.IsMatch(text));
+            if (place >= 0)
+            {
+                Expected.RemoveAt(place);
+            }
+            else if (type == LogType.Error || type == LogType.Assert || type == LogType.Exception)
+            {
+                Unexpected.Add(text);
+            }
+        }
+
+        /// <summary>Why a test that ends now fails; empty where it does not.</summary>
+        internal static string Problem()
+        {
+            string missing = string.Join(", ", Expected.ConvertAll(line => line.Type + " '" + line.Message + "'"));
+            return (Unexpected.Count > 0 ? "unhandled log: " + string.Join(" | ", Unexpected) : "")
+                + (missing.Length > 0 ? "expected log did not appear: " + missing : "");
         }
     }
 }

@@ -18,6 +18,10 @@ namespace UnityEditor
         public MenuItem(string itemName)
         {
         }
+
+        public MenuItem(string itemName, bool isValidateFunction)
+        {
+        }
     }
 
     [AttributeUsage(AttributeTargets.Class)]
@@ -93,15 +97,16 @@ namespace UnityEditor
 
     public static class BuildPipeline
     {
-        /// <summary>What a test wants a build to come to.</summary>
-        internal static Build.Reporting.BuildResult Next;
+        /// <summary>What a test wants a build to come to; null where Unity returns no report at all.</summary>
+        internal static Build.Reporting.BuildResult? Next;
 
         internal static BuildPlayerOptions Last;
 
         public static Build.Reporting.BuildReport BuildPlayer(BuildPlayerOptions buildPlayerOptions)
         {
             Last = buildPlayerOptions;
-            return new Build.Reporting.BuildReport { summary = new Build.Reporting.BuildSummary { result = Next } };
+            return Next is Build.Reporting.BuildResult result
+                ? new Build.Reporting.BuildReport { summary = new Build.Reporting.BuildSummary { result = result } } : null;
         }
     }
 }

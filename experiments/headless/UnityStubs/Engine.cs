@@ -212,7 +212,9 @@ namespace UnityStubs
 
         internal static void Write(LogType type, object message)
         {
-            Console.Add((type, message?.ToString() ?? ""));
+            string text = message?.ToString() ?? "";
+            Console.Add((type, text));
+            UnityEngine.TestTools.LogAssert.Take(type, text);
         }
 
         private static void Run(Live live, Action message)

@@ -5,6 +5,8 @@ namespace UnityEngine
     public static class Time
     {
         public static float deltaTime { get; internal set; }
+
+        public static float time { get; internal set; }
     }
 
     public static class Application

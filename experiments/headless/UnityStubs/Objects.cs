@@ -9,9 +9,15 @@ namespace UnityEngine
 
         public string name { get; set; } = "";
 
-        /// <summary>At once here, at the end of the frame in Unity.</summary>
+        /// <summary>At once here, at the end of the frame in Unity. In edit mode an error, and nothing is destroyed.
+        /// </summary>
         public static void Destroy(Object obj)
         {
+            if (!Application.isPlaying)
+            {
+                Debug.LogError("Destroy may not be called from edit mode! Use DestroyImmediate instead.");
+                return;
+            }
             DestroyImmediate(obj);
         }
 
@@ -119,6 +125,11 @@ namespace UnityEngine
 
     public class MonoBehaviour : Behaviour
     {
+        public void Invoke(string methodName, float time) => throw new NotSupportedException();
+
+        public Coroutine StartCoroutine(string methodName) => throw new NotSupportedException();
+
+        public Coroutine StartCoroutine(System.Collections.IEnumerator routine) => throw new NotSupportedException();
     }
 
     public class Renderer : Component

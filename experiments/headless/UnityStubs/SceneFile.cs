@@ -6,6 +6,7 @@ using System.Linq;
 using System.Reflection;
 using System.Text.RegularExpressions;
 using UnityEngine;
+using UnityEngine.Serialization;
 
 namespace UnityStubs
 {
@@ -13,6 +14,7 @@ namespace UnityStubs
     /// name.</summary>
     public sealed class SceneFile
     {
+        private const BindingFlags Fields = BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic;
         private static readonly Regex Header = new Regex(@"^--- !u!(\d+) &(-?\d+)$");
         private static readonly Regex Entry = new Regex(@"^  ([^ :{}-][^:{}]*):(?: (.*))?$");
         private static readonly Regex FileId = new Regex(@"\{fileID: (-?\d+)");
@@ -134,8 +136,9 @@ namespace UnityStubs
             foreach (KeyValuePair<string, string> pair in document.Values)
             {
                 // As in Unity, a name that the class does not have is passed over: finding it is the checker's work.
-                FieldInfo field = target.GetType().GetField(pair.Key,
-                    BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic);
+                FieldInfo field = target.GetType().GetField(pair.Key, Fields) ?? target.GetType().GetFields(Fields)
+                    .FirstOrDefault(renamed => renamed.GetCustomAttributes<FormerlySerializedAsAttribute>()
+                        .Any(former => former.oldName == pair.Key));
                 if (field != null)
                 {
                     field.SetValue(target, Value(field.FieldType, pair.Value, document.Lists[pair.Key]));

@@ -1,4 +1,14 @@
-"""Edits of this repository that Unity would refuse or silently pass over, each with the file and rule that name it."""
+"""Edits of this repository that Unity would refuse or silently pass over, each with the file and rule that name it.
+
+Which part finds a breakage follows from its rule:
+
+- a number (CS0117): an error of the compiler, as Guidewire.UnityCheck binds an assembly;
+- script-*, initialize-method, field-stored, field-attribute, field-initialiser, menu-item, editor-drawer, nunit,
+  editor-in-player, api-editor, test-method, test-fixture, test-assembly, unity-test: rules of that program;
+- scene-script, scene-needs, field-value, field-unknown, reference-class, reference-unset, scene-parameters, name-unknown,
+  execute-method, module-missing, internals, shader-find, and material-* in code: Python, with tables of that program;
+- all others: Python alone, which needs no build.
+"""
 
 from __future__ import annotations
 

@@ -12,12 +12,18 @@ EDITOR = f"{GUIDEWIRE}/Editor/Guidewire.Editor.asmdef"
 TESTS = f"{GUIDEWIRE}/Tests/Core/Guidewire.Core.Tests.asmdef"
 UNITY_TESTS = f"{GUIDEWIRE}/Tests/Unity/Guidewire.Unity.Tests.asmdef"
 PLAY_TESTS = f"{GUIDEWIRE}/Tests/Unity/Play/Guidewire.Unity.PlayTests.asmdef"
+PLAY_SOURCE = f"{GUIDEWIRE}/Tests/Unity/Play/WirePlayTests.cs"
 RSP = f"{RUNTIME}/csc.rsp"
 REFERENCE = f"{RUNTIME}/Views/Views.asmref"
 
 
 def asmdef(path: str, old: str, new: str, rule: str) -> Breakage:
     return Breakage(replace(path, old, new), path, rule)
+
+
+def missing(path: str, name: str, source: str, error: str) -> Breakage:
+    """A reference that is gone, and a source that needs it."""
+    return Breakage(replace(path, name, ""), source, error)
 
 
 def option(line: str) -> Breakage:
@@ -45,15 +51,16 @@ BREAKAGES = {
     "reference to a package that is not there": asmdef(PLAYER, '"Guidewire.Io"', '"Guidewire.Io", "Unity.Burst"',
                                                        "asmdef-reference"),
     "namespace of an assembly that is not referenced": Breakage(
-        replace(LOOP, "^using UnityEngine;", "using Guidewire.Editor;\nusing UnityEngine;"), PLAYER, "asmdef-needed"),
-    "reference missing": asmdef(PLAYER, r'"Guidewire.Core",\s*', "", "asmdef-needed"),
-    "reference of the editor missing": asmdef(EDITOR, r',\s*"Guidewire.Runtime"', "", "asmdef-needed"),
-    "reference of the tests missing": asmdef(TESTS, r'"Guidewire.Io",\s*', "", "asmdef-needed"),
-    "reference of the play tests missing": asmdef(PLAY_TESTS, r'"Guidewire.Runtime",\s*', "", "asmdef-needed"),
-    "runner missing that a test uses": asmdef(PLAY_TESTS, r'"UnityEngine.TestRunner",\s*', "", "asmdef-needed"),
-    "tests of one assembly used by another": Breakage(
-        insert(f"{GUIDEWIRE}/Tests/Unity/Play/WirePlayTests.cs", "private TubeMeshTests? _other;"), PLAY_TESTS,
-        "asmdef-needed"),
+        replace(LOOP, "^using UnityEngine;", "using Guidewire.Editor;\nusing UnityEngine;"), LOOP, "CS0234"),
+    "reference missing": missing(PLAYER, r'"Guidewire.Core",\s*', LOOP, "CS0246"),
+    "reference of the editor missing": missing(EDITOR, r',\s*"Guidewire.Runtime"',
+                                               f"{GUIDEWIRE}/Editor/BatchEntry.cs", "CS0234"),
+    "reference of the tests missing": missing(TESTS, r'"Guidewire.Io",\s*',
+                                              f"{GUIDEWIRE}/Tests/Core/Io/CommandLineHandlerTests.cs", "CS0234"),
+    "reference of the play tests missing": missing(PLAY_TESTS, r'"Guidewire.Runtime",\s*', PLAY_SOURCE, "CS0234"),
+    "runner missing that a test uses": asmdef(PLAY_TESTS, r'"UnityEngine.TestRunner",\s*', "", "asmdef-test"),
+    "tests of one assembly used by another": Breakage(insert(PLAY_SOURCE, "private TubeMeshTests? _other;"),
+                                                      PLAY_SOURCE, "CS0246"),
     "reference that is a number": asmdef(IO, '"Guidewire.Core"', '"Guidewire.Core", 3', "asmdef-form"),
     "references that are no list": asmdef(IO, r'"references": \[[^]]*\]', '"references": "Guidewire.Core"',
                                           "asmdef-form"),
@@ -65,7 +72,7 @@ BREAKAGES = {
                                       "asmdef-engine"),
     "internals not shown": Breakage(replace(f"{RUNTIME}/AssemblyInfo.cs", "Guidewire.Unity.Tests",
                                             "Guidewire.Unity.Test"),
-                                    f"{GUIDEWIRE}/Tests/Unity/TubeMeshTests.cs", "internals"),
+                                    f"{GUIDEWIRE}/Tests/Unity/TubeMeshTests.cs", "CS0122"),
     "internals shown to nobody": Breakage(replace(f"{RUNTIME}/AssemblyInfo.cs", "Guidewire.Unity.PlayTests",
                                                   "Guidewire.Unity.PlayTest"), f"{RUNTIME}/AssemblyInfo.cs",
                                           "internals"),
@@ -78,9 +85,10 @@ BREAKAGES = {
                         "asmdef-precompiled"),
     "dlls that do not count": asmdef(IO, '"overrideReferences": true', '"overrideReferences": false',
                                      "asmdef-precompiled"),
-    "dll missing that is used": asmdef(IO, '"Newtonsoft.Json.dll"', "", "asmdef-needed"),
-    "override without a list": asmdef(PLAYER, '"overrideReferences": false', '"overrideReferences": true',
-                                      "asmdef-needed"),
+    "dll missing that is used": missing(IO, '"Newtonsoft.Json.dll"', f"{GUIDEWIRE}/Io/Runs/RunSummary.cs", "CS0246"),
+    "override without a list": Breakage(both(
+        replace(PLAYER, '"overrideReferences": false', '"overrideReferences": true'),
+        replace(HUD, "^using UnityEngine;", "using Newtonsoft.Json;\nusing UnityEngine;")), HUD, "CS0246"),
     "tests without NUnit": asmdef(TESTS, r'"nunit.framework.dll",\s*', "", "asmdef-test"),
     "package of a dll missing": Breakage(replace("Packages/manifest.json",
                                                  r'    "com.unity.nuget.newtonsoft-json": "3.2.1",\n', ""), IO,
@@ -142,10 +150,10 @@ BREAKAGES = {
                                                              '{"reference": "Guidewire.Core"}\n'),
                                                        f"{RUNTIME}/Other.asmref", "asmdef-folder"),
     "assembly reference that moves engine code into Core": Breakage(
-        write(REFERENCE, '{"reference": "Guidewire.Core"}\n'), HUD, "engine-in-core"),
+        write(REFERENCE, '{"reference": "Guidewire.Core"}\n'), HUD, "CS0246"),
     "source outside an assembly": Breakage(write("Assets/Loose.cs", "namespace A\n{\n}\n"), "Assets/Loose.cs",
                                            "asmdef-outside"),
-    "unsafe code": Breakage(insert(VECTOR, "private unsafe double* _x;"), VECTOR, "asmdef-unsafe"),
+    "unsafe code": Breakage(insert(VECTOR, "private unsafe double* _x;"), VECTOR, "CS0227"),
     # Compiler options
     "newer language": option("-langversion:10"),
     "latest language": option("-langversion:latest"),

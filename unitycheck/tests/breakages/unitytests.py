@@ -14,8 +14,8 @@ def source(body: str, head: str = "public sealed class OddTests") -> str:
             f"namespace Guidewire.Core.Tests\n{{\n    {head}\n    {{\n        {body}\n    }}\n}}\n")
 
 
-def lacks(statement: str) -> Breakage:
-    return Breakage(write(NEW, source(f"[Test] public void A() {{ {statement} }}")), NEW, "nunit")
+def lacks(statement: str, rule: str = "nunit") -> Breakage:
+    return Breakage(write(NEW, source(f"[Test] public void A() {{ {statement} }}")), NEW, rule)
 
 
 def method(body: str, rule: str = "test-method") -> Breakage:
@@ -28,27 +28,27 @@ def fixture(head: str, body: str = "") -> Breakage:
 
 BREAKAGES = {
     "Multiple": lacks("Assert.Multiple(() => { });"),
-    "MultipleAsync": lacks("Assert.MultipleAsync(null);"),
-    "scope of several": lacks("using (Assert.EnterMultipleScope()) { }"),
+    "MultipleAsync": lacks("Assert.MultipleAsync(null);", "CS0117"),
+    "scope of several": lacks("using (Assert.EnterMultipleScope()) { }", "CS0117"),
     "warning": lacks('Assert.Warn("a");'),
     "warning on a condition": lacks("Warn.If(true);"),
-    "any of": lacks("Assert.That(1, Is.AnyOf(1, 2));"),
-    "properties comparer": lacks("Assert.That(1, Is.EqualTo(1).UsingPropertiesComparer());"),
-    "item at a place": lacks("Assert.That(new int[1], Has.ItemAt(0).EqualTo(0));"),
-    "asynchronous that": lacks("Assert.ThatAsync(null, null);"),
-    "classic assertions": lacks("ClassicAssert.AreEqual(1, 1);"),
-    "key with its value": lacks("Assert.That(new Dictionary<int, int>(), Contains.Key(1).WithValue(1));"),
-    "exactly one": lacks("Assert.That(new int[1], Has.One.EqualTo(0));"),
-    "attachment": lacks('TestContext.AddTestAttachment("a");'),
+    "any of": lacks("Assert.That(1, Is.AnyOf(1, 2));", "CS0117"),
+    "properties comparer": lacks("Assert.That(1, Is.EqualTo(1).UsingPropertiesComparer());", "CS1061"),
+    "item at a place": lacks("Assert.That(new int[1], Has.ItemAt(0).EqualTo(0));", "CS0117"),
+    "asynchronous that": lacks("Assert.ThatAsync(null, null);", "CS0117"),
+    "classic assertions": lacks("ClassicAssert.AreEqual(1, 1);", "CS0103"),
+    "key with its value": lacks("Assert.That(new Dictionary<int, int>(), Contains.Key(1).WithValue(1));", "CS1061"),
+    "exactly one": lacks("Assert.That(new int[1], Has.One.EqualTo(0));", "CS0117"),
+    "attachment": lacks('TestContext.AddTestAttachment("a");', "CS0117"),
     "progress": lacks('TestContext.Progress.WriteLine("a");'),
     "parallel switched off": Breakage(write(NEW, source("[Test, NonParallelizable] public void A() { }")), NEW,
-                                      "nunit"),
+                                      "CS0246"),
     "life cycle": Breakage(write(NEW, source("[Test] public void A() { }", "[FixtureLifeCycle(LifeCycle."
-                                             "InstancePerTestCase)] public class OddTests")), NEW, "nunit"),
+                                             "InstancePerTestCase)] public class OddTests")), NEW, "CS0246"),
     "tolerance for all": Breakage(write(NEW, source("[Test, DefaultFloatingPointTolerance(1)] public void A() { }")),
-                                  NEW, "nunit"),
-    "cancelled after": Breakage(write(NEW, source("[Test, CancelAfter(3)] public void A() { }")), NEW, "nunit"),
-    "asynchronous test": method("[Test] public async System.Threading.Tasks.Task A() { }"),
+                                  NEW, "CS0246"),
+    "cancelled after": Breakage(write(NEW, source("[Test, CancelAfter(3)] public void A() { }")), NEW, "CS0246"),
+    "test that nobody waits for": method("[Test] public async void A() { }"),
     "UnityTest that returns void": Breakage(replace(PLAY, "public IEnumerator Loop", "public void Loop"), PLAY,
                                             "unity-test"),
     "UnityTest with cases": Breakage(replace(PLAY, r"\[UnityTest\]", "[UnityTest, TestCase(1)]"), PLAY, "unity-test"),
@@ -83,8 +83,8 @@ BREAKAGES = {
                                             TUBE, "test-fixture"),
     "test in a player": Breakage(write(f"{RUNTIME}/OddTests.cs", source("[Test] public void A() { }").replace(
         "Guidewire.Core.Tests", "Guidewire.Runtime")), f"{RUNTIME}/OddTests.cs", "test-assembly"),
-    "NUnit in a player": Breakage(write(f"{RUNTIME}/OddTests.cs", "using NUnit.Framework;\n"),
-                                  f"{RUNTIME}/Guidewire.Runtime.asmdef", "asmdef-needed"),
+    "NUnit in a player": Breakage(write(f"{RUNTIME}/OddTests.cs", "using NUnit.Framework;\n"), f"{RUNTIME}/OddTests.cs",
+                                  "CS0246"),
     "engine's test tools in the shared tests": Breakage(
-        write(NEW, "using UnityEngine.TestTools;\n"), NEW, "engine-in-core"),
+        write(NEW, "using UnityEngine.TestTools;\n"), NEW, "CS0246"),
 }

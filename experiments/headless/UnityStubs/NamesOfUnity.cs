@@ -1,0 +1,61 @@
+using System;
+
+// What this project does not call, and scripts in general do: names with the signatures of Unity's, for the checker, which
+// compiles what users add.
+namespace UnityEngine
+{
+    public sealed class SerializeReference : Attribute
+    {
+    }
+
+    [AttributeUsage(AttributeTargets.Method)]
+    public sealed class ContextMenu : Attribute
+    {
+        public ContextMenu(string itemName)
+        {
+        }
+    }
+
+    public class Coroutine
+    {
+    }
+
+    public class ScriptableObject : Object
+    {
+    }
+
+    public class Collider : Component
+    {
+    }
+
+    public class Collider2D : Behaviour
+    {
+    }
+
+    public class Collision
+    {
+    }
+
+    public class Collision2D
+    {
+    }
+
+    public class AnimationCurve
+    {
+    }
+
+    public struct LayerMask
+    {
+        public static int NameToLayer(string layerName) => -1;
+    }
+}
+
+namespace UnityEditor
+{
+    public static class AssetDatabase
+    {
+        public static void Refresh()
+        {
+        }
+    }
+}
