@@ -17,7 +17,8 @@ namespace Guidewire.Core
         private string? _ownReason;
         private string? _warning;
 
-        private Simulation(MethodStart start, SimulationParameters parameters)
+        private Simulation(MethodStart start, SimulationParameters parameters, in Quaterniond proximalFrame,
+            in Quaterniond distalFrame)
         {
             _warnings = new RunWarnings(parameters);
             _hasMaterial = MethodTable.Of(parameters.Method.Solver).TakesMaterial;
@@ -27,7 +28,11 @@ namespace Guidewire.Core
             _stopRule = new StopRule(parameters.Method.MaxSimulationSteps);
             _clock = new StepClock(parameters.Method.TimeStep);
             _start = new RodStart((Vector3d[])State.Positions.Clone(), (Quaterniond[])State.Orientations.Clone(),
-                (Vector3d[])State.Velocities.Clone(), (Vector3d[])State.AngularVelocities.Clone());
+                (Vector3d[])State.Velocities.Clone(), (Vector3d[])State.AngularVelocities.Clone())
+            {
+                ProximalFrame = proximalFrame,
+                DistalFrame = distalFrame,
+            };
         }
 
         /// <summary>The wire as it is now.</summary>
@@ -72,8 +77,11 @@ namespace Guidewire.Core
                 throw new ArgumentException(conflict.Key + " needs " + conflict.Needed);
             }
             MethodTraits method = MethodTable.Of(parameters.Method.Solver);
-            MethodStart start = method.Build(parameters, new Scene(parameters));
-            var simulation = new Simulation(start, parameters);
+            var scene = new Scene(parameters);
+            Quaterniond proximalFrame = scene.Shape.ProximalFrame;    // before the clamps turn
+            Quaterniond distalFrame = scene.Shape.DistalFrame;
+            MethodStart start = method.Build(parameters, scene);
+            var simulation = new Simulation(start, parameters, proximalFrame, distalFrame);
             if (start.Failure != null)
             {
                 simulation.End(Outcome.Failed, start.Failure);
@@ -163,8 +171,12 @@ namespace Guidewire.Core
             }
             var snapshot = new Snapshot();
             Exchange(snapshot);
-            return Rebuild(parameters, new RodStart(State.Positions, State.Orientations, State.Velocities,
-                State.AngularVelocities), snapshot.ToRead());
+            var start = new RodStart(State.Positions, State.Orientations, State.Velocities, State.AngularVelocities)
+            {
+                ProximalFrame = _start.ProximalFrame,
+                DistalFrame = _start.DistalFrame,
+            };
+            return Rebuild(parameters, start, snapshot.ToRead());
         }
 
         /// <summary>All that the next steps depend on besides the parameters, as bytes for <see
@@ -246,6 +258,8 @@ namespace Guidewire.Core
             snapshot.Exchange(start.Orientations);
             snapshot.Exchange(start.Velocities);
             snapshot.Exchange(start.AngularVelocities);
+            start.ProximalFrame = snapshot.Exchange(start.ProximalFrame);
+            start.DistalFrame = snapshot.Exchange(start.DistalFrame);
         }
 
         private void Exchange(Snapshot snapshot)

@@ -243,7 +243,17 @@ namespace Guidewire.Io
         {
             try
             {
-                return StartFileReader.Read(Values.StartFile, n);
+                RodStart start = StartFileReader.Read(Values.StartFile, n);
+                string? shear = start.FindShear();
+                if (shear != null && MethodTable.Of(Method).TakesMaterial)
+                {
+                    throw new ParameterException(Values.StartFile + ": " + shear);
+                }
+                if (shear != null)
+                {
+                    AddWarning("{0}: {1}", Values.StartFile, shear);    // gains may be that soft
+                }
+                return start;
             }
             catch (ParameterException error)
             {
