@@ -266,7 +266,7 @@ def reconcile(scene: dict) -> dict:
         if abs(scene.get("distalRotation", 0.0)) > 1.0 and not scene.get("distalRampTime"):
             scene["distalRampTime"] = 0.01
     if solver == "pbd":
-        if scene.get("proximalEnd") == "free":
+        if scene.get("proximalEnd") == "free" or scene.get("drive") == "force":
             scene["proximalEnd"] = "held"
         return scene
     if scene.get("integrator") in ("bdf2", "implicitEuler"):
@@ -278,13 +278,15 @@ def reconcile(scene: dict) -> dict:
         scene["proximalEnd"] = "clamped"
         if scene.get("drive") == "force":
             del scene["drive"]
+    if scene.get("drive") == "force":
+        scene["proximalEnd"] = "free"
     moves = scene.get("drive") in ("displace", "push") or scene.get("SteadyState") is False
     if scene.get("proximalEnd") == "free" and moves:
         del scene["proximalEnd"]
     limit = 0.99 * scene.get("guidewireLength", LENGTH) / (2.0 * math.pi * scene.get("startRadius", 10.0))
     if scene.get("startShape") == "helix":
         scene["startTurns"] = max(-limit, min(limit, scene.get("startTurns", 1.0)))
-    is_clamped = scene.get("proximalEnd") == "clamped" and scene.get("drive") != "force"
+    is_clamped = scene.get("proximalEnd") == "clamped"
     if scene.get("initialState") == "equilibrium":
         scene = {name: value for name, value in scene.items() if name not in ("vessel", "obstacles")}
     if scene.get("initialState") == "equilibrium" and not is_clamped and scene.get("distalEnd", "free") == "free":
