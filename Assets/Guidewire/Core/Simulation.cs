@@ -14,6 +14,7 @@ namespace Guidewire.Core
         private readonly StepClock _clock;
         private readonly RunWarnings _warnings;
         private readonly RodStart _start;    // a place where the wire may be built, which not every later one is
+        private bool _isWritten = true;
         private string? _ownReason;
         private string? _warning;
 
@@ -27,6 +28,7 @@ namespace Guidewire.Core
             _stepper = start.Stepper;
             _stopRule = new StopRule(parameters.Method.MaxSimulationSteps);
             _clock = new StepClock(parameters.Method.TimeStep);
+            _warnings.Begin(State);
             _start = new RodStart((Vector3d[])State.Positions.Clone(), (Quaterniond[])State.Orientations.Clone(),
                 (Vector3d[])State.Velocities.Clone(), (Vector3d[])State.AngularVelocities.Clone())
             {
@@ -58,6 +60,17 @@ namespace Guidewire.Core
         /// was made.</summary>
         public IReadOnlyList<string> Warnings => Outcome == Outcome.Running || StepCount == 0 ? Array.Empty<string>()
             : _warnings.Of(State, Contacts);
+
+        /// <summary>Whether the run came to its end and nothing that it measures of itself says that its result is not
+        /// to be trusted: it has converged or finished, its reason holds no "but", nothing passed a wall or lay deeper
+        /// in one than the method allows, the wire has its length, and the drive got its way.</summary>
+        public bool IsReliable => (Outcome == Outcome.Converged || Outcome == Outcome.Finished) && _warning == null
+            && (StepCount == 0 || _warnings.AreNoDoubts(State, Contacts));
+
+        /// <summary>Whether the last step has a state of its own, all of it finite: one without a solution has
+        /// none.</summary>
+        public bool HasStateOfStep => _isWritten
+            && (Outcome != Outcome.Diverged || StopRule.FindNotFinite(State, StepCount) == null);
 
         /// <summary>First step of the steady state, or -1.</summary>
         public int SteadyStateStep => _stopRule.SteadyStateStep;
@@ -139,8 +152,11 @@ namespace Guidewire.Core
             {
                 return;
             }
+            Vector3d[] before = State.Positions;
             _stepper.Advance(State);
+            _isWritten = State.Positions != before;    // a state that is written takes the place of the one before
             _clock.Advance();
+            _warnings.Look(State, Contacts, Time);
             Outcome = _stopRule.Check(State, _stepper, StepCount);
             if (Outcome == Outcome.Finished || Outcome == Outcome.Converged)
             {
@@ -191,7 +207,8 @@ namespace Guidewire.Core
             snapshot.Exchange(PredictionError);
             Contacts?.Exchange(snapshot);    // of the last step, as the error before: what is shown and not what counts
             snapshot.Exchange((int)Outcome);
-            snapshot.Exchange(Outcome == Outcome.Running ? "" : Reason);
+            snapshot.Exchange(Outcome == Outcome.Running ? "" : _ownReason ?? _stopRule.Reason);
+            snapshot.Exchange(_warning ?? "");
             return snapshot.ToBytes();
         }
 
@@ -218,9 +235,11 @@ namespace Guidewire.Core
                 simulation.Contacts?.Exchange(snapshot);
                 var outcome = (Outcome)snapshot.Exchange(0);
                 string reason = snapshot.Exchange("");
+                string warning = snapshot.Exchange("");
                 if (outcome != Outcome.Running)
                 {
                     simulation.End(outcome, reason);
+                    simulation._warning = warning.Length == 0 ? null : warning;
                 }
                 return simulation;
             }
@@ -267,6 +286,7 @@ namespace Guidewire.Core
             _clock.Exchange(snapshot);
             State.Exchange(snapshot);
             _stepper.Exchange(snapshot);
+            _warnings.Exchange(snapshot, State);
         }
     }
 }

@@ -137,14 +137,15 @@ namespace Guidewire.Core
                 longest = Math.Max(longest, length);
             }
             return string.Format(CultureInfo.InvariantCulture, longest > (1.0 + Even) * shortest
-                ? "elements there of {1:G3} of their length would do (numberRodElements, of the section where it has one)"
+                ? "elements there of {1:G3} of their length would do (numberRodElements, of the section where it has"
+                    + " one)"
                 : "numberRodElements = {0} would do",
                 Math.Ceiling(_rod.ElementCount * angle / (Share * Limit)), Share * Limit / angle);
         }
 
         // Whether a joint's neighbours, if it has any, are turned by less than half of its angle: then what bends is no
         // longer than an element, and its turn does not go with the elements' length.
-        private bool IsAlone(RodShape shape, int joint, double angle)
+        private static bool IsAlone(RodShape shape, int joint, double angle)
         {
             double most = -1.0;
             for (int k = Math.Max(1, joint - 1); k <= Math.Min(shape.Q.Length - 1, joint + 1); k++)
