@@ -81,6 +81,11 @@ class Run:
         return "killed" if self.summary is None else str(self.summary.get("outcome"))
 
     @property
+    def is_reliable(self) -> bool:
+        """Whether the run came to its end and nothing that it measured of itself speaks against its result."""
+        return self.summary is not None and self.summary.get("reliable") is True
+
+    @property
     def direction(self) -> np.ndarray:
         """Unit vector of the first sphere's displacement, shape (3,)."""
         direction = np.asarray(self.value("displacementDirection"), dtype=float)

@@ -18,6 +18,7 @@ from experiments.prepare import ROOT, PreparationError
 
 _TABLE = ROOT / "docs" / "parameters.md"
 _BEYOND_DOUBLE = 1 << 1024
+_CLOSE = 0.85  # of two words, by difflib: a letter or two of eight are wrong
 _LONGEST = 80  # characters of a value or a path that a line shows
 
 
@@ -36,7 +37,7 @@ def check_file(file: Path) -> None:
         raise PreparationError(f"{file}: not a JSON object of keys and values, such as {{\"timeStep\": 0.01}}")
     table = _read_table()
     for name, value in content.items():
-        _check(table, name, value, str(file), json.dumps(value))
+        _check(table, name, value, str(file), json.dumps(value), content.get("solver", "pbd"))
 
 
 def check_overrides(overrides: Sequence[tuple[str, str]]) -> None:
@@ -87,15 +88,16 @@ def _read_table() -> dict[str, Key]:
         return {}  # the page is gone or of another version: the runner says what is wrong
 
 
-def _check(table: dict[str, Key], name: str, value: Any, source: str, shown: str) -> None:
+def _check(table: dict[str, Key], name: str, value: Any, source: str, shown: str, solver: str | None = None) -> None:
     if not table:
         return
     key = table.get(name)
     if key is None:
-        by_small = {known.lower(): known for known in table}
-        near = difflib.get_close_matches(name.lower(), by_small, n=1)
-        hint = f"did you mean '{by_small[near[0]]}'?" if near else f"{_TABLE.relative_to(ROOT)} lists what is allowed"
-        raise PreparationError(f"{source}: unknown key '{_short(name)}': {hint}")
+        by_small = {known.lower(): known for known in table if solver is None or solver in table[known].solvers}
+        near = difflib.get_close_matches(name.lower(), by_small, n=1, cutoff=_CLOSE)
+        if not near:
+            return  # the runner knows what else it may be called
+        raise PreparationError(f"{source}: unknown key '{_short(name)}': did you mean '{by_small[near[0]]}'?")
     if key.kind not in ("number", "whole"):
         return
     is_number = isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < _BEYOND_DOUBLE

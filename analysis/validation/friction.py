@@ -164,7 +164,8 @@ def _pulled(mu: float, degrees: float) -> Case:
         return tubes.at_bend(bend, turn) + beyond * tubes.along_bend(turn), turn
 
     start = {"positions": [place(s)[0].tolist() for s in arc],
-             "orientations": [tubes.frame_about_x(place(s)[1]) for s in 0.5 * (arc[1:] + arc[:-1])]}
+             "orientations": [tubes.frame_about_x(place(s)[1]) for s in 0.5 * (arc[1:] + arc[:-1])],
+             **scenes.CLAMPS_ALONG_Z}
     wire = Wire(length * scenes.UNIT, 0.2e-3, 5e9, 2e9)
     vessel = tubes.tube(tubes.bend(bend, angle, 90, straight + 60.0, straight + 60.0), 0.4, mu)
     return Case(f"mu={mu:g},angle={degrees:g}", tubes.in_vessel(

@@ -42,7 +42,8 @@ def _chain(turns: Sequence[Rotation], length: float, shifts: np.ndarray | None =
 
 def _start(nodes: np.ndarray, turns: Sequence[Rotation]) -> dict[str, Any]:
     """A start file of these places, m, shape (n+1, 3), and frames."""
-    return {"positions": (nodes / scenes.UNIT).tolist(), "orientations": [turn.as_quat().tolist() for turn in turns]}
+    return {"positions": (nodes / scenes.UNIT).tolist(), "orientations": [turn.as_quat().tolist() for turn in turns],
+            **scenes.CLAMPS_ALONG_Z}
 
 
 def _joint() -> Plan:

@@ -35,7 +35,8 @@ def _order() -> Plan:
     }, start=scenes.mode_start(BASE, n, first, 2e-4))
     runs = yield [filtered]
     pure = last_state(runs[filtered.key])
-    start = {"positions": (pure.positions / scenes.UNIT).tolist(), "orientations": pure.orientations.tolist()}
+    start = {"positions": (pure.positions / scenes.UNIT).tolist(), "orientations": pure.orientations.tolist(),
+             **scenes.CLAMPS_ALONG_Z}
 
     def case(name: str, steps: int, method: Mapping[str, Any]) -> Case:
         return Case(f"{name}-{steps}", {

@@ -98,6 +98,7 @@ def _start(n: int) -> dict[str, Any]:
     return {
         "positions": [[float(x), float(y), float(z)] for x, (y, z) in zip(out, places)],
         "orientations": [[-math.sin(0.5 * a), 0.0, 0.0, math.cos(0.5 * a)] for a in middles],
+        **scenes.CLAMPS_ALONG_Z,
     }
 
 

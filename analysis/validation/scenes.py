@@ -17,6 +17,8 @@ from studies.table import Case
 
 UNIT = 1e-3  # m; one unit of length of the files
 ELEMENTS = 30  # n of the scene
+# Of a start file: clamps that look along z, whatever the first and the last element do.
+CLAMPS_ALONG_Z: dict[str, Any] = {"proximalFrame": [0.0, 0.0, 0.0, 1.0], "distalFrame": [0.0, 0.0, 0.0, 1.0]}
 SCENE = "params/cantilever.json"  # the base wire, clamped
 
 _SETTLED = 12.0  # a critically damped motion is over after this many 1/omega
@@ -149,7 +151,7 @@ def mode_start(wire: Wire, elements: int, number: float, amplitude: float) -> di
 
 
 def plane_start(along: np.ndarray, across: np.ndarray) -> dict[str, Any]:
-    """A start at rest on a curve in the y-z plane, frames along the elements.
+    """A start at rest on a curve in the y-z plane, frames along the elements, clamps along z.
 
     Parameters
     ----------
@@ -160,4 +162,5 @@ def plane_start(along: np.ndarray, across: np.ndarray) -> dict[str, Any]:
     return {
         "positions": [[0.0, -y / UNIT, z / UNIT] for z, y in zip(along, across)],
         "orientations": [[math.sin(0.5 * a), 0.0, 0.0, math.cos(0.5 * a)] for a in angle],
+        **CLAMPS_ALONG_Z,
     }

@@ -201,7 +201,8 @@ def _prepared(f: float) -> Case:
     angle = 2.0 * math.pi * turns * arc
     along = math.sqrt(1.0 - steep * steep) * _WIRE.length / scenes.UNIT * arc
     nodes = np.stack([radius * np.sin(angle), radius - radius * np.cos(angle), along], axis=1)
-    start = {"positions": nodes.tolist(), "orientations": tubes.untwisted_frames(nodes)}
+    start = {"positions": nodes.tolist(), "orientations": tubes.untwisted_frames(nodes),
+             **scenes.CLAMPS_ALONG_Z}
     return Case(f"load={f:g}", {"loadTables": None, "axialForce": -f * _FORCE, "gravity": [0.0, -tubes.GRAVITY, 0.0],
                                 "timeStep": 5e-3, "maxSimulationSteps": 600, "logFormat": "npz"}, start=start)
 

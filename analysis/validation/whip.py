@@ -61,6 +61,7 @@ def _case(clearance: float, n: int) -> Case:
     start = {
         "positions": [tubes.at_bend(_BEND, turn).tolist() for turn in turns],
         "orientations": [tubes.frame_about_x(turn) for turn in 0.5 * (turns[1:] + turns[:-1])],
+        **scenes.CLAMPS_ALONG_Z,
     }
     knots = tubes.bend(_BEND, 1.15 * turns[-1], 120, 20.0, 1.0)
     return Case(f"clearance={clearance:g}", {

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
 
 from experiments.key_table import Key
 
@@ -92,14 +93,16 @@ def load_tables(draw, scene: Mapping[str, Any]) -> dict | None:
 
 @st.composite
 def start_files(draw, scene: Mapping[str, Any]) -> dict:
-    """What a file to start from holds: a straight wire with noise."""
+    """What a file to start from holds: a straight wire with noise, turned about itself."""
     n = int(scene.get("numberRodElements", 30))
     length = scene.get("guidewireLength", LENGTH)
     rng = np.random.default_rng(draw(whole(0, 2**32 - 1)))
     noise = draw(log_uniform(1e-6, 0.3)) * length / n
-    positions = np.outer(np.linspace(0.0, length, n + 1), draw(not_zero.map(lambda v: v / np.linalg.norm(v))))
-    start = {"positions": (positions + noise * rng.standard_normal((n + 1, 3))).tolist(),
-             "orientations": rng.standard_normal((n, 4)).tolist()}
+    along = draw(not_zero.map(lambda v: v / np.linalg.norm(v)))
+    positions = np.outer(np.linspace(0.0, length, n + 1), along) + noise * rng.standard_normal((n + 1, 3))
+    turns = [Rotation.align_vectors([side], [[0.0, 0.0, 1.0]])[0] for side in np.diff(positions, axis=0)]
+    about = Rotation.from_euler("z", rng.uniform(-np.pi, np.pi, (n, 1)))
+    start = {"positions": positions.tolist(), "orientations": (Rotation.concatenate(turns) * about).as_quat().tolist()}
     if draw(st.booleans()):
         start["velocities"] = rng.standard_normal((n + 1, 3)).tolist()
         start["angularVelocities"] = rng.standard_normal((n, 3)).tolist()
@@ -263,7 +266,7 @@ def reconcile(scene: dict) -> dict:
         if abs(scene.get("distalRotation", 0.0)) > 1.0 and not scene.get("distalRampTime"):
             scene["distalRampTime"] = 0.01
     if solver == "pbd":
-        if scene.get("proximalEnd") == "free":
+        if scene.get("proximalEnd") == "free" or scene.get("drive") == "force":
             scene["proximalEnd"] = "held"
         return scene
     if scene.get("integrator") in ("bdf2", "implicitEuler"):
@@ -275,13 +278,15 @@ def reconcile(scene: dict) -> dict:
         scene["proximalEnd"] = "clamped"
         if scene.get("drive") == "force":
             del scene["drive"]
+    if scene.get("drive") == "force":
+        scene["proximalEnd"] = "free"
     moves = scene.get("drive") in ("displace", "push") or scene.get("SteadyState") is False
     if scene.get("proximalEnd") == "free" and moves:
         del scene["proximalEnd"]
     limit = 0.99 * scene.get("guidewireLength", LENGTH) / (2.0 * math.pi * scene.get("startRadius", 10.0))
     if scene.get("startShape") == "helix":
         scene["startTurns"] = max(-limit, min(limit, scene.get("startTurns", 1.0)))
-    is_clamped = scene.get("proximalEnd") == "clamped" and scene.get("drive") != "force"
+    is_clamped = scene.get("proximalEnd") == "clamped"
     if scene.get("initialState") == "equilibrium":
         scene = {name: value for name, value in scene.items() if name not in ("vessel", "obstacles")}
     if scene.get("initialState") == "equilibrium" and not is_clamped and scene.get("distalEnd", "free") == "free":

@@ -55,7 +55,7 @@ def test_a_bad_file_is_refused_before_a_build(unbuilt, tmp_path, text, words):
 
 @pytest.mark.parametrize("assignment, words", [
     ("timestep=0.1", ["'timestep'", "'timeStep'"]), ("timeStep=fast", ["timeStep = fast", "> 0"]),
-    ("timeStep=-1", ["-1"]), ("timeStep=nan", ["nan"]), ("colour=red", ["'colour'", "docs/parameters.md"]),
+    ("timeStep=-1", ["-1"]), ("timeStep=nan", ["nan"]), ("timeStpe=1", ["'timeStpe'", "'timeStep'"]),
     ("maxSimulationSteps=0.5", ["a whole number"]),
 ])
 def test_a_bad_assignment_is_refused_before_a_build(unbuilt, assignment, words):

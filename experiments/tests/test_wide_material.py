@@ -84,8 +84,8 @@ def scene_of(seed: int) -> dict:
         scene.update(drive=drive, displacementPerStep=length * log_uniform(rng, 1e-6, 0.05),
                      displacementDirection=vector(rng, 1.0))
     elif drive == "force":
-        scene.update(drive="force", externalForce=vector(rng, stiffness))
-    holds = (scene["proximalEnd"] == "clamped" and scene.get("drive") != "force") or scene["distalEnd"] != "free"
+        scene.update(drive="force", externalForce=vector(rng, stiffness), proximalEnd="free")
+    holds = scene["proximalEnd"] == "clamped" or scene["distalEnd"] != "free"
     if holds and rng.random() < 0.3:
         scene.update(initialState="equilibrium", maxSimulationSteps=int(rng.choice([0, scene["maxSimulationSteps"]])))
     return scene

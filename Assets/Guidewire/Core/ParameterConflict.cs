@@ -120,6 +120,15 @@ namespace Guidewire.Core
                 return new ParameterConflict("proximalEnd",
                     "\"held\" or \"clamped\" with solver pbd; drive \"force\" frees sphere 0");
             }
+            // With gains "held" is the default and says nothing, and there is no "free".
+            bool isLetGo = method.TakesMaterial ? scene.ProximalEnd == ProximalEnd.Free
+                : scene.ProximalEnd != ProximalEnd.Clamped;
+            if (drive == Drive.Force && !isLetGo)
+            {
+                return new ParameterConflict("drive", method.TakesMaterial
+                    ? "proximalEnd \"free\" with \"force\", which holds nothing"
+                    : "proximalEnd \"held\" with \"force\", which frees sphere 0");
+            }
             if (!method.Slides && scene.DistalEnd == DistalEnd.Sliding)
             {
                 return new ParameterConflict("distalEnd",

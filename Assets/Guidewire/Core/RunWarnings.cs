@@ -13,19 +13,58 @@ namespace Guidewire.Core
 
         private readonly double _length;            // at rest, units
         private readonly double _depth;             // that contact allows, units
+        private readonly RimWatch _rims;
 
         /// <summary>For runs of these parameters.</summary>
         public RunWarnings(SimulationParameters parameters)
         {
             _length = parameters.Scene.GuidewireLength;
+            _rims = new RimWatch(parameters.Scene.Walls);
             MethodTraits method = MethodTable.Of(parameters.Method.Solver);
             _depth = method.DepthInRadii * (method.TakesMaterial
                 ? parameters.Material.WireRadius / parameters.Scene.MetresPerUnit : parameters.Contact.SphereRadius);
         }
 
-        /// <summary>One line for each.</summary>
+        /// <summary>One line for each, and one where the tip left a wall by an open rim, which is no error.</summary>
         /// <param name="contacts">Null where there are no walls.</param>
         public IReadOnlyList<string> Of(RodState state, ContactRecord? contacts)
+        {
+            List<string> lines = Doubts(state, contacts);
+            string? exit = _rims.Line;
+            if (exit != null)
+            {
+                lines.Add(exit);
+            }
+            return lines;
+        }
+
+        /// <summary>Whether there is none but that of a rim.</summary>
+        public bool AreNoDoubts(RodState state, ContactRecord? contacts)
+        {
+            return Doubts(state, contacts).Count == 0;
+        }
+
+        /// <summary>The wire starts in this state.</summary>
+        public void Begin(RodState state)
+        {
+            _rims.Begin(state);
+        }
+
+        /// <summary>A step has come to this state.</summary>
+        /// <param name="time">s.</param>
+        public void Look(RodState state, ContactRecord? contacts, double time)
+        {
+            _rims.Look(state, contacts, time);
+        }
+
+        /// <summary>Writes or takes over what was seen.</summary>
+        /// <param name="state">Where the wire is.</param>
+        public void Exchange(Snapshot snapshot, RodState state)
+        {
+            _rims.Exchange(snapshot, state);
+        }
+
+        private List<string> Doubts(RodState state, ContactRecord? contacts)
         {
             var lines = new List<string>();
             if (contacts != null && contacts.Passages > 0)

@@ -14,10 +14,12 @@ namespace Guidewire.Core
         private readonly StepClock _clock;
         private readonly RunWarnings _warnings;
         private readonly RodStart _start;    // a place where the wire may be built, which not every later one is
+        private bool _isWritten = true;
         private string? _ownReason;
         private string? _warning;
 
-        private Simulation(MethodStart start, SimulationParameters parameters)
+        private Simulation(MethodStart start, SimulationParameters parameters, in Quaterniond proximalFrame,
+            in Quaterniond distalFrame)
         {
             _warnings = new RunWarnings(parameters);
             _hasMaterial = MethodTable.Of(parameters.Method.Solver).TakesMaterial;
@@ -26,8 +28,13 @@ namespace Guidewire.Core
             _stepper = start.Stepper;
             _stopRule = new StopRule(parameters.Method.MaxSimulationSteps);
             _clock = new StepClock(parameters.Method.TimeStep);
+            _warnings.Begin(State);
             _start = new RodStart((Vector3d[])State.Positions.Clone(), (Quaterniond[])State.Orientations.Clone(),
-                (Vector3d[])State.Velocities.Clone(), (Vector3d[])State.AngularVelocities.Clone());
+                (Vector3d[])State.Velocities.Clone(), (Vector3d[])State.AngularVelocities.Clone())
+            {
+                ProximalFrame = proximalFrame,
+                DistalFrame = distalFrame,
+            };
         }
 
         /// <summary>The wire as it is now.</summary>
@@ -54,6 +61,17 @@ namespace Guidewire.Core
         public IReadOnlyList<string> Warnings => Outcome == Outcome.Running || StepCount == 0 ? Array.Empty<string>()
             : _warnings.Of(State, Contacts);
 
+        /// <summary>Whether the run came to its end and nothing that it measures of itself says that its result is not
+        /// to be trusted: it has converged or finished, its reason holds no "but", nothing passed a wall or lay deeper
+        /// in one than the method allows, the wire has its length, and the drive got its way.</summary>
+        public bool IsReliable => (Outcome == Outcome.Converged || Outcome == Outcome.Finished) && _warning == null
+            && (StepCount == 0 || _warnings.AreNoDoubts(State, Contacts));
+
+        /// <summary>Whether the last step has a state of its own, all of it finite: one without a solution has
+        /// none.</summary>
+        public bool HasStateOfStep => _isWritten
+            && (Outcome != Outcome.Diverged || StopRule.FindNotFinite(State, StepCount) == null);
+
         /// <summary>First step of the steady state, or -1.</summary>
         public int SteadyStateStep => _stopRule.SteadyStateStep;
 
@@ -71,8 +89,11 @@ namespace Guidewire.Core
             {
                 throw new ArgumentException(conflict.Key + " needs " + conflict.Needed);
             }
-            MethodStart start = MethodBuilder.Build(parameters, new Scene(parameters));
-            var simulation = new Simulation(start, parameters);
+            var scene = new Scene(parameters);
+            Quaterniond proximalFrame = scene.Shape.ProximalFrame;    // before the clamps turn
+            Quaterniond distalFrame = scene.Shape.DistalFrame;
+            MethodStart start = MethodBuilder.Build(parameters, scene);
+            var simulation = new Simulation(start, parameters, proximalFrame, distalFrame);
             if (start.Failure != null)
             {
                 simulation.End(Outcome.Failed, start.Failure);
@@ -130,8 +151,11 @@ namespace Guidewire.Core
             {
                 return;
             }
+            Vector3d[] before = State.Positions;
             _stepper.Advance(State);
+            _isWritten = State.Positions != before;    // a state that is written takes the place of the one before
             _clock.Advance();
+            _warnings.Look(State, Contacts, Time);
             Outcome = _stopRule.Check(State, _stepper, StepCount);
             if (Outcome == Outcome.Finished || Outcome == Outcome.Converged)
             {
@@ -162,8 +186,12 @@ namespace Guidewire.Core
             }
             var snapshot = new Snapshot();
             Exchange(snapshot);
-            return Rebuild(parameters, new RodStart(State.Positions, State.Orientations, State.Velocities,
-                State.AngularVelocities), snapshot.ToRead());
+            var start = new RodStart(State.Positions, State.Orientations, State.Velocities, State.AngularVelocities)
+            {
+                ProximalFrame = _start.ProximalFrame,
+                DistalFrame = _start.DistalFrame,
+            };
+            return Rebuild(parameters, start, snapshot.ToRead());
         }
 
         /// <summary>All that the next steps depend on besides the parameters, as bytes for <see
@@ -178,7 +206,8 @@ namespace Guidewire.Core
             snapshot.Exchange(PredictionError);
             Contacts?.Exchange(snapshot);    // of the last step, as the error before: what is shown and not what counts
             snapshot.Exchange((int)Outcome);
-            snapshot.Exchange(Outcome == Outcome.Running ? "" : Reason);
+            snapshot.Exchange(Outcome == Outcome.Running ? "" : _ownReason ?? _stopRule.Reason);
+            snapshot.Exchange(_warning ?? "");
             return snapshot.ToBytes();
         }
 
@@ -205,9 +234,11 @@ namespace Guidewire.Core
                 simulation.Contacts?.Exchange(snapshot);
                 var outcome = (Outcome)snapshot.Exchange(0);
                 string reason = snapshot.Exchange("");
+                string warning = snapshot.Exchange("");
                 if (outcome != Outcome.Running)
                 {
                     simulation.End(outcome, reason);
+                    simulation._warning = warning.Length == 0 ? null : warning;
                 }
                 return simulation;
             }
@@ -245,6 +276,8 @@ namespace Guidewire.Core
             snapshot.Exchange(start.Orientations);
             snapshot.Exchange(start.Velocities);
             snapshot.Exchange(start.AngularVelocities);
+            start.ProximalFrame = snapshot.Exchange(start.ProximalFrame);
+            start.DistalFrame = snapshot.Exchange(start.DistalFrame);
         }
 
         private void Exchange(Snapshot snapshot)
@@ -252,6 +285,7 @@ namespace Guidewire.Core
             _clock.Exchange(snapshot);
             State.Exchange(snapshot);
             _stepper.Exchange(snapshot);
+            _warnings.Exchange(snapshot, State);
         }
     }
 }

@@ -49,7 +49,8 @@ namespace Guidewire.Core
             return outcome;
         }
 
-        private static string? FindNotFinite(RodState state, int step)
+        /// <summary>What of a state is not a finite number, in one line, or null.</summary>
+        public static string? FindNotFinite(RodState state, int step)
         {
             for (int i = 0; i < state.SphereCount; i++)
             {

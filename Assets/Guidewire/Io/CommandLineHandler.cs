@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Globalization;
 using System.Text;
+using Guidewire.Core;
 using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
@@ -41,9 +42,8 @@ namespace Guidewire.Io
                 bool isOut = key == "out" || (logFileIsOurs && key == "logFile");
                 if (entry == null && !isOut && key != "parameters" && key != "repeat")
                 {
-                    string? nearest = ParameterTable.Nearest(key);
-                    throw new ParameterException(Source + ": unknown key '" + argument + "'"
-                        + (nearest != null ? ": did you mean '-" + nearest + "'?" : ": --help lists what is allowed"));
+                    throw new ParameterException(Source + ": unknown key '" + argument + "': "
+                        + KeyHint.Of(key, "-", SolverOf(arguments), "--help lists what is allowed"));
                 }
                 if (i + 1 >= arguments.Count)
                 {
@@ -75,6 +75,20 @@ namespace Guidewire.Io
                 }
             }
             return line;
+        }
+
+        // The solver that arguments name; null where they name none.
+        private static Solver? SolverOf(IReadOnlyList<string> arguments)
+        {
+            for (int i = 0; i + 1 < arguments.Count; i++)
+            {
+                if (arguments[i].TrimStart('-') == ParameterTable.SolverKey && ParameterHandler.TrySolver(
+                    new JValue(arguments[i + 1]), out Solver solver))
+                {
+                    return solver;
+                }
+            }
+            return null;
         }
 
         /// <summary>Reads parameters that stand as KEY=VALUE, as in an Inspector's list.</summary>

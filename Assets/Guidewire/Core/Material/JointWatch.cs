@@ -16,6 +16,7 @@ namespace Guidewire.Core
     internal sealed class JointWatch
     {
         private const double Limit = 0.98 * Math.PI;
+        private const double Even = 1e-9;   // by which elements of one length may differ
         private const double Share = 0.9;   // of the limit, for the number of elements that is proposed
 
         private readonly Joint[] _joints;
@@ -89,8 +90,11 @@ namespace Guidewire.Core
                 ? _schedule.TurnAhead(time, _end) / done : 1.0;
             return string.Format(CultureInfo.InvariantCulture,
                 "joint {0} is turned by {1:G4} rad{2}; from {3:G3} rad on a joint does not tell the way round, and the"
-                + " wire would lose the turn; numberRodElements = {4} would do", worst, angle, Place(worst), Limit,
-                Needed(Math.Max(1.0, ahead) * angle));
+                + " wire would lose the turn; {4}", worst, angle, Place(worst), Limit,
+                IsAlone(shape, worst, angle) ? "the joints beside it are turned by less than half of that: shorter"
+                    + " elements share the turn out only where they are shorter than what bends there, such as a soft"
+                    + " section, which may have a numberRodElements of its own"
+                : Advice(Math.Max(1.0, ahead) * angle));
         }
 
         /// <summary>The joint whose rest curvature turns it too far, and what would help, in one line; or
@@ -117,14 +121,39 @@ namespace Guidewire.Core
             }
             return string.Format(CultureInfo.InvariantCulture,
                 "restCurvature turns joint {0} by {1:G4} rad at rest, with elements of l = {2:G4} m; from {3:G3} rad on"
-                + " a joint does not tell the way round; numberRodElements = {4} would do", worst, most,
-                _rod.Length[Math.Min(worst, _rod.ElementCount - 1)], limit, Needed(most));
+                + " a joint does not tell the way round; {4}", worst, most,
+                _rod.Length[Math.Min(worst, _rod.ElementCount - 1)], limit, Advice(most));
         }
 
-        // A joint's turn goes with the length of its elements.
-        private double Needed(double angle)
+        // A joint's turn goes with the length of its elements, as long as its neighbours turn like it; a section with a
+        // number of elements of its own does not follow that of the wire.
+        private string Advice(double angle)
         {
-            return Math.Ceiling(_rod.ElementCount * angle / (Share * Limit));
+            double shortest = double.PositiveInfinity;
+            double longest = 0.0;
+            foreach (double length in _rod.Length)
+            {
+                shortest = Math.Min(shortest, length);
+                longest = Math.Max(longest, length);
+            }
+            return string.Format(CultureInfo.InvariantCulture, longest > (1.0 + Even) * shortest
+                ? "elements there of {1:G3} of their length would do (numberRodElements, of the section where it has"
+                    + " one)"
+                : "numberRodElements = {0} would do",
+                Math.Ceiling(_rod.ElementCount * angle / (Share * Limit)), Share * Limit / angle);
+        }
+
+        // Whether a joint's neighbours, if it has any, are turned by less than half of its angle: then what bends is no
+        // longer than an element, and its turn does not go with the elements' length.
+        private static bool IsAlone(RodShape shape, int joint, double angle)
+        {
+            double most = -1.0;
+            for (int k = Math.Max(1, joint - 1); k <= Math.Min(shape.Q.Length - 1, joint + 1); k++)
+            {
+                double cosine = k == joint ? 1.0 : Cosine(shape.Q[k - 1], shape.Q[k]);
+                most = k == joint ? most : Math.Max(most, 2.0 * Math.Acos(Math.Max(-1.0, Math.Min(1.0, cosine))));
+            }
+            return most >= 0.0 && most < 0.5 * angle;
         }
 
         private string Place(int joint)

@@ -254,5 +254,14 @@ namespace Guidewire.Core
             _at = (int)next;
             return agrees;
         }
+
+        /// <summary>A section of a part that a writer or a reader may be without; where only one of them has it, it is
+        /// left out.</summary>
+        /// <param name="key">What both must agree in.</param>
+        /// <param name="content">Exchanges the part's numbers; null without the part.</param>
+        public void OptionalSection(string key, Action<Snapshot>? content)
+        {
+            Section(content == null ? "no " + key : key, content ?? (_ => { }));
+        }
     }
 }

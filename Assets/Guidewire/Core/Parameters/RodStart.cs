@@ -1,10 +1,15 @@
 using System;
+using System.Globalization;
 
 namespace Guidewire.Core
 {
     /// <summary>Positions, orientations and velocities that a run starts from instead of the straight wire.</summary>
     public sealed class RodStart
     {
+        /// <summary>Largest angle between an element's d3 and the line between its spheres that can be meant, degrees:
+        /// a wire shears by less than a degree.</summary>
+        public const double LargestShear = 45.0;
+
         /// <summary>A start for a wire of n = <c>orientations.Length</c> elements.</summary>
         /// <param name="positions">n + 1 sphere positions in units.</param>
         /// <param name="orientations">n orientations; normalised on use.</param>
@@ -15,7 +20,7 @@ namespace Guidewire.Core
             Vector3d[]? angularVelocities)
         {
             int n = orientations.Length;
-            if (positions.Length != n + 1 || (velocities ?? positions).Length != n + 1
+            if (n == 0 || positions.Length != n + 1 || (velocities ?? positions).Length != n + 1
                 || (angularVelocities != null && angularVelocities.Length != n))
             {
                 throw new ArgumentException(
@@ -23,6 +28,8 @@ namespace Guidewire.Core
             }
             Positions = positions;
             Orientations = orientations;
+            ProximalFrame = orientations[0];
+            DistalFrame = orientations[n - 1];
             Velocities = velocities ?? new Vector3d[n + 1];
             AngularVelocities = angularVelocities ?? new Vector3d[n];
         }
@@ -36,10 +43,42 @@ namespace Guidewire.Core
         /// <summary>n orientations.</summary>
         public Quaterniond[] Orientations { get; }
 
+        /// <summary>Frame of the proximal clamp of a material, normalised on use; that of the first element where it is
+        /// not set. With gains a clamp holds the first element itself.</summary>
+        public Quaterniond ProximalFrame { get; set; }
+
+        /// <summary>The same of the distal clamp and the last element.</summary>
+        public Quaterniond DistalFrame { get; set; }
+
         /// <summary>n + 1 velocities in unit/s.</summary>
         public Vector3d[] Velocities { get; }
 
         /// <summary>n angular velocities in rad/s, body frame.</summary>
         public Vector3d[] AngularVelocities { get; }
+
+        /// <summary>Which element is sheared by more than <see cref="LargestShear"/> or has no length, in one line, or
+        /// null.</summary>
+        public string? FindShear()
+        {
+            for (int j = 0; j < Orientations.Length; j++)
+            {
+                Vector3d along = Positions[j + 1] - Positions[j];
+                Vector3d axis = Quaterniond.Normalize(Orientations[j]).Director3;
+                double angle = Math.Atan2(Vector3d.Cross(axis, along).Length, Vector3d.Dot(axis, along)) * 180.0
+                    / Math.PI;
+                if (along == Vector3d.Zero)
+                {
+                    return string.Format(CultureInfo.InvariantCulture,
+                        "positions[{0}] and positions[{1}] are one place: element {0} has no length", j, j + 1);
+                }
+                if (!(angle <= LargestShear))
+                {
+                    return string.Format(CultureInfo.InvariantCulture, "orientations[{0}] is {1:0} degrees off the line"
+                        + " from positions[{0}] to positions[{2}], at most {3:0} are meant: it turns z, [0, 0, 1], into"
+                        + " the direction of its element", j, angle, j + 1, LargestShear);
+                }
+            }
+            return null;
+        }
     }
 }

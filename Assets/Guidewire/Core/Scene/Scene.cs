@@ -143,6 +143,8 @@ namespace Guidewire.Core
                 Shape.Q[j] = Quaterniond.Normalize(start.Orientations[j]);
                 Spins[j] = start.AngularVelocities[j];
             }
+            Shape.ProximalFrame = Quaterniond.Normalize(start.ProximalFrame);
+            Shape.DistalFrame = Quaterniond.Normalize(start.DistalFrame);
         }
     }
 }

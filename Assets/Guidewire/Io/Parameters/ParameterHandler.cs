@@ -28,6 +28,8 @@ namespace Guidewire.Io
 
         private readonly List<string> _ignored = new List<string>();
 
+        private (string Key, string Source)? _unknown;
+
         private bool _isSteered;
 
         private ParameterHandler()
@@ -77,6 +79,7 @@ namespace Guidewire.Io
                 }
                 handler.Take(pair.Key, pair.Value, CommandLineHandler.Source);
             }
+            handler.RefuseUnknown();
             handler.Apply();
             return handler;
         }
@@ -97,11 +100,31 @@ namespace Guidewire.Io
         {
             if (ParameterTable.Find(key) == null)
             {
-                string? nearest = ParameterTable.Nearest(key);
-                throw new ParameterException(source + ": unknown key '" + key + "'"
-                    + (nearest != null ? ": did you mean '" + nearest + "'?" : ": --keys lists what is allowed"));
+                _unknown ??= (key, source);
+                return;
             }
             _given[key] = (value, source);
+        }
+
+        /// <summary>The solver that a value of its key names.</summary>
+        internal static bool TrySolver(JToken? value, out Solver solver)
+        {
+            var read = new RunParameters(Solver.Pbd);
+            bool isKnown = value != null && ParameterTable.Find(ParameterTable.SolverKey)!.TryRead(read, value);
+            solver = read.Simulation.Method.Solver;
+            return isKnown;
+        }
+
+        // Only when all is read is it known which keys the run's solver takes.
+        private void RefuseUnknown()
+        {
+            if (_unknown is (string key, string source))
+            {
+                _given.TryGetValue(ParameterTable.SolverKey, out var given);
+                TrySolver(given.Value, out Solver solver);
+                throw new ParameterException(source + ": unknown key '" + key + "': "
+                    + KeyHint.Of(key, "", solver, "--keys lists what is allowed"));
+            }
         }
 
         private Solver Method => Values.Simulation.Method.Solver;
@@ -243,7 +266,17 @@ namespace Guidewire.Io
         {
             try
             {
-                return StartFileReader.Read(Values.StartFile, n);
+                RodStart start = StartFileReader.Read(Values.StartFile, n);
+                string? shear = start.FindShear();
+                if (shear != null && MethodTable.Of(Method).TakesMaterial)
+                {
+                    throw new ParameterException(Values.StartFile + ": " + shear);
+                }
+                if (shear != null)
+                {
+                    AddWarning("{0}: {1}", Values.StartFile, shear);    // gains may be that soft
+                }
+                return start;
             }
             catch (ParameterException error)
             {

@@ -42,23 +42,6 @@ namespace Guidewire.Io
             return ByKey.TryGetValue(key, out ParameterEntry? entry) ? entry : null;
         }
 
-        /// <summary>The key that a misspelt one most likely meant, or null where none is near.</summary>
-        public static string? Nearest(string key)
-        {
-            string? best = null;
-            int bestDistance = 1 + Math.Max(2, key.Length / 3);
-            foreach (ParameterEntry entry in Entries)
-            {
-                int distance = Spelling.Distance(key.ToUpperInvariant(), entry.Key.ToUpperInvariant());
-                if (distance < bestDistance)
-                {
-                    best = entry.Key;
-                    bestDistance = distance;
-                }
-            }
-            return best;
-        }
-
         /// <summary>The table as Markdown, a part for each group, as docs/parameters.md shows it.</summary>
         public static string ToMarkdown()
         {

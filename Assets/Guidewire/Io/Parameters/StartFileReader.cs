@@ -6,10 +6,14 @@ namespace Guidewire.Io
 {
     /// <summary>Reads a start other than the straight wire: {"positions": [[x, y, z], ...] (n + 1, units),
     /// "orientations": [[x, y, z, w], ...] (n), "velocities": (n + 1, unit/s) and "angularVelocities": (n, rad/s, body
-    /// frame), the last two optional}.</summary>
+    /// frame), and the clamps' frames "proximalFrame" and "distalFrame" ([x, y, z, w]), the last four
+    /// optional}.</summary>
     internal static class StartFileReader
     {
-        private static readonly string[] Keys = { "positions", "orientations", "velocities", "angularVelocities" };
+        private static readonly string[] Keys =
+        {
+            "positions", "orientations", "velocities", "angularVelocities", "proximalFrame", "distalFrame",
+        };
 
         /// <summary>The start that a file holds.</summary>
         /// <exception cref="ParameterException">The file cannot be read or does not fit a wire of n
@@ -25,12 +29,15 @@ namespace Guidewire.Io
                         + "': allowed are " + string.Join(", ", Keys));
                 }
             }
-            return new RodStart(
+            var start = new RodStart(
                 Vectors(file, root, "positions", n + 1)
                 ?? throw Missing(file, "positions", n + 1, "[x, y, z] in units"),
                 Orientations(file, root, n),
                 Vectors(file, root, "velocities", n + 1),
                 Vectors(file, root, "angularVelocities", n));
+            start.ProximalFrame = Frame(file, root, "proximalFrame") ?? start.ProximalFrame;
+            start.DistalFrame = Frame(file, root, "distalFrame") ?? start.DistalFrame;
+            return start;
         }
 
         private static Vector3d[]? Vectors(string file, JObject root, string key, int count)
@@ -65,20 +72,28 @@ namespace Guidewire.Io
             var orientations = new Quaterniond[n];
             for (int j = 0; j < n; j++)
             {
-                var parts = new double[4];
-                bool valid = array[j] is JArray four && four.Count == 4;
-                for (int k = 0; k < 4 && valid; k++)
-                {
-                    valid = NumberEntry.TryNumber(array[j][k]!, out parts[k]);
-                }
-                orientations[j] = new Quaterniond(parts[0], parts[1], parts[2], parts[3]);
-                if (!valid || !(orientations[j].LengthSquared > 1e-12))
-                {
-                    throw new ParameterException(file, "orientations[" + j + "]", array[j].ToString(),
-                        "four numbers [x, y, z, w], not all 0");
-                }
+                orientations[j] = Orientation(file, "orientations[" + j + "]", array[j]);
             }
             return orientations;
+        }
+
+        private static Quaterniond? Frame(string file, JObject root, string key)
+        {
+            return root[key] is JToken value ? Orientation(file, key, value) : (Quaterniond?)null;
+        }
+
+        private static Quaterniond Orientation(string file, string place, JToken value)
+        {
+            var parts = new double[4];
+            bool valid = value is JArray four && four.Count == 4;
+            for (int k = 0; k < 4 && valid; k++)
+            {
+                valid = NumberEntry.TryNumber(value[k]!, out parts[k]);
+            }
+            var orientation = new Quaterniond(parts[0], parts[1], parts[2], parts[3]);
+            return valid && orientation.LengthSquared > 1e-12 ? orientation
+                : throw new ParameterException(file, place, value.ToString(),
+                    "four numbers [x, y, z, w], not all 0");
         }
 
         private static ParameterException Missing(string file, string key, int count, string items)

@@ -39,6 +39,9 @@ namespace Guidewire.Io
         /// <summary>Why, in one line.</summary>
         public string Reason => (string?)_summary["reason"] ?? "";
 
+        /// <summary>Whether nothing that it measured of itself speaks against its result.</summary>
+        public bool IsReliable => (bool?)_summary["reliable"] == true;
+
         /// <summary>The run that a folder holds from its start to its own end, or null where there is none: what was
         /// stopped or lost is not done.</summary>
         public static EarlierRun? In(string folder)

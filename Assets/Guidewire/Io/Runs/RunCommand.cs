@@ -54,7 +54,8 @@ namespace Guidewire.Io
             Warn(handler.Warnings);
             RunResult result = run.Execute(line.Force ? Existing.Replace : Existing.Keep);
             Warn(result.Warnings);
-            string ending = result.Word + ": " + result.Reason;
+            bool isDone = result.Outcome == Outcome.Converged || result.Outcome == Outcome.Finished;
+            string ending = result.Word + (isDone && !result.IsReliable ? ", not reliable: " : ": ") + result.Reason;
             if (result.KeptEarlier)
             {
                 ending += "; the complete run that " + run.Folder + " held before is kept, the log of this one is "

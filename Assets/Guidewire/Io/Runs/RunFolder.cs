@@ -85,8 +85,8 @@ namespace Guidewire.Io
             Log(simulation);
         }
 
-        /// <summary>Makes one step, times it and logs it where logEvery says so. A disk that is full or gone ends the
-        /// run as Failed.</summary>
+        /// <summary>Makes one step, times it and logs it where logEvery says so and it has a state of its own. A disk
+        /// that is full or gone ends the run as Failed.</summary>
         public void Step(Simulation simulation)
         {
             long before = Stopwatch.GetTimestamp();
@@ -160,7 +160,7 @@ namespace Guidewire.Io
 
         private void Log(Simulation simulation)
         {
-            if (_lost || _logger == null)
+            if (_lost || _logger == null || !simulation.HasStateOfStep)
             {
                 return;
             }

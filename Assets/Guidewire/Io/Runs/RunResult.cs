@@ -7,8 +7,9 @@ namespace Guidewire.Io
     /// <summary>What became of a run.</summary>
     public sealed class RunResult
     {
-        internal RunResult(Outcome outcome, string reason, bool reused, bool keptEarlier = false)
+        internal RunResult(Outcome outcome, string reason, bool isReliable, bool reused, bool keptEarlier = false)
         {
+            IsReliable = isReliable;
             Outcome = outcome;
             Reason = reason;
             Reused = reused;
@@ -23,6 +24,10 @@ namespace Guidewire.Io
 
         /// <summary>Why, in one line.</summary>
         public string Reason { get; }
+
+        /// <summary>Whether nothing that it measures of itself speaks against its result; see <see
+        /// cref="Simulation.IsReliable"/>.</summary>
+        public bool IsReliable { get; }
 
         /// <summary>What is not as it should be at its end, one line each.</summary>
         public IReadOnlyList<string> Warnings { get; internal set; } = Array.Empty<string>();

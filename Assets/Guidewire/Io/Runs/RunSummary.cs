@@ -36,6 +36,7 @@ namespace Guidewire.Io
             {
                 ["outcome"] = Word(simulation.Outcome),
                 ["reason"] = simulation.Reason,
+                ["reliable"] = simulation.IsReliable,
                 ["steps"] = simulation.StepCount,
                 ["inGameTime"] = simulation.Time,
                 ["computationTime"] = 1e-3 * times.Sum,

@@ -52,7 +52,7 @@ namespace Guidewire.Io
             EarlierRun? earlier = existing == Existing.Replace ? null : EarlierRun.In(_folder);
             if (earlier != null && earlier.IsSame(_handler, _repeat))
             {
-                return new RunResult(earlier.Outcome, earlier.Reason, true);
+                return new RunResult(earlier.Outcome, earlier.Reason, earlier.IsReliable, true);
             }
             if (earlier != null)
             {
@@ -81,7 +81,8 @@ namespace Guidewire.Io
                 Progress?.Invoke(simulation, results.Elapsed);
             }
             results.Finish(simulation);
-            return new RunResult(simulation.Outcome, simulation.Reason, false, results.KeptEarlier)
+            return new RunResult(simulation.Outcome, simulation.Reason, simulation.IsReliable, false,
+                results.KeptEarlier)
             {
                 Warnings = simulation.Warnings,
             };

@@ -155,9 +155,16 @@ namespace Guidewire.Core
             _supportPush = Vector3d.Zero;
             // A drive goes on from where node 0 is; what is held is asked for until it is there.
             Vector3d place = _scene.Schedule.ProximalPositionAt(_time);
-            double owed = _drive.Axis == Vector3d.Zero ? record.DriveShortfall : 0.0;
-            record.AddDrive(Vector3d.Distance(place, start) / _scene.Metres - owed,
-                Vector3d.Distance(place, _shape.X[0]) / _scene.Metres - owed);
+            if (_drive.Axis == Vector3d.Zero)
+            {
+                double owed = record.DriveShortfall;
+                record.AddDrive(Vector3d.Distance(place, start) / _scene.Metres - owed,
+                    Vector3d.Distance(place, _shape.X[0]) / _scene.Metres - owed);
+                return;
+            }
+            // Of the way that node 0 has gone only what is along the drive's counts: walls may push it aside.
+            double asked = _drive.Asked / _scene.Metres;
+            record.AddDrive(asked, asked - _drive.Gone(start, _shape.X[0]) / _scene.Metres);
         }
 
         /// <inheritdoc/>

@@ -34,6 +34,7 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public void Exchange(Snapshot snapshot)
         {
+            snapshot.OptionalSection(ContactSolver.SectionKey, null);
         }
     }
 }

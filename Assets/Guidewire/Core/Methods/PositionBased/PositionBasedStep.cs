@@ -71,7 +71,7 @@ namespace Guidewire.Core
         {
             ExchangePredictionError(snapshot);
             _watch?.Exchange(snapshot);
-            _drive?.Exchange(snapshot);
+            snapshot.OptionalSection("distal clamp", _drive is DistalClampDrive clamp ? clamp.Exchange : null);
             _solver.Exchange(snapshot);
             _prediction.Exchange(snapshot, _timeStep);
             _orientationPrediction.Exchange(snapshot, _timeStep);

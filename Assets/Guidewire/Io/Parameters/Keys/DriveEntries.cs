@@ -11,8 +11,8 @@ namespace Guidewire.Io
         {
             new ChoiceEntry<Drive>("drive",
                 "what moves sphere 0: one displacement, then held; a fixed axis each step; the first element's"
-                + " direction each step; externalForce", p => p.Simulation.Drive.Kind,
-                (p, v) => p.Simulation.Drive.Kind = v),
+                + " direction each step; externalForce on a free sphere 0, with a material proximalEnd \"free\"",
+                p => p.Simulation.Drive.Kind, (p, v) => p.Simulation.Drive.Kind = v),
             new SwitchEntry("SteadyState", "older word for drive: true is \"hold\", false \"displace\", each step by"
                 + " displacement where displacementPerStep is not given",
                 p => p.Simulation.Drive.Kind == Drive.Hold,

@@ -268,10 +268,7 @@ namespace Guidewire.Core
             _rates.Exchange(snapshot);
             _history.Exchange(snapshot);
             _inertia.Exchange(snapshot);
-            if (_damping != null)
-            {
-                snapshot.Section("damping", _damping.Exchange);
-            }
+            snapshot.OptionalSection("damping", _damping == null ? null : _damping.Exchange);
             Solver.ExchangeTrust(snapshot);
             Control.ExchangeLength(snapshot);
             snapshot.Exchange(ref _hasPast);

@@ -12,6 +12,9 @@ namespace Guidewire.Core
     /// each, however the wire lies.</remarks>
     internal sealed class ContactSolver : IConstraintSolver
     {
+        /// <summary>Of what it keeps in a snapshot.</summary>
+        public const string SectionKey = "contact";
+
         private const int Resolves = 2;
         private const int MostParts = 4096;     // of a step; a drive that asks for more gets no more
         private const int Slides = 6;
@@ -80,7 +83,7 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public void Exchange(Snapshot snapshot)
         {
-            snapshot.Section("contact", sums =>
+            snapshot.OptionalSection(SectionKey, sums =>
             {
                 _passages.Exchange(sums);
                 _record.Exchange(sums);

@@ -29,10 +29,9 @@ namespace Guidewire.Core
             state.PredictedOrientations[state.ElementCount - 1] = _schedule.DistalFrameAt(time);
         }
 
-        /// <inheritdoc/>
+        /// <summary>Writes into a snapshot, or takes over from one, where the clamp's motion stands.</summary>
         public void Exchange(Snapshot snapshot)
         {
-            _motion?.Exchange(snapshot);
             _clock.Exchange(snapshot);
             _schedule.Exchange(snapshot, _clock.Time);
         }

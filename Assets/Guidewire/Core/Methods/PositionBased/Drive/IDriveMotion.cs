@@ -5,8 +5,5 @@ namespace Guidewire.Core
     {
         /// <summary>Writes the predicted position of sphere 0.</summary>
         void Move(RodState state);
-
-        /// <summary>Writes into a snapshot, or takes over from one, where the motion stands.</summary>
-        void Exchange(Snapshot snapshot);
     }
 }

@@ -21,10 +21,5 @@ namespace Guidewire.Core
             Vector3d[] x = state.Positions;
             state.PredictedPositions[0] = x[0] + _perStep * _direction.At(x[0], x[1]);
         }
-
-        /// <inheritdoc/>
-        public void Exchange(Snapshot snapshot)
-        {
-        }
     }
 }

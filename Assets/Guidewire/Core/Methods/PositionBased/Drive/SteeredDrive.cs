@@ -24,10 +24,5 @@ namespace Guidewire.Core
             Quaterniond turn = Quaterniond.FromAxisAngle(Vector3d.UnitZ, _hand.Turn);
             state.PredictedOrientations[0] = Quaterniond.Normalize(state.Orientations[0] * turn);
         }
-
-        /// <inheritdoc/>
-        public void Exchange(Snapshot snapshot)
-        {
-        }
     }
 }

@@ -24,11 +24,5 @@ namespace Guidewire.Core
             _motion?.Move(state);
             state.PredictedOrientations[0] = Quaterniond.Normalize(state.Orientations[0] * _turn);
         }
-
-        /// <inheritdoc/>
-        public void Exchange(Snapshot snapshot)
-        {
-            _motion?.Exchange(snapshot);
-        }
     }
 }

@@ -64,7 +64,11 @@ namespace Guidewire.Core.Tests
         private static double Farthest(SimulationParameters parameters, RodState start, Func<RodState, double> away)
         {
             parameters.Scene.Start = new RodStart(start.Positions, start.Orientations, start.Velocities,
-                start.AngularVelocities);
+                start.AngularVelocities)
+            {
+                ProximalFrame = Quaterniond.Identity,
+                DistalFrame = Quaterniond.Identity,
+            };
             Simulation run = Simulation.Create(parameters);
             double farthest = 0.0;
             while (run.Outcome == Outcome.Running)

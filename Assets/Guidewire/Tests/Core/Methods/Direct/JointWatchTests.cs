@@ -123,6 +123,29 @@ namespace Guidewire.Core.Tests
             Assert.That(Wires.Run(parameters).Outcome, Is.EqualTo(Outcome.Finished));
         }
 
+        /// <summary>A piece that is a million times softer, shorter than an element, takes the whole turn of a folded
+        /// wire: no number of elements of the rest changes that, and none is proposed.</summary>
+        [Test]
+        public void HingeOfOneJoint_IsTooSharp_WithoutANumberThatWouldDo([Values(1, 3)] int elements)
+        {
+            SimulationParameters parameters = Rods.Clamped(N, Solver.Direct, 1e-3, 2000);
+            double length = parameters.Scene.GuidewireLength;
+            double from = 0.5 * length;
+            parameters.Material.Sections = new[]
+            {
+                new WireSection
+                {
+                    From = from, To = from + 0.1 * length / N, YoungsModulus = 1e-5 * parameters.Material.YoungsModulus,
+                    NumberRodElements = elements,
+                },
+            };
+            parameters.Scene.TipForce = new Vector3d(0.0, -3.0 * Rods.BendForce, -10.0 * Rods.BendForce);
+            Simulation run = Wires.Run(parameters);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Failed), run.Reason);
+            Assert.That(run.Reason, Does.StartWith("joint ").And.Not.Contain("would do = "));
+            Assert.That(run.Reason, Does.Not.Match("numberRodElements = [0-9]"));
+        }
+
         private static SimulationParameters Wound(int n, double turn)
         {
             SimulationParameters parameters = Rods.Clamped(n, Solver.Direct, 1e-3, 0);

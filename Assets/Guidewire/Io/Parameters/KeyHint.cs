@@ -1,0 +1,83 @@
+using System;
+using System.Collections.Generic;
+using Guidewire.Core;
+
+namespace Guidewire.Io
+{
+    /// <summary>What a key that is not known most likely meant: one of nearly the same spelling, or what is called
+    /// otherwise here.</summary>
+    public static class KeyHint
+    {
+        // What it may be called elsewhere, and the keys for it, of which a solver takes one.
+        private static readonly Dictionary<string, string[]> Synonyms =
+            new Dictionary<string, string[]>(StringComparer.OrdinalIgnoreCase)
+            {
+                ["duration"] = new[] { "maxSimulationSteps" },
+                ["endTime"] = new[] { "maxSimulationSteps" },
+                ["simulationTime"] = new[] { "maxSimulationSteps" },
+                ["steps"] = new[] { "maxSimulationSteps" },
+                ["dt"] = new[] { "timeStep" },
+                ["length"] = new[] { "guidewireLength" },
+                ["wireLength"] = new[] { "guidewireLength" },
+                ["elements"] = new[] { "numberRodElements" },
+                ["radius"] = new[] { "wireRadius", "sphereRadius" },
+                ["mass"] = new[] { "density", "totalMass" },
+            };
+
+        private static readonly Dictionary<string, string> Absent =
+            new Dictionary<string, string>(StringComparer.OrdinalIgnoreCase)
+            {
+                ["selfContact"] = "a wire does not meet itself: there is no such key",
+                ["selfCollision"] = "a wire does not meet itself: there is no such key",
+            };
+
+        /// <summary>The end of a line on a key that is not known.</summary>
+        /// <param name="key">As it was given.</param>
+        /// <param name="dash">What stands before keys there: a dash on the command line, else nothing.</param>
+        /// <param name="solver">The run's; null where it is not known yet.</param>
+        /// <param name="otherwise">What to say where nothing is near.</param>
+        public static string Of(string key, string dash, Solver? solver, string otherwise)
+        {
+            if (Absent.TryGetValue(key, out string? why))
+            {
+                return why;
+            }
+            if (Synonyms.TryGetValue(key, out string[]? names))
+            {
+                foreach (string name in names)
+                {
+                    if (IsTaken(ParameterTable.Find(name)!, solver))
+                    {
+                        return name == "maxSimulationSteps"
+                            ? "a run lasts '" + dash + name + "' steps of '" + dash + "timeStep'"
+                            : "did you mean '" + dash + name + "'?";
+                    }
+                }
+            }
+            string? nearest = Nearest(key, solver);
+            return nearest == null ? otherwise : "did you mean '" + dash + nearest + "'?";
+        }
+
+        // At most one letter in four may be wrong: words of one length have more than that in common by chance.
+        private static string? Nearest(string key, Solver? solver)
+        {
+            string? best = null;
+            int bestDistance = 1 + Math.Max(1, key.Length / 4);
+            foreach (ParameterEntry entry in ParameterTable.Entries)
+            {
+                int distance = Spelling.Distance(key.ToUpperInvariant(), entry.Key.ToUpperInvariant());
+                if (distance < bestDistance && IsTaken(entry, solver))
+                {
+                    best = entry.Key;
+                    bestDistance = distance;
+                }
+            }
+            return best;
+        }
+
+        private static bool IsTaken(ParameterEntry entry, Solver? solver)
+        {
+            return solver == null || entry.IsTakenBy(solver.Value);
+        }
+    }
+}
