@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import difflib
 import json
+import re
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path
@@ -17,6 +18,7 @@ from experiments.key_table import Key, parse_key_table
 from experiments.prepare import ROOT, PreparationError
 
 _TABLE = ROOT / "docs" / "parameters.md"
+_PART = re.compile(r"[.\[]")  # behind a key: what follows names a part of it, which the runner looks for
 _BEYOND_DOUBLE = 1 << 1024
 _LONGEST = 80  # characters of a value or a path that a line shows
 
@@ -90,13 +92,15 @@ def _read_table() -> dict[str, Key]:
 def _check(table: dict[str, Key], name: str, value: Any, source: str, shown: str) -> None:
     if not table:
         return
-    key = table.get(name)
+    whole = _PART.split(name, maxsplit=1)[0]
+    key = table.get(whole)
     if key is None:
         by_small = {known.lower(): known for known in table}
-        near = difflib.get_close_matches(name.lower(), by_small, n=1)
-        hint = f"did you mean '{by_small[near[0]]}'?" if near else f"{_TABLE.relative_to(ROOT)} lists what is allowed"
+        near = difflib.get_close_matches(whole.lower(), by_small, n=1)
+        hint = f"did you mean '{by_small[near[0]]}{name[len(whole):]}'?" if near else f"{_TABLE.relative_to(ROOT)} lists what is allowed"
         raise PreparationError(f"{source}: unknown key '{_short(name)}': {hint}")
-    if key.kind not in ("number", "whole"):
+    is_null = value is None or shown == "null"
+    if name != whole or key.kind not in ("number", "whole") or (is_null and key.may_be_null):
         return
     is_number = isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < _BEYOND_DOUBLE
     if not is_number or not key.holds(value) or (key.kind == "whole" and value != int(value)):

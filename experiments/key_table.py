@@ -13,6 +13,7 @@ _ROW = re.compile(r"^\| `(?P<name>\w+)` \| (?P<allowed>.*) \| `.*` \| (?P<solver
 _KINDS = {
     "true or false": "switch", "one of": "word", "a number": "number", "a whole number": "whole",
     "three numbers": "vector", "a text": "text", "a list": "list", "null, {": "object", "null or {": "object",
+    "null or a number": "number",
     "null or a list": "list",
 }
 _WHOLE = re.compile(r"from (\d+) to (\d+)")

@@ -21,7 +21,7 @@ from experiments import building
 from experiments.prepare import ROOT, PreparationError
 from experiments.runner import BAD_INPUT, INTERRUPTED, Answer, Request
 from experiments.store import folder_of, read_whole
-from studies.keys import RESULTS, TABLE
+from studies.keys import RESULTS, TABLE, told_values
 from studies.table import Case, Findings, Rounds, Source
 
 if TYPE_CHECKING:
@@ -265,7 +265,7 @@ class _Asked:
         rows = (json.dumps({
             "key": row.case.key,
             "variant": row.case.variant,
-            "values": dict(row.case.values),
+            "values": told_values(row.case.values),
             "parameters": self.source.scene,
             "overrides": row.job.request.overrides,
             "folder": self._place_of(row),
@@ -284,7 +284,7 @@ class _Asked:
                 answer = self._answer(row, answers)
                 word = answer.outcome if answer.outcome in ("", "interrupted") else "failed"
                 line = {"outcome": word, "reason": answer.message}
-            self._lines.append({"key": row.case.key, "variant": row.case.variant, **row.case.values,
+            self._lines.append({"key": row.case.key, "variant": row.case.variant, **told_values(row.case.values),
                                 "repeat": row.repeat, **line})
             if summary is None or line["outcome"] not in self.source.results:
                 name = f"{self.source.name}: {row.case.key}" + (f", repeat {row.repeat}" if row.repeat else "")

@@ -21,8 +21,7 @@ namespace Guidewire.Io
             ("SteadyState", "drive"),
         };
 
-        private readonly Dictionary<string, (JToken Value, string Source)> _given =
-            new Dictionary<string, (JToken, string)>();
+        private readonly GivenParameters _given = new GivenParameters();
 
         private readonly List<string> _warnings = new List<string>();
 
@@ -61,7 +60,7 @@ namespace Guidewire.Io
             {
                 foreach (JProperty property in JsonText.ReadObject(file).Properties())
                 {
-                    handler.Take(property.Name, property.Value, file);
+                    handler._given.Take(property.Name, property.Value, file);
                 }
             }
             foreach (KeyValuePair<string, JToken> pair in overrides)
@@ -70,12 +69,13 @@ namespace Guidewire.Io
                 {
                     // What the command line says in one word replaces what the file says in the other.
                     string? twin = pair.Key == older ? newer : pair.Key == newer ? older : null;
-                    if (twin != null && handler._given.TryGetValue(twin, out var other) && other.Source == file)
+                    if (twin != null && handler._given.TryGet(twin, out var other) && other.Source == file)
                     {
                         handler._given.Remove(twin);
                     }
                 }
-                handler.Take(pair.Key, pair.Value, CommandLineHandler.Source);
+                handler._given.Take(pair.Key, pair.Value, CommandLineHandler.Source);
+                WireStiffness.Replace(handler._given, pair.Key, file);
             }
             handler.Apply();
             return handler;
@@ -91,17 +91,6 @@ namespace Guidewire.Io
                 json[entry.Key] = entry.Write(Values);
             }
             return json;
-        }
-
-        private void Take(string key, JToken value, string source)
-        {
-            if (ParameterTable.Find(key) == null)
-            {
-                string? nearest = ParameterTable.Nearest(key);
-                throw new ParameterException(source + ": unknown key '" + key + "'"
-                    + (nearest != null ? ": did you mean '" + nearest + "'?" : ": --keys lists what is allowed"));
-            }
-            _given[key] = (value, source);
         }
 
         private Solver Method => Values.Simulation.Method.Solver;
@@ -121,6 +110,7 @@ namespace Guidewire.Io
         {
             ApplyKey(ParameterTable.SolverKey);
             Values = new RunParameters(Method);
+            _given.LayParts(Values);
             PassOver();
             foreach ((string older, string _) in Twins)
             {
@@ -138,8 +128,9 @@ namespace Guidewire.Io
                 CheckTwins(older, newer);
             }
             SimulationParameters simulation = Values.Simulation;
-            if (_given.ContainsKey("SteadyState") && simulation.Drive.Kind == Drive.Displace
-                && !_given.ContainsKey("displacementPerStep"))
+            WireStiffness.Apply(Values, _given);
+            if (_given.Has("SteadyState") && simulation.Drive.Kind == Drive.Displace
+                && !_given.Has("displacementPerStep"))
             {
                 simulation.Drive.DisplacementPerStep = simulation.Drive.Displacement;
             }
@@ -150,12 +141,12 @@ namespace Guidewire.Io
             }
             if (Values.StartFile.Length > 0)
             {
-                Values.StartFile = NamedFile.Find(Values.StartFile, _given["startFile"].Source);
+                Values.StartFile = NamedFile.Find(Values.StartFile, _given.SourceOf("startFile"));
                 simulation.Scene.Start = ReadStart(ElementLayout.Count(simulation));
             }
-            LoadTableReader.Read(Values, _given.TryGetValue("loadTables", out var tables) ? tables.Source : "");
-            DriveTableReader.Read(Values, _given.TryGetValue("driveFile", out var drive) ? drive.Source : "");
-            SheathReader.Read(Values, _given.TryGetValue("sheath", out var sheath) ? sheath.Source : "");
+            LoadTableReader.Read(Values, _given.SourceOf);
+            DriveTableReader.Read(Values, _given.SourceOf("driveFile"));
+            SheathReader.Read(Values, _given.SourceOf);
             if (_isSteered && Values.Sheath != null)
             {
                 simulation.Drive.Steering = new Steering(); // the drive asks for nothing then, and so not for too much
@@ -170,7 +161,7 @@ namespace Guidewire.Io
         {
             foreach (ParameterEntry entry in ParameterTable.Entries)
             {
-                if (entry.IsTakenBy(Method) || !_given.TryGetValue(entry.Key, out var given))
+                if (entry.IsTakenBy(Method) || !_given.TryGet(entry.Key, out var given))
                 {
                     continue;
                 }
@@ -205,17 +196,16 @@ namespace Guidewire.Io
 
         private ParameterException Refused(string key, string needed)
         {
-            return _given.TryGetValue(key, out var given)
+            return _given.TryGet(key, out var given)
                 ? new ParameterException(given.Source, key, given.Value.ToString(Formatting.None), needed)
                 : new ParameterException("defaults: " + key + " needs " + needed);
         }
 
         private void ReadWalls(SimulationParameters simulation)
         {
-            string vessel = _given.TryGetValue("vessel", out var named) ? named.Source : "";
-            string obstacles = _given.TryGetValue("obstacles", out var given) ? given.Source : "";
-            simulation.Scene.Walls = WallReader.Read(Values, vessel, obstacles, _warnings);
-            if (simulation.Scene.Walls.Length > 0 && !_given.ContainsKey("integrator"))
+            string vessel = _given.SourceOf("vessel");
+            simulation.Scene.Walls = WallReader.Read(Values, _given.SourceOf, _warnings);
+            if (simulation.Scene.Walls.Length > 0 && !_given.Has("integrator"))
             {
                 simulation.Method.Integrator = MethodTable.Of(Method).IntegratorBetweenWalls
                     ?? simulation.Method.Integrator;
@@ -228,8 +218,8 @@ namespace Guidewire.Io
             string? complaint = Simulation.FindProblemOfStart(simulation);
             if (complaint != null)
             {
-                string source = Values.Sheath != null ? _given["sheath"].Source
-                    : vessel.Length > 0 ? vessel : obstacles;
+                string source = _given.SourceOf(
+                    Values.Sheath != null ? "sheath" : vessel.Length > 0 ? "vessel" : "obstacles");
                 throw new ParameterException(source + ": " + complaint);
             }
             string? sizes = WireStart.FindOddSizes(simulation);
@@ -247,13 +237,13 @@ namespace Guidewire.Io
             }
             catch (ParameterException error)
             {
-                throw new ParameterException(_given["startFile"].Source + ": startFile: " + error.Message);
+                throw new ParameterException(_given.SourceOf("startFile") + ": startFile: " + error.Message);
             }
         }
 
         private void ApplyKey(string key)
         {
-            if (!_given.TryGetValue(key, out (JToken Value, string Source) given))
+            if (!_given.TryGet(key, out (JToken Value, string Source) given))
             {
                 return;
             }
@@ -266,7 +256,7 @@ namespace Guidewire.Io
 
         private void CheckTwins(string older, string newer)
         {
-            if (_given.TryGetValue(older, out var old) && _given.TryGetValue(newer, out var given)
+            if (_given.TryGet(older, out var old) && _given.TryGet(newer, out var given)
                 && !JToken.DeepEquals(ParameterTable.Find(older)!.Write(Values), old.Value))
             {
                 throw new ParameterException(given.Source + ": " + newer + " = " + given.Value.ToString(Formatting.None)
@@ -278,7 +268,7 @@ namespace Guidewire.Io
         {
             foreach (ParameterEntry entry in ParameterTable.Entries)
             {
-                if (_given.TryGetValue(entry.Key, out var given) && entry.NewerWord(given.Value) is string newer)
+                if (_given.TryGet(entry.Key, out var given) && entry.NewerWord(given.Value) is string newer)
                 {
                     AddWarning("{0}: {1} = {2} is an older word and means \"{3}\"", given.Source, entry.Key,
                         given.Value.ToString(Formatting.None), newer);
@@ -287,7 +277,7 @@ namespace Guidewire.Io
             SimulationParameters simulation = Values.Simulation;
             double l = simulation.Scene.GuidewireLength / simulation.Scene.NumberRodElements;
             WarnOfSections(simulation);
-            if (_given.TryGetValue("rodElementLength", out var length) && Math.Abs((double)length.Value - l) > 1e-9 * l)
+            if (_given.TryGet("rodElementLength", out var length) && Math.Abs((double)length.Value - l) > 1e-9 * l)
             {
                 AddWarning("{0}: rodElementLength = {1} is not guidewireLength / numberRodElements = {2}, which counts",
                     length.Source, (double)length.Value, l);
