@@ -36,14 +36,14 @@ def check_file(file: Path) -> None:
         raise PreparationError(f"{file}: not JSON: {error}") from error
     if not isinstance(content, dict):
         raise PreparationError(f"{file}: not a JSON object of keys and values, such as {{\"timeStep\": 0.01}}")
-    table = _read_table()
+    table = read_table()
     for name, value in content.items():
         _check(table, name, value, str(file), json.dumps(value))
 
 
 def check_overrides(overrides: Sequence[tuple[str, str]]) -> None:
     """Raises PreparationError, one line, for a key that is not known or a number out of its range."""
-    table = _read_table()
+    table = read_table()
     for name, text in overrides:
         try:
             value: Any = float(text)
@@ -82,11 +82,19 @@ def _try_name(above: Path, folder: Path) -> None:
             path.rmdir()
 
 
-def _read_table() -> dict[str, Key]:
+def read_table() -> dict[str, Key]:
+    """Every key by name; none where the page that has them cannot be read."""
     try:
         return parse_key_table(_TABLE.read_text(encoding="utf-8").split("<!-- keys -->")[1])
     except (OSError, ValueError, IndexError):
         return {}  # the page is gone or of another version: the runner says what is wrong
+
+
+def unit_of(name: str) -> str:
+    """Unit of a key; empty where it has none, or is none."""
+    key = read_table().get(name)
+    found = re.search(r"\(([^()]+)\)$", key.allowed) if key else None
+    return found[1] if found and key.kind in ("number", "whole", "vector") else ""
 
 
 def _check(table: dict[str, Key], name: str, value: Any, source: str, shown: str) -> None:

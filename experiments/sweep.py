@@ -21,6 +21,7 @@ from experiments import building
 from experiments.prepare import ROOT, PreparationError
 from experiments.runner import BAD_INPUT, INTERRUPTED, Answer, Request
 from experiments.store import folder_of, read_whole
+from experiments.whole_files import write_whole
 from studies.keys import RESULTS, TABLE, told_values
 from studies.table import Case, Findings, Rounds, Source
 
@@ -316,7 +317,7 @@ class _Asked:
         if case.start is not None:
             start = self._folder / _STARTS / f"{case.key}.json"
             start.parent.mkdir(parents=True, exist_ok=True)
-            start.write_text(json.dumps(case.start), encoding="utf-8")
+            write_whole(start, json.dumps(case.start))
             overrides["startFile"] = str(start)
         repeats = range(1, case.repeats + 1)
         return [self._row(case, None, overrides), *(self._row(case, k, {**overrides, **_TIMED}) for k in repeats)]
@@ -373,6 +374,4 @@ def _csv(lines: Sequence[Mapping[str, Any]]) -> str:
 def _write(path: Path, text: str) -> None:
     """Write at once: a reader finds the old file or the new one, never a part."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    partial = path.with_name(path.name + ".partial")
-    partial.write_text(text, encoding="utf-8")
-    os.replace(partial, path)
+    write_whole(path, text)

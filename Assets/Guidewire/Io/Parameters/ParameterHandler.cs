@@ -29,6 +29,8 @@ namespace Guidewire.Io
 
         private bool _isSteered;
 
+        private string? _file;
+
         private ParameterHandler()
         {
         }
@@ -55,7 +57,7 @@ namespace Guidewire.Io
         public static ParameterHandler Load(string? file, IEnumerable<KeyValuePair<string, JToken>> overrides,
             bool isSteered = false)
         {
-            var handler = new ParameterHandler { _isSteered = isSteered };
+            var handler = new ParameterHandler { _isSteered = isSteered, _file = file };
             if (file != null)
             {
                 foreach (JProperty property in JsonText.ReadObject(file).Properties())
@@ -198,7 +200,7 @@ namespace Guidewire.Io
         {
             return _given.TryGet(key, out var given)
                 ? new ParameterException(given.Source, key, given.Value.ToString(Formatting.None), needed)
-                : new ParameterException("defaults: " + key + " needs " + needed);
+                : new ParameterException((_file ?? "defaults") + ": " + key + " needs " + needed);
         }
 
         private void ReadWalls(SimulationParameters simulation)
