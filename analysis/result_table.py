@@ -92,9 +92,10 @@ def read_curves(table: Path, x: str, y: str, by: str | None = None) -> Curves:
     rows = _read(file)
     columns = tuple(rows[0])
     name, index = _item(y)
-    x, name, by = (_column(file, columns, "--" + flag, asked) if asked else "" for flag, asked in (
-        ("x", x), ("y", name), ("by", by)))
     varied, question = _varied(file, columns)
+    numbers = [column for column in columns if any(_number(row[column]) is not None for row in rows)]
+    x, name, by = (_column(file, columns, "--" + flag, asked, told) if asked else "" for flag, asked, told in (
+        ("x", x, varied), ("y", name, numbers), ("by", by, varied)))
     chosen = [row for row in rows if not row.get("repeat")] or rows
     points: dict[tuple[str, str], list[tuple[float | str, float]]] = {}
     lost = 0
@@ -107,8 +108,7 @@ def read_curves(table: Path, x: str, y: str, by: str | None = None) -> Curves:
         across = _number(row[x])
         points.setdefault((row[by] if by else "", rest), []).append((row[x] if across is None else across, value))
     if not points:
-        raise LogError(f"{file}: {y} is a number in none of {len(chosen)} runs; numbers are in "
-                       f"{', '.join(_numeric(rows)) or 'no column'}")
+        raise LogError(f"{file}: {y} is a number in none of {len(chosen)} runs; there are {', '.join(numbers)}")
     texts = any(isinstance(across, str) for line in points.values() for across, _ in line)
     lines = tuple(Line(colour, rest, *zip(*([(str(across), value) for across, value in line] if texts else sorted(line))))
                   for (colour, rest), line in points.items())
@@ -145,17 +145,16 @@ def _varied(file: Path, columns: Sequence[str]) -> tuple[list[str], str]:
         return list(columns[1:columns.index("repeat")]) if "repeat" in columns else [], ""
 
 
-def _column(file: Path, columns: Sequence[str], flag: str, asked: str) -> str:
-    """The column that is meant."""
+def _column(file: Path, columns: Sequence[str], flag: str, asked: str, told: Sequence[str]) -> str:
+    """The column that is meant; `told` are those that an error names."""
     if asked in columns:
         return asked
     ends = [column for column in columns if column.endswith("." + asked)]
     if len(ends) == 1:
         return ends[0]
-    last = {column.rsplit(".", 1)[-1].lower(): column for column in reversed(columns)}
-    near = difflib.get_close_matches(asked.rsplit(".", 1)[-1].lower(), last, 1)
-    hint = f"did you mean '{last[near[0]]}'? " if near else ""
-    raise LogError(f"{file}: {flag} {asked}: no such column: {hint}there are {', '.join(ends or columns)}")
+    near = difflib.get_close_matches(asked, told, 1)
+    hint = f"did you mean '{near[0]}'? " if near else ""
+    raise LogError(f"{file}: {flag} {asked}: no such column: {hint}there are {', '.join(ends or told)}")
 
 
 def _item(asked: str) -> tuple[str, int | None]:
@@ -179,13 +178,9 @@ def _number(cell: str) -> float | None:
     return number if math.isfinite(number) else None
 
 
-def _numeric(rows: Sequence[Mapping[str, str]]) -> list[str]:
-    return [column for column in rows[0] if any(_number(row[column]) is not None for row in rows)]
-
-
 def _label(name: str, index: int | None, row: Mapping[str, str]) -> str:
     words, unit = QUANTITIES.get(name, (name, ""))
     if name in _FORCES and row.get("stiffness") == "gains":
         unit = _GAINS_FORCE
-    words += "" if index is None else f", {'xyz'[index]}" if 0 <= index < 3 else f"[{index}]"
+    words += "" if index is None else f", {'xyz'[index]}" if name.endswith("Position") else f"[{index}]"
     return f"{words} ({unit})" if unit else words

@@ -56,9 +56,7 @@ def run(arguments: argparse.Namespace) -> int:
     try:
         return arguments.action(arguments)
     except KeyboardInterrupt:
-        left = ("" if arguments.command in _RESUMED else "; nothing was written")
-        print(f"guidewire: interrupted{left or '; what has ended is kept, the same command goes on from here'}",
-              file=sys.stderr)
+        print(f"guidewire: interrupted{_LEFT.get(arguments.command, '')}", file=sys.stderr)
         return INTERRUPTED
     except PreparationError:
         raise
@@ -201,7 +199,7 @@ def _tell(drawn: Gallery) -> int:
 
 def _render(arguments: argparse.Namespace) -> int:
     from analysis import render
-    from analysis.logs import LogError, extent, read_log
+    from analysis.logs import LogError, read_log
     from analysis.runs import read_run
     from experiments import walls
 
@@ -213,22 +211,35 @@ def _render(arguments: argparse.Namespace) -> int:
     try:
         run = read_run(arguments.folder)
         log = read_log(arguments.folder, "all")
-        middle, diagonal = extent(log)
+        middle, diagonal = render.out_of_sheath(run, log)
         checking.check_out(out.parent)
         surfaces = walls.read_walls(_build_runner, run, middle, max(diagonal, 1.0))
-        view = render.View(tuple(arguments.target) if arguments.target else None, arguments.distance, arguments.yaw,
-                           arguments.pitch, arguments.radius)
+        yaw, pitch = render.VIEWS[arguments.view] if arguments.view else (-90.0, 15.0)
+        view = render.View(tuple(arguments.target) if arguments.target else None, arguments.distance,
+                           yaw if arguments.yaw is None else arguments.yaw,
+                           pitch if arguments.pitch is None else arguments.pitch, arguments.radius, arguments.zoom,
+                           arguments.follow == "tip")
         out.parent.mkdir(parents=True, exist_ok=True)
         if out.suffix == ".gif":
-            render.save_film(render.draw_film(run, log, surfaces, view, arguments.frames), out)
+            images = render.draw_film(run, log, surfaces, view, arguments.frames, _tell_frames)
         else:
-            render.draw_picture(run, log, surfaces, view, arguments.times).save(out, optimize=True)
+            images = [render.draw_picture(run, log, surfaces, view, arguments.times)]
+        with whole_file(out) as partial:
+            render.save_images(images, partial)
     except LogError as error:
         raise PreparationError(str(error)) from error
     if log.warning:
         print(f"guidewire: warning: {log.warning}", file=sys.stderr)
     print(f"{'film' if out.suffix == '.gif' else 'picture'}: {os.path.relpath(out)}")
     return 0
+
+
+def _tell_frames(done: int, count: int) -> None:
+    """On a terminal a line that counts; elsewhere a line now and then."""
+    if sys.stderr.isatty():
+        print(f"\rframe {done} of {count}", end="\n" if done == count else "", file=sys.stderr, flush=True)
+    elif done % max(1, count // 4) == 0:
+        print(f"frame {done} of {count}", file=sys.stderr, flush=True)
 
 
 def _plot(arguments: argparse.Namespace) -> int:
@@ -444,4 +455,8 @@ _ACTIONS = {
     "plot": _plot, "keys": _keys, "render": _render, "view": _view, "stress": _stress, "hub": _hub, "modes": _modes,
     "python": _python, "bench": _bench, "unity-check": _unity_check,
 }
-_RESUMED = ("demo", "run", "sweep", "figures", "advise")  # what goes on where it was interrupted
+_LEFT = {  # of a command that was interrupted
+    **dict.fromkeys(("demo", "run", "sweep", "figures", "advise"),
+                    "; what has ended is kept, the same command goes on from here"),
+    **dict.fromkeys(("render", "plot", "stress", "hub", "modes"), "; nothing was written"),
+}

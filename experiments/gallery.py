@@ -27,10 +27,15 @@ from analysis.validation.integrators import INTEGRATORS, INTEGRATORS_ONCE
 from analysis.validation.report import (
     FAST, ROWS, Report, as_csv, as_markdown, draw_finding, draw_overview, picture_name, read_report,
 )
+from experiments.whole_files import whole_file, write_whole
 from studies.bisection import FRONTIER
+from experiments.whole_files import whole_file, write_whole
 from studies.builtin import STUDIES
+from experiments.whole_files import whole_file, write_whole
 from studies.keys import RESULTS
+from experiments.whole_files import whole_file, write_whole
 from studies.quick import shortened
+from experiments.whole_files import whole_file, write_whole
 from studies.table import Study
 
 INDEX = "index.md"

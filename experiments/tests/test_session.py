@@ -169,7 +169,7 @@ def test_parts_of_parameters_are_laid_over_the_files_and_changed_while_the_wire_
         after = session.change(**{"vessel.frictionCoefficient": 0.1})
         assert (after.step, session.parameters["vessel"]["frictionCoefficient"]) == (before.step, 0.1)
         assert session.parameters["vessel"]["radius"] == 25.0
-        for change, said in (({"vessel.radius": 0.001}, "radius"), ({"vessel.colour": 1}, "unknown key 'vessel.colour'"),
+        for change, said in (({"vessel.radius": 0.001}, "lumen"), ({"vessel.colour": 1}, "unknown key 'vessel.colour'"),
                              ({"obstacles[0].radius": 1}, "obstacles is null")):
             with pytest.raises(SessionError, match=re.escape(said)):
                 session.change(**change)
