@@ -203,7 +203,7 @@ def out_of_sheath(run: Run, log: PositionLog) -> tuple[np.ndarray, float]:
     """
     middle, diagonal = extent(log)
     outside = int(((run.summary or {}).get("hub") or {}).get("spheresInBody") or 0)
-    if not run.parameters.get("sheath") or not 0 < outside < len(log.final_positions):
+    if run.parameters.get("sheath") is None or not 0 < outside < len(log.final_positions):
         return middle, diagonal
     inside = log.final_positions[-outside - 1]
     every = log.positions.reshape(-1, 3)
@@ -216,7 +216,7 @@ def out_of_sheath(run: Run, log: PositionLog) -> tuple[np.ndarray, float]:
 def _framed(run: Run, log: PositionLog, walls: Sequence[Surface]) -> tuple[np.ndarray, float]:
     """Middle (3,) and diagonal, units, of what a picture shows: where the wire passes, and with a sheath its vessel."""
     middle, diagonal = out_of_sheath(run, log)
-    if not run.parameters.get("sheath") or (run.parameters.get("vessel") or {}).get("shape") != "mesh":
+    if run.parameters.get("sheath") is None or (run.parameters.get("vessel") or {}).get("shape") != "mesh":
         return middle, diagonal
     half = 0.5 * diagonal / np.sqrt(3.0)
     low = np.minimum(middle - half, walls[0].vertices.min(axis=0))
