@@ -95,7 +95,7 @@ class Cluster:
             raise PreparationError(f"no scheduler answers at {address}: start one with 'dask-scheduler', "
                                    "and give the address that it prints") from error
         try:
-            self._prepare(results, folder or Path.cwd())
+            self._prepare(results, (folder or Path.cwd()).absolute())  # workers stand elsewhere
         except BaseException:
             self.close()
             raise

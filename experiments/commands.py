@@ -111,7 +111,7 @@ def _run(arguments: argparse.Namespace) -> int:
 def _sweep(arguments: argparse.Namespace) -> int:
     checking.check_out(arguments.out)
     study = _study_of(arguments)
-    means = _means_of(arguments, _runner_of(arguments), study.name, study.file and study.file.parent.absolute())
+    means = _means_of(arguments, _runner_of(arguments), study.name, study.file and study.file.parent)
     result = _make([(study, arguments.out)], arguments.out, means)
     print(f"{result.made} runs made, {result.found} there already: "
           f"{os.path.relpath(arguments.out / study.name / RESULTS)}")
