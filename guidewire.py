@@ -38,6 +38,9 @@ def main():
         arguments = commands.parse(sys.argv[1:])
         prepare.require_packages(arguments.packages)
         return commands.run(arguments)
+    except KeyboardInterrupt:
+        print("guidewire: interrupted", file=sys.stderr)
+        return 130
     except prepare.PreparationError as error:
         print("guidewire: {}".format(error), file=sys.stderr)
         return 2

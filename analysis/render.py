@@ -7,8 +7,8 @@ analysis.raster. One moment is coloured by curvature; several moments in one pic
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -30,14 +30,18 @@ _THINNEST = 1.0 / 400.0  # radius of the wire over what the picture spans: less 
 _LATER_COVERS = 0.03  # share of its radius by which a wire lies over one before it in the same place
 _PIECES = 12  # triangles are cut to so small a part of what the picture spans: one behind the camera is not drawn
 _TEXT = (225, 225, 230)
+_FOLLOWING = 4.0  # zoom where the tip is followed and nothing else is said
+VIEWS = {"side": (-90.0, 15.0), "front": (0.0, 0.0), "top": (-90.0, 90.0), "back": (90.0, 15.0)}  # yaw, pitch
 
 
 @dataclass(frozen=True)
 class View:
-    """Where a picture is seen from; None is chosen so that all is seen that the wire passes.
+    """Where a picture is seen from; None is chosen so that all is seen that the wire passes, and of a wire in a sheath
+    what is out of it, and the vessel.
 
     target : point in the middle, units; distance : of the camera from it, units; yaw, pitch : degrees, 0 and 0 look
-    along +z, yaw -90 looks along -x, pitch 90 down; radius : of the wire as it is drawn, units.
+    along +z, yaw -90 looks along -x, pitch 90 down; radius : of the wire as it is drawn, units; zoom : so many times as
+    near as the distance says; follows_tip : the tip is in the middle at every moment.
     """
 
     target: tuple[float, float, float] | None = None
@@ -45,6 +49,13 @@ class View:
     yaw: float = -90.0
     pitch: float = 15.0
     radius: float | None = None
+    zoom: float | None = None
+    follows_tip: bool = False
+
+    @property
+    def nearer(self) -> float:
+        """How many times as near the camera is."""
+        return self.zoom or (_FOLLOWING if self.follows_tip else 1.0)
 
 
 @dataclass(frozen=True)
@@ -78,16 +89,15 @@ def set_stage(run: Run, log: PositionLog, walls: Sequence[Surface], view: View) 
     walls : the vessel first, where the run has one, and the obstacles.
     view : where to look from.
     """
-    middle, diagonal = extent(log)
-    seen = diagonal if view.distance is None else min(diagonal, view.distance)
+    middle, diagonal = _framed(run, log, walls)
+    seen = (diagonal if view.distance is None else min(diagonal, view.distance)) / view.nearer
     radius = view.radius or max(_radius(run), _THINNEST * seen)
-    camera = Camera(
-        tuple(middle) if view.target is None else view.target,
-        1.05 * (diagonal + 4.0 * radius) if view.distance is None else view.distance, view.yaw, view.pitch)
+    distance = 1.05 * (diagonal + 4.0 * radius) if view.distance is None else view.distance
+    camera = Camera(tuple(middle) if view.target is None else view.target, distance / view.nearer, view.yaw, view.pitch)
     background = Picture.blank(SIZE[0] * _OVERSAMPLING, SIZE[1] * _OVERSAMPLING)
     has_vessel = bool(run.parameters.get("vessel"))
     for surface in walls[:1] if has_vessel else ():
-        surface = refine(surface, max(diagonal, 10.0 * radius) / _PIECES)
+        surface = refine(surface, max(diagonal / view.nearer, 10.0 * radius) / _PIECES)
         draw(background, camera, surface, np.broadcast_to(WALL, surface.vertices.shape), 0.75)
     bends = [float(curvature(positions).max()) for positions in log.positions if np.isfinite(positions).all()]
     return Stage(camera, background, tuple(walls[1:] if has_vessel else walls), radius,
@@ -130,32 +140,88 @@ def draw_picture(run: Run, log: PositionLog, walls: Sequence[Surface], view: Vie
     times : s, in-game; of each the nearest moment of the log is drawn, in a colour of its own. None: the last moment,
         coloured by curvature.
     """
-    stage = set_stage(run, log, walls, view)
+    chosen = sorted({_nearest(log, time) for time in times}) or [len(log.time) - 1]
+    if view.follows_tip and len(chosen) > 1:
+        raise LogError("the tip is followed in a film or at one moment: give one of --times")
+    stage = set_stage(run, log, walls, _at_tip(view, log, chosen[-1]))
     if not times:
         return frame(stage, [(_finite(log, -1), None)], [_caption(log, -1, stage)])
-    chosen = sorted({int(np.argmin(np.abs(log.time - time))) for time in times})
     colours = colormaps["plasma"](np.linspace(0.4, 0.95, len(chosen)))[:, :3]
     return frame(stage, [(_finite(log, k), colour) for k, colour in zip(chosen, colours)],
                  [f"t = {log.time[k]:.4g} s   step {log.steps[k]}" for k in chosen])
 
 
-def draw_film(run: Run, log: PositionLog, walls: Sequence[Surface], view: View, frames: int) -> list[Image.Image]:
+def draw_film(run: Run, log: PositionLog, walls: Sequence[Surface], view: View, frames: int,
+              tell: Callable[[int, int], None] = lambda done, count: None) -> list[Image.Image]:
     """Pictures of a run, evenly spaced in time, coloured by curvature; the first is the start, the last the end.
 
     Parameters
     ----------
     run, log, walls, view : as of `set_stage`.
     frames : how many at most: a log of fewer entries has no more.
+    tell : called after each picture with how many are drawn, and of how many.
     """
-    stage = set_stage(run, log, walls, view)
+    stage = set_stage(run, log, walls, _at_tip(view, log, 0))
     chosen = np.unique(np.linspace(0, len(log.time) - 1, frames).astype(int))
-    return [frame(stage, [(_finite(log, k), None)], [_caption(log, k, stage)]).resize(_FILM_SIZE, Image.LANCZOS)
-            .quantize(64) for k in chosen]
+    images = []
+    for k in chosen:
+        if view.follows_tip and images:
+            stage = set_stage(run, log, walls, _at_tip(view, log, k))
+        images.append(frame(stage, [(_finite(log, k), None)], [_caption(log, k, stage)])
+                      .resize(_FILM_SIZE, Image.LANCZOS).quantize(64))
+        tell(len(images), len(chosen))
+    return images
 
 
-def save_film(images: Sequence[Image.Image], path: Path) -> None:
-    """Write pictures as a GIF that begins anew at its end."""
-    images[0].save(path, save_all=True, append_images=list(images[1:]), duration=80, loop=0, optimize=True)
+def save_images(images: Sequence[Image.Image], path: Path) -> None:
+    """Write one picture, or pictures as a GIF that begins anew at its end."""
+    if path.suffix == ".gif":
+        images[0].save(path, save_all=True, append_images=list(images[1:]), duration=80, loop=0, optimize=True)
+    else:
+        images[0].save(path, optimize=True)
+
+
+def _nearest(log: PositionLog, time: float) -> int:
+    """The log's entry that is nearest to a moment of the run."""
+    slack = 1e-9 + (float(np.diff(log.time).max()) if len(log.time) > 1 else 0.0)
+    if not log.time[0] - slack <= time <= log.time[-1] + slack:
+        raise LogError(f"{log.source}: --times {time:g} is beyond the run, whose log goes from {log.time[0]:g} s to "
+                       f"{log.time[-1]:g} s")
+    return int(np.argmin(np.abs(log.time - time)))
+
+
+def _at_tip(view: View, log: PositionLog, k: int) -> View:
+    """A view of the tip at one entry of the log, where it is followed."""
+    return replace(view, target=tuple(_finite(log, k)[-1])) if view.follows_tip else view
+
+
+def out_of_sheath(run: Run, log: PositionLog) -> tuple[np.ndarray, float]:
+    """Middle (3,) and diagonal, units, of the box around all places that the wire passes; of a wire in a sheath, which
+    is straight and may be metres long, around those that lie beyond the sheath's exit.
+
+    Raises LogError as `extent`.
+    """
+    middle, diagonal = extent(log)
+    outside = int(((run.summary or {}).get("hub") or {}).get("spheresInBody") or 0)
+    if run.parameters.get("sheath") is None or not 0 < outside < len(log.final_positions):
+        return middle, diagonal
+    inside = log.final_positions[-outside - 1]
+    every = log.positions.reshape(-1, 3)
+    every = every[np.isfinite(every).all(axis=1)]
+    every = every[(every - inside) @ (log.final_positions[-outside] - inside) >= 0.0]
+    low, high = every.min(axis=0), every.max(axis=0)
+    return 0.5 * (low + high), float(np.linalg.norm(high - low))
+
+
+def _framed(run: Run, log: PositionLog, walls: Sequence[Surface]) -> tuple[np.ndarray, float]:
+    """Middle (3,) and diagonal, units, of what a picture shows: where the wire passes, and with a sheath its vessel."""
+    middle, diagonal = out_of_sheath(run, log)
+    if run.parameters.get("sheath") is None or (run.parameters.get("vessel") or {}).get("shape") != "mesh":
+        return middle, diagonal
+    half = 0.5 * diagonal / np.sqrt(3.0)
+    low = np.minimum(middle - half, walls[0].vertices.min(axis=0))
+    high = np.maximum(middle + half, walls[0].vertices.max(axis=0))
+    return 0.5 * (low + high), float(np.linalg.norm(high - low))
 
 
 def _radius(run: Run) -> float:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import difflib
 import json
+import re
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path
@@ -17,6 +18,7 @@ from experiments.key_table import Key, parse_key_table
 from experiments.prepare import ROOT, PreparationError
 
 _TABLE = ROOT / "docs" / "parameters.md"
+_PART = re.compile(r"[.\[]")  # behind a key: what follows names a part of it, which the runner looks for
 _BEYOND_DOUBLE = 1 << 1024
 _CLOSE = 0.85  # of two words, by difflib: a letter or two of eight are wrong
 _LONGEST = 80  # characters of a value or a path that a line shows
@@ -35,14 +37,14 @@ def check_file(file: Path) -> None:
         raise PreparationError(f"{file}: not JSON: {error}") from error
     if not isinstance(content, dict):
         raise PreparationError(f"{file}: not a JSON object of keys and values, such as {{\"timeStep\": 0.01}}")
-    table = _read_table()
+    table = read_table()
     for name, value in content.items():
         _check(table, name, value, str(file), json.dumps(value), content.get("solver", "pbd"))
 
 
 def check_overrides(overrides: Sequence[tuple[str, str]]) -> None:
     """Raises PreparationError, one line, for a key that is not known or a number out of its range."""
-    table = _read_table()
+    table = read_table()
     for name, text in overrides:
         try:
             value: Any = float(text)
@@ -81,24 +83,35 @@ def _try_name(above: Path, folder: Path) -> None:
             path.rmdir()
 
 
-def _read_table() -> dict[str, Key]:
+def read_table() -> dict[str, Key]:
+    """Every key by name; none where the page that has them cannot be read."""
     try:
         return parse_key_table(_TABLE.read_text(encoding="utf-8").split("<!-- keys -->")[1])
     except (OSError, ValueError, IndexError):
         return {}  # the page is gone or of another version: the runner says what is wrong
 
 
+def unit_of(name: str) -> str:
+    """Unit of a key; empty where it has none, or is none."""
+    key = read_table().get(name)
+    found = re.search(r"\(([^()]+)\)$", key.allowed) if key else None
+    return found[1] if found and key.kind in ("number", "whole", "vector") else ""
+
+
 def _check(table: dict[str, Key], name: str, value: Any, source: str, shown: str, solver: str | None = None) -> None:
     if not table:
         return
-    key = table.get(name)
+    whole = _PART.split(name, maxsplit=1)[0]
+    key = table.get(whole)
     if key is None:
         by_small = {known.lower(): known for known in table if solver is None or solver in table[known].solvers}
-        near = difflib.get_close_matches(name.lower(), by_small, n=1, cutoff=_CLOSE)
+        near = difflib.get_close_matches(whole.lower(), by_small, n=1, cutoff=_CLOSE)
         if not near:
             return  # the runner knows what else it may be called
-        raise PreparationError(f"{source}: unknown key '{_short(name)}': did you mean '{by_small[near[0]]}'?")
-    if key.kind not in ("number", "whole"):
+        hint = f"did you mean '{by_small[near[0]]}{name[len(whole):]}'?"
+        raise PreparationError(f"{source}: unknown key '{_short(name)}': {hint}")
+    is_null = value is None or shown == "null"
+    if name != whole or key.kind not in ("number", "whole") or (is_null and key.may_be_null):
         return
     is_number = isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < _BEYOND_DOUBLE
     if not is_number or not key.holds(value) or (key.kind == "whole" and value != int(value)):

@@ -28,7 +28,7 @@ import distributed
 from distributed import Client, Future, KilledWorker, LocalCluster, wait
 from distributed.client import CancelledError
 
-from experiments import load, runner, store, worker
+from experiments import load, runner, store, whole_files, worker
 from experiments.prepare import PreparationError
 from experiments.runner import INTERNAL_ERROR, Answer, Request, Runner
 from experiments.worker import Job, Runners
@@ -42,7 +42,7 @@ _TO_END = 60.0  # s, for a run that was interrupted
 _BETWEEN_LOOKS = 5.0  # s, for workers that came or went
 _WITHOUT_WORKERS = 60.0  # s, that a sweep waits for workers to come back
 
-_TRAVELLING = (load, runner, store, worker)  # the code that workers elsewhere get with the runs
+_TRAVELLING = (load, runner, store, whole_files, worker)  # the code that workers elsewhere get with the runs
 OnAnswer = Callable[[Job, Answer], None]
 
 
@@ -95,7 +95,7 @@ class Cluster:
             raise PreparationError(f"no scheduler answers at {address}: start one with 'dask-scheduler', "
                                    "and give the address that it prints") from error
         try:
-            self._prepare(results, folder or Path.cwd())
+            self._prepare(results, (folder or Path.cwd()).absolute())  # workers stand elsewhere
         except BaseException:
             self.close()
             raise
@@ -106,6 +106,10 @@ class Cluster:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
+        if kind is not None and issubclass(kind, KeyboardInterrupt):
+            # What dask still waits for is given up as it is meant to be; it would say so with traces.
+            for name in ("asyncio", "tornado"):
+                logging.getLogger(name).setLevel(logging.CRITICAL)
         self.close()
 
     def close(self) -> None:

@@ -6,6 +6,7 @@ import argparse
 import difflib
 import json
 import os
+import signal
 import subprocess
 import sys
 import tempfile
@@ -17,11 +18,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from experiments import building, checking
-from experiments.arguments import Parser, above_zero, assignment, finite, path, positive
-from experiments.prepare import DRAWING, ROOT, SWEEPING, TESTING, VIEWING, PreparationError
+from experiments import building, checking, command_line
+from experiments.prepare import ROOT, PreparationError
 from experiments.runner import INTERNAL_ERROR, INTERRUPTED
 from experiments.sweep import FAILED, Bar, Means, SweepResult, sweep
+from experiments.whole_files import FULL, whole_file, write_whole
 from studies.builtin import STUDIES
 from studies.keys import RESULTS
 from studies.study_file import LIMIT, StudyFileError, read_study_file
@@ -34,7 +35,6 @@ if TYPE_CHECKING:
 
 BEYOND_A_GATE = 1  # all that was asked for is there, and a check is not passed
 _RUNS = "runs"  # folder of all runs, in that of the results
-_DESCRIPTION = "Simulates guidewires as Cosserat rods, without Unity: runs, sweeps, figures, tests."
 
 
 def parse(argv: list[str]) -> argparse.Namespace:
@@ -42,115 +42,9 @@ def parse(argv: list[str]) -> argparse.Namespace:
 
     Exits with 2 and one line on stderr where it cannot be read.
     """
-    parser = Parser(prog="guidewire.py", description=_DESCRIPTION)
-    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True, parser_class=Parser)
-
-    demo = commands.add_parser("demo", help="build, run the default scene, fit tau, draw Figures 4.1 to 4.4")
-    demo.add_argument("--out", type=path, default=Path("results/demo"), help="folder for the run and the pictures")
-    demo.set_defaults(action=_demo, packages=DRAWING + SWEEPING)
-
-    test = commands.add_parser("test", help="all tests; the last line says 'N passed, N failed'")
-    test.add_argument("--all", action="store_true", help="random campaigns in full instead of a seeded fraction")
-    test.set_defaults(action=_test, packages=TESTING)
-
-    run = commands.add_parser("run", help="one run of one parameter file")
-    run.add_argument("file", metavar="FILE", type=Path, help="parameter file, such as params/default.json")
-    run.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], type=assignment, dest="overrides",
-                     help="a parameter laid over the file; may be given several times")
-    run.add_argument("--out", type=path, help="folder of the run (results/<name of FILE>); the same run is not made "
-                                               "again, and one of other parameters is not replaced")
-    run.add_argument("--force", action="store_true",
-                     help="replace a complete run that the folder holds, once this one is complete")
-    _add_runner(run)
-    run.set_defaults(action=_run, packages=())
-
-    sweep = commands.add_parser("sweep", help="a study's runs; what is done already is not run again")
-    sweep.add_argument("study", metavar="STUDY", help=f"{', '.join(STUDIES)}; or a study of your own, a JSON file")
-    sweep.add_argument("--out", type=path, default=Path("results"), help="folder above the study's (results)")
-    sweep.add_argument("--logs", action="store_true", help="every run leaves its log, whatever the study's file says")
-    sweep.add_argument("--yes", action="store_true", help="make the runs, however many the study's file asks for")
-    _add_workers(sweep)
-    _add_runner(sweep)
-    sweep.set_defaults(action=_sweep, packages=SWEEPING)
-
-    figures = commands.add_parser("figures", help="the thesis's figures and ours, running what is missing; ends with "
-                                                  "1 where a check is beyond its gate")
-    figures.add_argument("ids", metavar="ID", nargs="*", help="such as 4.5; all where none is given")
-    figures.add_argument("--out", type=path, default=Path("results"),
-                         help="folder above the studies' (results); the pictures stand in its 'figures'")
-    figures.add_argument("--quick", action="store_true",
-                         help="few values of each study and few checks, in 'quick' below the folder: does all work?")
-    _add_workers(figures)
-    figures.set_defaults(action=_figures, packages=DRAWING + SWEEPING)
-
-    advise = commands.add_parser("advise", help="the cheapest settings of a scene that meet an error, found by running")
-    advise.add_argument("file", metavar="SCENE", type=Path, help="parameter file, such as params/insertion.json")
-    asked = advise.add_mutually_exclusive_group(required=True)
-    asked.add_argument("--error", type=above_zero, metavar="E",
-                       help="RMS distance of the wire from a finer run, over the way that it goes, such as 0.01")
-    asked.add_argument("--budget", type=above_zero, metavar="MS_PER_STEP",
-                       help="wall time that a step may take, ms: the most accurate settings within it")
-    advise.add_argument("--out", type=path, default=Path("results"),
-                        help="folder above that of the runs (results); the file and advice.md stand in advice/SCENE")
-    _add_workers(advise)
-    advise.set_defaults(action=_advise, packages=DRAWING + SWEEPING)
-
-    render = commands.add_parser("render", help="a picture or a film of a run, with its vessel and obstacles")
-    render.add_argument("folder", type=Path, metavar="RUN", help="folder of a run")
-    render.add_argument("--out", type=path, metavar="FILE", help="FILE.png or FILE.gif (RUN/render.png)")
-    render.add_argument("--times", type=finite, nargs="+", metavar="T", default=[],
-                        help="of a .png: these moments, in s, in one picture, a colour each (the last moment, coloured "
-                             "by curvature)")
-    render.add_argument("--frames", type=positive, default=40, metavar="K", help="of a .gif: pictures at most (40)")
-    render.add_argument("--target", type=finite, nargs=3, metavar=("X", "Y", "Z"), help="point in the middle, units")
-    render.add_argument("--distance", type=above_zero, metavar="D", help="of the camera from it, units")
-    render.add_argument("--yaw", type=finite, default=-90.0, metavar="DEGREES",
-                        help="0 looks along z, -90 against x (-90)")
-    render.add_argument("--pitch", type=finite, default=15.0, metavar="DEGREES", help="90 looks down, against y (15)")
-    render.add_argument("--radius", type=above_zero, metavar="R",
-                        help="of the wire in the picture, units (its own, or so much that it is seen)")
-    render.set_defaults(action=_render, packages=DRAWING)
-
-    view = commands.add_parser("view", help="a page in the browser: a scene under your hand, or what runs left")
-    view.add_argument("what", metavar="FILE|RUN", nargs="+", type=Path,
-                      help="parameter file: live; folder of a run: a replay; of two: side by side, or one over the "
-                           "other")
-    view.add_argument("--html", type=path, metavar="FILE", help="write the replay into one file that needs no server")
-    view.add_argument("--frames", type=positive, metavar="K", help="of a run at most (5000; 300 with --html)")
-    view.add_argument("--open", action="store_true", help="open the page in a browser")
-    view.set_defaults(action=_view, packages=("numpy", *VIEWING))
-
-    stress = commands.add_parser("stress", help="draw what a run's material feels along the wire (logStrains)")
-    stress.add_argument("folder", type=Path, metavar="DIR", help="folder of a run with logStrains; takes stress.png")
-    stress.set_defaults(action=_stress, packages=DRAWING)
-
-    hub = commands.add_parser("hub", help="draw a run's push, turn, force and torque at the hub over time (logHub)")
-    hub.add_argument("folder", type=Path, metavar="DIR", help="folder of a run with logHub; takes hub.png")
-    hub.set_defaults(action=_hub, packages=DRAWING)
-
-    modes = commands.add_parser("modes", help="lowest frequencies and shapes of a wire with a material")
-    modes.add_argument("file", type=Path, metavar="FILE",
-                       help="parameter file; the modes are those about its rest shape")
-    modes.add_argument("--count", type=positive, default=6, metavar="K", help="how many (6)")
-    modes.add_argument("--out", type=path, default=Path("results"), metavar="DIR",
-                       help="takes NAME-modes.png (results)")
-    modes.set_defaults(action=_modes, packages=DRAWING)
-
-    python = commands.add_parser("python", help="start a script that imports guidewire, with a Python that has what "
-                                                "it needs")
-    python.add_argument("script", metavar="SCRIPT", type=Path, help="Python file: 'from guidewire import Session'")
-    python.add_argument("words", metavar="...", nargs=argparse.REMAINDER, help="the script's own arguments")
-    python.set_defaults(action=_python, packages=DRAWING)
-
-    bench = commands.add_parser("bench", help="what a step costs, part by part, or short runs beside their steps")
-    bench.add_argument("--runs", type=positive, metavar="N", help="what N short runs of a sweep cost beside their steps")
-    bench.add_argument("--jobs", type=positive, default=os.cpu_count() or 1, metavar="N", help="runs at once")
-    bench.set_defaults(action=_bench, packages=SWEEPING)
-
-    check = commands.add_parser("unity-check", help="check the Unity project's files without Unity")
-    check.add_argument("--write-metas", action="store_true", help="make the .meta files that are missing")
-    check.set_defaults(action=_unity_check, packages=())
-    return parser.parse_args(argv)
+    arguments = command_line.parse(argv)
+    arguments.action = _ACTIONS[arguments.command]
+    return arguments
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -162,11 +56,15 @@ def run(arguments: argparse.Namespace) -> int:
     try:
         return arguments.action(arguments)
     except KeyboardInterrupt:
-        print("guidewire: interrupted; what has ended is kept, the same command goes on from here", file=sys.stderr)
+        print(f"guidewire: interrupted{_LEFT.get(arguments.command, '')}", file=sys.stderr)
         return INTERRUPTED
     except PreparationError:
         raise
     except Exception as error:
+        if isinstance(error, OSError) and error.errno in FULL:
+            place = f"{error.filename}: " if error.filename else ""
+            print(f"guidewire: {place}{error.strerror}: make room, the same command goes on from here", file=sys.stderr)
+            return FAILED
         if isinstance(error, OSError) and error.filename is not None:
             raise PreparationError(f"{error.filename}: {error.strerror}") from error
         trace = Path(tempfile.mkdtemp(prefix="guidewire-")) / "error.txt"
@@ -276,14 +174,14 @@ def _advise(arguments: argparse.Namespace) -> int:
     except LogError as error:
         raise PreparationError(f"{arguments.file}: {error}") from error
     place = (folder / check.name).resolve()
-    (place / "advice.md").write_text(report.as_markdown(arguments.file.name, wish, advice), encoding="utf-8")
+    write_whole(place / "advice.md", report.as_markdown(arguments.file.name, wish, advice))
     print(report.verdict(wish, advice))
     print(f"evidence: {os.path.relpath(place / 'advice.md')}")
     if advice.taken is None:
         return FAILED
     scene = json.loads(arguments.file.read_text(encoding="utf-8-sig"))
     file = place / arguments.file.with_suffix(".json").name
-    file.write_text(report.parameters(advice, scene, place), encoding="utf-8")
+    write_whole(file, report.parameters(advice, scene, place))
     print(f"parameter file: {os.path.relpath(file)}")
     return 0
 
@@ -301,7 +199,7 @@ def _tell(drawn: Gallery) -> int:
 
 def _render(arguments: argparse.Namespace) -> int:
     from analysis import render
-    from analysis.logs import LogError, extent, read_log
+    from analysis.logs import LogError, read_log
     from analysis.runs import read_run
     from experiments import walls
 
@@ -313,21 +211,66 @@ def _render(arguments: argparse.Namespace) -> int:
     try:
         run = read_run(arguments.folder)
         log = read_log(arguments.folder, "all")
-        middle, diagonal = extent(log)
+        middle, diagonal = render.out_of_sheath(run, log)
         checking.check_out(out.parent)
         surfaces = walls.read_walls(_build_runner, run, middle, max(diagonal, 1.0))
-        view = render.View(tuple(arguments.target) if arguments.target else None, arguments.distance, arguments.yaw,
-                           arguments.pitch, arguments.radius)
+        yaw, pitch = render.VIEWS[arguments.view] if arguments.view else (-90.0, 15.0)
+        view = render.View(tuple(arguments.target) if arguments.target else None, arguments.distance,
+                           yaw if arguments.yaw is None else arguments.yaw,
+                           pitch if arguments.pitch is None else arguments.pitch, arguments.radius, arguments.zoom,
+                           arguments.follow == "tip")
         out.parent.mkdir(parents=True, exist_ok=True)
         if out.suffix == ".gif":
-            render.save_film(render.draw_film(run, log, surfaces, view, arguments.frames), out)
+            images = render.draw_film(run, log, surfaces, view, arguments.frames, _tell_frames)
         else:
-            render.draw_picture(run, log, surfaces, view, arguments.times).save(out, optimize=True)
+            images = [render.draw_picture(run, log, surfaces, view, arguments.times)]
+        with whole_file(out) as partial:
+            render.save_images(images, partial)
     except LogError as error:
         raise PreparationError(str(error)) from error
     if log.warning:
         print(f"guidewire: warning: {log.warning}", file=sys.stderr)
     print(f"{'film' if out.suffix == '.gif' else 'picture'}: {os.path.relpath(out)}")
+    return 0
+
+
+def _tell_frames(done: int, count: int) -> None:
+    """On a terminal a line that counts; elsewhere a line now and then."""
+    if sys.stderr.isatty():
+        print(f"\rframe {done} of {count}", end="\n" if done == count else "", file=sys.stderr, flush=True)
+    elif done % max(1, count // 4) == 0:
+        print(f"frame {done} of {count}", file=sys.stderr, flush=True)
+
+
+def _plot(arguments: argparse.Namespace) -> int:
+    from analysis.figures.result_table import draw_curves
+    from analysis.logs import LogError
+    from analysis.result_table import label_of, read_curves
+
+    try:
+        curves = read_curves(arguments.table, arguments.x, arguments.y, arguments.by)
+    except LogError as error:
+        raise PreparationError(str(error)) from error
+    folder = arguments.table if arguments.table.is_dir() else arguments.table.parent
+    picture = arguments.out or folder / f"{curves.y}-over-{curves.x}.png"
+    if picture.suffix != ".png":
+        raise PreparationError(f"--out {picture}: a picture's name ends with .png")
+    checking.check_out(picture.parent)
+    picture.parent.mkdir(parents=True, exist_ok=True)
+    figure = draw_curves(curves, label_of(curves.x, checking.unit_of(curves.x)), arguments.log)
+    with whole_file(picture) as partial:
+        figure.savefig(partial)
+    print(f"picture: {os.path.relpath(picture)}")
+    return 0
+
+
+def _keys(arguments: argparse.Namespace) -> int:
+    from experiments.key_search import describe, find_keys
+
+    for key in find_keys(checking.read_table(), arguments.word, arguments.solver):
+        print(describe(key))
+    print("A part of a key stands wherever a key does: vessel.radius, obstacles[0].radius, "
+          "wireSections[-1].youngsModulus (-1: the last).", file=sys.stderr)
     return 0
 
 
@@ -360,7 +303,8 @@ def _draw_log(folder: Path, draw: Callable[[Path], Figure], name: str) -> int:
     except LogError as error:
         raise PreparationError(str(error)) from error
     picture = folder / name
-    figure.savefig(picture)
+    with whole_file(picture) as partial:
+        figure.savefig(partial)
     print(f"picture: {os.path.relpath(picture)}")
     return 0
 
@@ -381,7 +325,9 @@ def _modes(arguments: argparse.Namespace) -> int:
         print(f"mode {number}: {frequency:.6g} Hz")
     arguments.out.mkdir(parents=True, exist_ok=True)
     picture = arguments.out / f"{arguments.file.stem}-modes.png"
-    draw_modes(modes["frequencies"], np.asarray(modes["positions"]), np.asarray(modes["shapes"])).savefig(picture)
+    figure = draw_modes(modes["frequencies"], np.asarray(modes["positions"]), np.asarray(modes["shapes"]))
+    with whole_file(picture) as partial:
+        figure.savefig(partial)
     print(f"picture: {os.path.relpath(picture)}")
     return 0
 
@@ -405,19 +351,6 @@ def _bench(arguments: argparse.Namespace) -> int:
 def _unity_check(arguments: argparse.Namespace) -> int:
     options = ["--write-metas"] if arguments.write_metas else []
     return _hand_to([sys.executable, "-m", "unitycheck", *options], cwd=ROOT)
-
-
-def _add_workers(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--jobs", type=positive, default=os.cpu_count() or 1, metavar="N",
-                        help="untimed runs at once (one per processor); timed ones are made one at a time")
-    parser.add_argument("--cluster", metavar="ADDRESS",
-                        help="scheduler of dask, such as tcp://host:8786, whose workers make the runs")
-
-
-def _add_runner(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--runner", choices=("headless", "unity"), default="headless",
-                        help="what makes the runs: the console program (default), or Unity in batch mode")
-    parser.add_argument("--unity", metavar="PATH", help="Unity editor or player (or the environment's GUIDEWIRE_UNITY)")
 
 
 def _runner_of(arguments: argparse.Namespace) -> list[str]:
@@ -502,12 +435,28 @@ def _bar_of(name: str) -> Callable[[int, int, int], Bar]:
 
 
 def _hand_to(command: list[str], cwd: Path | None = None, environment: Mapping[str, str] | None = None) -> int:
-    """Run a program on our terminal and return its exit code. Ctrl-C reaches it too: it decides how to end.
-    `environment` is laid over ours."""
+    """Run a program on our terminal and return its exit code. Ctrl-C reaches it too, and a request to terminate
+    is passed on: it decides how to end. `environment` is laid over ours."""
     process = subprocess.Popen(command, cwd=cwd, env={**os.environ, **(environment or {})})
-    while True:
-        try:
-            code = process.wait()
-            return code if code >= 0 else 128 - code
-        except KeyboardInterrupt:
-            continue
+    before = signal.signal(signal.SIGTERM, lambda number, frame: process.terminate())
+    try:
+        while True:
+            try:
+                code = process.wait()
+                return code if code >= 0 else 128 - code
+            except KeyboardInterrupt:
+                continue
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+_ACTIONS = {
+    "demo": _demo, "test": _test, "run": _run, "sweep": _sweep, "figures": _figures, "advise": _advise,
+    "plot": _plot, "keys": _keys, "render": _render, "view": _view, "stress": _stress, "hub": _hub, "modes": _modes,
+    "python": _python, "bench": _bench, "unity-check": _unity_check,
+}
+_LEFT = {  # of a command that was interrupted
+    **dict.fromkeys(("demo", "run", "sweep", "figures", "advise"),
+                    "; what has ended is kept, the same command goes on from here"),
+    **dict.fromkeys(("render", "plot", "stress", "hub", "modes"), "; nothing was written"),
+}

@@ -27,10 +27,15 @@ from analysis.validation.integrators import INTEGRATORS, INTEGRATORS_ONCE
 from analysis.validation.report import (
     FAST, ROWS, Report, as_csv, as_markdown, draw_finding, draw_overview, picture_name, read_report,
 )
+from experiments.whole_files import whole_file, write_whole
 from studies.bisection import FRONTIER
+from experiments.whole_files import whole_file, write_whole
 from studies.builtin import STUDIES
+from experiments.whole_files import whole_file, write_whole
 from studies.keys import RESULTS
+from experiments.whole_files import whole_file, write_whole
 from studies.quick import shortened
+from experiments.whole_files import whole_file, write_whole
 from studies.table import Study
 
 INDEX = "index.md"
@@ -170,7 +175,7 @@ def draw(
     out.mkdir(parents=True, exist_ok=True)
     drawn = _draw_all(ids, _Drawing(folders, out, catalogue), jobs)
     index = out / INDEX
-    index.write_text(_index(out, catalogue), encoding="utf-8")
+    write_whole(index, _index(out, catalogue))
     return Gallery(index, tuple(problem for problem, _ in drawn if problem),
                    tuple(line for _, gates in drawn for line in gates))
 
@@ -192,9 +197,10 @@ class _Drawing:
         except (LogError, RelaxationError) as error:
             return f"figure {name} cannot be drawn: {error}", []
         _save(figure, self.out / f"figure-{name}.png")
-        (self.out / f"figure-{name}.txt").write_text(caption + "\n", encoding="utf-8")
+        write_whole(self.out / f"figure-{name}.txt", caption + "\n")
         for file, write in spec.beside.items():
-            write(own, self.out / file)
+            with whole_file(self.out / file) as partial:
+                write(own, partial)
         return "", spec.gates(own)
 
 
@@ -247,7 +253,8 @@ def _write(path: Path, text: str) -> None:
 
 def _save(figure: Figure, path: Path) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path)
+    with whole_file(path) as partial:
+        figure.savefig(partial)
     pyplot.close(figure)
 
 

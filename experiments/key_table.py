@@ -9,10 +9,12 @@ import subprocess
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-_ROW = re.compile(r"^\| `(?P<name>\w+)` \| (?P<allowed>.*) \| `.*` \| (?P<solvers>[^|]*) \| .* \|$")
+_ROW = re.compile(r"^\| `(?P<name>\w+)` \| (?P<allowed>.*) \| `(?P<default>.*)` \| "
+                  r"(?P<solvers>[^|]*) \| (?P<meaning>.*) \|$")
 _KINDS = {
     "true or false": "switch", "one of": "word", "a number": "number", "a whole number": "whole",
     "three numbers": "vector", "a text": "text", "a list": "list", "null, {": "object", "null or {": "object",
+    "null or a number": "number",
     "null or a list": "list",
 }
 _WHOLE = re.compile(r"from (\d+) to (\d+)")
@@ -34,7 +36,7 @@ class Key:
     low_is_allowed : whether `low` itself is.
     needs_length : whether a vector must differ from 0.
     may_be_null : whether null is allowed.
-    allowed : what is allowed, in words.
+    allowed, default, meaning : what is allowed, the default and what the key means, in words.
     """
 
     name: str
@@ -47,6 +49,8 @@ class Key:
     needs_length: bool = False
     may_be_null: bool = False
     allowed: str = ""
+    default: str = ""
+    meaning: str = ""
 
     def holds(self, number: float) -> bool:
         """Whether a number lies in the range; one that is none does not."""
@@ -94,7 +98,7 @@ def _key(row: re.Match[str], methods: tuple[str, ...]) -> Key:
     return Key(
         row["name"], kind, taken, words=_words(allowed) if kind == "word" else (), low=low, high=high,
         low_is_allowed=low_is_allowed, needs_length="not all 0" in allowed, may_be_null=allowed.startswith("null"),
-        allowed=allowed,
+        allowed=allowed, default=row["default"], meaning=row["meaning"],
     )
 
 

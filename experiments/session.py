@@ -128,7 +128,8 @@ class Session:
     file : parameter file, from the folder where the script runs; None: the defaults count.
     hand : whether `push` and `turn` of `step` move the first sphere, in place of the file's drive. None: where the
         wire is gains; a wire with a material has its file's drive.
-    overrides : parameters by key, laid over the file's: numbers, texts, lists, dicts, numpy arrays.
+    overrides : parameters by key, laid over the file's: numbers, texts, lists, dicts, numpy arrays; parts of them stand
+        as `**{"vessel.radius": 4.0}`.
 
     Attributes
     ----------
@@ -186,11 +187,16 @@ class Session:
             displacementDirection where the drive of a wire with a material is "displace".
         turn : turn of the first element about its axis in all of them, rad.
         steps : number of steps, from 1; push and turn are made in equal parts.
+
+        Raises
+        ------
+        SessionError : a value is not allowed, or the run has ended before (`state.outcome`). What a hand steers is not
+            ended by `maxSimulationSteps`.
         """
-        for name, value in (("push", push), ("turn", turn)):
-            if not math.isfinite(value):
-                raise SessionError(f"{name} = {value} is not allowed: needs a finite number")
-        self._state = _read_state(self._ask("step", push=float(push), turn=float(turn), steps=int(steps)))
+        push, turn = (_number(name, value) for name, value in (("push", push), ("turn", turn)))
+        if isinstance(steps, (bool, np.bool_)) or not isinstance(steps, (int, np.integer)):
+            raise SessionError(f"steps = {steps!r} is not allowed: needs a whole number from 1")
+        self._state = _read_state(self._ask("step", push=push, turn=turn, steps=int(steps)))
         return self._state
 
     def reset(self) -> State:
@@ -199,8 +205,8 @@ class Session:
         return self._state
 
     def change(self, **parameters: Any) -> State:
-        """Change parameters, such as `timeStep`; the wire goes on from where it is. What takes the place of an override
-        counts after a `reset` too."""
+        """Change parameters, such as `timeStep`, or parts of them, such as `**{"vessel.frictionCoefficient": 0.1}`; the
+        wire goes on from where it is. What takes the place of an override counts after a `reset` too."""
         answer = self._ask("change", set=parameters)
         self.parameters = answer["effective"]
         self._state = _read_state(answer)
@@ -277,6 +283,13 @@ def _plain(value: Any) -> Any:
     if isinstance(value, Path):
         return str(value)
     raise TypeError(f"a parameter cannot be a {type(value).__name__}")
+
+
+def _number(name: str, value: Any) -> float:
+    is_number = isinstance(value, (int, float, np.number)) and not isinstance(value, (bool, complex, np.complexfloating))
+    if not is_number or not math.isfinite(value):
+        raise SessionError(f"{name} = {value!r} is not allowed: needs a finite number")
+    return float(value)
 
 
 def _read_state(answer: Mapping[str, Any]) -> State:

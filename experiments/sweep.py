@@ -21,7 +21,8 @@ from experiments import building
 from experiments.prepare import ROOT, PreparationError
 from experiments.runner import BAD_INPUT, INTERRUPTED, Answer, Request
 from experiments.store import folder_of, read_whole
-from studies.keys import RESULTS, TABLE
+from experiments.whole_files import write_whole
+from studies.keys import RESULTS, TABLE, told_values
 from studies.table import Case, Findings, Rounds, Source
 
 if TYPE_CHECKING:
@@ -265,7 +266,7 @@ class _Asked:
         rows = (json.dumps({
             "key": row.case.key,
             "variant": row.case.variant,
-            "values": dict(row.case.values),
+            "values": told_values(row.case.values),
             "parameters": self.source.scene,
             "overrides": row.job.request.overrides,
             "folder": self._place_of(row),
@@ -284,7 +285,7 @@ class _Asked:
                 answer = self._answer(row, answers)
                 word = answer.outcome if answer.outcome in ("", "interrupted") else "failed"
                 line = {"outcome": word, "reason": answer.message}
-            self._lines.append({"key": row.case.key, "variant": row.case.variant, **row.case.values,
+            self._lines.append({"key": row.case.key, "variant": row.case.variant, **told_values(row.case.values),
                                 "repeat": row.repeat, **line})
             if summary is None or line["outcome"] not in self.source.results:
                 name = f"{self.source.name}: {row.case.key}" + (f", repeat {row.repeat}" if row.repeat else "")
@@ -316,7 +317,7 @@ class _Asked:
         if case.start is not None:
             start = self._folder / _STARTS / f"{case.key}.json"
             start.parent.mkdir(parents=True, exist_ok=True)
-            start.write_text(json.dumps(case.start), encoding="utf-8")
+            write_whole(start, json.dumps(case.start))
             overrides["startFile"] = str(start)
         repeats = range(1, case.repeats + 1)
         return [self._row(case, None, overrides), *(self._row(case, k, {**overrides, **_TIMED}) for k in repeats)]
@@ -373,6 +374,4 @@ def _csv(lines: Sequence[Mapping[str, Any]]) -> str:
 def _write(path: Path, text: str) -> None:
     """Write at once: a reader finds the old file or the new one, never a part."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    partial = path.with_name(path.name + ".partial")
-    partial.write_text(text, encoding="utf-8")
-    os.replace(partial, path)
+    write_whole(path, text)

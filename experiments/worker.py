@@ -22,6 +22,7 @@ from distributed import WorkerPlugin, get_worker
 from experiments.load import DISTURBED, LoadBeside
 from experiments.runner import Answer, Checked, Request, Runner
 from experiments.store import LOAD, read_whole
+from experiments.whole_files import write_whole
 
 _MEASURED_AT_MOST = 3
 
@@ -218,7 +219,7 @@ def _time(runner: Runner, job: Job) -> Answer:
             break
     text = json.dumps({"othersBusy": busy, "timesMeasured": measured}) + "\n"
     try:
-        (job.request.out / LOAD).write_text(text, encoding="utf-8")
+        write_whole(job.request.out / LOAD, text)
     except OSError as error:
         return Answer(job.request.name, answer.exit_code, None, f"the load could not be written: {error.strerror}")
     return answer

@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from studies.keys import value_text
+from studies.keys import told_values, value_text
 from studies.sampling import Range
 from studies.table import Case, Findings, Grid, Rounds
 
@@ -119,7 +119,7 @@ class _Search:
 
     def found(self) -> dict[str, Any]:
         """The row of this point."""
-        row = {"variant": self._case.variant, **self._case.values, "key": self._asked.range.key}
+        row = {"variant": self._case.variant, **told_values(self._case.values), "key": self._asked.range.key}
         between = self._between()
         if between is None:
             word = "fails" if any(self._seen.values()) else "holds"

@@ -10,16 +10,32 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
-from typing import Union
+from dataclasses import dataclass
+from typing import Any, Union
 from urllib.parse import quote
 
-Value = Union[int, float, bool, str]  # what an axis can take; anything else is a variant, which has a name
+
+@dataclass(frozen=True)
+class Named:
+    """A value that is too long to stand in a name, such as a whole vessel, with the name that stands for it.
+
+    Attributes
+    ----------
+    name : in tables and names of runs.
+    value : of the parameter, as in a file.
+    """
+
+    name: str
+    value: Any
+
+
+Value = Union[int, float, bool, str, Named]  # what an axis can take
 
 TABLE = "study.json"  # in a study's folder: what was asked for
 RESULTS = "runs.csv"  # beside it: what came of it
 _LONGEST = 200  # bytes of a file's name; file systems take 255
 _WORD = re.compile(r"[A-Za-z][A-Za-z0-9-]*", re.ASCII)
-_FILE = re.compile(r"[A-Za-z0-9'][A-Za-z0-9 .,=+%'_~-]*(?<![ .])", re.ASCII)
+_FILE = re.compile(r"[A-Za-z0-9'][A-Za-z0-9 .,=+%'_~\[\]-]*(?<![ .])", re.ASCII)
 _NO_WORDS = ("true", "false")  # as texts they are written like other texts, between apostrophes
 
 
@@ -36,11 +52,23 @@ def value_text(value: Value) -> str:
         return int.__repr__(value)
     if isinstance(value, float) and math.isfinite(value):
         return float.__repr__(value)
+    if isinstance(value, Named):
+        return value_text(value.name)
     if isinstance(value, str):
         plain = _WORD.fullmatch(value) and value not in _NO_WORDS
         return value if plain else f"'{quote(value, safe='', errors='surrogatepass')}'"
     raise ValueError(f"{value!r} cannot be a value of an axis: a number, true, false or a text can, "
-                     "and anything else as a variant, which has a name")
+                     'and anything else as a variant, which has a name, or as {"name": .., "value": ..}')
+
+
+def plain_values(values: Mapping[str, Value]) -> dict[str, Any]:
+    """What the parameters are, as a file has them."""
+    return {key: value.value if isinstance(value, Named) else value for key, value in values.items()}
+
+
+def told_values(values: Mapping[str, Value]) -> dict[str, Any]:
+    """What tables say of the parameters: of a named value its name."""
+    return {key: value.name if isinstance(value, Named) else value for key, value in values.items()}
 
 
 def run_key(variant: str, values: Mapping[str, Value]) -> str:
@@ -58,7 +86,7 @@ def checked_key(key: str) -> str:
     ValueError : it cannot, on one of the file systems in use.
     """
     if not _FILE.fullmatch(key):
-        raise ValueError(f"{key!r} cannot name a run: letters, digits and .,=+%'_~- can, and spaces between them")
+        raise ValueError(f"{key!r} cannot name a run: letters, digits and .,=+%'_~[]- can, and spaces between them")
     if len(key) > _LONGEST:
         raise ValueError(f"{key!r} is too long to name a run: {len(key)} bytes, at most {_LONGEST}")
     return key

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from studies.bisection import Bisection, Holds
-from studies.keys import Value, checked_key, value_text
+from studies.keys import Named, Value, checked_key, value_text
 from studies.sampling import METHODS, Range, sample
 from studies.table import RUN_SECONDS, Axis, Grid, Rows, Study
 
@@ -165,7 +165,8 @@ class _Reader:
             if row.keys() != rows[0].keys():
                 raise self._wrong(f"list[{k}]", row, f"the keys of the first: {', '.join(rows[0]) or 'none'}")
             for key, value in row.items():
-                self._built(f"list[{k}].{key}", value_text, value)
+                row[key] = self._value(f"list[{k}].{key}", value)
+                self._built(f"list[{k}].{key}", value_text, row[key])
         return Rows("run", tuple(rows[0]), tuple(tuple(row[key] for key in rows[0]) for row in rows))
 
     def _sample(self, given: Mapping[str, Any]) -> Rows:
@@ -204,7 +205,18 @@ class _Reader:
     def _values(self, where: str, given: Any) -> Sequence[Value]:
         if not isinstance(given, list):
             raise self._wrong(where, given, "a list of values, or an object with 'from', 'to' and 'count'")
-        return given
+        return [self._value(f"{where}[{k}]", value) for k, value in enumerate(given)]
+
+    def _value(self, where: str, given: Any) -> Value:
+        """A value, or one with a name: {"name": "wide", "value": {..}}."""
+        if not isinstance(given, dict):
+            return given
+        self._only(where, given, ("name", "value"))
+        for key in ("name", "value"):
+            if key not in given:
+                raise self._error(f"{where} has no '{key}': an object or a list stands as "
+                                  '{"name": "a", "value": ..}')
+        return Named(self._text(f"{where}.name", given["name"]), given["value"])
 
     def _built(self, where: str, make: Callable[..., Any], *given: Any) -> Any:
         """What is made of something; what a class refuses is told with where it stands."""

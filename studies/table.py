@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Optional, Protocol
 
-from studies.keys import Value, checked_key, run_key, value_text
+from studies.keys import Value, checked_key, plain_values, run_key, value_text
 
 _ROUNDING = 1e-6  # of a step: 0.3/0.1 is three steps
 
@@ -170,7 +170,7 @@ class Grid:
 
     def overrides(self, variant: Mapping[str, Any], values: Mapping[str, Value]) -> dict[str, Any]:
         """What is laid over the scene for one run."""
-        overrides = {**self.common, **variant, **values}
+        overrides = {**self.common, **variant, **plain_values(values)}
         if self.duration is not None:
             steps = max(math.ceil(self.duration / overrides["timeStep"] - _ROUNDING), self.least_steps)
             overrides["maxSimulationSteps"] = steps

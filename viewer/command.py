@@ -16,6 +16,7 @@ from experiments import checking, walls
 from experiments.key_table import read_key_table
 from experiments.prepare import ROOT, PreparationError
 from experiments.session import SessionError, State
+from experiments.whole_files import write_whole
 from viewer.export import to_html
 from viewer.live import LiveRun
 from viewer.parts import three
@@ -66,7 +67,7 @@ def view(what: Sequence[Path], html: Path | None, frames: int | None, opens: boo
     if html is None:
         return _serve(Server(files, recordings, None), opens)
     html.parent.mkdir(parents=True, exist_ok=True)
-    html.write_text(to_html(files, recordings), encoding="utf-8")
+    write_whole(html, to_html(files, recordings))
     print(f"page: {os.path.relpath(html)} ({html.stat().st_size / 1e6:.1f} MB)")
     return 0
 

@@ -151,11 +151,49 @@ def test_a_picture_shows_the_last_moment_or_each_moment_in_its_own_colour() -> N
 def test_a_film_has_as_many_pictures_as_asked_for_and_no_more_than_moments(tmp_path: Path) -> None:
     run, log = make_run()
     for frames, count in ((1, 1), (2, 2), (40, 3)):
-        images = render.draw_film(run, log, [], render.View(), frames)
-        assert len(images) == count
-    render.save_film(images, tmp_path / "film.gif")
+        told: list[tuple[int, int]] = []
+        images = render.draw_film(run, log, [], render.View(), frames, lambda *done: told.append(done))
+        assert len(images) == count and told == [(k, count) for k in range(1, count + 1)]
+    render.save_images(images, tmp_path / "film.gif")
     with Image.open(tmp_path / "film.gif") as film:
         assert film.n_frames == 3
+
+
+def sheathed() -> tuple[Run, PositionLog, list[Surface]]:
+    """A wire of 1000 units along z, of which 20 and then 60 are out of its sheath, and a vessel from z = 0 to 100."""
+    z = np.linspace(-1000.0, 0.0, 51)
+    wires = [np.stack([np.zeros(51), np.zeros(51), z + out], axis=1) for out in (20.0, 60.0)]
+    _, log = make_run()
+    steps, time = np.arange(2), 0.1 * np.arange(2)
+    log = replace(log, steps=steps, time=time, spheres=np.arange(51), positions=np.array(wires), final_step=1,
+                  final_spheres=np.arange(51), final_positions=wires[1])
+    run = Run(Path("run"), {"sphereRadius": 3.0, "sheath": {}, "vessel": {"shape": "mesh"}},
+              {"hub": {"spheresInBody": 3}})
+    corners = np.array([[-10.0, -10.0, 0.0], [10.0, -10.0, 0.0], [10.0, 30.0, 100.0]])
+    return run, log, [Surface(corners, np.array([[0, 1, 2]]), np.zeros(3))]
+
+
+def test_of_a_wire_in_a_sheath_the_vessel_and_what_is_in_it_fill_the_picture() -> None:
+    run, log, walls = sheathed()
+    stage = render.set_stage(run, log, walls, render.View())
+    assert np.linalg.norm(np.array(stage.camera.target) - [0.0, 10.0, 50.0]) < 15.0
+    assert 100.0 < stage.camera.distance < 200.0, "1.05 times the diagonal of the vessel, not of the 1000 units"
+    bare = render.set_stage(Run(run.folder, {"sphereRadius": 3.0}, None), log, [], render.View())
+    assert bare.camera.distance > 1000.0
+
+
+def test_zoom_and_the_tip_that_is_followed_move_the_camera() -> None:
+    run, log = make_run()
+    plain = render.set_stage(run, log, [], render.View()).camera
+    near = render.set_stage(run, log, [], render.View(zoom=2.5)).camera
+    assert near.target == plain.target and near.distance == pytest.approx(plain.distance / 2.5)
+    for time, tip in ((0.0, (0.0, 0.0, LENGTH)), (0.2, (0.0, 80.0, LENGTH))):
+        view = render.View(target=tip, follows_tip=True)
+        stage = render.set_stage(run, log, [], view)
+        assert stage.camera.distance == pytest.approx(plain.distance / 4.0)
+        picture = render.draw_picture(run, log, [], render.View(follows_tip=True), [time])
+        assert np.array_equal(np.asarray(picture), np.asarray(render.draw_picture(run, log, [], view, [time])))
+        assert max(place_of(picture, stage, (tip[0], tip[1], tip[2] - 3.0))) > 80, "the wire ends in the middle"
 
 
 def test_an_obstacle_before_the_wire_tints_it_and_the_vessel_lies_behind() -> None:

@@ -84,6 +84,18 @@ def inner_radii(draw, scene: Mapping[str, Any]) -> float:
     return draw(st.floats(0.0, 0.99)) * min(radii)
 
 
+def stiffness_of(key: str) -> Callable[[Mapping[str, Any]], st.SearchStrategy]:
+    """Stiffness or mass of the whole wire, as moduli and densities make them, or none."""
+    def fitted(scene: Mapping[str, Any]) -> st.SearchStrategy:
+        radius, inner = scene.get("wireRadius", 5e-4), scene.get("innerRadius", 0.0)
+        area = math.pi * (radius**2 - inner**2)
+        second = 0.25 * area * (radius**2 + inner**2)
+        shape, least, most = {"massPerLength": (area, 100.0, 3e4), "axialStiffness": (area, 1e6, 1e12)}.get(
+            key, (second, 1e6, 1e12))
+        return st.one_of(st.none(), log_uniform(least * shape, most * shape))
+    return fitted
+
+
 @st.composite
 def load_tables(draw, scene: Mapping[str, Any]) -> dict | None:
     loads = draw(st.sets(st.sampled_from(["gravity", "tipForce", "distributedForce", "axialForce", "tipMoment",
@@ -177,7 +189,9 @@ VALUES: dict[str, st.SearchStrategy] = {
 }
 # Those that have to fit the rest of the scene.
 FITTED: dict[str, Callable[[Mapping[str, Any]], st.SearchStrategy]] = {
-    "wireSections": wire_sections, "innerRadius": inner_radii, "loadTables": load_tables, "startFile": start_files,
+    "wireSections": wire_sections, "innerRadius": inner_radii,
+    **{key: stiffness_of(key) for key in ("bendingStiffness", "torsionalStiffness", "axialStiffness", "massPerLength")},
+    "loadTables": load_tables, "startFile": start_files,
     "vessel": vessels, "obstacles": obstacles, "sheath": lambda scene: st.just(None),  # needs a vessel that the wire starts in
 }
 # An explicit step is stable below some 1e-7 s.
@@ -269,6 +283,10 @@ def reconcile(scene: dict) -> dict:
         if scene.get("proximalEnd") == "free" or scene.get("drive") == "force":
             scene["proximalEnd"] = "held"
         return scene
+    for stiffness, modulus in (("bendingStiffness", "youngsModulus"), ("torsionalStiffness", "shearModulus"),
+                               ("axialStiffness", "youngsModulus"), ("massPerLength", "density")):
+        if modulus in scene:
+            scene.pop(stiffness, None)
     if scene.get("integrator") in ("bdf2", "implicitEuler"):
         scene.pop("timeStepError", None)
     if solver == "xpbd" and scene.get("bendLaw") == "darboux":

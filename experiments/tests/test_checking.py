@@ -104,3 +104,37 @@ def test_every_scene_of_the_repository_and_every_effective_value_is_let_pass(run
                                "-maxSimulationSteps", "0"], capture_output=True, text=True, check=True)
         assert done.returncode == 0
         checking.check_file(tmp_path / scene.stem / "parameters.json")
+
+
+@pytest.mark.parametrize("name", ["vessel.radius", "wireSections[-1].youngsModulus", "gravity[1]", "bendingStiffness"])
+def test_parts_of_keys_and_null_are_left_to_the_runner(name):
+    checking.check_overrides([(name, "null"), (name, "0.1")])
+
+
+def test_a_part_of_a_key_that_is_not_known_is_refused_with_the_near_one():
+    with pytest.raises(PreparationError, match=r"unknown key 'vesel\.radius': did you mean 'vessel\.radius'\?"):
+        checking.check_overrides([("vesel.radius", "1")])
+
+
+def type_keys(capsys, *words):
+    arguments = commands.parse(["keys", *words])
+    assert arguments.action(arguments) == 0
+    return capsys.readouterr().out
+
+
+def test_keys_are_found_by_name_by_meaning_and_by_solver(capsys):
+    assert type_keys(capsys).count("; solver ") == len(checking.read_table())
+    found = type_keys(capsys, "stiffness", "--solver", "direct")
+    assert "bendingStiffness: null or a number > 0 (N m^2); default null; solver xpbd, direct" in found
+    assert "bendStiffness:" not in found and "EI of the whole wire" in found
+    assert type_keys(capsys, "Vessel.radius").startswith("vessel: null, {")
+    assert "youngsModulus" not in type_keys(capsys, "bendStiffness") and "Kelvin" in type_keys(capsys, "kelvin")
+
+
+@pytest.mark.parametrize("words, said", [
+    (["stiffnes_"], "no key has 'stiffnes_'"), (["dampin9"], "near are damping"),
+    (["bendStiffness", "--solver", "direct"], "solver direct takes no key with 'bendStiffness': near are bend"),
+])
+def test_a_word_without_a_key_is_refused_with_near_ones(unbuilt, words, said):
+    line = unbuilt("keys", *words)
+    assert said in line and (words[-1] != "direct" or "bendStiffness," not in line)

@@ -9,6 +9,7 @@ import subprocess
 import sys
 import threading
 import time
+from pathlib import Path
 
 import pytest
 from distributed import LocalCluster
@@ -85,6 +86,17 @@ def test_workers_elsewhere_make_the_same_results(processes, runner_command, tmp_
         tables.append([{k: v for k, v in row.items() if k not in WALL_TIMES}
                        for row in results_of(tmp_path / name / "same")])
     assert tables[0] == tables[1]
+
+
+def test_files_that_a_study_names_count_from_its_folder_however_that_was_typed(
+        processes, runner_command, tmp_path, monkeypatch):
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "load.csv").write_text("0,0\n1,1\n")
+    monkeypatch.chdir(tmp_path)
+    study = study_of("loaded", Axis("numberRodElements", (4, 5)), common={
+        "solver": "direct", "maxSimulationSteps": 1, "loadTables": {"tipForce": "load.csv"}})
+    result = sweep([(study, tmp_path)], tmp_path / "runs", Means(runner_command, 2, processes.address, Path("mine")))
+    assert (result.made, result.failures) == (2, [])
 
 
 def test_workers_of_another_version_are_one_line(processes, fake, tmp_path, monkeypatch):

@@ -39,3 +39,16 @@ def test_gains_are_refused(runner_command, tmp_path):
     file.write_text("{}")
     done = subprocess.run([*runner_command, "--modes", str(file), "4"], capture_output=True, text=True)
     assert done.returncode == 2 and "solver" in done.stderr and done.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize("changes, said", [
+    ({"vessel": {"shape": "plane", "point": [0, -1, 0], "normal": [0, 1, 0]}}, "vessel needs to be null"),
+    ({"obstacles": [{"shape": "sphere", "centre": [9, 0, 0], "radius": 1}]}, "obstacles needs to be null"),
+    ({"proximalEnd": "free"}, 'proximalEnd or distalEnd needs to be "clamped"'),
+])
+def test_what_has_no_modes_is_refused_by_a_key_that_stands_in_the_file(runner_command, tmp_path, changes, said):
+    file = tmp_path / "wire.json"
+    file.write_text(json.dumps({**_WIRE, **changes}))
+    done = subprocess.run([*runner_command, "--modes", str(file), "4"], capture_output=True, text=True)
+    assert done.returncode == 2 and said in done.stderr and "initialState" not in done.stderr
+    assert done.stderr.startswith(f"guidewire: {file}: ") and done.stderr.count("\n") == 1

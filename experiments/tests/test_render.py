@@ -84,7 +84,10 @@ def test_times_and_films(make_run, tmp_path):
 
 @pytest.mark.parametrize("words, said", [
     (["--out", "a.jpg"], "a.jpg: a picture's name ends with .png"), (["--out", "picture"], ".png"),
-    (["--out", "a.gif", "--times", "1"], "--times is for a picture"), (["--out", "/proc/no/a.png"], "/proc/no"),
+    (["--out", "a.gif", "--times", "1"], "--times is for a picture"),
+    (["--times", "99"], "--times 99 is beyond the run, whose log goes from 0 s to 0.02 s"), (["--times", "-1"], "beyond"),
+    (["--follow", "tip", "--times", "0", "0.02"], "the tip is followed in a film or at one moment"),
+    (["--out", "/proc/no/a.png"], "/proc/no"),
 ])
 def test_what_cannot_be_drawn_is_one_line(make_run, words, said):
     folder = make_run()

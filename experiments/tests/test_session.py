@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -129,12 +130,51 @@ def test_a_material_states_its_forces_and_is_carried_by_its_support():
     assert abs(state.couple[0, 0]) == pytest.approx(weight * lever, rel=0.02)
 
 
-def test_a_run_that_has_ended_stays_as_it_is_until_it_is_reset():
-    with Session(**WIRE, maxSimulationSteps=2) as session:
-        assert session.step(push=5.0, steps=5).step == 2
-        ended = session.state
-        assert_same_bits(session.step(push=5.0), ended)
-        assert session.reset().outcome is None
+def test_a_step_after_the_end_says_that_the_run_has_ended_and_a_reset_begins_anew():
+    with Session(**WIRE, hand=False, maxSimulationSteps=2) as session:
+        ended = session.step(steps=5)
+        assert (ended.step, ended.outcome) == (2, "finished")
+        with pytest.raises(SessionError, match=r"^the run has ended after step 2 \(finished: .*\): reset or restore"):
+            session.step()
+        assert_same_bits(session.state, ended)
+        assert session.reset().outcome is None and session.step().step == 1
+
+
+@pytest.mark.parametrize("scene", [
+    WIRE, {**MATERIAL, "hand": True, "initialState": "straight", "gravity": [0, 0, 0]}], ids=["gains", "material"])
+def test_what_a_hand_steers_goes_on_beyond_maxSimulationSteps(scene):
+    with Session(**{**scene, "maxSimulationSteps": 2, "deltaThreshold": 0.0}) as session:
+        state = session.step(push=0.1, steps=5)
+        assert (state.step, state.outcome) == (5, None)
+
+
+@pytest.mark.parametrize("asked, said", [
+    ({"steps": 1.5}, "steps = 1.5 is not allowed"), ({"steps": True}, "steps = True"), ({"steps": "2"}, "steps = '2'"),
+    ({"push": "a"}, "push = 'a' is not allowed"), ({"turn": None}, "turn = None"), ({"push": [1.0]}, "push = [1.0]"),
+    ({"push": True}, "push = True"),
+])
+def test_a_step_of_something_else_than_numbers_is_refused_in_one_line(asked, said):
+    with Session(**WIRE) as session:
+        with pytest.raises(SessionError) as refused:
+            session.step(**asked)
+        assert said in str(refused.value) and "\n" not in str(refused.value)
+        assert session.step(push=np.float32(0.5), steps=np.int64(2)).step == 2
+
+
+def test_parts_of_parameters_are_laid_over_the_files_and_changed_while_the_wire_goes_on():
+    vessel = {"shape": "tube", "knots": [[0, 0, -400], [0, 0, 400]], "radius": 30.0}
+    with Session(vessel=vessel, **{"vessel.radius": 25.0, "gravity[1]": -1.0}) as session:
+        assert (session.parameters["vessel"]["radius"], session.parameters["gravity"][1]) == (25.0, -1.0)
+        before = session.step(steps=2)
+        after = session.change(**{"vessel.frictionCoefficient": 0.1})
+        assert (after.step, session.parameters["vessel"]["frictionCoefficient"]) == (before.step, 0.1)
+        assert session.parameters["vessel"]["radius"] == 25.0
+        for change, said in (({"vessel.radius": 0.001}, "lumen"), ({"vessel.colour": 1}, "unknown key 'vessel.colour'"),
+                             ({"obstacles[0].radius": 1}, "obstacles is null")):
+            with pytest.raises(SessionError, match=re.escape(said)):
+                session.change(**change)
+        session.change(vessel={**vessel, "radius": 28.0})
+        assert session.parameters["vessel"]["radius"] == 28.0 and session.step().step == before.step + 1
 
 
 @pytest.mark.parametrize("arguments, words", [

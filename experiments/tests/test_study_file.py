@@ -173,3 +173,41 @@ def test_a_run_needs_none_of_the_packages_of_a_sweep():
     code = ("import sys; from experiments import commands; commands.parse(['run', 'a.json']); "
             "assert not {'dask', 'distributed', 'tqdm', 'numpy', 'scipy', 'psutil'} & set(sys.modules)")
     subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=True)
+
+
+def test_a_whole_object_is_a_value_of_an_axis_by_its_name(read):
+    straight, bent = {"shape": "tube", "radius": 2}, {"shape": "tube", "radius": [1, 2]}
+    study = read({"axes": {"vessel": [{"name": "straight", "value": straight}, {"name": "bent", "value": bent}],
+                           "vessel.radius": [3.0, 4.0], "obstacles[0].radius": [1]}})
+    cases = study.grid.cases()
+    assert [case.key for case in cases[:2]] == [
+        "vessel=straight,vessel.radius=3.0,obstacles[0].radius=1",
+        "vessel=straight,vessel.radius=4.0,obstacles[0].radius=1"]
+    assert cases[2].overrides == {"vessel": bent, "vessel.radius": 3.0, "obstacles[0].radius": 1}
+
+
+def test_a_bisection_beside_a_named_value_runs_with_the_value_and_tells_the_name(read):
+    study = read({"axes": {"gravity": [{"name": "down", "value": [0, -9.81, 0]}]},
+                  "bisection": {"key": "timeStep", "from": 0.01, "to": 0.1, "width": 0.01, "holds": {}}})
+    rounds = study.grid.rounds()
+    cases = next(rounds)
+    assert all(case.overrides["gravity"] == [0, -9.81, 0] for case in cases)
+    with pytest.raises(StopIteration) as end:
+        rounds.send({case.key: {"outcome": "finished"} for case in cases})
+    assert end.value.value.rows[0]["gravity"] == "down"
+
+
+@pytest.mark.parametrize("value, said", [
+    ({"name": "a"}, "axes.vessel[0] has no 'value'"), ({"value": {}}, "axes.vessel[0] has no 'name'"),
+    ({"name": "a", "value": 1, "x": 2}, "unknown key 'x'"), ({"shape": "tube"}, "unknown key 'shape': name, value"),
+    ({"name": "", "value": 1}, "axes.vessel[0].name"), ([1, 2, 3], '{"name": .., "value": ..}'),
+])
+def test_an_object_without_a_name_is_refused_with_how_it_stands(read, value, said):
+    with pytest.raises(StudyFileError) as refused:
+        read({"axes": {"vessel": [value]}})
+    assert said in str(refused.value) and "\n" not in str(refused.value)
+
+
+def test_two_objects_of_one_name_are_refused(read):
+    with pytest.raises(StudyFileError, match="vessel takes a twice"):
+        read({"axes": {"vessel": [{"name": "a", "value": 1}, {"name": "a", "value": 2}]}})

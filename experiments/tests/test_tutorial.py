@@ -19,7 +19,8 @@ from test_view import serving
 PAGE = (ROOT / "docs" / "tutorial.md").read_text(encoding="utf-8")
 # Where campaigns do not run in full, what takes a second and has tests of its own is left out.
 FULL = FULL_CAMPAIGNS in os.environ
-SLOW = ("render results/turned", "sweep turns.json", "python table.py", "run params/sheath.json", "hub results/other")
+SLOW = ("render results/turned", "sweep turns.json", "python table.py", "sweep friction.json", "plot results/friction",
+        "run params/sheath.json", "hub results/other")
 SHORTER = {'"maxSimulationSteps": 240': '"maxSimulationSteps": 4', '"numberRodElements": 40': '"numberRodElements": 9',
            '"numberRodElements": 10': '"numberRodElements": 3'}
 
@@ -29,7 +30,7 @@ def test_every_command_of_the_tutorial_works_in_its_order(runner_command, tmp_pa
     monkeypatch.setattr("viewer.command.three", lambda tell: {})  # nothing to install; the page has tests of its own
     (tmp_path / "params").symlink_to(ROOT / "params")
     saved = re.findall(r"[Ss]ave this as `([\w.]+)`:\n\n```\w*\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
-    assert [name for name, _ in saved] == ["wire.json", "curves.py", "turns.json", "table.py"]
+    assert [name for name, _ in saved] == ["wire.json", "curves.py", "turns.json", "table.py", "tube.json", "friction.json"]
     for name, text in saved:
         for whole, short in SHORTER.items():
             assert name != "wire.json" or whole in text
@@ -48,7 +49,7 @@ def test_every_command_of_the_tutorial_works_in_its_order(runner_command, tmp_pa
             code = commands.run(commands.parse(words))
             said[line], errors = capfd.readouterr()
             assert code == 0, f"{line}: {errors}"
-    assert len(lines) == 11 and len(said) == (11 if FULL else 5)
+    assert len(lines) == 13 and len(said) == (13 if FULL else 5)
     assert said["run wire.json --out results/straight"].startswith("finished: all 4 steps are done")
     for name in ("turned.png", "curves.png") if FULL else ("curves.png",):
         with Image.open(tmp_path / "results" / name) as picture:
@@ -56,6 +57,9 @@ def test_every_command_of_the_tutorial_works_in_its_order(runner_command, tmp_pa
     assert "data-recording" in (tmp_path / "results" / "turns.html").read_text(encoding="utf-8")
     study = read_study_file(tmp_path / "turns.json", None)
     assert study.logs and [len(axis.values) for axis in study.grid.axes] == [3, 2]
+    study = read_study_file(tmp_path / "friction.json", None)
+    assert [len(axis.values) for axis in study.grid.axes] == [5, 2, 2]
+    assert [axis.key for axis in study.grid.axes] == ["vessel.frictionCoefficient", "vessel.radius", "bendingStiffness"]
     if not FULL:
         return
     tips = [read_log(tmp_path / "results" / name).final_positions[-1] for name in ("one", "other")]

@@ -12,6 +12,8 @@ def wrong(key: Key) -> st.SearchStrategy:
     """Values that a key does not allow."""
     no_number = st.one_of(st.text(max_size=5), st.booleans(), st.none(), st.lists(st.floats(-1, 1), max_size=4),
                           st.dictionaries(st.text(max_size=2), st.integers(), max_size=3))
+    if key.may_be_null:
+        no_number = no_number.filter(lambda value: value is not None)
     number = st.floats(-1.0, 1.0)
     if key.kind == "switch":
         return st.one_of(whole(0, 1), st.text(max_size=5), st.none(), st.just("true"))

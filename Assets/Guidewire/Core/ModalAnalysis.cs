@@ -69,6 +69,11 @@ namespace Guidewire.Core
             SimulationParameters atRest = parameters.Copy();
             atRest.Scene.InitialState = InitialState.Equilibrium;
             ParameterConflict? conflict = ParameterConflict.Find(atRest);
+            if (conflict != null && conflict.Key == "initialState")
+            {
+                throw new ArgumentException("proximalEnd or distalEnd needs to be \"clamped\": modes are those about a"
+                    + " rest shape, and this wire has none");
+            }
             if (conflict != null)
             {
                 throw new ArgumentException(conflict.Key + " needs " + conflict.Needed);

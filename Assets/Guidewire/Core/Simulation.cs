@@ -26,7 +26,8 @@ namespace Guidewire.Core
             _hasSheath = parameters.Scene.Sheath != null;
             State = start.State;
             _stepper = start.Stepper;
-            _stopRule = new StopRule(parameters.Method.MaxSimulationSteps);
+            _stopRule = new StopRule(
+                parameters.Drive.Steering == null ? parameters.Method.MaxSimulationSteps : int.MaxValue);
             _clock = new StepClock(parameters.Method.TimeStep);
             _warnings.Begin(State);
             _start = new RodStart((Vector3d[])State.Positions.Clone(), (Quaterniond[])State.Orientations.Clone(),

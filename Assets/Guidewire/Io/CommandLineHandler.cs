@@ -38,7 +38,8 @@ namespace Guidewire.Io
                     i--;    // it has no value
                     continue;
                 }
-                ParameterEntry? entry = ParameterTable.Find(key);
+                ParameterPath? path = ParameterPath.Parse(key);
+                ParameterEntry? entry = path == null ? null : ParameterTable.Find(path.Key);
                 bool isOut = key == "out" || (logFileIsOurs && key == "logFile");
                 if (entry == null && !isOut && key != "parameters" && key != "repeat")
                 {
@@ -53,7 +54,7 @@ namespace Guidewire.Io
                 string value = arguments[i + 1];
                 if (entry != null)
                 {
-                    JToken token = entry.FromText(value)
+                    JToken token = (path!.Depth == 0 ? entry.FromText(value) : PartFromText(value))
                         ?? throw new ParameterException(Source, key, value, entry.Allowed);
                     line.Overrides.Add(new KeyValuePair<string, JToken>(key, token));
                 }
@@ -91,6 +92,12 @@ namespace Guidewire.Io
             return null;
         }
 
+        // What a part may hold its entry does not say: what is no JSON is a text, such as the name of a mesh's file.
+        private static JToken PartFromText(string text)
+        {
+            return StrictJson.FindError(text) == null ? JsonText.Parse(text) : new JValue(text);
+        }
+
         /// <summary>Reads parameters that stand as KEY=VALUE, as in an Inspector's list.</summary>
         /// <exception cref="ParameterException">An unknown key, a value that is missing or not allowed.</exception>
         public static List<KeyValuePair<string, JToken>> ReadAssignments(IEnumerable<string> assignments)
@@ -120,7 +127,9 @@ namespace Guidewire.Io
                 + "  -force             replaces a complete run of other parameters in that folder, once this one is"
                 + " complete\n"
                 + "  -repeat K          the run is timed, this is its K-th repeat\n"
-                + "  -KEY VALUE         any parameter, instead of the file's\n\nParameters:\n");
+                + "  -KEY VALUE         any parameter, instead of the file's, or a part of one: vessel.radius,\n"
+                + "                     obstacles[0].radius, wireSections[-1].youngsModulus (-1: the last)\n\n"
+                + "Parameters:\n");
             foreach (ParameterGroup group in ParameterTable.Groups)
             {
                 text.Append('\n').Append(group.Name).Append(": ").Append(group.About).Append('\n');

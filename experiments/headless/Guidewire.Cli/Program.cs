@@ -117,6 +117,13 @@ namespace Guidewire.Cli
                 throw new ParameterException(CommandLineHandler.Source + ": --modes needs a parameter file and a number");
             }
             ParameterHandler handler = ParameterHandler.Load(arguments[1], Array.Empty<KeyValuePair<string, JToken>>());
+            string? walls = handler.Values.Vessel != null ? "vessel"
+                : handler.Values.Simulation.Scene.Walls.Length > 0 ? "obstacles" : null;
+            if (walls != null)
+            {
+                throw new ParameterException(arguments[1] + ": " + walls + " needs to be null: modes are those of a wire"
+                    + " without walls");
+            }
             ModalAnalysis modes;
             try
             {

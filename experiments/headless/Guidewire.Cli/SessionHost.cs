@@ -80,6 +80,12 @@ namespace Guidewire.Cli
                 throw new ParameterException("request: push and turn need a session that a hand steers; here the"
                     + " parameters' drive moves the wire (\"hand\": true when it is opened gives it to a hand)");
             }
+            if (session.Simulation.Outcome != Outcome.Running)
+            {
+                throw new ParameterException("request: the run has ended after step " + session.Simulation.StepCount
+                    + " (" + session.Simulation.Outcome.ToString().ToLowerInvariant() + ": "
+                    + session.Simulation.Reason + "): reset or restore goes on from where it had not");
+            }
             for (int k = 0; k < request.Steps && session.Simulation.Outcome == Outcome.Running && !_stopRequested(); k++)
             {
                 session.Step(request.Push / request.Steps, request.Turn / request.Steps);

@@ -76,7 +76,7 @@ namespace Guidewire.Core
         /// last one that says something counts.</summary>
         public static CrossSection At(MaterialParameters material, double place)
         {
-            var wire = new WireSection();
+            var wire = new WireSection { AxialStiffness = material.AxialStiffness };
             foreach (WireSection section in material.Sections)
             {
                 if (place >= section.From && place < section.To)

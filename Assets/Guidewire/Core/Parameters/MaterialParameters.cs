@@ -13,6 +13,9 @@ namespace Guidewire.Core
         /// <summary>G, Pa.</summary>
         public double ShearModulus { get; set; } = 23e9;
 
+        /// <summary>EA, N, in place of E times the area; null: none.</summary>
+        public double? AxialStiffness { get; set; }
+
         /// <summary>rho, kg/m^3.</summary>
         public double Density { get; set; } = 6450.0;
 
@@ -21,6 +24,12 @@ namespace Guidewire.Core
 
         /// <summary>Radius of the hollow of a tube, m, less than that of the wire; 0: none.</summary>
         public double InnerRadius { get; set; }
+
+        /// <summary>A = pi (r^2 - a^2), m^2.</summary>
+        public double Area => Math.PI * (WireRadius * WireRadius - InnerRadius * InnerRadius);
+
+        /// <summary>I = A (r^2 + a^2)/4, m^4.</summary>
+        public double SecondMomentOfArea => 0.25 * Area * (WireRadius * WireRadius + InnerRadius * InnerRadius);
 
         /// <summary>What of GA resists shear, because the shear is not even over the cross-section: 0.9 for a round
         /// one, between Cowper's 6 (1 + nu)/(7 + 6 nu), 0.886 at nu = 0.3 (1966), and Hutchinson's 0.925

@@ -14,20 +14,20 @@ namespace Guidewire.Io
         private const double Largest = 1e9;
         private const string OneNumber = "a number, 1e9 at most";
         private const string ThreeNumbers = "three numbers [x, y, z], each 1e9 at most";
-        private readonly string _source;
+        private readonly Func<string, string> _sourceOf;
         private readonly string _key;
         private readonly JObject _object;
 
-        /// <param name="source">The file, or "command line".</param>
+        /// <param name="sourceOf">Who said what stands at a path: a file, or "command line".</param>
         /// <param name="key">Where the object stands.</param>
         /// <param name="value">The object.</param>
         /// <exception cref="ParameterException">It is no object.</exception>
-        public JsonFields(string source, string key, JToken value)
+        public JsonFields(Func<string, string> sourceOf, string key, JToken value)
         {
-            _source = source;
+            _sourceOf = sourceOf;
             _key = key;
             _object = value as JObject ?? throw new ParameterException(
-                source, key, value.ToString(Formatting.None), "an object {\"shape\": ...}");
+                sourceOf(key), key, value.ToString(Formatting.None), "an object {\"shape\": ...}");
         }
 
         /// <summary>Refuses every field but these.</summary>
@@ -37,7 +37,7 @@ namespace Guidewire.Io
             {
                 if (Array.IndexOf(names, property.Name) < 0)
                 {
-                    throw new ParameterException(_source + ": unknown key '" + _key + "." + property.Name
+                    throw new ParameterException(Source(property.Name) + ": unknown key '" + _key + "." + property.Name
                         + "': allowed are " + string.Join(", ", names));
                 }
             }
@@ -142,13 +142,19 @@ namespace Guidewire.Io
         public ParameterException Wrong(string name, string allowed)
         {
             return new ParameterException(
-                _source, _key + "." + name, _object[name]?.ToString(Formatting.None) ?? "(missing)", allowed);
+                Source(name), _key + "." + name, _object[name]?.ToString(Formatting.None) ?? "(missing)", allowed);
         }
 
         private ParameterException WrongItem(string name, int index, JToken item, string allowed)
         {
             return new ParameterException(
-                _source, _key + "." + name + "[" + index + "]", item.ToString(Formatting.None), allowed);
+                Source(name + "[" + index + "]"), _key + "." + name + "[" + index + "]",
+                item.ToString(Formatting.None), allowed);
+        }
+
+        private string Source(string name)
+        {
+            return _sourceOf(_key + "." + name);
         }
 
         private static bool IsSmall(double number)
@@ -164,7 +170,7 @@ namespace Guidewire.Io
         /// <summary>The line for something that Core refused.</summary>
         public ParameterException Refused(string reason)
         {
-            return new ParameterException(_source + ": " + _key + ": " + reason);
+            return new ParameterException(_sourceOf(_key) + ": " + _key + ": " + reason);
         }
     }
 }

@@ -12,18 +12,17 @@ namespace Guidewire.Io
     {
         /// <summary>All walls of a scene.</summary>
         /// <param name="values">Its parameters; a mesh's file name is replaced by the one that was found.</param>
-        /// <param name="vesselSource">The parameter file that names the vessel, or "command line".</param>
-        /// <param name="obstacleSource">The same for the obstacles.</param>
+        /// <param name="sourceOf">Who said what stands at a path: a parameter file, or "command line".</param>
         /// <param name="warnings">Gets a line for a wall that goes through itself.</param>
         /// <exception cref="ParameterException">A wall that cannot be made.</exception>
         public static ContactShape[] Read(
-            RunParameters values, string vesselSource, string obstacleSource, List<string> warnings)
+            RunParameters values, Func<string, string> sourceOf, List<string> warnings)
         {
             var walls = new List<ContactShape>();
             if (values.Vessel != null)
             {
-                var fields = new JsonFields(vesselSource, "vessel", values.Vessel);
-                ContactShape vessel = Vessel(fields, values, vesselSource);
+                var fields = new JsonFields(sourceOf, "vessel", values.Vessel);
+                ContactShape vessel = Vessel(fields, values, sourceOf("vessel.file"));
                 vessel.FrictionCoefficient = Friction(fields);
                 walls.Add(vessel);
                 WarnOfSelfIntersection(vessel, fields.Text("file"), warnings);
@@ -31,7 +30,7 @@ namespace Guidewire.Io
             int count = 0;
             foreach (JToken item in values.Obstacles ?? new JArray())
             {
-                var fields = new JsonFields(obstacleSource, "obstacles[" + count++ + "]", item);
+                var fields = new JsonFields(sourceOf, "obstacles[" + count++ + "]", item);
                 ContactShape obstacle = Obstacle(fields);
                 obstacle.FrictionCoefficient = Friction(fields);
                 walls.Add(obstacle);
@@ -51,7 +50,7 @@ namespace Guidewire.Io
             }
         }
 
-        private static ContactShape Vessel(JsonFields fields, RunParameters scene, string source)
+        private static ContactShape Vessel(JsonFields fields, RunParameters scene, string fileSource)
         {
             var placement = new Placement(scene.Position, Placement.FromEulerDegrees(scene.Rotation), scene.Scale);
             try
@@ -66,7 +65,7 @@ namespace Guidewire.Io
                         return Tube(fields, scene, placement);
                     case "mesh":
                         fields.Allow("shape", "frictionCoefficient", "file", "metresPerUnit", "openRims");
-                        return Mesh(fields, scene, placement, source);
+                        return Mesh(fields, scene, placement, fileSource);
                     default:
                         throw fields.Wrong("shape", "one of \"plane\", \"tube\", \"mesh\"");
                 }
@@ -112,7 +111,7 @@ namespace Guidewire.Io
         }
 
         private static MeshShape Mesh(
-            JsonFields fields, RunParameters scene, in Placement placement, string source)
+            JsonFields fields, RunParameters scene, in Placement placement, string fileSource)
         {
             if (scene.Scale.X == 0.0 || scene.Scale.Y == 0.0 || scene.Scale.Z == 0.0)
             {
@@ -123,7 +122,7 @@ namespace Guidewire.Io
             {
                 throw fields.Wrong("metresPerUnit", "a number > 0 (m)");
             }
-            string file = NamedFile.Find(fields.Text("file"), source);
+            string file = NamedFile.Find(fields.Text("file"), fileSource);
             if (file.Length == 0)
             {
                 throw fields.Wrong("file", "the name of an .obj or .stl file");

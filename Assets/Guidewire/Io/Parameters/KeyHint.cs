@@ -32,12 +32,14 @@ namespace Guidewire.Io
             };
 
         /// <summary>The end of a line on a key that is not known.</summary>
-        /// <param name="key">As it was given.</param>
+        /// <param name="text">As it was given, perhaps of a part of a key.</param>
         /// <param name="dash">What stands before keys there: a dash on the command line, else nothing.</param>
         /// <param name="solver">The run's; null where it is not known yet.</param>
         /// <param name="otherwise">What to say where nothing is near.</param>
-        public static string Of(string key, string dash, Solver? solver, string otherwise)
+        public static string Of(string text, string dash, Solver? solver, string otherwise)
         {
+            string key = ParameterPath.Parse(text)?.Key ?? text;
+            string part = text.Substring(key.Length);
             if (Absent.TryGetValue(key, out string? why))
             {
                 return why;
@@ -50,12 +52,12 @@ namespace Guidewire.Io
                     {
                         return name == "maxSimulationSteps"
                             ? "a run lasts '" + dash + name + "' steps of '" + dash + "timeStep'"
-                            : "did you mean '" + dash + name + "'?";
+                            : "did you mean '" + dash + name + part + "'?";
                     }
                 }
             }
             string? nearest = Nearest(key, solver);
-            return nearest == null ? otherwise : "did you mean '" + dash + nearest + "'?";
+            return nearest == null ? otherwise : "did you mean '" + dash + nearest + part + "'?";
         }
 
         // At most one letter in four may be wrong: words of one length have more than that in common by chance.

@@ -23,9 +23,9 @@ namespace Guidewire.Io
 
         /// <summary>Sets the tables of a scene; the files' names are replaced by those that were found.</summary>
         /// <param name="values">Its parameters.</param>
-        /// <param name="source">The parameter file that names the tables, or "command line".</param>
+        /// <param name="sourceOf">Who said what stands at a path: a parameter file, or "command line".</param>
         /// <exception cref="ParameterException">A load that has no table, or a file that holds none.</exception>
-        public static void Read(RunParameters values, string source)
+        public static void Read(RunParameters values, Func<string, string> sourceOf)
         {
             if (!(values.LoadTables is JObject tables))
             {
@@ -34,6 +34,7 @@ namespace Guidewire.Io
             tables = (JObject)tables.DeepClone();
             foreach (JProperty property in tables.Properties())
             {
+                string source = sourceOf("loadTables." + property.Name);
                 if (!Loads.TryGetValue(property.Name, out Action<SceneParameters, TimeTable>? set)
                     || property.Value.Type != JTokenType.String)
                 {

@@ -62,6 +62,42 @@ namespace Guidewire.Io
         }
     }
 
+    /// <summary>A real number within bounds, or null for none.</summary>
+    internal sealed class OptionalNumberEntry : ParameterEntry
+    {
+        private readonly Func<RunParameters, double?> _get;
+        private readonly Action<RunParameters, double?> _set;
+        private readonly NumberRange _range;
+
+        public OptionalNumberEntry(string key, string unit, NumberRange range, string help,
+            Func<RunParameters, double?> get, Action<RunParameters, double?> set)
+            : base(key, unit, help)
+        {
+            _range = range;
+            _get = get;
+            _set = set;
+        }
+
+        public override string Allowed => WithUnit("null or a number" + _range.Text);
+
+        public override JToken Write(RunParameters source)
+        {
+            return _get(source) is double number ? new JValue(number) : JValue.CreateNull();
+        }
+
+        internal override bool TryRead(RunParameters target, JToken value)
+        {
+            bool isNull = value.Type == JTokenType.Null;
+            double number = 0.0;
+            if (!isNull && (!NumberEntry.TryNumber(value, out number) || !_range.Contains(number)))
+            {
+                return false;
+            }
+            _set(target, isNull ? (double?)null : number);
+            return true;
+        }
+    }
+
     /// <summary>A whole number within bounds.</summary>
     internal sealed class IntegerEntry : ParameterEntry
     {

@@ -124,6 +124,16 @@ namespace Guidewire.Io
         /// <summary>Takes over a value; false where the value is not allowed.</summary>
         internal abstract bool TryRead(RunParameters target, JToken value);
 
+        /// <summary>The fields of an object that it holds; empty where a reader of its own knows them.</summary>
+        internal virtual IReadOnlyList<string> Fields => Array.Empty<string>();
+
+        /// <summary>What a field of an object that it holds allows; null where there is no such field, or a reader of
+        /// its own knows.</summary>
+        internal virtual string? AllowedOf(string field)
+        {
+            return null;
+        }
+
         /// <summary>The word that stands today for a word of older files; null where the value is none.</summary>
         internal virtual string? NewerWord(JToken value)
         {

@@ -21,16 +21,15 @@ namespace Guidewire.Io
             ("SteadyState", "drive"),
         };
 
-        private readonly Dictionary<string, (JToken Value, string Source)> _given =
-            new Dictionary<string, (JToken, string)>();
+        private readonly GivenParameters _given = new GivenParameters();
 
         private readonly List<string> _warnings = new List<string>();
 
         private readonly List<string> _ignored = new List<string>();
 
-        private (string Key, string Source)? _unknown;
-
         private bool _isSteered;
+
+        private string? _file;
 
         private ParameterHandler()
         {
@@ -58,12 +57,12 @@ namespace Guidewire.Io
         public static ParameterHandler Load(string? file, IEnumerable<KeyValuePair<string, JToken>> overrides,
             bool isSteered = false)
         {
-            var handler = new ParameterHandler { _isSteered = isSteered };
+            var handler = new ParameterHandler { _isSteered = isSteered, _file = file };
             if (file != null)
             {
                 foreach (JProperty property in JsonText.ReadObject(file).Properties())
                 {
-                    handler.Take(property.Name, property.Value, file);
+                    handler._given.Take(property.Name, property.Value, file);
                 }
             }
             foreach (KeyValuePair<string, JToken> pair in overrides)
@@ -72,14 +71,15 @@ namespace Guidewire.Io
                 {
                     // What the command line says in one word replaces what the file says in the other.
                     string? twin = pair.Key == older ? newer : pair.Key == newer ? older : null;
-                    if (twin != null && handler._given.TryGetValue(twin, out var other) && other.Source == file)
+                    if (twin != null && handler._given.TryGet(twin, out var other) && other.Source == file)
                     {
                         handler._given.Remove(twin);
                     }
                 }
-                handler.Take(pair.Key, pair.Value, CommandLineHandler.Source);
+                handler._given.Take(pair.Key, pair.Value, CommandLineHandler.Source);
+                WireStiffness.Replace(handler._given, pair.Key, file);
             }
-            handler.RefuseUnknown();
+            handler._given.RefuseUnknown();
             handler.Apply();
             return handler;
         }
@@ -96,16 +96,6 @@ namespace Guidewire.Io
             return json;
         }
 
-        private void Take(string key, JToken value, string source)
-        {
-            if (ParameterTable.Find(key) == null)
-            {
-                _unknown ??= (key, source);
-                return;
-            }
-            _given[key] = (value, source);
-        }
-
         /// <summary>The solver that a value of its key names.</summary>
         internal static bool TrySolver(JToken? value, out Solver solver)
         {
@@ -113,18 +103,6 @@ namespace Guidewire.Io
             bool isKnown = value != null && ParameterTable.Find(ParameterTable.SolverKey)!.TryRead(read, value);
             solver = read.Simulation.Method.Solver;
             return isKnown;
-        }
-
-        // Only when all is read is it known which keys the run's solver takes.
-        private void RefuseUnknown()
-        {
-            if (_unknown is (string key, string source))
-            {
-                _given.TryGetValue(ParameterTable.SolverKey, out var given);
-                TrySolver(given.Value, out Solver solver);
-                throw new ParameterException(source + ": unknown key '" + key + "': "
-                    + KeyHint.Of(key, "", solver, "--keys lists what is allowed"));
-            }
         }
 
         private Solver Method => Values.Simulation.Method.Solver;
@@ -144,6 +122,7 @@ namespace Guidewire.Io
         {
             ApplyKey(ParameterTable.SolverKey);
             Values = new RunParameters(Method);
+            _given.LayParts(Values);
             PassOver();
             foreach ((string older, string _) in Twins)
             {
@@ -161,8 +140,9 @@ namespace Guidewire.Io
                 CheckTwins(older, newer);
             }
             SimulationParameters simulation = Values.Simulation;
-            if (_given.ContainsKey("SteadyState") && simulation.Drive.Kind == Drive.Displace
-                && !_given.ContainsKey("displacementPerStep"))
+            WireStiffness.Apply(Values, _given);
+            if (_given.Has("SteadyState") && simulation.Drive.Kind == Drive.Displace
+                && !_given.Has("displacementPerStep"))
             {
                 simulation.Drive.DisplacementPerStep = simulation.Drive.Displacement;
             }
@@ -173,12 +153,12 @@ namespace Guidewire.Io
             }
             if (Values.StartFile.Length > 0)
             {
-                Values.StartFile = NamedFile.Find(Values.StartFile, _given["startFile"].Source);
+                Values.StartFile = NamedFile.Find(Values.StartFile, _given.SourceOf("startFile"));
                 simulation.Scene.Start = ReadStart(ElementLayout.Count(simulation));
             }
-            LoadTableReader.Read(Values, _given.TryGetValue("loadTables", out var tables) ? tables.Source : "");
-            DriveTableReader.Read(Values, _given.TryGetValue("driveFile", out var drive) ? drive.Source : "");
-            SheathReader.Read(Values, _given.TryGetValue("sheath", out var sheath) ? sheath.Source : "");
+            LoadTableReader.Read(Values, _given.SourceOf);
+            DriveTableReader.Read(Values, _given.SourceOf("driveFile"));
+            SheathReader.Read(Values, _given.SourceOf);
             if (_isSteered && Values.Sheath != null)
             {
                 simulation.Drive.Steering = new Steering(); // the drive asks for nothing then, and so not for too much
@@ -193,7 +173,7 @@ namespace Guidewire.Io
         {
             foreach (ParameterEntry entry in ParameterTable.Entries)
             {
-                if (entry.IsTakenBy(Method) || !_given.TryGetValue(entry.Key, out var given))
+                if (entry.IsTakenBy(Method) || !_given.TryGet(entry.Key, out var given))
                 {
                     continue;
                 }
@@ -228,17 +208,16 @@ namespace Guidewire.Io
 
         private ParameterException Refused(string key, string needed)
         {
-            return _given.TryGetValue(key, out var given)
+            return _given.TryGet(key, out var given)
                 ? new ParameterException(given.Source, key, given.Value.ToString(Formatting.None), needed)
-                : new ParameterException("defaults: " + key + " needs " + needed);
+                : new ParameterException((_file ?? "defaults") + ": " + key + " needs " + needed);
         }
 
         private void ReadWalls(SimulationParameters simulation)
         {
-            string vessel = _given.TryGetValue("vessel", out var named) ? named.Source : "";
-            string obstacles = _given.TryGetValue("obstacles", out var given) ? given.Source : "";
-            simulation.Scene.Walls = WallReader.Read(Values, vessel, obstacles, _warnings);
-            if (simulation.Scene.Walls.Length > 0 && !_given.ContainsKey("integrator"))
+            string vessel = _given.SourceOf("vessel");
+            simulation.Scene.Walls = WallReader.Read(Values, _given.SourceOf, _warnings);
+            if (simulation.Scene.Walls.Length > 0 && !_given.Has("integrator"))
             {
                 simulation.Method.Integrator = MethodTable.Of(Method).IntegratorBetweenWalls
                     ?? simulation.Method.Integrator;
@@ -251,8 +230,8 @@ namespace Guidewire.Io
             string? complaint = Simulation.FindProblemOfStart(simulation);
             if (complaint != null)
             {
-                string source = Values.Sheath != null ? _given["sheath"].Source
-                    : vessel.Length > 0 ? vessel : obstacles;
+                string source = _given.SourceOf(
+                    Values.Sheath != null ? "sheath" : vessel.Length > 0 ? "vessel" : "obstacles");
                 throw new ParameterException(source + ": " + complaint);
             }
             string? sizes = WireStart.FindOddSizes(simulation);
@@ -280,13 +259,13 @@ namespace Guidewire.Io
             }
             catch (ParameterException error)
             {
-                throw new ParameterException(_given["startFile"].Source + ": startFile: " + error.Message);
+                throw new ParameterException(_given.SourceOf("startFile") + ": startFile: " + error.Message);
             }
         }
 
         private void ApplyKey(string key)
         {
-            if (!_given.TryGetValue(key, out (JToken Value, string Source) given))
+            if (!_given.TryGet(key, out (JToken Value, string Source) given))
             {
                 return;
             }
@@ -299,7 +278,7 @@ namespace Guidewire.Io
 
         private void CheckTwins(string older, string newer)
         {
-            if (_given.TryGetValue(older, out var old) && _given.TryGetValue(newer, out var given)
+            if (_given.TryGet(older, out var old) && _given.TryGet(newer, out var given)
                 && !JToken.DeepEquals(ParameterTable.Find(older)!.Write(Values), old.Value))
             {
                 throw new ParameterException(given.Source + ": " + newer + " = " + given.Value.ToString(Formatting.None)
@@ -311,7 +290,7 @@ namespace Guidewire.Io
         {
             foreach (ParameterEntry entry in ParameterTable.Entries)
             {
-                if (_given.TryGetValue(entry.Key, out var given) && entry.NewerWord(given.Value) is string newer)
+                if (_given.TryGet(entry.Key, out var given) && entry.NewerWord(given.Value) is string newer)
                 {
                     AddWarning("{0}: {1} = {2} is an older word and means \"{3}\"", given.Source, entry.Key,
                         given.Value.ToString(Formatting.None), newer);
@@ -320,7 +299,7 @@ namespace Guidewire.Io
             SimulationParameters simulation = Values.Simulation;
             double l = simulation.Scene.GuidewireLength / simulation.Scene.NumberRodElements;
             WarnOfSections(simulation);
-            if (_given.TryGetValue("rodElementLength", out var length) && Math.Abs((double)length.Value - l) > 1e-9 * l)
+            if (_given.TryGet("rodElementLength", out var length) && Math.Abs((double)length.Value - l) > 1e-9 * l)
             {
                 AddWarning("{0}: rodElementLength = {1} is not guidewireLength / numberRodElements = {2}, which counts",
                     length.Source, (double)length.Value, l);

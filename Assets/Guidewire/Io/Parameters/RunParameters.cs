@@ -44,6 +44,15 @@ namespace Guidewire.Io
         /// <summary>File with a start other than the straight wire; empty for none.</summary>
         public string StartFile { get; set; } = "";
 
+        /// <summary>EI of the whole wire in place of its modulus, N m^2; null where the modulus says it.</summary>
+        public double? BendingStiffness { get; set; }
+
+        /// <summary>GJ of the whole wire in place of its modulus, N m^2; null where the modulus says it.</summary>
+        public double? TorsionalStiffness { get; set; }
+
+        /// <summary>rho A of the whole wire in place of its density, kg/m; null where the density says it.</summary>
+        public double? MassPerLength { get; set; }
+
         /// <summary>Where the vessel's origin lies, in units.</summary>
         public Vector3d Position { get; set; }
 

@@ -58,6 +58,16 @@ namespace Guidewire.Io
             }
         }
 
+        internal override IReadOnlyList<string> Fields
+        {
+            get
+            {
+                var names = new List<string> { "from", "to", "numberRodElements", "restCurvature" };
+                names.AddRange(Array.ConvertAll(Numbers, number => number.Key));
+                return names;
+            }
+        }
+
         public override JToken Write(RunParameters source)
         {
             var list = new JArray();
@@ -80,6 +90,22 @@ namespace Guidewire.Io
                 list.Add(item);
             }
             return list;
+        }
+
+        internal override string? AllowedOf(string field)
+        {
+            switch (field)
+            {
+                case "from":
+                case "to":
+                    return "a number >= 0 (units), from < to";
+                case "numberRodElements":
+                    return "a whole number from 1 to 1000000";
+                case "restCurvature":
+                    return "three numbers [x, y, z] (rad/m)";
+                default:
+                    return Array.Find(Numbers, entry => entry.Key == field)?.Allowed;
+            }
         }
 
         internal override bool TryRead(RunParameters target, JToken value)
@@ -171,6 +197,9 @@ namespace Guidewire.Io
             public Action<WireSection, double> Set { get; }
 
             public bool MayBeZero { get; set; }
+
+            public string Allowed =>
+                "a number " + (MayBeZero ? ">= 0" : "> 0") + (Unit.Length > 0 ? " (" + Unit + ")" : "");
         }
     }
 }

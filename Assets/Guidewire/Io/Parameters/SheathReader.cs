@@ -1,3 +1,4 @@
+using System;
 using Guidewire.Core;
 
 namespace Guidewire.Io
@@ -7,15 +8,15 @@ namespace Guidewire.Io
     {
         /// <summary>Sets the sheath of a scene.</summary>
         /// <param name="values">Its parameters.</param>
-        /// <param name="source">The parameter file that names it, or "command line".</param>
+        /// <param name="sourceOf">Who said what stands at a path.</param>
         /// <exception cref="ParameterException">An object that is no sheath.</exception>
-        public static void Read(RunParameters values, string source)
+        public static void Read(RunParameters values, Func<string, string> sourceOf)
         {
             if (values.Sheath == null)
             {
                 return;
             }
-            var fields = new JsonFields(source, "sheath", values.Sheath);
+            var fields = new JsonFields(sourceOf, "sheath", values.Sheath);
             fields.Allow("exit", "direction");
             var sheath = new Sheath();
             if (values.Sheath["exit"] != null)

@@ -147,10 +147,15 @@ namespace Guidewire.Io
             }
         }
 
-        /// <summary>Lets go of the log as it is.</summary>
+        /// <summary>Lets go of the log as it is; of one for which there was no room at all nothing stays.</summary>
         public void Dispose()
         {
             _logger?.Dispose();
+            var log = new FileInfo(Path.Combine(_folder, PartialLogOf(_handler)));
+            if (_lost && log.Exists && log.Length == 0)
+            {
+                log.Delete();
+            }
         }
 
         private static bool IsDisk(Exception error)

@@ -212,7 +212,7 @@ namespace Guidewire.Io
             var changed = new List<KeyValuePair<string, JToken>>(_overrides);
             foreach (KeyValuePair<string, JToken> value in values)
             {
-                changed.RemoveAll(pair => pair.Key == value.Key);
+                changed.RemoveAll(pair => ParameterPath.IsWithin(pair.Key, value.Key));
                 changed.Add(value);
             }
             ParameterHandler handler = ParameterHandler.Load(_file, changed, _hand != null);

@@ -41,6 +41,31 @@ namespace Guidewire.Io
             {
                 Methods = Takers.Material,
             },
+            new OptionalNumberEntry("bendingStiffness", "N m^2", NumberRange.Positive,
+                "EI of the whole wire, which says E in place of youngsModulus; a section of another material or radius"
+                + " has its own",
+                p => p.BendingStiffness, (p, v) => p.BendingStiffness = v)
+            {
+                Methods = Takers.Material,
+            },
+            new OptionalNumberEntry("torsionalStiffness", "N m^2", NumberRange.Positive,
+                "GJ of the whole wire, which says G in place of shearModulus",
+                p => p.TorsionalStiffness, (p, v) => p.TorsionalStiffness = v)
+            {
+                Methods = Takers.Material,
+            },
+            new OptionalNumberEntry("axialStiffness", "N", NumberRange.Positive,
+                "EA of the whole wire, in place of that of E and radius: of a coiled wire; EI stays what it is",
+                p => p.Simulation.Material.AxialStiffness, (p, v) => p.Simulation.Material.AxialStiffness = v)
+            {
+                Methods = Takers.Material,
+            },
+            new OptionalNumberEntry("massPerLength", "kg/m", NumberRange.Positive,
+                "rho A of the whole wire, which says rho in place of density",
+                p => p.MassPerLength, (p, v) => p.MassPerLength = v)
+            {
+                Methods = Takers.Material,
+            },
             new VectorEntry("restCurvature", "rad/m", true, "curvature about d1 and d2 and twist about d3 at rest",
                 p => p.Simulation.Material.RestCurvature, (p, v) => p.Simulation.Material.RestCurvature = v)
             {

@@ -1,0 +1,158 @@
+using System.Collections.Generic;
+using System.Linq;
+using Guidewire.Core;
+using Newtonsoft.Json;
+using Newtonsoft.Json.Linq;
+
+namespace Guidewire.Io
+{
+    /// <summary>What a file and overrides say: values by key, parts of such values, and who said it.</summary>
+    internal sealed class GivenParameters
+    {
+        private readonly Dictionary<string, (JToken Value, string Source)> _wholes =
+            new Dictionary<string, (JToken, string)>();
+
+        private List<(ParameterPath Path, JToken Value, string Source)> _parts =
+            new List<(ParameterPath, JToken, string)>();
+
+        private (string Key, string Source)? _unknown;
+
+        /// <summary>Takes what is said of a key or of a part of one; the later word counts. A key that is not known is
+        /// kept for <see cref="RefuseUnknown"/>.</summary>
+        public void Take(string text, JToken value, string source)
+        {
+            ParameterPath? path = ParameterPath.Parse(text);
+            if (path == null || ParameterTable.Find(path.Key) == null)
+            {
+                _unknown ??= (text, source);
+                return;
+            }
+            if (path.Depth == 0)
+            {
+                _wholes[text] = (value, source);
+            }
+            else
+            {
+                _parts.Add((path, value, source));
+            }
+        }
+
+        /// <summary>To be called when all is taken: only then is it known which keys the run's solver takes.</summary>
+        /// <exception cref="ParameterException">There was a key that is not known.</exception>
+        public void RefuseUnknown()
+        {
+            if (_unknown is (string key, string source))
+            {
+                _wholes.TryGetValue(ParameterTable.SolverKey, out var given);
+                ParameterHandler.TrySolver(given.Value, out Solver solver);
+                throw new ParameterException(source + ": unknown key '" + key + "': "
+                    + KeyHint.Of(key, "", solver, "--keys lists what is allowed"));
+            }
+        }
+
+        /// <summary>What is said of a key, and who said it; false where nobody did.</summary>
+        public bool TryGet(string key, out (JToken Value, string Source) given)
+        {
+            return _wholes.TryGetValue(key, out given);
+        }
+
+        /// <summary>Whether something is said of a key.</summary>
+        public bool Has(string key)
+        {
+            return _wholes.ContainsKey(key);
+        }
+
+        /// <summary>Takes back what is said of a key.</summary>
+        public void Remove(string key)
+        {
+            _wholes.Remove(key);
+        }
+
+        /// <summary>Who said what stands at a path, or a part of it; nobody: an empty text.</summary>
+        public string SourceOf(string path)
+        {
+            for (int k = _parts.Count - 1; k >= 0; k--)
+            {
+                string part = _parts[k].Path.Text;
+                if (ParameterPath.IsWithin(path, part) || ParameterPath.IsWithin(part, path))
+                {
+                    return _parts[k].Source;
+                }
+            }
+            string key = ParameterPath.Parse(path)?.Key ?? path;
+            return _wholes.TryGetValue(key, out (JToken Value, string Source) given) ? given.Source : "";
+        }
+
+        /// <summary>Lays the parts over the values that they are of, those that hold others first: a part counts over
+        /// its whole, wherever the two stand. A value that nobody gave is the default.</summary>
+        /// <param name="defaults">The method's.</param>
+        /// <exception cref="ParameterException">A part that is not there, that the method does not take, or whose value
+        /// is not allowed.</exception>
+        public void LayParts(RunParameters defaults)
+        {
+            // A stable order: of two words on the same part the later counts.
+            _parts = _parts.OrderBy(part => part.Path.Depth).ToList();
+            var laid = new HashSet<string>();
+            foreach ((ParameterPath path, JToken _, string source) in _parts)
+            {
+                if (laid.Add(path.Key))
+                {
+                    LayParts(ParameterTable.Find(path.Key)!, defaults, source);
+                }
+            }
+        }
+
+        private void LayParts(ParameterEntry entry, RunParameters defaults, string source)
+        {
+            JToken whole = (_wholes.TryGetValue(entry.Key, out (JToken Value, string Source) given) ? given.Value
+                : entry.Write(defaults)).DeepClone();
+            JToken before = whole.DeepClone();
+            foreach ((ParameterPath path, JToken value, string own) in _parts)
+            {
+                if (path.Key == entry.Key)
+                {
+                    if (!entry.IsTakenBy(defaults.Simulation.Method.Solver))
+                    {
+                        throw new ParameterException(own, path.Text, value.ToString(Formatting.None),
+                            "solver " + entry.MethodWords);
+                    }
+                    whole = Lay(path, whole, value, own);
+                }
+            }
+            var scratch = new RunParameters(defaults.Simulation.Method.Solver);
+            if (!entry.TryRead(scratch, whole) && entry.TryRead(scratch, before))
+            {
+                throw Refused(entry, before, scratch);
+            }
+            _wholes[entry.Key] = (whole, given.Source ?? source);
+        }
+
+        // The part that is not allowed by itself, or the last one.
+        private ParameterException Refused(ParameterEntry entry, JToken before, RunParameters scratch)
+        {
+            List<(ParameterPath Path, JToken Value, string Source)> own =
+                _parts.FindAll(part => part.Path.Key == entry.Key);
+            int wrong = own.FindIndex(part => !entry.TryRead(scratch, part.Path.Lay(before.DeepClone(), part.Value)));
+            (ParameterPath path, JToken value, string source) = own[wrong < 0 ? own.Count - 1 : wrong];
+            if (path.Field.Length > 0 && entry.Fields.Count > 0 && entry.AllowedOf(path.Field) == null)
+            {
+                return new ParameterException(source + ": unknown key '" + path.Text + "': allowed are "
+                    + string.Join(", ", entry.Fields));
+            }
+            return new ParameterException(source, path.Text, value.ToString(Formatting.None),
+                entry.AllowedOf(path.Field) ?? entry.Allowed);
+        }
+
+        private static JToken Lay(ParameterPath path, JToken whole, JToken value, string source)
+        {
+            try
+            {
+                return path.Lay(whole, value);
+            }
+            catch (ParameterException error)
+            {
+                throw new ParameterException(source + ": " + error.Message);
+            }
+        }
+    }
+}
