@@ -31,6 +31,8 @@ def draw(seed: int, method: str, folder: Path) -> tuple[str, dict[str, Any]]:
     outside = spacing * count
     straight = spacing * (_ELEMENTS_IN_VESSEL + 2.5) if method == "sheath" else outside + 4.0 * ball
     vessel = pushes.KINDS[kind](random, ball, straight)
+    if kind == "slope":  # no nearer to the tip than the wire is thick
+        vessel.wall["point"][2] *= max(1.0, 1.2 * ball / _height(vessel.wall))
     way = float(np.linalg.norm(np.diff(vessel.way, axis=0), axis=1).sum())
     per_step = _between(random, 0.02, 2.0) * radius
     stiffness = _between(random, 3e9, 1e11)
@@ -75,6 +77,11 @@ def radii_of(scene: dict[str, Any]) -> np.ndarray:
     for section in scene["wireSections"]:
         radii += [section.get("wireRadius", scene["wireRadius"])] * section["numberRodElements"]
     return 1e3 * np.array(radii)
+
+
+def _height(plane: dict[str, Any]) -> float:
+    """Distance of the origin from a plane, units."""
+    return float(-np.array(plane["point"]) @ plane["normal"] / np.linalg.norm(plane["normal"]))
 
 
 def _between(random, low: float, high: float) -> float:
