@@ -14,7 +14,7 @@ namespace Guidewire.Core
         private const int MostPlaces = 10_000;
         private const int LeastPlaces = 2_000;
         private const int MostShrinks = 30;
-        private const double Larger = 1.001;
+        private const double Converged = 2e-3;    // of a ball's radius squared
         private const double Least = 1e-6;    // of the mesh's size, for a radius
 
         /// <summary>The smallest radius above the one given, units; infinite where there is none.</summary>
@@ -43,9 +43,9 @@ namespace Guidewire.Core
                 covered %= cell;
                 for (int k = 0; k < rows * rows; k++)
                 {
-                    double start = Math.Min(size, Larger * narrowest);
+                    double start = Math.Min(size, narrowest);
                     double radius = Ball(mesh, t, PlaceOn(mesh, t, k, rows), start, out Vector3d centre);
-                    if (radius < Math.Min(start, narrowest))
+                    if (radius < start)
                     {
                         narrowest = Math.Min(narrowest, walk.From(centre, start));
                     }
@@ -85,7 +85,7 @@ namespace Guidewire.Core
                 int nearest = mesh.Tree.Nearest(
                     centre, centre, radius, hint, out double squared, out _, out Vector3d q, out _);
                 double towards = 2.0 * Vector3d.Dot(n, q - p);
-                if (nearest < 0 || squared >= (1.0 - 1e-6) * radius * radius || !(towards > 0.0))
+                if (nearest < 0 || squared >= (1.0 - Converged) * radius * radius || !(towards > 0.0))
                 {
                     return radius;
                 }
