@@ -122,6 +122,20 @@ class MeshSearch:
         return result
 
 
+def crosses_itself(vertices: np.ndarray, faces: np.ndarray) -> bool:
+    """Whether an edge of a mesh, vertices (v, 3) and faces (t, 3), goes through a face that has neither of its ends."""
+    edges = np.unique(np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1), axis=0)
+    search = MeshSearch(vertices[faces])
+    for block in _blocks(len(edges), 4000):
+        ends = edges[block]
+        edge, face = search._near_segments(vertices[ends[:, 0]], vertices[ends[:, 1]], 0.0)
+        apart = ~(faces[face][:, None, :] == ends[edge][:, :, None]).any(axis=(1, 2))
+        p, q = vertices[ends[edge[apart]]].transpose(1, 0, 2)
+        if _goes_through(p, q, vertices[faces[face[apart]]]).any():
+            return True
+    return False
+
+
 def _turned(search: MeshSearch) -> tuple[MeshSearch, np.ndarray]:
     """The same triangles turned by an odd rotation, so that no ray meets an edge of a regular mesh; and the turn."""
     if not hasattr(search, "turned"):

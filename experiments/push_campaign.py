@@ -1,18 +1,21 @@
 """A campaign of random pushes: each is run, and its log judged by a search of its own.
 
-``python3 -m experiments.push_campaign --runs 1000 --keep DIR`` prints one line for each run that breaks a claim, and
-keeps its scene there.
+``python3 -m experiments.push_campaign --method direct --runs 300 --keep DIR`` prints one line for each run that breaks
+a claim, and keeps its scene there; METHOD is pbd (`pushes`) or one of `material_pushes`. Meshes that cross themselves
+have no inside: a seed that draws one is passed over and does not count as a run.
 """
 
 from __future__ import annotations
 
 import argparse
+import itertools
 import json
 import shutil
 import sys
 import tempfile
 import threading
 import time
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,16 +23,19 @@ from typing import Any
 
 import numpy as np
 
+from analysis import material_claims, push_claims
 from analysis.logs import read_log
-from analysis.push_claims import Walls, judge
+from analysis.push_claims import Walls
 from analysis.surfaces import read_obj
-from experiments import building, pushes
+from analysis.wall_search import crosses_itself
+from experiments import building, material_pushes, pushes
 from experiments.runner import Request, Runner
 
 RUN_LIMIT = 60.0  # s of wall time of one run
 # What gains and walls may do to a wire and its drive; whether they did is judged from the log.
 OF_ENDS = ("points of the wire passed a wall", "a wall reached", "the wire is ", "the drive fell short: ")
-CODES = {"finished": 0, "diverged": 4}  # a wire that jams may be lost, for which it says so
+# A wire that jams may be lost, or its step have no solution, for which it says so.
+CODES = {"finished": 0, "diverged": 4, "failed": 5}
 
 
 @dataclass(frozen=True)
@@ -41,12 +47,16 @@ class Push:
     seed, kind : which it was.
     claims : what it broke, one line each.
     seconds : wall time of the run.
+    outcome : how it ended; None where it did not.
+    reason : its reason.
     """
 
     seed: int
     kind: str
     claims: list[str]
     seconds: float
+    outcome: str | None = None
+    reason: str = ""
 
 
 def triangles_of(scene: dict[str, Any]) -> np.ndarray:
@@ -61,9 +71,22 @@ def triangles_of(scene: dict[str, Any]) -> np.ndarray:
     return vertices[mesh.triangles]
 
 
-def make(runner: Runner, seed: int, folder: Path) -> Push:
-    """Draw, run and judge one push; its files are left in the folder."""
-    kind, path = pushes.write(seed, folder)
+def write(seed: int, method: str, folder: Path) -> tuple[str, Path]:
+    """Draw a push of a method and write its parameter file; returns the kind of its vessel and the file."""
+    drawn = pushes.draw(seed, folder) if method == "pbd" else material_pushes.draw(seed, method, folder)
+    path = folder / f"push-{seed}.json"
+    path.write_text(json.dumps(drawn[1], indent=1))
+    return drawn[0], path
+
+
+def make(runner: Runner, seed: int, method: str, folder: Path) -> Push | None:
+    """Draw, run and judge one push; its files are left in the folder. None where its mesh crosses itself."""
+    kind, path = write(seed, method, folder)
+    scene = json.loads(path.read_text())
+    if method != "pbd" and scene["vessel"]["shape"] == "mesh":
+        mesh = read_obj(Path(scene["vessel"]["file"]))
+        if crosses_itself(mesh.vertices, mesh.triangles):
+            return None
     out = folder / f"run-{seed}"
     watchdog = threading.Timer(RUN_LIMIT, runner.interrupt)
     watchdog.start()
@@ -73,52 +96,64 @@ def make(runner: Runner, seed: int, folder: Path) -> Push:
     watchdog.cancel()
     if CODES.get(answer.outcome) != answer.exit_code:
         slow = f"took more than {RUN_LIMIT} s: " if seconds >= RUN_LIMIT else ""
-        return Push(seed, kind, [f"{slow}{answer.outcome}: {answer.message}"], seconds)
-    scene, summary = json.loads(path.read_text()), json.loads((out / "summary.json").read_text())
+        return Push(seed, kind, [f"{slow}{answer.outcome}: {answer.message}"], seconds, answer.outcome)
+    summary = json.loads((out / "summary.json").read_text())
     positions = read_log(out, spheres="all").positions
-    claims = judge(scene, summary, positions, Walls.of(scene, triangles_of(scene), pushes.rotation_of))
+    walls = Walls.of(scene, triangles_of(scene), pushes.rotation_of)
+    if method == "pbd":
+        claims = push_claims.judge(scene, summary, positions, walls)
+    else:
+        claims = material_claims.judge(scene, summary, positions, material_pushes.radii_of(scene), walls)
     claims += [f"warning: {warning}" for warning in summary["warnings"]
                if not any(words in warning for words in OF_ENDS)]
-    return Push(seed, kind, claims, seconds)
+    return Push(seed, kind, claims, seconds, answer.outcome, summary["reason"])
 
 
-def campaign(command: Sequence[str], seeds: Iterable[int], folder: Path) -> Iterator[Push]:
+def campaign(command: Sequence[str], seeds: Iterable[int], folder: Path, method: str = "pbd") -> Iterator[Push]:
     """The pushes of these seeds, one after another in one process; files of those that break nothing are removed."""
     runner = Runner(command)
     try:
         for seed in seeds:
-            push = make(runner, seed, folder)
-            if push.seconds >= RUN_LIMIT:
+            push = make(runner, seed, method, folder)
+            if push and push.seconds >= RUN_LIMIT:
                 runner.close()
                 runner = Runner(command)
             shutil.rmtree(folder / f"run-{seed}", ignore_errors=True)
-            if not push.claims:
+            if not push or not push.claims:
                 for path in folder.glob(f"push-{seed}.*"):
                     path.unlink()
-            yield push
+            if push:
+                yield push
     finally:
         runner.close()
 
 
 def main(arguments: Sequence[str]) -> int:
     parser = argparse.ArgumentParser(prog="python3 -m experiments.push_campaign", description=__doc__.split("\n")[0])
+    parser.add_argument("--method", choices=("pbd", *material_pushes.METHODS), default="pbd",
+                        help="of the runs (default pbd)")
     parser.add_argument("--runs", type=int, default=100, help="how many (default 100)")
     parser.add_argument("--first", type=int, default=0, help="the first seed (default 0)")
     parser.add_argument("--keep", type=Path, help="folder for the scenes of runs that break a claim")
     given = parser.parse_args(arguments)
-    failed = 0
+    broken = 0
     slowest = 0.0
+    outcomes: Counter[str] = Counter()
     with tempfile.TemporaryDirectory() as scratch:
         folder = given.keep or Path(scratch)
         folder.mkdir(parents=True, exist_ok=True)
-        for push in campaign(building.build(building.RUNNER, print), range(given.first, given.first + given.runs),
-                             folder):
+        runs = campaign(building.build(building.RUNNER, print), itertools.count(given.first), folder, given.method)
+        for push in itertools.islice(runs, given.runs):
             slowest = max(slowest, push.seconds)
-            failed += bool(push.claims)
+            broken += bool(push.claims)
+            outcomes[str(push.outcome)] += 1
             if push.claims:
                 print(f"{push.seed} {push.kind}: {'; '.join(push.claims)}", flush=True)
-    print(f"{given.runs} runs, {failed} break a claim, slowest {slowest:.1f} s")
-    return 1 if failed else 0
+            elif push.outcome != "finished":
+                print(f"{push.seed} {push.kind} {push.outcome}: {push.reason}", flush=True)
+    ends = ", ".join(f"{count} {outcome}" for outcome, count in sorted(outcomes.items()))
+    print(f"{given.runs} runs ({ends}), {broken} break a claim, slowest {slowest:.1f} s")
+    return 1 if broken else 0
 
 
 if __name__ == "__main__":

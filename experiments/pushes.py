@@ -8,7 +8,6 @@ a wire that is outside has passed a wall. ``python3 -m experiments.pushes --help
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -234,37 +233,38 @@ def draw(seed: int, folder: Path) -> tuple[str, dict[str, Any]]:
         "timeStep": 0.01, "totalMass": 0.01, "vessel": dict(vessel.wall),
     }
     if random.uniform() < 0.5:
-        scene["gravity"] = (float(10.0 ** random.uniform(1.0, 4.0)) * _direction(random)).tolist()
+        scene["gravity"] = (float(10.0 ** random.uniform(1.0, 4.0)) * direction(random)).tolist()
     if random.uniform() < 0.3:
         scene["twistPerStep"] = random.uniform(-0.5, 0.5)
     if random.uniform() < 0.5:
-        scene["obstacles"] = [_obstacle(random, vessel, radius) for _ in range(random.integers(1, 4))]
+        scene["obstacles"] = [obstacle(random, vessel, radius) for _ in range(random.integers(1, 4))]
     if len(vessel.faces):
-        _write_mesh(random, scene, vessel, folder / f"push-{seed}.obj")
+        write_mesh(random, scene, vessel, folder / f"push-{seed}.obj")
     if rule != "seed" and random.uniform() < 0.3:
         for wall in (scene["vessel"], *scene.get("obstacles", [])):
             wall["frictionCoefficient"] = random.uniform(0.05, 0.8)
     return kind, scene
 
 
-def _direction(random) -> np.ndarray:
-    direction = random.normal(size=3)
-    return direction / np.linalg.norm(direction)
+def direction(random) -> np.ndarray:
+    """A random unit vector, shape (3,)."""
+    vector = random.normal(size=3)
+    return vector / np.linalg.norm(vector)
 
 
-def _obstacle(random, vessel: Vessel, radius: float) -> dict[str, Any]:
+def obstacle(random, vessel: Vessel, radius: float) -> dict[str, Any]:
     """A ball, capsule or box beside the middle of the lumen, some way ahead of the wire."""
     size = random.uniform(0.2, 0.6) * vessel.width
     ahead = vessel.way[vessel.way[:, 2] > 2.0 * (radius + size)]
     place = ahead[random.integers(len(ahead))] if len(ahead) else np.array([0.0, 0.0, 4.0 * (radius + size)])
-    side = _direction(random) * [1.0, 1.0, 0.0]
+    side = direction(random) * [1.0, 1.0, 0.0]
     centre = place + random.uniform(0.4, 1.2) * vessel.width * side
     shape = str(random.choice(["sphere", "capsule", "box"]))
     if shape == "box":
         return {"shape": shape, "centre": centre.tolist(), "halfSize": (random.uniform(0.3, 1.0, 3) * size).tolist(),
                 "rotation": random.uniform(-90.0, 90.0, 3).tolist()}
     if shape == "capsule":
-        along = size * np.cross(_direction(random), [0.0, 0.0, 1.0])
+        along = size * np.cross(direction(random), [0.0, 0.0, 1.0])
         return {"shape": shape, "from": (centre - along).tolist(), "to": (centre + along).tolist(),
                 "radius": 0.5 * size}
     return {"shape": shape, "centre": centre.tolist(), "radius": size}
@@ -279,7 +279,7 @@ def rotation_of(degrees: np.ndarray) -> np.ndarray:
     return about_y @ about_x @ about_z
 
 
-def _write_mesh(random, scene: dict[str, Any], vessel: Vessel, file: Path) -> None:
+def write_mesh(random, scene: dict[str, Any], vessel: Vessel, file: Path) -> None:
     """The mesh as it stands, or in a quarter of the scenes placed, turned and stretched back into its place."""
     vertices = vessel.vertices
     if random.uniform() < 0.25:
@@ -290,11 +290,3 @@ def _write_mesh(random, scene: dict[str, Any], vessel: Vessel, file: Path) -> No
     scene["vessel"]["file"] = str(file)
     file.write_text("".join(f"v {x:.17g} {y:.17g} {z:.17g}\n" for x, y, z in vertices)
                     + "".join(f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in vessel.faces))
-
-
-def write(seed: int, folder: Path) -> tuple[str, Path]:
-    """Draw a push and write its parameter file; returns the kind of its vessel and the file."""
-    kind, scene = draw(seed, folder)
-    path = folder / f"push-{seed}.json"
-    path.write_text(json.dumps(scene, indent=1))
-    return kind, path

@@ -15,21 +15,31 @@ namespace Guidewire.Core
         private const double Ample = 4.0;            // radii, from which on nothing is centred
         private const int MostPlaces = 4000;
         private readonly ContactShape _wall;
+        private readonly LumenBall _ball;
         private readonly double _radius;
 
         /// <summary>The lumen of a vessel, for a wire of this radius.</summary>
         public LumenWidth(ContactShape wall, double radius)
         {
             _wall = wall;
+            _ball = new LumenBall(wall);
             _radius = radius;
         }
 
         /// <summary>The widest ball at the wire's first narrow place, where that is narrower than the wire; else at its
         /// tip.</summary>
-        public double Width { get; private set; } = double.PositiveInfinity;
+        public double Width
+        {
+            get => _ball.Width;
+            private set => _ball.Width = value;
+        }
 
         /// <summary>Centre of that ball.</summary>
-        public Vector3d Place { get; private set; }
+        public Vector3d Place
+        {
+            get => _ball.Place;
+            private set => _ball.Place = value;
+        }
 
         /// <summary>True where the lumen is narrower than the wire at the wire itself, or before it as far as it is
         /// pushed. A lumen that ends there does not count: a wire stops at a vessel's end.</summary>
@@ -100,39 +110,9 @@ namespace Guidewire.Core
             return false;
         }
 
-        // Climbs from x to the middle of the lumen across a direction, or to where the ball is large enough: eight ways
-        // by turns, the step halved where none leads up. No step leaves the ball, and so the lumen.
         private void Measure(in Vector3d x, in Vector3d along, double enough)
         {
-            Vector3d u = Vector3d.Perpendicular(along);
-            Vector3d v = Vector3d.Cross(along, u);
-            Place = x;
-            Width = DistanceAt(x);
-            double step = 0.5 * Width;
-            while (step > Fineness * _radius && Width < enough)
-            {
-                Vector3d start = Place;
-                double width = Width;
-                for (int k = 0; k < 8; k++)
-                {
-                    double angle = 0.25 * Math.PI * k;
-                    Vector3d other = start + step * (Math.Cos(angle) * u + Math.Sin(angle) * v);
-                    double distance = DistanceAt(other);
-                    if (distance > Width)
-                    {
-                        Width = distance;
-                        Place = other;
-                    }
-                }
-                step = Width > width ? Math.Max(step, 0.5 * width) : 0.5 * step;
-            }
-        }
-
-        private double DistanceAt(in Vector3d x)
-        {
-            int hint = -1;
-            _wall.Nearest(x, x, double.PositiveInfinity, ref hint, out SurfaceContact contact);
-            return contact.Distance;
+            _ball.Climb(x, along, Fineness * _radius, enough);
         }
 
         private bool IsTooNarrow(TubeShape tube, Vector3d[] wire, double way)

@@ -163,7 +163,7 @@ namespace Guidewire.Core
         {
             if (_narrowest is null || _narrowest.Value.Above != above)
             {
-                _narrowest = (above, MeshWidth.Narrowest(_wall, above));
+                _narrowest = (above, MeshWidth.Narrowest(this, _wall, above));
             }
             return _narrowest.Value.Radius;
         }

@@ -2,53 +2,80 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>How narrow the lumen of a mesh is: the smallest of the balls that touch the wall in the middle of a
-    /// triangle, hold no other place of it, and were let grow.</summary>
-    /// <remarks>By the shrinking ball (Ma, Bae and Choi 2012): from a ball that is too large, the nearest place q to
-    /// its centre gives the one through p and q with the same normal, of radius |p - q|^2/(2 n . (q - p)), until no
-    /// place is nearer than p. Where two faces meet in a fold that ball is small, in any lumen: so its centre then goes
-    /// away from what is nearest as long as that gives it room at half of its speed at least, as it does out of a fold,
-    /// and not along a lumen that grows wider slowly. Right to some 2 %.</remarks>
+    /// <summary>How narrow the lumen of a mesh is: at the narrowest of the places to which walks along it
+    /// (<see cref="LumenWalk"/>) come from balls that touch the wall.</summary>
+    /// <remarks>The balls are those of the shrinking ball (Ma, Bae and Choi 2012): from one that is too large, the
+    /// nearest place q to its centre gives the one through p and q with the same normal, of radius
+    /// |p - q|^2/(2 n . (q - p)), until no place is nearer than p. They begin at places p that are spread evenly over
+    /// the wall's area, and those that are no smaller than the narrowest so far are not walked from: so the same
+    /// surface has the same width however it is cut into triangles.</remarks>
     internal static class MeshWidth
     {
-        private const int MostTriangles = 20_000;
+        private const int MostPlaces = 10_000;
+        private const int LeastPlaces = 2_000;
         private const int MostShrinks = 30;
-        private const double Larger = 1.001;
-        private const double LongestMove = 0.25;     // of the radius
-        private const double ShortestMove = 0.01;
-        private const double Shorter = 0.7;
-        private const double LeastGrowth = 0.5;      // by way
-        private const int MostMoves = 60;
+        private const double Converged = 2e-3;    // of a ball's radius squared
+        private const double Least = 1e-6;    // of the mesh's size, for a radius
 
         /// <summary>The smallest radius above the one given, units; infinite where there is none.</summary>
-        public static double Narrowest(MeshGeometry mesh, double above)
+        public static double Narrowest(ContactShape wall, MeshGeometry mesh, double above)
         {
-            int count = mesh.FaceNormals.Length;
-            int stride = 1 + count / MostTriangles;
+            double area = 0.0;
             double size = 0.0;
-            foreach (Vector3d corner in mesh.Corners)
+            for (int t = 0; t < mesh.FaceNormals.Length; t++)
             {
-                size = Math.Max(size, Vector3d.Distance(corner, mesh.Corners[0]));
+                area += Area(mesh, t);
+                size = Math.Max(size, Vector3d.Distance(mesh.Corners[3 * t], mesh.Corners[0]));
             }
+            double least = Math.Max(above, Least * size);
+            double cell = area / Math.Min(Math.Max(area / (2.0 * least * least), LeastPlaces), MostPlaces);
+            var walk = new LumenWalk(wall, least);
             double narrowest = double.PositiveInfinity;
-            for (int t = 0; t < count; t += stride)
+            double covered = 0.5 * cell;
+            for (int t = 0; t < mesh.FaceNormals.Length; t++)
             {
-                // A ball that is no smaller than the smallest so far is not shrunk to the end, nor let grow.
-                double start = Math.Min(size, Larger * narrowest);
-                double radius = Ball(mesh, t, start, out Vector3d centre);
-                if (radius < Math.Min(start, narrowest))
+                covered += Area(mesh, t);
+                if (covered < cell)
                 {
-                    radius = Grown(mesh, centre, radius, narrowest);
-                    narrowest = radius > above ? Math.Min(narrowest, radius) : narrowest;
+                    continue;
+                }
+                int rows = (int)Math.Ceiling(Math.Sqrt(Math.Floor(covered / cell)));
+                covered %= cell;
+                for (int k = 0; k < rows * rows; k++)
+                {
+                    double start = Math.Min(size, narrowest);
+                    double radius = Ball(mesh, t, PlaceOn(mesh, t, k, rows), start, out Vector3d centre);
+                    if (radius < start)
+                    {
+                        narrowest = Math.Min(narrowest, walk.From(centre, start));
+                    }
                 }
             }
             return narrowest;
         }
 
-        private static double Ball(MeshGeometry mesh, int triangle, double start, out Vector3d centre)
+        private static double Area(MeshGeometry mesh, int triangle)
         {
-            Vector3d p = (1.0 / 3.0) * (mesh.Corners[3 * triangle] + mesh.Corners[3 * triangle + 1]
-                + mesh.Corners[3 * triangle + 2]);
+            Vector3d a = mesh.Corners[3 * triangle];
+            return 0.5 * Vector3d.Cross(mesh.Corners[3 * triangle + 1] - a, mesh.Corners[3 * triangle + 2] - a).Length;
+        }
+
+        // The middle of the k-th of rows^2 equal parts of a triangle: in row i 2 i + 1 of them, upright and inverted by
+        // turns.
+        private static Vector3d PlaceOn(MeshGeometry mesh, int triangle, int k, int rows)
+        {
+            int i = (int)Math.Sqrt(k + 0.5);
+            int j = k - i * i;
+            bool isUpright = j % 2 == 0;
+            double u = (i - j / 2 + (isUpright ? 1.0 : -1.0) / 3.0) / rows;
+            double v = (j / 2 + (isUpright ? 1.0 : 2.0) / 3.0) / rows;
+            Vector3d a = mesh.Corners[3 * triangle];
+            return a + u * (mesh.Corners[3 * triangle + 1] - a)
+                + v * (mesh.Corners[3 * triangle + 2] - a);
+        }
+
+        private static double Ball(MeshGeometry mesh, int triangle, in Vector3d p, double start, out Vector3d centre)
+        {
             Vector3d n = mesh.FaceNormals[triangle];
             double radius = start;
             int hint = triangle;
@@ -58,7 +85,7 @@ namespace Guidewire.Core
                 int nearest = mesh.Tree.Nearest(
                     centre, centre, radius, hint, out double squared, out _, out Vector3d q, out _);
                 double towards = 2.0 * Vector3d.Dot(n, q - p);
-                if (nearest < 0 || squared >= (1.0 - 1e-6) * radius * radius || !(towards > 0.0))
+                if (nearest < 0 || squared >= (1.0 - Converged) * radius * radius || !(towards > 0.0))
                 {
                     return radius;
                 }
@@ -67,40 +94,6 @@ namespace Guidewire.Core
                 centre = p + radius * n;
             }
             return radius;
-        }
-
-        // Up to a size from which on it does not matter.
-        private static double Grown(MeshGeometry mesh, in Vector3d start, double radius, double enough)
-        {
-            Vector3d centre = start;
-            double distance = Distance(mesh, centre, out Vector3d away);
-            double move = LongestMove;
-            for (int k = 0; k < MostMoves && move >= ShortestMove && distance < enough; k++)
-            {
-                double way = move * distance;
-                Vector3d moved = centre + way * away;
-                double grown = Distance(mesh, moved, out Vector3d next);
-                if (grown >= distance + LeastGrowth * way)
-                {
-                    centre = moved;
-                    distance = grown;
-                    away = next;
-                }
-                else
-                {
-                    // Away from what is there, too.
-                    away = Vector3d.Normalize(away + next);
-                    move *= Shorter;
-                }
-            }
-            return Math.Max(radius, distance);
-        }
-
-        private static double Distance(MeshGeometry mesh, in Vector3d x, out Vector3d away)
-        {
-            mesh.Tree.Nearest(x, x, double.PositiveInfinity, -1, out double squared, out _, out Vector3d q, out _);
-            away = Vector3d.Normalize(x - q);
-            return Math.Sqrt(squared);
         }
     }
 }

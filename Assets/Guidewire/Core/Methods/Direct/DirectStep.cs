@@ -9,6 +9,7 @@ namespace Guidewire.Core
     {
         // A step in which a disturbance would grow by much (a thrust beyond buckling) may end in any shape.
         private const string Shorter = "; in a motion a shorter timeStep, or a timeStepError, may do";
+        private const string Limit = "; a hubForceLimit lets the hub give way";
 
         private readonly MaterialScene _scene;
         private readonly RodDynamics _dynamics;
@@ -24,6 +25,7 @@ namespace Guidewire.Core
         private readonly WallSteps? _walls;
         private readonly WallWatch? _watch;
         private readonly ElementPushes? _pushes;
+        private readonly JamReport? _jam;
         private readonly RunExtremes _extremes;
         private readonly Joint[] _joints;
         private readonly double[] _jointLengths;
@@ -49,6 +51,7 @@ namespace Guidewire.Core
                 _watch = new WallWatch(scene.Rod, walls, scene.Metres);
                 _walls = new WallSteps(dynamics, scene.Schedule, _watch);
                 _pushes = new ElementPushes(scene.Rod, walls.Barrier);
+                _jam = new JamReport(dynamics.Terms, scene.Metres);
                 if (record != null)
                 {
                     record.WallForces = walls.Barrier.Resultants;
@@ -96,9 +99,15 @@ namespace Guidewire.Core
             string? failure = _walls == null ? _dynamics.Step(_timeStep) : _walls.Step(_timeStep);
             if (failure != null)
             {
-                Failure = "the step to t = " + _dynamics.Time.ToString("G6",
-                    CultureInfo.InvariantCulture) + " s has no solution: "
-                    + (_scene.Joints.FindTurned(_dynamics.Shape, _dynamics.Time) ?? failure) + Remedy;
+                string time = _dynamics.Time.ToString("G6", CultureInfo.InvariantCulture);
+                if (_walls != null)
+                {
+                    // What Newton's method left is no shape of the wire.
+                    _dynamics.Restore();
+                }
+                Failure = "the step to t = " + time + " s has no solution: "
+                    + (_scene.Joints.FindTurned(_dynamics.Shape, _dynamics.Time) ?? failure)
+                    + (_jam == null ? "" : "; " + _jam.Text(_dynamics.Shape)) + Remedy;
                 return false;
             }
             _ends.Count(_dynamics.Shape, HubTurn, _dynamics.DistalTurn, _timeStep);
@@ -159,7 +168,11 @@ namespace Guidewire.Core
             get
             {
                 string? advice = _dynamics.Terms.Walls?.Advice;
-                return advice == null ? Shorter : "; " + advice;
+                if (advice != null || _jam == null || !_jam.IsJammed(_dynamics.Shape))
+                {
+                    return advice == null ? Shorter : "; " + advice;
+                }
+                return _dynamics.Terms.Walls!.Spring.HasLimit ? "" : Limit;
             }
         }
 
@@ -297,9 +310,9 @@ namespace Guidewire.Core
             double most = _scene.Rod.StretchStiffness[0];
             return force <= most ? null : string.Format(CultureInfo.InvariantCulture,
                 "the walls do not let sphere 0 to where the drive has it at t = {0:G6} s, {1:G3} units on: the hub"
-                + " would need {2:G3} N, more than the wire's EA, {3:G3} N; a shorter way (displacementPerStep,"
+                + " would need {2:G3} N, more than the wire's EA, {3:G3} N; {4}; a shorter way (displacementPerStep,"
                 + " insertionSpeed, maxSimulationSteps) may do, or a hubForceLimit", _dynamics.Time,
-                Contacts.DriveShortfall, force, most);
+                Contacts.DriveShortfall, force, most, _jam!.Text(_dynamics.Shape));
         }
 
         private void FollowEnds()

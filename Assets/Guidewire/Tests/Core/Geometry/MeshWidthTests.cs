@@ -47,6 +47,105 @@ namespace Guidewire.Core.Tests
             Assert.That(Width(rough, 0.05), Is.InRange(0.85, 1.0));
         }
 
+        /// <summary>The clearance of a wire of radius 0.25, whose half is what a barrier may reach, is that of the same
+        /// surface however it is cut: by 4, by 16, at points and edges by chance with slivers of 1 in 200.</summary>
+        [TestCase("throat", 0.3)]
+        [TestCase("two throats, the first too narrow", 0.3)]
+        [TestCase("taper", double.PositiveInfinity)]
+        [TestCase("narrow inlet", 0.3)]
+        [TestCase("steps that narrow", double.PositiveInfinity)]
+        public void SameSurface_IsAsNarrow_HoweverItIsCut(string surface, double expected)
+        {
+            TestMeshes tube = TestMeshes.Tube(16, 40, Length, RadiusOf(surface));
+            var widths = new[]
+            {
+                Width(tube, 0.25), Width(Halved(tube), 0.25), Width(Halved(Halved(tube)), 0.25),
+                Width(Shattered(tube, 1), 0.25), Width(Shattered(Halved(tube), 2), 0.25),
+            };
+            // Of a polygon of 16 sides the inscribed radius counts.
+            double radius = expected * Math.Cos(Math.PI / 16);
+            foreach (double width in widths)
+            {
+                Assert.That(width - 0.25, double.IsInfinity(expected) ? Is.GreaterThan(0.2)
+                    : Is.EqualTo(radius - 0.25).Within(0.1 * (radius - 0.25)), string.Join(", ", widths));
+            }
+        }
+
+        private static Func<double, double> RadiusOf(string surface)
+        {
+            switch (surface)
+            {
+                case "throat":
+                    return z => 1.0 - 0.7 * Bell(z - 10.0);
+                case "two throats, the first too narrow":
+                    return z => 1.0 - 0.8 * Bell(z - 5.0) - 0.7 * Bell(z - 14.0);
+                case "taper":
+                    return z => 1.0 - 0.04 * z;
+                case "narrow inlet":
+                    return z => 0.3 + 0.7 / (1.0 + Math.Exp(-2.0 * (z - 8.0)));
+                default:
+                    return z => 1.0 - 0.04 * z + 0.02 * Math.Sin(4.0 * z) * 0.5;
+            }
+        }
+
+        private static double Bell(double z)
+        {
+            return Math.Exp(-z * z);
+        }
+
+        // Each triangle in four.
+        private static TestMeshes Halved(TestMeshes mesh)
+        {
+            Vector3d[] x = mesh.Vertices;
+            int[] old = mesh.Triangles;
+            var cut = new TestMeshes();
+            Array.ForEach(x, vertex => cut.Vertex(vertex));
+            var middles = new System.Collections.Generic.Dictionary<(int, int), int>();
+            int count = x.Length;
+            int Middle(int a, int b)
+            {
+                (int, int) key = (Math.Min(a, b), Math.Max(a, b));
+                if (!middles.TryGetValue(key, out int middle))
+                {
+                    cut.Vertex(0.5 * (x[a] + x[b]));
+                    middles[key] = middle = count++;
+                }
+                return middle;
+            }
+            for (int t = 0; t < old.Length; t += 3)
+            {
+                int ab = Middle(old[t], old[t + 1]);
+                int bc = Middle(old[t + 1], old[t + 2]);
+                int ca = Middle(old[t + 2], old[t]);
+                cut.Triangle(old[t], ab, ca);
+                cut.Triangle(ab, old[t + 1], bc);
+                cut.Triangle(ca, bc, old[t + 2]);
+                cut.Triangle(ab, bc, ca);
+            }
+            return cut;
+        }
+
+        // Each triangle in three at a place by chance, some of them within 1/200 of a side.
+        private static TestMeshes Shattered(TestMeshes mesh, int seed)
+        {
+            Vector3d[] x = mesh.Vertices;
+            int[] old = mesh.Triangles;
+            var random = new RandomGeometry(seed);
+            var cut = new TestMeshes();
+            Array.ForEach(x, vertex => cut.Vertex(vertex));
+            for (int t = 0; t < old.Length; t += 3)
+            {
+                double a = random.Index(4) == 0 ? 0.005 : random.Number(0.1, 0.5);
+                double b = random.Number(0.1, 0.4);
+                cut.Vertex(a * x[old[t]] + b * x[old[t + 1]] + (1.0 - a - b) * x[old[t + 2]]);
+                int middle = x.Length + t / 3;
+                cut.Triangle(old[t], old[t + 1], middle);
+                cut.Triangle(old[t + 1], old[t + 2], middle);
+                cut.Triangle(old[t + 2], old[t], middle);
+            }
+            return cut;
+        }
+
         private static TestMeshes Tube(Func<double, double> radius)
         {
             return TestMeshes.Tube(Around, Rows, Length, radius);

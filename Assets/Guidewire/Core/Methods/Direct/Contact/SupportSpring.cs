@@ -30,6 +30,9 @@ namespace Guidewire.Core
             _limit = hub._limit;
         }
 
+        /// <summary>Whether the hub gives way at a force.</summary>
+        public bool HasLimit => _limit < double.PositiveInfinity;
+
         /// <summary>The hub's axis, a unit vector, along which it gives way.</summary>
         public Vector3d Axis { get; set; }
 

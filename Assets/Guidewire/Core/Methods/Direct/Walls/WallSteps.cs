@@ -4,10 +4,14 @@ namespace Guidewire.Core
 {
     /// <summary>Steps of a wire between walls: a step that moves or turns the proximal end farther than the barriers
     /// reach is made in parts, and a part that has no solution is halved, a bounded number of times.</summary>
+    /// <remarks>A wire that snaps round or out of a bend is far from where it was after however short a part: Newton's
+    /// method then descends a long way, energy falling in every iteration. So the shortest part has
+    /// <see cref="MoreIterations"/> times as many iterations before it counts as one without a solution.</remarks>
     internal sealed class WallSteps
     {
         private const int MostHalvings = 8;
         private const int MostParts = 64;
+        private const int MoreIterations = 10;    // as a rest shape has
         private const double LargestTurn = 0.5;   // radians a part
         private const double SmallExcess = 0.01;  // over the longest part that does not make two of it
 
@@ -69,6 +73,17 @@ namespace Guidewire.Core
             return (int)Math.Min(Math.Max(parts, 1.0), MostParts);
         }
 
+        // With more iterations.
+        private string? StepLong(double h)
+        {
+            BarrierNewton newton = _dynamics.WallSolver!;
+            int most = newton.MostIterations;
+            newton.MostIterations = (int)Math.Min((long)MoreIterations * most, int.MaxValue);
+            string? failure = _dynamics.Step(h);
+            newton.MostIterations = most;
+            return failure;
+        }
+
         private string? StepPart(double length, double dt)
         {
             const int whole = 1 << MostHalvings;
@@ -79,6 +94,11 @@ namespace Guidewire.Core
                 double h = length * size / whole;
                 _dynamics.Save();
                 string? failure = _dynamics.Step(h);
+                if (failure != null && size == 1)
+                {
+                    _dynamics.Restore();
+                    failure = StepLong(h);
+                }
                 if (failure == null)
                 {
                     MeanReaction += (h / dt) * _dynamics.MeanReaction;

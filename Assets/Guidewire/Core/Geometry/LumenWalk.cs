@@ -1,0 +1,201 @@
+using System;
+using System.Collections.Generic;
+
+namespace Guidewire.Core
+{
+    /// <summary>Walks along a lumen, both ways from a place, to where it is narrowest and gets wider again. Lengths in
+    /// units.</summary>
+    /// <remarks>The walk goes by balls that are centred across it (<see cref="LumenBall"/>), along the direction e in
+    /// which the lesser of d(c + h e) and d(c - h e) is largest, d the distance from the wall. It ends where the lumen
+    /// has become wider than its narrowest by <see cref="WideAgain"/>, or where d falls by more than half of the way:
+    /// there is the end of the vessel. What it comes to depends on d alone, not on how the wall is cut into triangles.
+    /// A lumen that narrows to less than a wire, evenly or by steps that are not wide again, holds the wire whatever
+    /// its barriers are, and does not count.</remarks>
+    internal sealed class LumenWalk
+    {
+        private const double StepOverWidth = 0.5;
+        private const double WideAgain = 1.05;
+        private const double EndSlope = 0.5;
+        private const double Fineness = 2e-3;        // of the width, on the way
+        private const double LastFineness = 2e-4;    // at the end of it
+        private const double ShortestStep = 0.02;    // of the width, at the end of a vessel
+        private const double Same = 0.5;             // of the width: places that are one
+        private const double Probe = 0.5;            // h over d
+        private const double LeastTurn = 0.02;       // rad, of e
+        private const int MostSteps = 2000;
+        private const int Thirds = 16;               // of the last bracket
+        private readonly LumenBall _ball;
+        private readonly double _above;
+        private readonly List<(Vector3d Place, double Width)> _walked = new List<(Vector3d, double)>();
+        private double _narrowest;
+        private Vector3d _place;
+        private Vector3d _along;
+
+        /// <summary>Of a wall, to places that are wider than a radius.</summary>
+        public LumenWalk(ContactShape wall, double above)
+        {
+            _ball = new LumenBall(wall);
+            _above = above;
+        }
+
+        /// <summary>The radius where the lumen is narrowest about a place in it; infinite where it has been walked
+        /// before, narrows to what does not count, or is as wide as is enough.</summary>
+        public double From(in Vector3d start, double enough)
+        {
+            double width = _ball.DistanceAt(start);
+            if (!(width > 0.0) || IsWalked(start, width))
+            {
+                return double.PositiveInfinity;
+            }
+            Vector3d along = Turned(start, width, FirstDirection(start, width));
+            _ball.Climb(start, along, Fineness * width, enough);
+            if (_ball.Width >= enough || IsWalked(_ball.Place, _ball.Width))
+            {
+                return double.PositiveInfinity;
+            }
+            Vector3d centre = _ball.Place;
+            double first = _ball.Width;
+            along = Turned(centre, first, along);
+            _walked.Add((centre, first));
+            _narrowest = double.PositiveInfinity;
+            Take(centre, first, along);
+            return first > _above && Walk(centre, first, along) && Walk(centre, first, -along)
+                ? Bottom() : double.PositiveInfinity;
+        }
+
+        private bool IsWalked(in Vector3d x, double width)
+        {
+            foreach ((Vector3d place, double other) in _walked)
+            {
+                double near = Same * Math.Min(width, other);
+                if ((place - x).LengthSquared < near * near)
+                {
+                    return true;
+                }
+            }
+            return false;
+        }
+
+        // False where the lumen becomes too narrow to count.
+        private bool Walk(Vector3d centre, double width, Vector3d along)
+        {
+            double share = StepOverWidth;
+            for (int k = 0; k < MostSteps && share > ShortestStep && width <= WideAgain * _narrowest; k++)
+            {
+                _ball.Climb(centre + share * width * along, along, Fineness * width, 2.0 * WideAgain * width);
+                double way = Vector3d.Distance(centre, _ball.Place);
+                if (width - _ball.Width > EndSlope * way || !(_ball.Width > 0.0))
+                {
+                    share *= 0.5;
+                    continue;
+                }
+                Vector3d chord = Vector3d.Normalize(_ball.Place - centre);
+                if (Vector3d.Dot(chord, along) < 0.5)
+                {
+                    return true;    // the climb has left for a wider lumen beside
+                }
+                centre = _ball.Place;
+                width = _ball.Width;
+                if (width <= _above)
+                {
+                    return false;
+                }
+                along = Turned(centre, width, chord);
+                _walked.Add((centre, width));
+                Take(centre, width, along);
+            }
+            return true;
+        }
+
+        private void Take(in Vector3d centre, double width, in Vector3d along)
+        {
+            if (width < _narrowest)
+            {
+                _narrowest = width;
+                _place = centre;
+                _along = along;
+            }
+        }
+
+        // By thirds of the way, half a step to both sides of the narrowest place that was walked.
+        private double Bottom()
+        {
+            double length = StepOverWidth * _narrowest;
+            double low = -length;
+            double high = length;
+            double least = _narrowest;
+            for (int k = 0; k < Thirds; k++)
+            {
+                double a = low + (high - low) / 3.0;
+                double b = high - (high - low) / 3.0;
+                double atA = Across(a);
+                double atB = Across(b);
+                least = Inside(least, atA, Math.Abs(a));
+                least = Inside(least, atB, Math.Abs(b));
+                low = atA < atB ? low : a;
+                high = atA < atB ? b : high;
+            }
+            return least;
+        }
+
+        // Not where the vessel has its end.
+        private double Inside(double least, double width, double way)
+        {
+            return width > _above && _narrowest - width <= EndSlope * way ? Math.Min(least, width) : least;
+        }
+
+        private double Across(double way)
+        {
+            _ball.Climb(_place + way * _along, _along, LastFineness * _narrowest, 2.0 * WideAgain * _narrowest);
+            return _ball.Width;
+        }
+
+        private double Lesser(in Vector3d x, in Vector3d way)
+        {
+            return Math.Min(_ball.DistanceAt(x + way), _ball.DistanceAt(x - way));
+        }
+
+        // Of the axes, the diagonals of the faces and those of the cube.
+        private Vector3d FirstDirection(in Vector3d x, double width)
+        {
+            Vector3d best = Vector3d.UnitZ;
+            double most = double.NegativeInfinity;
+            for (int k = 14; k < 27; k++)
+            {
+                Vector3d way = Vector3d.Normalize(new Vector3d(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1));
+                double lesser = Lesser(x, Probe * width * way);
+                if (lesser > most)
+                {
+                    most = lesser;
+                    best = way;
+                }
+            }
+            return best;
+        }
+
+        // The best direction near one.
+        private Vector3d Turned(in Vector3d x, double width, in Vector3d first)
+        {
+            double h = Probe * width;
+            Vector3d best = first;
+            double most = Lesser(x, h * best);
+            for (double turn = 0.3; turn > LeastTurn; turn *= 0.5)
+            {
+                Vector3d u = Vector3d.Perpendicular(best);
+                Vector3d v = Vector3d.Cross(best, u);
+                for (int k = 0; k < 4; k++)
+                {
+                    Vector3d side = k % 2 == 0 ? u : v;
+                    Vector3d way = Vector3d.Normalize(best + (k < 2 ? turn : -turn) * side);
+                    double lesser = Lesser(x, h * way);
+                    if (lesser > most)
+                    {
+                        most = lesser;
+                        best = way;
+                    }
+                }
+            }
+            return best;
+        }
+    }
+}
