@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import json
+import os
 from pathlib import Path
 from typing import Any, Callable, Iterable, Iterator, Mapping
 
@@ -53,6 +54,7 @@ class Project:
         self._data: dict[str, bytes] = {}
         self._text: dict[str, str] = {}
         self._exists: dict[str, bool] = {}
+        self._stamps: dict[str, tuple[int, int]] = {}
         self._derived: dict[Any, Any] = {}
         for base in self._asset_roots():
             self._list(base)
@@ -137,6 +139,16 @@ class Project:
         if path not in self._data:
             self._data[path] = (self.root / path).read_bytes()
         return self._data[path]
+
+    def stamp(self, path: str) -> tuple[int, int]:
+        """Time of change in ns and size of a file on disk, as they were when first asked for; zeros where it is not."""
+        if path not in self._stamps:
+            try:
+                status = os.stat(f"{self.root}/{path}")
+                self._stamps[path] = (status.st_mtime_ns, status.st_size)
+            except OSError:
+                self._stamps[path] = (0, 0)
+        return self._stamps[path]
 
     def text(self, path: str) -> str:
         """The text of a file; bytes that are not UTF-8 become U+FFFD (the text rules report them)."""

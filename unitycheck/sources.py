@@ -136,11 +136,7 @@ def _ask(project: Project) -> dict[str, Any]:
     changes = {path: project.text(path) for path in project.changed if path.endswith(".cs") and project.exists(path)}
     only = None if project.only is None else sorted(path for path in project.only if path.endswith(".cs"))
     events = sorted({name for path in project.yaml_files() for name in _EVENT.findall(project.text(path))})
-    stamp = 0
-    for path in project.assets(".cs"):
-        if path not in changes and (project.root / path).is_file():
-            status = (project.root / path).stat()
-            stamp = hash((stamp, status.st_mtime_ns, status.st_size))
+    stamp = hash(tuple(project.stamp(path) for path in project.assets(".cs") if path not in changes))
     return _program(stamp, json.dumps({
         "root": str(project.root.resolve()), "assemblies": [_form(project, item, files[id(item)]) for item in asmdefs],
         "changes": changes, "only": only, "words": sorted(MODULE_OF), "events": events}))
