@@ -11,7 +11,8 @@ namespace Guidewire.Core.Tests
     public sealed class ReliableRunTests
     {
         private const string Tube = "\"vessel\": {\"shape\": \"tube\", \"knots\": [[0, 0, -30], [0, 0, 65]],"
-            + " \"radius\": 6}, \"guidewireLength\": 60, \"guidewireOffset\": 0, \"numberRodElements\": 6, \"deltaThreshold\": 0";
+            + " \"radius\": 6}, \"guidewireLength\": 60, \"guidewireOffset\": 0, \"numberRodElements\": 6,"
+            + " \"deltaThreshold\": 0";
 
         private string _folder = "";
 
@@ -57,7 +58,8 @@ namespace Guidewire.Core.Tests
             + " \"drive\": \"push\", \"insertionSpeed\": 0.1, \"constraintSolverSteps\": 1, \"maxSimulationSteps\": 5,"
             + " \"gravity\": [0, -9.81, 0]", TestName = "Steps that have not converged are not reliable")]
         [TestCase(Tube + ", \"solver\": \"direct\", \"proximalEnd\": \"clamped\", \"drive\": \"displace\","
-            + " \"timeStep\": 0.01, \"displacementDirection\": [0, 1, 0], \"displacementPerStep\": 1, \"hubForceLimit\": 0.1,"
+            + " \"timeStep\": 0.01, \"displacementDirection\": [0, 1, 0], \"displacementPerStep\": 1,"
+            + " \"hubForceLimit\": 0.1,"
             + " \"maxSimulationSteps\": 12", TestName = "A drive that did not get its way is not reliable")]
         public void FinishedWithADoubt(string keys)
         {
