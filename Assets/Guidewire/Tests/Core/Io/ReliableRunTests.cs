@@ -59,7 +59,8 @@ namespace Guidewire.Core.Tests
             + " \"gravity\": [0, -9.81, 0]", TestName = "Steps that have not converged are not reliable")]
         [TestCase(Tube + ", \"solver\": \"direct\", \"proximalEnd\": \"clamped\", \"drive\": \"displace\","
             + " \"timeStep\": 0.01, \"displacementDirection\": [0, 1, 0], \"displacementPerStep\": 1,"
-            + " \"hubForceLimit\": 0.1, \"maxSimulationSteps\": 12", TestName = "A drive that did not get its way is not reliable")]
+            + " \"hubForceLimit\": 0.1,"
+            + " \"maxSimulationSteps\": 12", TestName = "A drive that did not get its way is not reliable")]
         public void FinishedWithADoubt(string keys)
         {
             var run = Run(keys);
