@@ -1,25 +1,66 @@
 """Wires pushed at random into vessels of twelve kinds: what each log says, found by a search of its own."""
 
+import json
 import os
+import subprocess
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from analysis.logs import read_log
+from analysis.passages import Wall, inside
 from analysis.push_claims import Walls, judge
-from analysis.wall_search import MeshSearch, closed_form
-from experiments import pushes
+from analysis.surfaces import read_obj
+from analysis.wall_search import MeshSearch, closed_form, crosses_itself
+from experiments import material_pushes, pushes
 from experiments.push_campaign import campaign
 
 FULL = os.environ.get("GUIDEWIRE_ALL") == "1"
 # In the fraction six kinds with one rule each, and each rule with two of them.
 FRACTION = [1008 + 12 * rule + kind for rule in range(3) for kind in range(rule, 12, 6)]
 SEEDS = range(1000) if FULL else FRACTION
+# Of a wire with a material, by method: how many seeds in full, and those of the fraction.
+MATERIAL = {"direct": (300, (3, 6)), "sheath": (150, (3, 7)), "xpbd": (100, (3, 8))}
+CASES = Path(__file__).with_name("wall_cases")
 
 
 def test_pushes_pass_no_wall_freeze_nowhere_and_say_what_is_true(runner_command, tmp_path):
     broken = [f"{push.seed} {push.kind}: {push.claims}" for push in campaign(runner_command, SEEDS, tmp_path)
               if push.claims]
     assert not broken, "\n".join(broken)
+
+
+@pytest.mark.parametrize("method", MATERIAL)
+def test_wires_with_a_material_pass_no_wall_and_say_what_is_true(runner_command, tmp_path, method):
+    count, fraction = MATERIAL[method]
+    runs = list(campaign(runner_command, range(count) if FULL else fraction, tmp_path, method))
+    broken = [f"{push.seed} {push.kind} {push.outcome}: {push.claims}" for push in runs if push.claims]
+    assert not broken, "\n".join(broken)
+    assert len(runs) > 0.5 * len(range(count) if FULL else fraction)
+
+
+def test_a_thin_tip_that_snaps_round_under_a_weak_hub_is_followed(runner_command, tmp_path):
+    parameters = json.loads((CASES / "tip_that_snaps.json").read_text())
+    done = subprocess.run([*runner_command, "-parameters", str(CASES / "tip_that_snaps.json"), "-out",
+                           str(tmp_path / "run")], capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    summary = json.loads((tmp_path / "run" / "summary.json").read_text())
+    positions = read_log(tmp_path / "run", spheres="all").positions
+    mesh = read_obj(CASES / "tip_that_snaps.obj")
+    body = positions[:, (positions[:, :, 2] > parameters["sheath"]["exit"][2]).any(axis=0)]
+    assert inside(Wall.of(mesh.vertices, mesh.triangles), body[-1:]).all() and summary["passages"] == 0
+    assert summary["extremes"]["axialForce"] <= parameters["hubForceLimit"] * (1.0 + 1e-9)
+
+
+def test_a_mesh_that_crosses_itself_is_known():
+    box = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
+    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    faces = np.array([face for a, b, c, d in quads for face in ((a, b, c), (a, c, d))])
+    both = np.concatenate([faces, faces + 8])
+    assert not crosses_itself(box, faces)
+    assert crosses_itself(np.concatenate([box, box + [0.7, 0.6, 0.5]]), both)
+    assert not crosses_itself(np.concatenate([box, box + [2.7, 0.6, 0.5]]), both)
 
 
 def test_a_seed_is_one_scene_and_seeds_have_all_kinds_and_rules(tmp_path):
