@@ -141,9 +141,7 @@ namespace Guidewire.Core
             _extremes.TakeWalls(_pushes.LargestForce, _pushes.LargestPressure);
             if (terms.Walls!.HoldsStart)
             {
-                Vector3d axis = HubRecord.AxisOf(terms, shape);
-                _extremes.TakeHub(Vector3d.Dot(terms.Walls.SupportForce(shape), axis),
-                    Vector3d.Dot(_dynamics.ProximalCouple, axis));
+                _extremes.TakeHub(terms.HubForce(shape), _dynamics.HubTorque);
             }
             if (terms.Walls.Friction != null)
             {
@@ -182,7 +180,7 @@ namespace Guidewire.Core
                 return null;
             }
             _hub ??= new HubRecord(_scene.Rod, _scene.Supports);
-            _hub.Take(terms, _dynamics.Shape, _drive, _dynamics.ReactionAt(0), _dynamics.ProximalCouple,
+            _hub.Take(terms, _dynamics.Shape, _drive, _dynamics.ReactionAt(0), _dynamics.HubTorque,
                 _scene.Schedule.HubAhead(_dynamics.Time));
             return _hub;
         }

@@ -176,6 +176,11 @@ namespace Guidewire.Core
         public Vector3d ProximalCouple => _terms.Bending.ProximalCouple(Shape)
             + (_damping == null ? Vector3d.Zero : _damping.ProximalCouple(Shape));
 
+        /// <summary>Torque of the hub on the wire about its axis, N m; that on a wire in a sheath is the slope of the
+        /// energy in the hub's turn.</summary>
+        public double HubTorque => _terms.Sheath != null ? _terms.Bending.TurnCouple(Shape)
+            : Vector3d.Dot(ProximalCouple, _terms.HubAxis(Shape));
+
         /// <summary>The same of the distal clamp.</summary>
         public Vector3d DistalCouple => _terms.Bending.DistalCouple(Shape)
             + (_damping == null ? Vector3d.Zero : _damping.DistalCouple(Shape));
