@@ -78,6 +78,17 @@ namespace Guidewire.Core
             return Pieces.Stations[First] - Outside(place);
         }
 
+        /// <summary>How many nodes of the window, from its first on, are in the sheath.</summary>
+        public int NodesInside(Vector3d[] x)
+        {
+            int inside = 0;
+            while (inside < x.Length && Outside(x[inside]) < 0.0)
+            {
+                inside++;
+            }
+            return inside;
+        }
+
         /// <summary>How far a node of the window is out of the sheath, m; negative inside.</summary>
         public double Outside(in Vector3d node)
         {

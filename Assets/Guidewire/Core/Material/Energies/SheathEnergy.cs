@@ -69,6 +69,15 @@ namespace Guidewire.Core
             return force;
         }
 
+        /// <summary>That force where the step began, N.</summary>
+        public double StartForce { get; private set; }
+
+        /// <inheritdoc/>
+        public override void BeginStep(RodShape shape, double dt)
+        {
+            StartForce = HubForce(shape);
+        }
+
         /// <summary>Energy of what is kept straight, J, all that is still in the sheath among it.</summary>
         public override double Value(RodShape shape)
         {

@@ -118,6 +118,8 @@ namespace Guidewire.Core
                 _watch?.EndStep(_dynamics.Shape, Contacts);
                 if (spring != null && _dynamics.Terms.Walls!.HoldsStart)
                 {
+                    SheathEnergy? sheath = _dynamics.Terms.Sheath;
+                    spring.Besides = sheath == null ? 0.0 : sheath.HubForce(_dynamics.Shape);
                     _drive.GiveWay(spring, _dynamics.Shape);
                     CountDrive(held, spring.HeldPlace(_dynamics.Shape));
                     Failure ??= FindOverdriven();
