@@ -35,6 +35,11 @@ namespace Guidewire.Core
         /// <summary>Its torque on the wire about its axis, N m.</summary>
         public double Torque { get; private set; }
 
+        /// <summary>Its work on the wire since the start, J: mean force and torque of each step, by the scheme's
+        /// weights, times how far it went and turned; against what drives a bent wire out of a sheath, the integral
+        /// over what came out, by the mean of the moments before and after the step. NaN without walls.</summary>
+        public double Work { get; internal set; }
+
         /// <summary>Direction of the last element, a unit vector.</summary>
         public Vector3d TipDirection { get; private set; }
 

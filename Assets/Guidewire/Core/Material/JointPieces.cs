@@ -51,7 +51,7 @@ namespace Guidewire.Core
         /// <param name="cut">m from node 0.</param>
         /// <param name="moment1">m about d1, N m: of the joint, 0 at its turn at rest.</param>
         /// <param name="moment2">The same about d2.</param>
-        public double Release(int k, double cut, double moment1, double moment2)
+        public double ReleaseAt(int k, double cut, double moment1, double moment2)
         {
             int other = cut < _station[k] ? k - 1 : k + 1;
             if (other < 0 || other >= _station.Length)
@@ -72,6 +72,20 @@ namespace Guidewire.Core
             double full1 = moment1 + piece.BendStiffness1 * piece.RestCurvature.X;
             double full2 = moment2 + piece.BendStiffness2 * piece.RestCurvature.Y;
             return 0.5 * hat * (full1 * full1 / piece.BendStiffness1 + full2 * full2 / piece.BendStiffness2);
+        }
+
+        /// <summary>The next place after one, m from node 0, up to which releases are linear: a node or a border.
+        /// </summary>
+        public double NextBreak(double place)
+        {
+            return Math.Min(Next(_station, place), Next(_border, place));
+        }
+
+        private static double Next(double[] places, double place)
+        {
+            int at = Array.BinarySearch(places, place);
+            at = at < 0 ? ~at : at + 1;
+            return at < places.Length ? places[at] : double.PositiveInfinity;
         }
 
         // Of the element between the joint's node and another; the hat function falls from 1 to 0 between them.

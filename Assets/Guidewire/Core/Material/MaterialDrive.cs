@@ -59,6 +59,9 @@ namespace Guidewire.Core
         /// asked to go.</summary>
         public double Slip { get; private set; }
 
+        /// <summary>When the present step ends, s.</summary>
+        public double StepEnd { get; private set; }
+
         /// <summary>The way asked for in the present step, m, never negative.</summary>
         public double Asked { get; private set; }
 
@@ -79,7 +82,8 @@ namespace Guidewire.Core
             {
                 _schedule.TurnOn(time, Rate(_table.Rotation, time));
             }
-            Turn = _schedule.ProximalTurnAt(time + _timeStep);
+            StepEnd = time + _timeStep;
+            Turn = _schedule.ProximalTurnAt(StepEnd);
             if (_direction == null)
             {
                 return;
@@ -142,6 +146,7 @@ namespace Guidewire.Core
             Exchange(snapshot);
             Axis = snapshot.Exchange(Axis);
             Asked = snapshot.Exchange(Asked);
+            StepEnd = snapshot.Exchange(StepEnd);
             _schedule.ExchangeDrive(snapshot);
         }
 

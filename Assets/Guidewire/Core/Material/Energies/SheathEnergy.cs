@@ -55,18 +55,47 @@ namespace Guidewire.Core
         /// the wire is driven out.</summary>
         public double HubForce(RodShape shape)
         {
-            double force = 0.0;
-            for (int k = 0; k < _cutCount; k++)
+            return -ReleaseAt(shape, _exit);
+        }
+
+        /// <summary>Work of the hub, J, against what drives the wire out, while the exit's place along the wire goes on
+        /// to where a place of the hub has it, by the moments of a shape.</summary>
+        /// <param name="place">As of <see cref="SetHub"/>.</param>
+        /// <param name="from">Where the exit was, m from node 0 of the whole.</param>
+        public double WorkTo(RodShape shape, in Vector3d place, double from)
+        {
+            double to = _window.ExitFrom(place);
+            double end = Math.Max(from, to);
+            double work = 0.0;
+            for (double at = Math.Min(from, to); at < end;)
             {
-                if (_outside[k] > 0.0)
+                double next = Math.Min(_window.Pieces.NextBreak(at), end);
+                work += (next - at) * ReleaseAt(shape, 0.5 * (at + next));
+                at = next;
+            }
+            return to > from ? work : -work;
+        }
+
+        /// <summary>Where the exit is along the wire, m from node 0 of the whole.</summary>
+        public double Exit => _exit;
+
+        // What the joints on both sides of a cut release as it moves, J/m.
+        private double ReleaseAt(RodShape shape, double cut)
+        {
+            double[] station = _window.Pieces.Stations;
+            double sum = 0.0;
+            int last = _window.Joints.Length - 1;
+            for (int k = 0; k < last && station[Before(k)] < cut; k++)
+            {
+                if (station[_window.First + k + 1] > cut)
                 {
-                    Joint joint = _cutJoint[k];
+                    Joint joint = k < _cutCount ? _cutJoint[k] : _window.Joints[k];
                     Vector3d change = _bending.TurnOf(shape, k) - joint.Rest;
-                    force -= _window.Pieces.Release(_window.First + k, _exit, joint.Bend1 * change.X,
+                    sum += _window.Pieces.ReleaseAt(_window.First + k, cut, joint.Bend1 * change.X,
                         joint.Bend2 * change.Y);
                 }
             }
-            return force;
+            return sum;
         }
 
         /// <summary>That force where the step began, N.</summary>

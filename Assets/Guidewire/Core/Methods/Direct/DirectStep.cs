@@ -25,6 +25,7 @@ namespace Guidewire.Core
         private readonly WallWatch? _watch;
         private readonly ElementPushes? _pushes;
         private readonly RunExtremes _extremes;
+        private double _hubWork;            // J
         private readonly Joint[] _joints;
         private readonly double[] _jointLengths;
 
@@ -84,12 +85,15 @@ namespace Guidewire.Core
         public bool Step()
         {
             int last = _dynamics.Shape.ElementCount;
+            (double insertion, double turn) = (_drive.Insertion, _drive.Turn);
             _drive.Prepare(_dynamics.Shape, _dynamics.Time);
             SupportSpring? spring = _dynamics.Terms.Walls?.Spring;
             if (spring != null && _drive.Axis != Vector3d.Zero)
             {
                 spring.Axis = _drive.Axis;
             }
+            double exit = _dynamics.Terms.Sheath == null ? 0.0 : _dynamics.Terms.Sheath.Exit;
+            _hubWork += 0.5 * SheathWork(exit);
             Vector3d free = _dynamics.Shape.X[last] + _timeStep * _dynamics.Velocities[last]
                 + (_timeStep * _timeStep) * _scene.Schedule.Gravity;
             Vector3d held = spring == null ? Vector3d.Zero : spring.HeldPlace(_dynamics.Shape);
@@ -114,19 +118,38 @@ namespace Guidewire.Core
             PredictionError = Vector3d.Distance(free, _dynamics.Shape.X[last]) / _scene.Metres;
             if (Contacts != null)
             {
-                Contacts.Reaction = _walls == null ? _dynamics.MeanReaction : _walls.MeanReaction;
+                StageForces mean = _walls == null ? _dynamics.MeanForces : _walls.MeanForces;
+                Contacts.Reaction = mean.Proximal;
+                Contacts.ReactionAtEnd = _dynamics.EndForces.Proximal;
+                Contacts.MeanTotal = mean.Walls;
+                _hubWork += Vector3d.Dot(mean.Proximal, _dynamics.Terms.HubAxis(_dynamics.Shape))
+                    * (_drive.Insertion - insertion) + mean.HubTorque * (_drive.Turn - turn) + 0.5 * SheathWork(exit);
                 _watch?.EndStep(_dynamics.Shape, Contacts);
                 if (spring != null && _dynamics.Terms.Walls!.HoldsStart)
                 {
                     SheathEnergy? sheath = _dynamics.Terms.Sheath;
                     spring.Besides = sheath == null ? 0.0 : sheath.HubForce(_dynamics.Shape);
+                    double asked = _drive.Insertion;
                     _drive.GiveWay(spring, _dynamics.Shape);
+                    if (_drive.Insertion != asked)
+                    {
+                        _dynamics.Terms.SetTime(_scene.Schedule, _dynamics.Time);
+                        _hubWork += _dynamics.Terms.HubForce(_dynamics.Shape) * (_drive.Insertion - asked);
+                    }
                     CountDrive(held, spring.HeldPlace(_dynamics.Shape));
                     Failure ??= FindOverdriven();
                 }
             }
             TakeExtremes();
             return true;
+        }
+
+        // Of the hub in this step against what drives the wire out of a sheath, by the moments of now, J.
+        private double SheathWork(double exit)
+        {
+            SheathEnergy? sheath = _dynamics.Terms.Sheath;
+            return sheath == null ? 0.0
+                : sheath.WorkTo(_dynamics.Shape, _scene.Schedule.ProximalPositionAt(_drive.StepEnd), exit);
         }
 
         private void TakeExtremes()
@@ -184,6 +207,7 @@ namespace Guidewire.Core
             _hub ??= new HubRecord(_scene.Rod, _scene.Supports);
             _hub.Take(terms, _dynamics.Shape, _drive, _dynamics.ReactionAt(0), _dynamics.HubTorque,
                 _scene.Schedule.HubAhead(_dynamics.Time));
+            _hub.Work = _walls == null ? double.NaN : _hubWork;
             return _hub;
         }
 
@@ -249,6 +273,7 @@ namespace Guidewire.Core
             _rest.Exchange(snapshot);
             _extremes.Exchange(snapshot);
             _watch?.Exchange(snapshot);
+            snapshot.Exchange(ref _hubWork);
             Contacts?.Exchange(snapshot);
         }
 
@@ -256,6 +281,7 @@ namespace Guidewire.Core
         public void ExchangeCounts(Snapshot snapshot)
         {
             snapshot.Exchange(ref _startFactorisations);
+            snapshot.Exchange(ref _hubWork);
             _walls?.Exchange(snapshot);
             _ends.ExchangeWork(snapshot);
             _dynamics.ExchangeCounts(snapshot);
@@ -274,6 +300,7 @@ namespace Guidewire.Core
         private void ExchangeOwn(Snapshot snapshot)
         {
             snapshot.Exchange(ref _startFactorisations);
+            snapshot.Exchange(ref _hubWork);
             _report.Exchange(snapshot);
             _energy.Exchange(snapshot);
             _drive.Exchange(snapshot);

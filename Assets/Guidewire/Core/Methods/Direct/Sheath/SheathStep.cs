@@ -59,6 +59,12 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override ContactRecord? Contacts { get; }
 
+        /// <summary>The motion of what is simulated.</summary>
+        public RodDynamics Dynamics => _dynamics;
+
+        /// <summary>Steps what is simulated.</summary>
+        public DirectStep Inner => _inner;
+
         /// <inheritdoc/>
         public override string? AccuracyWarning => _inner.AccuracyWarning;
 
@@ -132,9 +138,9 @@ namespace Guidewire.Core
             Contacts!.Take(_inner.Contacts!, _window.First);
         }
 
-        // Elements that have come to the exit come in, others go; and the frame follows the first element where that
-        // has turned far.
-        private void MoveWindow()
+        /// <summary>A step begins: elements that will come to the exit come in, others go; and the frame follows the
+        /// first element where that has turned far. A second time nothing changes.</summary>
+        public void MoveWindow()
         {
             int first = _window.First;
             double[] station = _setup.Stations;
@@ -185,6 +191,7 @@ namespace Guidewire.Core
             MaterialScene scene = _setup.Scene(_window, _shape, _velocities, _spins, _frameTurn);
             _dynamics = _setup.Dynamics(scene, _window);
             _dynamics.GoOn(time, _frameTurn);
+            _dynamics.Terms.SetTime(_whole.Schedule, time);
             _dynamics.Terms.Walls!.Spring.Axis = _setup.Axis;
             _inner = new DirectStep(scene, _dynamics, _whole.Drive, _parameters.Method, _report,
                 new ContactRecord(scene.Shape.X.Length));
