@@ -10,6 +10,8 @@ namespace Guidewire.Core
         // A step in which a disturbance would grow by much (a thrust beyond buckling) may end in any shape.
         private const string Shorter = "; in a motion a shorter timeStep, or a timeStepError, may do";
 
+        private const int MostSlips = 4;
+
         private readonly MaterialScene _scene;
         private readonly RodDynamics _dynamics;
         private readonly MaterialDrive _drive;
@@ -127,21 +129,38 @@ namespace Guidewire.Core
                 _watch?.EndStep(_dynamics.Shape, Contacts);
                 if (spring != null && _dynamics.Terms.Walls!.HoldsStart)
                 {
-                    SheathEnergy? sheath = _dynamics.Terms.Sheath;
-                    spring.Besides = sheath == null ? 0.0 : sheath.HubForce(_dynamics.Shape);
-                    double asked = _drive.Insertion;
-                    _drive.GiveWay(spring, _dynamics.Shape);
-                    if (_drive.Insertion != asked)
-                    {
-                        _dynamics.Terms.SetTime(_scene.Schedule, _dynamics.Time);
-                        _hubWork += _dynamics.Terms.HubForce(_dynamics.Shape) * (_drive.Insertion - asked);
-                    }
+                    GiveWay(spring);
                     CountDrive(held, spring.HeldPlace(_dynamics.Shape));
                     Failure ??= FindOverdriven();
                 }
             }
             TakeExtremes();
             return true;
+        }
+
+        // What drives the wire out of a sheath changes with the hub's place: so it gives way once more, by much less.
+        private void GiveWay(SupportSpring spring)
+        {
+            RodTerms terms = _dynamics.Terms;
+            double asked = _drive.Insertion;
+            double before;
+            int left = terms.Sheath == null ? 1 : MostSlips;
+            do
+            {
+                before = _drive.Insertion;
+                spring.Besides = terms.Sheath == null ? 0.0 : terms.Sheath.HubForce(_dynamics.Shape);
+                _drive.GiveWay(spring, _dynamics.Shape);
+                if (_drive.Insertion != before)
+                {
+                    terms.SetTime(_scene.Schedule, _dynamics.Time);
+                }
+                left--;
+            }
+            while (_drive.Insertion != before && left > 0);
+            if (_drive.Insertion != asked)
+            {
+                _hubWork += terms.HubForce(_dynamics.Shape) * (_drive.Insertion - asked);
+            }
         }
 
         // Of the hub in this step against what drives the wire out of a sheath, by the moments of now, J.

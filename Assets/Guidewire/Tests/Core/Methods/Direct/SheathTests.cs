@@ -250,13 +250,14 @@ namespace Guidewire.Core.Tests
         [Test]
         public void ExitLessThanAnElementInsideAClosedVessel_LetsTheWireGoOutAndIn([Values(0.3, 2.0)] double exit)
         {
-            // Elements of 5 mm come through the closed end of a tube at z = 0, in their sheath, and go back.
+            // Elements of 5 mm come through the closed end of a tube, a half sphere from z = 0 on, in their sheath, and
+            // go back.
             SimulationParameters parameters = Sheathed(40, 0.2, 7.0);
             parameters.Scene.Sheath = new Sheath { Exit = new Vector3d(0.0, 0.0, exit) };
             parameters.Scene.Walls = new ContactShape[]
             {
-                new TubeShape(new[] { Vector3d.Zero, new Vector3d(0.0, 0.0, 300.0) }, new[] { Lumen, Lumen }, false,
-                    true),
+                new TubeShape(new[] { new Vector3d(0.0, 0.0, Lumen), new Vector3d(0.0, 0.0, 300.0) },
+                    new[] { Lumen, Lumen }, false, true),
             };
             parameters.Drive.Table = new DriveTable(
                 new TimeTable(new[] { 0.0, 1.0, 2.0 }, new[] { 0.0, 0.043, 0.0 }),

@@ -41,7 +41,7 @@ namespace Guidewire.Core.Tests
         public void StepsTakenAgainAtRandom_LeaveTheSameBits_OfAWireInASheath()
         {
             SimulationParameters parameters = WallScenes.Arch(60, 0.02, 100.0, 100.0);
-            parameters.Scene.GuidewireOffset = -280.0;
+            parameters.Scene.GuidewireOffset = -295.0;
             parameters.Scene.Sheath = new Sheath { Exit = new Vector3d(0.0, 0.0, -10.0) };
             parameters.Scene.Walls[0].FrictionCoefficient = 0.1;
             parameters.Drive.RotationSpeed = 5.0;
