@@ -46,13 +46,6 @@ namespace Guidewire.Core
         /// <summary>How far the drive has turned the clamp since the start, rad.</summary>
         public double Turn { get; private set; }
 
-        /// <summary>All three, to take a step again.</summary>
-        public (double Insertion, double Turn, double Slip, double Sense) Way
-        {
-            get => (Insertion, Turn, Slip, _sense);
-            set => (Insertion, Turn, Slip, _sense) = value;
-        }
-
         /// <summary>The farthest that it may move node 0, m.</summary>
         public double MostInsertion { get; set; } = double.PositiveInfinity;
 
@@ -65,6 +58,9 @@ namespace Guidewire.Core
         /// <summary>What the hub has lost of its way, m: less where it gave way in the sense in which it was
         /// asked to go.</summary>
         public double Slip { get; private set; }
+
+        /// <summary>When the present step ends, s.</summary>
+        public double StepEnd { get; private set; }
 
         /// <summary>The way asked for in the present step, m, never negative.</summary>
         public double Asked { get; private set; }
@@ -86,19 +82,19 @@ namespace Guidewire.Core
             {
                 _schedule.TurnOn(time, Rate(_table.Rotation, time));
             }
-            Turn = _schedule.ProximalTurnAt(time + _timeStep);
+            StepEnd = time + _timeStep;
+            Turn = _schedule.ProximalTurnAt(StepEnd);
             if (_direction == null)
             {
                 return;
             }
-            double speed = _hand != null ? _metres * _hand.Push / _timeStep
-                : _table != null ? Rate(_table.Insertion, time) : _speed;
+            double speed = SpeedAt(time);
             double asked = speed * _timeStep;
             _sense = Math.Abs(asked) < Nothing ? _sense : Math.Sign(asked);
             Asked = Math.Abs(asked);
-            if (Insertion + asked > MostInsertion || Insertion + asked < LeastInsertion)
+            double goes = Limited(asked);
+            if (goes != asked)
             {
-                double goes = Math.Min(Math.Max(Insertion + asked, LeastInsertion), MostInsertion) - Insertion;
                 Slip += _sense * (asked - goes);
                 speed = goes / _timeStep;
             }
@@ -107,6 +103,12 @@ namespace Guidewire.Core
             _schedule.ProximalTime = time;
             _schedule.ProximalVelocity = speed * Axis;
             Insertion += speed * _timeStep;
+        }
+
+        /// <summary>How far it will move node 0 in the step that begins at this time, m.</summary>
+        public double NextMove(double time)
+        {
+            return _direction == null ? 0.0 : Limited(SpeedAt(time) * _timeStep);
         }
 
         /// <summary>The hub gives way, after a step, to the spring between it and node 0.</summary>
@@ -135,6 +137,31 @@ namespace Guidewire.Core
             Turn = snapshot.Exchange(Turn);
             Slip = snapshot.Exchange(Slip);
             snapshot.Exchange(ref _sense);
+        }
+
+        /// <summary>Writes or takes over all that a step may touch, what it prescribes among it, for a
+        /// <see cref="StepStart"/>.</summary>
+        public void ExchangeStep(Snapshot snapshot)
+        {
+            Exchange(snapshot);
+            Axis = snapshot.Exchange(Axis);
+            Asked = snapshot.Exchange(Asked);
+            StepEnd = snapshot.Exchange(StepEnd);
+            _schedule.ExchangeDrive(snapshot);
+        }
+
+        // What is asked for from this time on, m/s.
+        private double SpeedAt(double time)
+        {
+            return _hand != null ? _metres * _hand.Push / _timeStep
+                : _table != null ? Rate(_table.Insertion, time) : _speed;
+        }
+
+        // What of a move the limits allow, m.
+        private double Limited(double asked)
+        {
+            return Insertion + asked > MostInsertion || Insertion + asked < LeastInsertion
+                ? Math.Min(Math.Max(Insertion + asked, LeastInsertion), MostInsertion) - Insertion : asked;
         }
 
         private double Rate(TimeTable table, double time)

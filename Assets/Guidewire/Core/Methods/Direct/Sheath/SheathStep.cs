@@ -5,13 +5,13 @@ namespace Guidewire.Core
     /// <summary>Steps of a wire in a sheath: only what is outside is simulated, by a <see cref="DirectStep"/> of its
     /// own, and elements come and go with the hub. The sheathed part is straight on the sheath's axis and massless: a
     /// spring along it and one about it, in series with the hub.</summary>
-    /// <remarks>An element comes in before its distal node has passed the exit, with the strain and the twist that the
-    /// springs have, so that no force changes; it goes again where that node is a part of its length inside. What is
-    /// simulated is built anew whenever that happens.</remarks>
+    /// <remarks>What is simulated begins with an element that is wholly in the sheath until the step's end, however far
+    /// the hub goes: so every joint that comes out, or goes in, does so within a step, and no force and no energy
+    /// changes where an element comes in, with the strain and the twist that the springs have. It goes again where the
+    /// next one is well inside too. What is simulated is built anew whenever that happens.</remarks>
     internal sealed class SheathStep : TimeStepper
     {
-        private const double Early = 0.1;       // of an element's length, by which it comes in early
-        private const double Late = 0.3;        // and goes late
+        private const double Late = 0.3;        // of an element's length, by which it goes late
         private const double LargestTurn = 0.3; // radians of the first element against its frame
         private const double Ahead = 2.4;       // radians by which the frame is ahead of a wire that jumps round
         private const int LeastElements = 2;
@@ -24,6 +24,7 @@ namespace Guidewire.Core
         private readonly RodShape _shape;         // of the whole wire
         private readonly Vector3d[] _velocities;
         private readonly Vector3d[] _spins;
+        private readonly StepStart _start;
         private SheathWindow _window;
         private RodDynamics _dynamics = null!;    // this and the next are set wherever the window is
         private DirectStep _inner = null!;
@@ -42,12 +43,13 @@ namespace Guidewire.Core
             _spins = (Vector3d[])whole.Spins.Clone();
             _stress = new StressRecord(whole.Rod, whole.Supports);
             _setup = new SheathSetup(parameters, whole);
+            _start = new StepStart(snapshot => _inner.ExchangeStep(snapshot));
             Contacts = new ContactRecord(n + 1)
             {
                 WallForces = new Vector3d[parameters.Scene.Walls.Length],
                 ElementForces = new Vector3d[n],
             };
-            int first = _setup.FirstOutside(_shape, LeastElements);
+            int first = _setup.FirstElement(_shape, LeastElements);
             whole.Schedule.ProximalPosition += _setup.Stations[first] * _setup.Axis;
             _setup.LimitDrive(_shape);
             _window = _setup.Window(first);
@@ -57,6 +59,12 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override ContactRecord? Contacts { get; }
 
+        /// <summary>The motion of what is simulated.</summary>
+        public RodDynamics Dynamics => _dynamics;
+
+        /// <summary>Steps what is simulated.</summary>
+        public DirectStep Inner => _inner;
+
         /// <inheritdoc/>
         public override string? AccuracyWarning => _inner.AccuracyWarning;
 
@@ -64,9 +72,7 @@ namespace Guidewire.Core
         public override void Advance(RodState state)
         {
             MoveWindow();
-            RodSchedule schedule = _whole.Schedule;
-            (double, double, double, double) drive = _whole.Drive.Way;
-            (Vector3d place, double since) = (schedule.ProximalPosition, schedule.ProximalTime);
+            _start.Save();
             double time = _dynamics.Time;
             double torque = Torque();
             bool isDone = _inner.Step();
@@ -74,9 +80,7 @@ namespace Guidewire.Core
             {
                 // A tip that has stuck jumps round by as much as is wound up; its joint to the frame tells half a
                 // turn, and so the frame goes ahead.
-                _whole.Drive.Way = drive;
-                schedule.ProximalPosition = place;
-                schedule.ProximalTime = since;
+                _start.Restore();
                 double turned = RotationVector.Log(_setup.Frame(_frameTurn).Conjugate * _shape.Q[_window.First]).Z;
                 _frameTurn += turned - Math.Sign(torque) * Ahead;
                 Build(time, _inner);
@@ -134,19 +138,21 @@ namespace Guidewire.Core
             Contacts!.Take(_inner.Contacts!, _window.First);
         }
 
-        // Elements that have come to the exit come in, others go; and the frame follows the first element where that
-        // has turned far.
-        private void MoveWindow()
+        /// <summary>A step begins: elements that will come to the exit come in, others go; and the frame follows the
+        /// first element where that has turned far. A second time nothing changes.</summary>
+        public void MoveWindow()
         {
             int first = _window.First;
-            double[] length = _whole.Rod.Length;
-            while (first > 0 && _window.Outside(_shape.X[first]) >= -Early * length[first - 1])
+            double[] station = _setup.Stations;
+            double exit = _window.ExitFrom(_whole.Schedule.ProximalPositionAt(_dynamics.Time))
+                - Math.Max(0.0, _whole.Drive.NextMove(_dynamics.Time));
+            while (first > 0 && station[first + 1] > exit)
             {
                 first--;
                 Enter(first);
             }
             int last = _shape.ElementCount - LeastElements;
-            while (first < last && _window.Outside(_shape.X[first + 1]) < -Late * length[first])
+            while (first < last && station[first + 2] < exit - Late * _whole.Rod.Length[first + 1])
             {
                 first++;
             }
@@ -185,6 +191,7 @@ namespace Guidewire.Core
             MaterialScene scene = _setup.Scene(_window, _shape, _velocities, _spins, _frameTurn);
             _dynamics = _setup.Dynamics(scene, _window);
             _dynamics.GoOn(time, _frameTurn);
+            _dynamics.Terms.SetTime(_whole.Schedule, time);
             _dynamics.Terms.Walls!.Spring.Axis = _setup.Axis;
             _inner = new DirectStep(scene, _dynamics, _whole.Drive, _parameters.Method, _report,
                 new ContactRecord(scene.Shape.X.Length));
@@ -241,7 +248,7 @@ namespace Guidewire.Core
         private double Torque()
         {
             _dynamics.Terms.SetTime(_whole.Schedule, _dynamics.Time);
-            return -Vector3d.Dot(_dynamics.Terms.Bending.ProximalCouple(_dynamics.Shape), _setup.Axis);
+            return -_dynamics.Terms.Bending.TurnCouple(_dynamics.Shape);
         }
 
         private double TurnOfJoint(int k, double torque)

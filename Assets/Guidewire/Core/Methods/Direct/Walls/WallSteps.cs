@@ -18,6 +18,8 @@ namespace Guidewire.Core
         private readonly RodDynamics _dynamics;
         private readonly RodSchedule _schedule;
         private readonly WallWatch _watch;
+        private readonly StepStart _start;
+        private StageForces _meanForces;
         private readonly double _longestMove;     // m
 
         /// <summary>For this motion.</summary>
@@ -26,12 +28,12 @@ namespace Guidewire.Core
             _dynamics = dynamics;
             _schedule = schedule;
             _watch = watch;
+            _start = new StepStart(dynamics.ExchangeStep);
             _longestMove = BarrierRule.MostMove * dynamics.Terms.Walls!.Barrier.Barrier.Distance;
         }
 
-        /// <summary>Force of the proximal support, N, the mean over the last step, where reactions are
-        /// tracked.</summary>
-        public Vector3d MeanReaction { get; private set; }
+        /// <summary>The forces from outside, the means over the last step, where reactions are tracked.</summary>
+        public StageForces MeanForces => _meanForces;
 
         /// <summary>Parts that were halved so far.</summary>
         public long Halvings { get; private set; }
@@ -41,7 +43,7 @@ namespace Guidewire.Core
         /// <returns>Null, or why a part has no solution however short; the shape is then not to be used.</returns>
         public string? Step(double dt)
         {
-            MeanReaction = Vector3d.Zero;
+            _meanForces = default;
             _watch.BeginStep(_dynamics.Shape);
             int parts = Parts(dt);
             for (int k = 0; k < parts; k++)
@@ -92,7 +94,7 @@ namespace Guidewire.Core
             while (done < whole)
             {
                 double h = length * size / whole;
-                _dynamics.Save();
+                _start.Save();
                 string? failure = _dynamics.Step(h);
                 if (failure != null && size == 1)
                 {
@@ -101,7 +103,7 @@ namespace Guidewire.Core
                 }
                 if (failure == null)
                 {
-                    MeanReaction += (h / dt) * _dynamics.MeanReaction;
+                    _meanForces.Add(h / dt, _dynamics.MeanForces);
                     _watch.AddPart(_dynamics.Shape);
                     done += size;
                     // Longer again where the parts done make up whole ones.
@@ -112,7 +114,7 @@ namespace Guidewire.Core
                 {
                     return failure;
                 }
-                _dynamics.Restore();
+                _start.Restore();
                 Halvings++;
                 size /= 2;
             }

@@ -60,6 +60,7 @@ namespace Guidewire.Core
         /// <summary>A step begins in this shape.</summary>
         public void BeginStep(RodShape shape)
         {
+            _passages.BeginStep();
             SetUnits(shape, _start);
             Array.Copy(_start, _from, _from.Length);
             SetClearances(shape);
@@ -129,10 +130,7 @@ namespace Guidewire.Core
 
         private void SetUnits(RodShape shape, Vector3d[] x)
         {
-            for (int i = 0; i < x.Length; i++)
-            {
-                x[i] = _units * shape.X[i];
-            }
+            _barrier.SetNodes(shape, x);
         }
     }
 }
