@@ -112,7 +112,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void BentBetweenClamps_TurnsForNothing([Values(1.0, 1e2, 1e3)] double ratio)
         {
-            // Softer in every way: a piece that bends a thousand times easier than it shortens is hard to push together.
+            // Softer in every way: a piece that bends far more easily than it shortens is hard to push together.
             MaterialRod rod = SoftBetween(N / 3, N, ratio);
             for (int j = N / 3; j < N; j++)
             {
