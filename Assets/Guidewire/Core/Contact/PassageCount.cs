@@ -54,6 +54,12 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>A step begins: what a try that was given up had marked counts no more.</summary>
+        public void BeginStep()
+        {
+            Array.Clear(_left, 0, _left.Length);
+        }
+
         /// <summary>Writes into a snapshot, or takes over from one, the passages so far.</summary>
         public void Exchange(Snapshot snapshot)
         {

@@ -98,15 +98,28 @@ namespace Guidewire.Core
             double elastic = ownElastic;
             snapshot.Exchange(ref motion);
             snapshot.Exchange(ref elastic);
-            snapshot.Exchange(ref _start);
-            snapshot.Exchange(ref _loadWork);
-            snapshot.Exchange(ref _mostPutIn);
-            snapshot.Exchange(ref _step);
+            ExchangeSums(snapshot);
             if (!snapshot.IsWritten)
             {
                 _start += Math.Max(0.0, ownMotion - motion) + Math.Max(0.0, ownElastic - elastic);
                 _before.CopyFrom(_shape);
             }
+        }
+
+        /// <summary>Writes or takes over all that <see cref="Blowup"/> may touch, for a <see cref="StepStart"/>.
+        /// </summary>
+        public void ExchangeStep(Snapshot snapshot)
+        {
+            ExchangeSums(snapshot);
+            _before.Exchange(snapshot);
+        }
+
+        private void ExchangeSums(Snapshot snapshot)
+        {
+            snapshot.Exchange(ref _start);
+            snapshot.Exchange(ref _loadWork);
+            snapshot.Exchange(ref _mostPutIn);
+            snapshot.Exchange(ref _step);
         }
 
         // T, J.

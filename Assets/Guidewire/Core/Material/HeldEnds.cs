@@ -137,6 +137,15 @@ namespace Guidewire.Core
             snapshot.Exchange(ref _carried);
         }
 
+        /// <summary>Writes or takes over all that a step may touch, for a <see cref="StepStart"/>.</summary>
+        public void ExchangeStep(Snapshot snapshot)
+        {
+            ExchangeTurns(snapshot);
+            ExchangeWork(snapshot);
+            snapshot.Exchange(ref _firstPlace);
+            snapshot.Exchange(ref _lastPlace);
+        }
+
         private void Shift(RodShape shape, int node, in Vector3d to)
         {
             Vector3d move = to - shape.X[node];

@@ -46,13 +46,6 @@ namespace Guidewire.Core
         /// <summary>How far the drive has turned the clamp since the start, rad.</summary>
         public double Turn { get; private set; }
 
-        /// <summary>All three, to take a step again.</summary>
-        public (double Insertion, double Turn, double Slip, double Sense) Way
-        {
-            get => (Insertion, Turn, Slip, _sense);
-            set => (Insertion, Turn, Slip, _sense) = value;
-        }
-
         /// <summary>The farthest that it may move node 0, m.</summary>
         public double MostInsertion { get; set; } = double.PositiveInfinity;
 
@@ -135,6 +128,16 @@ namespace Guidewire.Core
             Turn = snapshot.Exchange(Turn);
             Slip = snapshot.Exchange(Slip);
             snapshot.Exchange(ref _sense);
+        }
+
+        /// <summary>Writes or takes over all that a step may touch, what it prescribes among it, for a
+        /// <see cref="StepStart"/>.</summary>
+        public void ExchangeStep(Snapshot snapshot)
+        {
+            Exchange(snapshot);
+            Axis = snapshot.Exchange(Axis);
+            Asked = snapshot.Exchange(Asked);
+            _schedule.ExchangeDrive(snapshot);
         }
 
         private double Rate(TimeTable table, double time)

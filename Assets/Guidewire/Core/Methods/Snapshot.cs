@@ -1,5 +1,6 @@
 using System;
 using System.Buffers.Binary;
+using System.Runtime.InteropServices;
 
 namespace Guidewire.Core
 {
@@ -21,6 +22,20 @@ namespace Guidewire.Core
         public Snapshot ToRead()
         {
             return new Snapshot { _bits = _bits, _count = _count, IsWritten = false };
+        }
+
+        /// <summary>What comes next is written from the start on, in the memory that is there.</summary>
+        public void WriteAnew()
+        {
+            _count = 0;
+            IsWritten = true;
+        }
+
+        /// <summary>What has been written is read, from its start.</summary>
+        public void ReadAnew()
+        {
+            _at = 0;
+            IsWritten = false;
         }
 
         /// <summary>What has been written, eight bytes a number, the lowest first on every machine.</summary>
@@ -48,20 +63,12 @@ namespace Guidewire.Core
         /// <summary>A count.</summary>
         public void Exchange(ref long value)
         {
-            if (!IsWritten)
+            ref long bits = ref Next(1)[0];
+            if (IsWritten)
             {
-                if (_at == _count)
-                {
-                    throw new InvalidOperationException("more is read from a snapshot than was written");
-                }
-                value = _bits[_at++];
-                return;
+                bits = value;
             }
-            if (_count == _bits.Length)
-            {
-                Array.Resize(ref _bits, 2 * _count);
-            }
-            _bits[_count++] = value;
+            value = bits;
         }
 
         /// <summary>A number.</summary>
@@ -183,19 +190,13 @@ namespace Guidewire.Core
         /// <summary>Numbers; a reader has as many.</summary>
         public void Exchange(double[] values)
         {
-            for (int i = 0; i < values.Length; i++)
-            {
-                Exchange(ref values[i]);
-            }
+            Exchange(MemoryMarshal.Cast<double, long>(values));
         }
 
         /// <summary>Vectors; a reader has as many.</summary>
         public void Exchange(Vector3d[] values)
         {
-            for (int i = 0; i < values.Length; i++)
-            {
-                Exchange(ref values[i]);
-            }
+            Exchange(MemoryMarshal.Cast<Vector3d, long>(values));
         }
 
         /// <summary>Several lists of vectors; a reader has as many, of the same lengths.</summary>
@@ -210,10 +211,7 @@ namespace Guidewire.Core
         /// <summary>Orientations; a reader has as many.</summary>
         public void Exchange(Quaterniond[] values)
         {
-            for (int i = 0; i < values.Length; i++)
-            {
-                Exchange(ref values[i]);
-            }
+            Exchange(MemoryMarshal.Cast<Quaterniond, long>(values));
         }
 
         /// <summary>A section that means something only to a reader made like its writer: written whole, and read where
@@ -253,6 +251,40 @@ namespace Guidewire.Core
             }
             _at = (int)next;
             return agrees;
+        }
+
+        // Numbers as they lie in memory: a step keeps tens of thousands of them.
+        private void Exchange(Span<long> values)
+        {
+            Span<long> kept = Next(values.Length);
+            if (IsWritten)
+            {
+                values.CopyTo(kept);
+            }
+            else
+            {
+                kept.CopyTo(values);
+            }
+        }
+
+        // Where the next numbers are written or read.
+        private Span<long> Next(int count)
+        {
+            if (!IsWritten)
+            {
+                if (count > _count - _at)
+                {
+                    throw new InvalidOperationException("more is read from a snapshot than was written");
+                }
+                _at += count;
+                return _bits.AsSpan(_at - count, count);
+            }
+            if (_count + count > _bits.Length)
+            {
+                Array.Resize(ref _bits, Math.Max(2 * _bits.Length, _count + count));
+            }
+            _count += count;
+            return _bits.AsSpan(_count - count, count);
         }
     }
 }

@@ -212,6 +212,18 @@ namespace Guidewire.Core
             return DistalFrame * Quaterniond.FromAxisAngle(Vector3d.UnitZ, DistalTurnAt(time));
         }
 
+        /// <summary>Writes or takes over how the proximal end moves: what a drive prescribes anew before every step.
+        /// </summary>
+        public void ExchangeDrive(Snapshot snapshot)
+        {
+            ProximalPosition = snapshot.Exchange(ProximalPosition);
+            ProximalVelocity = snapshot.Exchange(ProximalVelocity);
+            ProximalTime = snapshot.Exchange(ProximalTime);
+            ProximalTwistRate = snapshot.Exchange(ProximalTwistRate);
+            snapshot.Exchange(ref _twistOrigin);
+            snapshot.Exchange(ref _twistOriginTime);
+        }
+
         /// <summary>Writes into a snapshot, or takes over from one, where the prescribed motions began and how far they
         /// have come at this time. Loads, ramps and rates stay this schedule's own: a twist at another rate goes on
         /// from the present turn, and node 0 stays where a drive has brought it until a drive takes it on.</summary>

@@ -238,6 +238,20 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>Writes or takes over all that <see cref="Step"/> may touch, for a <see cref="StepStart"/>.
+        /// </summary>
+        public void ExchangeStep(Snapshot snapshot)
+        {
+            _drive.ExchangeStep(snapshot);
+            _dynamics.ExchangeStep(snapshot);
+            _ends.ExchangeStep(snapshot);
+            _energy.ExchangeStep(snapshot);
+            _rest.Exchange(snapshot);
+            _extremes.Exchange(snapshot);
+            _watch?.Exchange(snapshot);
+            Contacts?.Exchange(snapshot);
+        }
+
         /// <summary>Writes or takes over what was counted, whatever the number of elements.</summary>
         public void ExchangeCounts(Snapshot snapshot)
         {

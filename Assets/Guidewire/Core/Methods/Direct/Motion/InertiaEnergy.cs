@@ -24,6 +24,7 @@ namespace Guidewire.Core
         private readonly Quaterniond[] _seen;      // orientations whose couples are known in this stage
         private readonly Vector3d[] _seenCouple;
         private readonly Vector3d[] _countedTurn;  // phi with its full turns, in the shape that was last looked at
+        private readonly Vector3d[] _keptTurn;
 
         /// <summary>The inertia of a rod.</summary>
         public InertiaEnergy(RodMass mass)
@@ -38,6 +39,7 @@ namespace Guidewire.Core
             _seen = new Quaterniond[n];
             _seenCouple = new Vector3d[n];
             _countedTurn = new Vector3d[n];
+            _keptTurn = new Vector3d[n];
             Start = new Quaterniond[n];
             FreePositions = new Vector3d[n + 1];
             TurnHistory = new Vector3d[n];
@@ -67,6 +69,18 @@ namespace Guidewire.Core
         {
             Array.Copy(shape.Q, Start, Start.Length);
             Array.Clear(_countedTurn, 0, _countedTurn.Length);
+        }
+
+        /// <summary>Keeps the full turns of the shape that was last looked at.</summary>
+        public void KeepTurns()
+        {
+            Array.Copy(_countedTurn, _keptTurn, _keptTurn.Length);
+        }
+
+        /// <summary>Turns are counted from those again that were kept.</summary>
+        public void RestoreTurns()
+        {
+            Array.Copy(_keptTurn, _countedTurn, _keptTurn.Length);
         }
 
         /// <summary>Whether a couple is kept until an element turns on: a search along the energy asks for each up to

@@ -33,13 +33,11 @@ namespace Guidewire.Core
         private readonly ConsistentStart _start;
         private readonly StageRates _rates;
         private readonly Bdf2History _history;
-        private readonly StepStart _saved;        // where a step began that may have to be taken again
+        private readonly StepStart _innerStart;   // of the step of the scheme within a logged one
         private readonly Vector3d[] _startPositions;
         private readonly int _last;                   // index of the stage that ends a step
         private readonly double _length;
         private Vector3d _oldMomentum;
-        private StepStart? _retry;
-        private double _retryTime;
         private double _lastStep;             // s
         private bool _hasStepped;
         private bool _hasRates;               // the last stage has the rates of the next step's start
@@ -75,7 +73,7 @@ namespace Guidewire.Core
             _startPositions = new Vector3d[n + 1];
             _last = scheme == null ? 0 : scheme.StageCount - 1;
             _start = new ConsistentStart(terms, _damping);
-            _saved = new StepStart(n);
+            _innerStart = new StepStart(ExchangeMotion);
             _history = new Bdf2History(scheme == null ? n : 0);
             Control = new StepControl(scheme == null ? 1 : scheme.EmbeddedOrder);
         }
@@ -182,25 +180,6 @@ namespace Guidewire.Core
         public Vector3d DistalCouple => _terms.Bending.DistalCouple(Shape)
             + (_damping == null ? Vector3d.Zero : _damping.DistalCouple(Shape));
 
-        /// <summary>Keeps where the rod is, to take the next step again.</summary>
-        public void Save()
-        {
-            _retry ??= new StepStart(Shape.ElementCount);
-            _retry.Save(Shape, Velocities, Spins, _frames);
-            _retryTime = Time;
-        }
-
-        /// <summary>Goes back to where the rod was saved; the next step predicts from nothing.</summary>
-        public void Restore()
-        {
-            _retry!.Restore(Shape, Velocities, Spins, _frames);
-            Time = _retryTime;
-            _hasRates = false;
-            _hasPast = false;
-            _rates.Clear();
-            _history.Forget();
-        }
-
         /// <summary>One step.</summary>
         /// <param name="dt">s.</param>
         /// <returns>Null, or why a stage has no solution; the shape is then not to be used.</returns>
@@ -253,6 +232,18 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>Writes or takes over all that <see cref="Step"/> may touch, for a <see cref="StepStart"/>.
+        /// </summary>
+        public void ExchangeStep(Snapshot snapshot)
+        {
+            Time = snapshot.Exchange(Time);
+            MomentumRate = snapshot.Exchange(MomentumRate);
+            snapshot.Exchange(ref _lastStep);
+            Control.ExchangeCounts(snapshot);
+            Control.ExchangeLength(snapshot);
+            ExchangeMotion(snapshot);
+        }
+
         /// <summary>Writes or takes over what was counted.</summary>
         public void ExchangeCounts(Snapshot snapshot)
         {
@@ -261,25 +252,48 @@ namespace Guidewire.Core
             Control.ExchangeCounts(snapshot);
         }
 
-        private void ExchangeStages(Snapshot snapshot)
+        // What a step of the scheme may touch; how long the next one is follows from how this one went.
+        private void ExchangeMotion(Snapshot snapshot)
+        {
+            Shape.Exchange(snapshot);
+            snapshot.Exchange(Velocities);
+            snapshot.Exchange(Spins);
+            _frames.Exchange(snapshot);
+            foreach (EnergyTerm term in _terms.All)
+            {
+                term.Exchange(snapshot);
+            }
+            ExchangePast(snapshot);
+            _damping?.Exchange(snapshot);
+            _meanForces.Exchange(snapshot);
+            snapshot.Exchange(ref _hasRates);
+            _stage.ExchangeStep(snapshot);
+        }
+
+        private void ExchangePast(Snapshot snapshot)
         {
             snapshot.Exchange(ref _hasStepped);
             snapshot.Exchange(ref _oldMomentum);
             _rates.Exchange(snapshot);
             _history.Exchange(snapshot);
             _inertia.Exchange(snapshot);
-            if (_damping != null)
-            {
-                snapshot.Section("damping", _damping.Exchange);
-            }
             Solver.ExchangeTrust(snapshot);
-            Control.ExchangeLength(snapshot);
             snapshot.Exchange(ref _hasPast);
             snapshot.Exchange(ref _proximalVelocity);
             snapshot.Exchange(ref _distalVelocity);
             StageForces forces = _stage.Forces;
             forces.Exchange(snapshot);
             _stage.Forces = forces;
+        }
+
+        private void ExchangeStages(Snapshot snapshot)
+        {
+            ExchangePast(snapshot);
+            if (_damping != null)
+            {
+                snapshot.Section("damping", _damping.Exchange);
+            }
+            Control.ExchangeLength(snapshot);
             // Rates are those of this rod under these loads; a reader on which other forces act begins anew.
             _terms.SetTime(_schedule, Time);
             double own = _start.CheckSum(Shape);
@@ -328,9 +342,8 @@ namespace Guidewire.Core
             RungeKuttaScheme used = isStart ? _starter : scheme;
             if (_startsExplicitly)
             {
-                _saved.Save(Shape, Velocities, Spins, _frames);
+                _innerStart.Save();
             }
-            StageForces forces = _meanForces;
             while (true)
             {
                 string? failure = StepByRungeKutta(used, time, h, jump, h / dt);
@@ -345,8 +358,7 @@ namespace Guidewire.Core
                     _hasPast = !isStart;
                     return failure;
                 }
-                _saved.Restore(Shape, Velocities, Spins, _frames);
-                _meanForces = forces;
+                _innerStart.Restore();
                 if (startsAnew)
                 {
                     isStart = true;

@@ -152,6 +152,12 @@ namespace Guidewire.Core
             return null;
         }
 
+        /// <summary>Writes or takes over what a solution leaves to the next one, besides what the scheme has.</summary>
+        public void ExchangeStep(Snapshot snapshot)
+        {
+            WallSolver?.ExchangeShift(snapshot);
+        }
+
         /// <summary>Sum of the forces of all loads, N, whose time has been set.</summary>
         public Vector3d LoadSum()
         {
@@ -168,7 +174,7 @@ namespace Guidewire.Core
         /// <summary>By the quick iteration from the prediction, or else by the slower search.</summary>
         private string? Solve(double h, double loads, in Vector3d start, in Vector3d end)
         {
-            _before.CopyFrom(_shape);
+            KeepShape();
             RodStep.PlaceElements(_supports, _shape, _predicted, start, end);
             return Solver.Iterate(_shape, h, loads) ? null : Search(h, loads, start, end);
         }
@@ -176,18 +182,30 @@ namespace Guidewire.Core
         /// <summary>The slower search from the stage before, with what the iteration can still add to it.</summary>
         private string? Search(double h, double loads, in Vector3d start, in Vector3d end)
         {
-            _shape.CopyFrom(_before);
+            GoBack();
             RodStep.PlaceElements(_supports, _shape, _shape.Q, start, end);
             string? failure = Solver.Search(_shape);
             if (failure == null)
             {
-                _before.CopyFrom(_shape);
+                KeepShape();
                 if (!Solver.Iterate(_shape, h, loads))
                 {
-                    _shape.CopyFrom(_before);
+                    GoBack();
                 }
             }
             return failure;
+        }
+
+        private void KeepShape()
+        {
+            _before.CopyFrom(_shape);
+            Inertia.KeepTurns();
+        }
+
+        private void GoBack()
+        {
+            _shape.CopyFrom(_before);
+            Inertia.RestoreTurns();
         }
 
         /// <summary>Orientations by the accelerations of stages before; strains are not predicted but kept, because

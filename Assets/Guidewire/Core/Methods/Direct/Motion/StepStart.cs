@@ -2,38 +2,32 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Where a rod was and how it moved when a step began, to take the step again.</summary>
+    /// <summary>All that a step may touch, as it was when the step began: a step that is taken again begins with the
+    /// same bits. Counts of the work that was done are no part of it.</summary>
+    /// <remarks>Written into memory that is used anew, so that no step leaves garbage.</remarks>
     internal sealed class StepStart
     {
-        private readonly RodShape _shape;
-        private readonly Vector3d[] _velocities;
-        private readonly Vector3d[] _spins;
-        private (double Proximal, double Distal) _turns;
+        private readonly Snapshot _kept = new Snapshot();
+        private readonly Action<Snapshot> _exchange;
 
-        /// <summary>Room for a rod of n elements.</summary>
-        public StepStart(int elementCount)
+        /// <summary>For a step that touches what is exchanged here.</summary>
+        public StepStart(Action<Snapshot> exchange)
         {
-            _shape = new RodShape(elementCount);
-            _velocities = new Vector3d[elementCount + 1];
-            _spins = new Vector3d[elementCount];
+            _exchange = exchange;
         }
 
-        /// <summary>Keeps the rod's motion.</summary>
-        public void Save(RodShape shape, Vector3d[] velocities, Vector3d[] spins, ClampFrames frames)
+        /// <summary>A step begins.</summary>
+        public void Save()
         {
-            _shape.CopyFrom(shape);
-            Array.Copy(velocities, _velocities, velocities.Length);
-            Array.Copy(spins, _spins, spins.Length);
-            _turns = frames.Made;
+            _kept.WriteAnew();
+            _exchange(_kept);
         }
 
-        /// <summary>Gives it back.</summary>
-        public void Restore(RodShape shape, Vector3d[] velocities, Vector3d[] spins, ClampFrames frames)
+        /// <summary>Goes back to where it began.</summary>
+        public void Restore()
         {
-            shape.CopyFrom(_shape);
-            Array.Copy(_velocities, velocities, velocities.Length);
-            Array.Copy(_spins, spins, spins.Length);
-            frames.Made = _turns;
+            _kept.ReadAnew();
+            _exchange(_kept);
         }
     }
 }

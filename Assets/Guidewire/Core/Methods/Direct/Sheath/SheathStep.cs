@@ -24,6 +24,7 @@ namespace Guidewire.Core
         private readonly RodShape _shape;         // of the whole wire
         private readonly Vector3d[] _velocities;
         private readonly Vector3d[] _spins;
+        private readonly StepStart _start;
         private SheathWindow _window;
         private RodDynamics _dynamics = null!;    // this and the next are set wherever the window is
         private DirectStep _inner = null!;
@@ -42,6 +43,7 @@ namespace Guidewire.Core
             _spins = (Vector3d[])whole.Spins.Clone();
             _stress = new StressRecord(whole.Rod, whole.Supports);
             _setup = new SheathSetup(parameters, whole);
+            _start = new StepStart(snapshot => _inner.ExchangeStep(snapshot));
             Contacts = new ContactRecord(n + 1)
             {
                 WallForces = new Vector3d[parameters.Scene.Walls.Length],
@@ -64,9 +66,7 @@ namespace Guidewire.Core
         public override void Advance(RodState state)
         {
             MoveWindow();
-            RodSchedule schedule = _whole.Schedule;
-            (double, double, double, double) drive = _whole.Drive.Way;
-            (Vector3d place, double since) = (schedule.ProximalPosition, schedule.ProximalTime);
+            _start.Save();
             double time = _dynamics.Time;
             double torque = Torque();
             bool isDone = _inner.Step();
@@ -74,9 +74,7 @@ namespace Guidewire.Core
             {
                 // A tip that has stuck jumps round by as much as is wound up; its joint to the frame tells half a
                 // turn, and so the frame goes ahead.
-                _whole.Drive.Way = drive;
-                schedule.ProximalPosition = place;
-                schedule.ProximalTime = since;
+                _start.Restore();
                 double turned = RotationVector.Log(_setup.Frame(_frameTurn).Conjugate * _shape.Q[_window.First]).Z;
                 _frameTurn += turned - Math.Sign(torque) * Ahead;
                 Build(time, _inner);

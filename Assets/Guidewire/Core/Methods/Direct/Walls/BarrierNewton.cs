@@ -149,10 +149,16 @@ namespace Guidewire.Core
             return _gradient;
         }
 
-        /// <summary>Writes or takes over what the next stage depends on, and the counts.</summary>
-        public void Exchange(Snapshot snapshot)
+        /// <summary>Writes or takes over what the next stage depends on.</summary>
+        public void ExchangeShift(Snapshot snapshot)
         {
             snapshot.Exchange(ref _shift);
+        }
+
+        /// <summary>The same, and the counts.</summary>
+        public void Exchange(Snapshot snapshot)
+        {
+            ExchangeShift(snapshot);
             Iterations = snapshot.Exchange(Iterations);
             Factorisations = snapshot.Exchange(Factorisations);
         }

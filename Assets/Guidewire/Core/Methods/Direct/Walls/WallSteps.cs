@@ -14,6 +14,7 @@ namespace Guidewire.Core
         private readonly RodDynamics _dynamics;
         private readonly RodSchedule _schedule;
         private readonly WallWatch _watch;
+        private readonly StepStart _start;
         private readonly double _longestMove;     // m
 
         /// <summary>For this motion.</summary>
@@ -22,6 +23,7 @@ namespace Guidewire.Core
             _dynamics = dynamics;
             _schedule = schedule;
             _watch = watch;
+            _start = new StepStart(dynamics.ExchangeStep);
             _longestMove = BarrierRule.MostMove * dynamics.Terms.Walls!.Barrier.Barrier.Distance;
         }
 
@@ -77,7 +79,7 @@ namespace Guidewire.Core
             while (done < whole)
             {
                 double h = length * size / whole;
-                _dynamics.Save();
+                _start.Save();
                 string? failure = _dynamics.Step(h);
                 if (failure == null)
                 {
@@ -92,7 +94,7 @@ namespace Guidewire.Core
                 {
                     return failure;
                 }
-                _dynamics.Restore();
+                _start.Restore();
                 Halvings++;
                 size /= 2;
             }

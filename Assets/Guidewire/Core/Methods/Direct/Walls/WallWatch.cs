@@ -77,6 +77,7 @@ namespace Guidewire.Core
         /// <summary>A step begins in this shape.</summary>
         public void BeginStep(RodShape shape)
         {
+            _passages.BeginStep();
             SetUnits(shape, _start);
             Array.Copy(_start, _from, _from.Length);
             SetClearances(shape);

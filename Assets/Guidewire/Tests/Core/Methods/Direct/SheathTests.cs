@@ -181,6 +181,32 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void HubGoesAsFarAsItIsAsked_WhereAStepIsTakenAgain()
+        {
+            // In one step of 10 ms the hub goes 10 mm on and turns by half a turn.
+            SimulationParameters parameters = WallScenes.Wire(100, Radius);
+            parameters.Scene.GuidewireLength = 300.0;
+            parameters.Scene.GuidewireOffset = -295.0;
+            parameters.Scene.Sheath = new Sheath { Exit = Vector3d.Zero };
+            parameters.Scene.Walls = new ContactShape[]
+            {
+                new TubeShape(new[] { new Vector3d(0.0, 0.0, -700.0), new Vector3d(0.0, 0.0, 600.0) },
+                    new[] { 4.0, 4.0 }, true, true),
+            };
+            parameters.Drive.Kind = Drive.Displace;
+            parameters.Drive.Table = new DriveTable(
+                new TimeTable(new[] { 0.0, 0.1, 0.11, 0.2 }, new[] { 0.0, 0.0, 0.01, 0.01 }),
+                new TimeTable(new[] { 0.0, 0.1, 0.11, 0.2 }, new[] { 0.0, 0.3, 3.5, 3.5 }));
+            parameters.Material.MassDamping = 20.0;
+            parameters.Method.TimeStep = 0.01;
+            parameters.Method.MaxSimulationSteps = 20;
+            Simulation run = Run(parameters);
+            Assert.That(run.Hub()!.Insertion, Is.EqualTo(0.01).Within(1e-12));
+            Assert.That(run.State.Positions[0].Z, Is.EqualTo(-285.0).Within(1e-3));
+            Assert.That(run.State.Positions[100].Z, Is.EqualTo(15.0).Within(1e-3));
+        }
+
+        [Test]
         public void HubStopsWhereTheWireEnds_AndWhereTheTipIsBackInTheSheath([Values(-1.0, 1.0)] double way)
         {
             SimulationParameters parameters = Sheathed(20, 0.1, 25.0);

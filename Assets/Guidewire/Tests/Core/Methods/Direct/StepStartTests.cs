@@ -1,0 +1,167 @@
+using System;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>A step that is taken again begins with the bits with which it began first.</summary>
+    public sealed class StepStartTests
+    {
+        [TestCase(Integrator.ImplicitEuler)]
+        [TestCase(Integrator.Bdf2)]
+        [TestCase(Integrator.Trbdf2)]
+        [TestCase(Integrator.Esdirk3)]
+        [TestCase(Integrator.Esdirk4)]
+        public void StepsTakenAgainAtRandom_LeaveTheSameBits_InAFreeMotion(Integrator integrator)
+        {
+            SimulationParameters parameters = Rods.Clamped(8, Solver.Direct, 2e-3, 40);
+            parameters.Method.Integrator = integrator;
+            parameters.Scene.Gravity = new Vector3d(0.0, -9.81, 0.0);
+            parameters.Scene.TipForce = new Vector3d(0.02, 0.0, 0.0);
+            parameters.Scene.TipForceReleaseTime = 0.031;
+            parameters.Material.MassDamping = 3.0;
+            parameters.Material.MaterialDamping = 1e-4;
+            parameters.Drive.RotationSpeed = 4.0;
+            parameters.Method.TimeStepError = integrator == Integrator.Esdirk3 ? 1e-5 : 0.0;
+            AssertSameBits(parameters, 40, 1);
+        }
+
+        [TestCase(Integrator.ImplicitEuler)]
+        [TestCase(Integrator.Esdirk3)]
+        public void StepsTakenAgainAtRandom_LeaveTheSameBits_BetweenWallsThatRub(Integrator integrator)
+        {
+            SimulationParameters parameters = WallScenes.Arch(30, 0.02, 100.0, 100.0);
+            parameters.Method.Integrator = integrator;
+            parameters.Scene.Walls[0].FrictionCoefficient = 0.2;
+            parameters.Drive.HubForceLimit = 0.2;
+            parameters.Drive.RotationSpeed = 5.0;
+            AssertSameBits(parameters, 45, 2);
+        }
+
+        [Test]
+        public void StepWithoutASolution_LeavesTheNextTryNothing()
+        {
+            // A term that is no number from some evaluation on: whatever a stage has done until then is undone.
+            var random = new System.Random(3);
+            (RodDynamics a, _) = Failing(RungeKuttaScheme.Esdirk3());
+            (RodDynamics b, NotANumber poison) = Failing(RungeKuttaScheme.Esdirk3());
+            var start = new StepStart(b.ExchangeStep);
+            int failed = 0;
+            for (int k = 0; k < 30; k++)
+            {
+                double dt = k < 15 ? 2e-3 : 1e-3;
+                Assert.That(a.Step(dt), Is.Null);
+                start.Save();
+                poison.Evaluations = random.Next(1, 12);
+                failed += b.Step(random.Next(2) == 0 ? dt : 0.5 * dt) == null ? 0 : 1;
+                poison.Evaluations = int.MaxValue;
+                start.Restore();
+                Assert.That(b.Step(dt), Is.Null);
+                Assert.That(b.Shape.X, Is.EqualTo(a.Shape.X), "step " + k);
+                Assert.That(b.Shape.Q, Is.EqualTo(a.Shape.Q));
+                Assert.That(b.Velocities, Is.EqualTo(a.Velocities));
+                Assert.That(b.MeanReaction, Is.EqualTo(a.MeanReaction));
+                Assert.That(b.Time, Is.EqualTo(a.Time));
+            }
+            Assert.That(failed, Is.GreaterThan(15));
+        }
+
+        [Test]
+        public void KeepingAStep_LeavesNoGarbage()
+        {
+            (RodDynamics dynamics, _) = Failing(RungeKuttaScheme.Esdirk3());
+            var start = new StepStart(dynamics.ExchangeStep);
+            start.Save();
+            Assert.That(Garbage.LeftBy(() =>
+            {
+                start.Save();
+                start.Restore();
+            }), Is.Zero);
+        }
+
+        // Of two runs one takes steps at random, one or two of them, and then again from where they began.
+        private static void AssertSameBits(SimulationParameters parameters, int steps, int seed)
+        {
+            var random = new System.Random(seed);
+            MethodStart a = Start(parameters);
+            MethodStart b = Start(parameters);
+            var start = new StepStart(((DirectStep)b.Stepper).ExchangeStep);
+            int again = 0;
+            for (int k = 0; k < steps; k++)
+            {
+                a.Stepper.Advance(a.State);
+                if (random.Next(2) == 0)
+                {
+                    start.Save();
+                    for (int tries = random.Next(1, 3); tries > 0; tries--)
+                    {
+                        ((DirectStep)b.Stepper).Step();
+                    }
+                    start.Restore();
+                    again++;
+                }
+                b.Stepper.Advance(b.State);
+                Assert.That(a.Stepper.Failure, Is.Null);
+                Assert.That(b.State.Positions, Is.EqualTo(a.State.Positions), "step " + k);
+                Assert.That(b.State.Orientations, Is.EqualTo(a.State.Orientations));
+                Assert.That(b.State.Velocities, Is.EqualTo(a.State.Velocities));
+                Assert.That(b.State.AngularVelocities, Is.EqualTo(a.State.AngularVelocities));
+                Assert.That(b.Stepper.Hub()!.Force, Is.EqualTo(a.Stepper.Hub()!.Force));
+                Assert.That(b.Stepper.Hub()!.Insertion, Is.EqualTo(a.Stepper.Hub()!.Insertion));
+                Assert.That(b.Stepper.Hub()!.Turn, Is.EqualTo(a.Stepper.Hub()!.Turn));
+            }
+            Assert.That(again, Is.GreaterThan(steps / 4));
+            Assert.That(b.Stepper.Contacts?.Passages, Is.EqualTo(a.Stepper.Contacts?.Passages));
+            Assert.That(b.Stepper.Contacts?.DriveAsked, Is.EqualTo(a.Stepper.Contacts?.DriveAsked));
+            Assert.That(b.Stepper.Contacts?.DriveShortfall, Is.EqualTo(a.Stepper.Contacts?.DriveShortfall));
+            Assert.That(b.Stepper.Report()!.InnerSteps, Is.EqualTo(a.Stepper.Report()!.InnerSteps));
+            Assert.That(b.Stepper.Report()!.Extremes!.FrictionWork,
+                Is.EqualTo(a.Stepper.Report()!.Extremes!.FrictionWork));
+        }
+
+        private static MethodStart Start(SimulationParameters parameters)
+        {
+            return MethodTable.Of(Solver.Direct).Build(parameters, new Scene(parameters));
+        }
+
+        private static (RodDynamics Motion, NotANumber Poison) Failing(RungeKuttaScheme scheme)
+        {
+            MaterialRod rod = Rods.Wire(6);
+            rod.MaterialDamping = 1e-4;
+            var poison = new NotANumber();
+            var terms = new RodTerms(rod, new RodSupports(), new SceneParameters(), poison);
+            var schedule = new RodSchedule { Gravity = new Vector3d(0.0, -9.81, 0.0) };
+            var motion = new RodDynamics(terms, schedule, Rods.Straight(rod), scheme, 1e-7, 10)
+            {
+                TracksReactions = true,
+            };
+            return (motion, poison);
+        }
+
+        /// <summary>No energy, and after some evaluations no number.</summary>
+        private sealed class NotANumber : EnergyTerm
+        {
+            public int Evaluations { get; set; } = int.MaxValue;
+
+            public override double Value(RodShape shape)
+            {
+                return Next();
+            }
+
+            public override void AddGradient(RodShape shape, RodVector[] gradient, int from, int to,
+                ref GradientMeasures measured)
+            {
+                gradient[shape.ElementCount].X1 += Next();
+            }
+
+            public override void AddBlocks(RodShape shape, RodBlock[] blocks, RodVector[] gradient, int from, int to)
+            {
+                gradient[shape.ElementCount].X1 += Next();
+            }
+
+            private double Next()
+            {
+                return --Evaluations > 0 ? 0.0 : double.NaN;
+            }
+        }
+    }
+}
