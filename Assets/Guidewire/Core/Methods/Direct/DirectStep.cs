@@ -21,6 +21,7 @@ namespace Guidewire.Core
         private readonly HeldEnds _ends;
         private readonly EnergyWatch _energy;
         private readonly RestWatch _rest;
+        private readonly HalvedSteps _halved;
         private readonly WallSteps? _walls;
         private readonly WallWatch? _watch;
         private readonly ElementPushes? _pushes;
@@ -42,12 +43,13 @@ namespace Guidewire.Core
             _startFactorisations = report.Factorisations;
             Contacts = record;
             dynamics.TracksReactions = record != null;
+            _halved = new HalvedSteps(dynamics);
             WallTerms? walls = dynamics.Terms.Walls;
             if (walls != null)
             {
                 walls.Spring.Place = scene.Schedule.ProximalPositionAt(dynamics.Time);
                 _watch = new WallWatch(scene.Rod, walls, scene.Metres);
-                _walls = new WallSteps(dynamics, scene.Schedule, _watch);
+                _walls = new WallSteps(dynamics, _halved, scene.Schedule, _watch);
                 _pushes = new ElementPushes(scene.Rod, walls.Barrier);
                 if (record != null)
                 {
@@ -93,7 +95,7 @@ namespace Guidewire.Core
             Vector3d free = _dynamics.Shape.X[last] + _timeStep * _dynamics.Velocities[last]
                 + (_timeStep * _timeStep) * _scene.Schedule.Gravity;
             Vector3d held = spring == null ? Vector3d.Zero : spring.HeldPlace(_dynamics.Shape);
-            string? failure = _walls == null ? _dynamics.Step(_timeStep) : _walls.Step(_timeStep);
+            string? failure = _walls == null ? _halved.Step(_timeStep) : _walls.Step(_timeStep);
             if (failure != null)
             {
                 Failure = "the step to t = " + _dynamics.Time.ToString("G6",
@@ -114,7 +116,7 @@ namespace Guidewire.Core
             PredictionError = Vector3d.Distance(free, _dynamics.Shape.X[last]) / _scene.Metres;
             if (Contacts != null)
             {
-                Contacts.Reaction = _walls == null ? _dynamics.MeanReaction : _walls.MeanReaction;
+                Contacts.Reaction = _walls == null ? _halved.MeanReaction : _walls.MeanReaction;
                 _watch?.EndStep(_dynamics.Shape, Contacts);
                 if (spring != null && _dynamics.Terms.Walls!.HoldsStart)
                 {
@@ -209,10 +211,10 @@ namespace Guidewire.Core
             {
                 Barrier barrier = _dynamics.Terms.Walls!.Barrier.Barrier;
                 _report.WallIterations = _dynamics.WallSolver!.Iterations;
-                _report.HalvedSteps = _walls.Halvings;
                 _report.ContactDistance = barrier.Distance;
                 _report.ContactStiffness = barrier.Stiffness;
             }
+            _report.HalvedSteps = _halved.Halvings;
             _report.InnerSteps = _dynamics.Control.Steps;
             _report.Energy = _dynamics.Energy;
             RodShape shape = _dynamics.Shape;
@@ -256,7 +258,8 @@ namespace Guidewire.Core
         public void ExchangeCounts(Snapshot snapshot)
         {
             snapshot.Exchange(ref _startFactorisations);
-            _walls?.Exchange(snapshot);
+            _halved.Exchange(snapshot);
+            _watch?.Exchange(snapshot);
             _ends.ExchangeWork(snapshot);
             _dynamics.ExchangeCounts(snapshot);
         }
@@ -277,7 +280,8 @@ namespace Guidewire.Core
             _report.Exchange(snapshot);
             _energy.Exchange(snapshot);
             _drive.Exchange(snapshot);
-            _walls?.Exchange(snapshot);
+            _halved.Exchange(snapshot);
+            _watch?.Exchange(snapshot);
             ExchangeRecord(snapshot);
             _ends.ExchangeWork(snapshot);
             _rest.Exchange(snapshot);

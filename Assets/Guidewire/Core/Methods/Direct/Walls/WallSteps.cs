@@ -3,10 +3,9 @@ using System;
 namespace Guidewire.Core
 {
     /// <summary>Steps of a wire between walls: a step that moves or turns the proximal end farther than the barriers
-    /// reach is made in parts, and a part that has no solution is halved, a bounded number of times.</summary>
+    /// reach is made in parts, each of which is halved where it has no solution.</summary>
     internal sealed class WallSteps
     {
-        private const int MostHalvings = 8;
         private const int MostParts = 64;
         private const double LargestTurn = 0.5;   // radians a part
         private const double SmallExcess = 0.01;  // over the longest part that does not make two of it
@@ -14,25 +13,23 @@ namespace Guidewire.Core
         private readonly RodDynamics _dynamics;
         private readonly RodSchedule _schedule;
         private readonly WallWatch _watch;
-        private readonly StepStart _start;
+        private readonly HalvedSteps _halved;
         private readonly double _longestMove;     // m
 
         /// <summary>For this motion.</summary>
-        public WallSteps(RodDynamics dynamics, RodSchedule schedule, WallWatch watch)
+        public WallSteps(RodDynamics dynamics, HalvedSteps halved, RodSchedule schedule, WallWatch watch)
         {
             _dynamics = dynamics;
             _schedule = schedule;
             _watch = watch;
-            _start = new StepStart(dynamics.ExchangeStep);
+            _halved = halved;
+            halved.PieceDone = () => watch.AddPart(dynamics.Shape);
             _longestMove = BarrierRule.MostMove * dynamics.Terms.Walls!.Barrier.Barrier.Distance;
         }
 
         /// <summary>Force of the proximal support, N, the mean over the last step, where reactions are
         /// tracked.</summary>
         public Vector3d MeanReaction { get; private set; }
-
-        /// <summary>Parts that were halved so far.</summary>
-        public long Halvings { get; private set; }
 
         /// <summary>One step.</summary>
         /// <param name="dt">s.</param>
@@ -44,20 +41,14 @@ namespace Guidewire.Core
             int parts = Parts(dt);
             for (int k = 0; k < parts; k++)
             {
-                string? failure = StepPart(dt / parts, dt);
+                string? failure = _halved.Step(dt / parts);
                 if (failure != null)
                 {
                     return failure;
                 }
+                MeanReaction += (dt / parts / dt) * _halved.MeanReaction;
             }
             return null;
-        }
-
-        /// <summary>Writes or takes over the counts.</summary>
-        public void Exchange(Snapshot snapshot)
-        {
-            Halvings = snapshot.Exchange(Halvings);
-            _watch.Exchange(snapshot);
         }
 
         private int Parts(double dt)
@@ -69,36 +60,6 @@ namespace Guidewire.Core
             // Rounding, and the little that node 0 is off its support, must not make a part more.
             double parts = Math.Ceiling(Math.Max(move / _longestMove, turn / LargestTurn) * (1.0 - SmallExcess));
             return (int)Math.Min(Math.Max(parts, 1.0), MostParts);
-        }
-
-        private string? StepPart(double length, double dt)
-        {
-            const int whole = 1 << MostHalvings;
-            int done = 0;
-            int size = whole;
-            while (done < whole)
-            {
-                double h = length * size / whole;
-                _start.Save();
-                string? failure = _dynamics.Step(h);
-                if (failure == null)
-                {
-                    MeanReaction += (h / dt) * _dynamics.MeanReaction;
-                    _watch.AddPart(_dynamics.Shape);
-                    done += size;
-                    // Longer again where the parts done make up whole ones.
-                    size = size < whole && done % (2 * size) == 0 ? 2 * size : size;
-                    continue;
-                }
-                if (size == 1)
-                {
-                    return failure;
-                }
-                _start.Restore();
-                Halvings++;
-                size /= 2;
-            }
-            return null;
         }
     }
 }
