@@ -10,8 +10,7 @@ namespace Guidewire.Core
         // A step in which a disturbance would grow by much (a thrust beyond buckling) may end in any shape.
         private const string Shorter = "; in a motion a shorter timeStep, or a timeStepError, may do";
 
-        // A free spin by 0.1 rad a step loses under 0.1 % of its angular momentum in 60 rad, under schemes of order 2
-        // and more; the loss grows with the square of the angle and faster.
+        // A free spin by 0.1 rad a step lost 0.14 % of its rate in 60 rad with esdirk3, by 0.3 rad a step 8 % in 180.
         private const double MostSpinTurn = 0.1;
 
         private readonly MaterialScene _scene;
