@@ -84,6 +84,20 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>EI of the softest element about its softer axis, N m^2.</summary>
+        public double SoftestBendStiffness
+        {
+            get
+            {
+                double smallest = double.PositiveInfinity;
+                for (int j = 0; j < ElementCount; j++)
+                {
+                    smallest = Math.Min(smallest, Math.Min(BendStiffness1[j], BendStiffness2[j]));
+                }
+                return smallest;
+            }
+        }
+
         /// <summary>EI/L^2 of the stiffest element, N: the scale of the forces that bend the rod.</summary>
         public double BendForce
         {

@@ -8,7 +8,8 @@ namespace Guidewire.Core
     /// <remarks>With K the second derivative of all terms at the shape at hand, g their gradient and M the mass, a wire
     /// near its rest shape moves by M u'' + K u = 0 about it. Three lengths must be below the threshold:
     /// 1. |K^-1 g|, the Newton step to the rest shape: how far the wire is from it, also at a turning point, where
-    ///    nothing moves. K must have no negative eigenvalue: an equilibrium that a disturbance leaves is no end.
+    ///    nothing moves. K must have no negative eigenvalue but those of neutral motions: an equilibrium that a
+    ///    disturbance leaves is no end.
     /// 2. sqrt(|v| |K^-1 M v|), how far the wire goes on swinging: in a mode of angular frequency w it is v/w, however
     ///    slow the mode is.
     /// 3. |v| t with t = sqrt(m L^3/EI): in t the slowest bending mode of a straight cantilever turns by 3.5 rad, every
@@ -21,7 +22,8 @@ namespace Guidewire.Core
     {
         private const double Interval = 0.1;           // of t
         private const double Regularisation = 1e-6;    // of EI/L^2; a wire may turn about its own load for nothing
-        private const double Neutral = 1.01e-4;        // of EI/L^2: eigenvalues above its negative are not negative
+        private const double MostRegularisation = 0.01;  // of the softest element's EI/L^2
+        private const double Neutral = 1.01e-4;        // of EI/L^2: eigenvalues above its negative may be 0
 
         private readonly MaterialScene _scene;
         private readonly RodTerms _terms;
@@ -32,9 +34,11 @@ namespace Guidewire.Core
         private readonly double _end;                  // of the run, s
         private readonly double _length;               // L, m
         private readonly double _bendForce;            // N
+        private readonly double _regularisation;       // N
         private readonly double _time;                 // t, s
         private readonly BlockTridiagonal _system;
         private readonly FollowerTangent? _tangent;    // where a load at the tip has no potential
+        private readonly EquilibriumStability? _stability;
         private readonly RodVector[] _gradient;
         private readonly RodVector[] _step;
         private readonly RodVector[] _motion;
@@ -55,11 +59,8 @@ namespace Guidewire.Core
             _end = method.MaxSimulationSteps * method.TimeStep;
             _length = scene.Rod.TotalLength;
             _bendForce = scene.Rod.BendForce;
-            double softest = double.PositiveInfinity;
-            for (int j = 0; j < scene.Rod.ElementCount; j++)
-            {
-                softest = Math.Min(softest, Math.Min(scene.Rod.BendStiffness1[j], scene.Rod.BendStiffness2[j]));
-            }
+            double softest = scene.Rod.SoftestBendStiffness;
+            _regularisation = Math.Min(Regularisation * _bendForce, MostRegularisation * softest / (_length * _length));
             _time = Math.Sqrt(terms.Mass.Total * _length * _length * _length / softest);
             _tangent = terms.HavePotential ? null
                 : new FollowerTangent(scene.Rod, scene.Supports, _all, terms.Followers);
@@ -68,6 +69,10 @@ namespace Guidewire.Core
             _step = new RodVector[_system.VectorCount];
             _motion = new RodVector[_system.VectorCount];
             _swing = new RodVector[_system.VectorCount];
+            if (_threshold > 0.0 && _tangent == null)
+            {
+                _stability = new EquilibriumStability(scene.Rod, scene.Supports, _all, _system, Neutral * _bendForce);
+            }
         }
 
         /// <summary>How the wire is at rest at this time, s, in one line; or null.</summary>
@@ -102,7 +107,7 @@ namespace Guidewire.Core
             SetMomentum();
             Solve(_swing);
             double swing = Math.Sqrt(speed * Size(_swing));
-            if (!(swing <= _threshold))
+            if (!(swing <= _threshold) || (_stability != null && !_stability.IsStable(_scene.Shape)))
             {
                 return null;
             }
@@ -120,7 +125,7 @@ namespace Guidewire.Core
         // The Newton step; false where the equilibrium near by is none that a wire stays in.
         private bool Factorise()
         {
-            for (double shift = Regularisation * _bendForce; shift <= Neutral * _bendForce; shift *= 10.0)
+            for (double shift = _regularisation; shift <= Neutral * _bendForce; shift *= 10.0)
             {
                 if (_tangent != null)
                 {

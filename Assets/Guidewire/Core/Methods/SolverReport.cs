@@ -19,7 +19,7 @@ namespace Guidewire.Core
         /// <summary>Newton iterations of the stages between walls; NaN without walls.</summary>
         public double WallIterations { get; internal set; } = double.NaN;
 
-        /// <summary>Parts of steps between walls that had no solution and were halved; NaN without walls.</summary>
+        /// <summary>Steps, and parts of steps, that had no solution and were halved; NaN but with direct.</summary>
         public double HalvedSteps { get; internal set; } = double.NaN;
 
         /// <summary>Gap below which walls push, m; NaN without walls.</summary>

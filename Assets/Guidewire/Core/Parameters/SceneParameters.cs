@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
@@ -94,6 +95,27 @@ namespace Guidewire.Core
 
         /// <summary>The sheath from which the wire is fed into the vessel, or null.</summary>
         public Sheath? Sheath { get; set; }
+
+        /// <summary>The tables of the loads that there are.</summary>
+        internal TimeTable[] UsedLoadTables()
+        {
+            var tables = new List<TimeTable>();
+            Use(GravityTable, Gravity != Vector3d.Zero);
+            Use(TipForceTable, TipForce != Vector3d.Zero);
+            Use(DistributedForceTable, DistributedForce != Vector3d.Zero);
+            Use(AxialForceTable, AxialForce != 0.0);
+            Use(TipMomentTable, TipMoment != Vector3d.Zero);
+            Use(TipFollowerForceTable, TipFollowerForce != Vector3d.Zero);
+            return tables.ToArray();
+
+            void Use(TimeTable? table, bool isUsed)
+            {
+                if (table != null && isUsed)
+                {
+                    tables.Add(table);
+                }
+            }
+        }
 
         /// <summary>The same values; lists and walls are shared.</summary>
         internal SceneParameters Copy()

@@ -32,6 +32,9 @@ namespace Guidewire.Core
         /// <summary>Factor on the axial force over time, or null.</summary>
         public TimeTable? AxialForceTable { get; set; }
 
+        /// <summary>The tables of all loads that there are, of those that turn with the tip among them.</summary>
+        public TimeTable[] LoadTables { get; set; } = Array.Empty<TimeTable>();
+
         /// <summary>s; the force acts at times up to and including this one.</summary>
         public double TipForceReleaseTime { get; set; } = double.PositiveInfinity;
 
@@ -151,7 +154,8 @@ namespace Guidewire.Core
         }
 
         /// <summary>The first time after this one, s, at which a load or the velocity of a support jumps: the tip force
-        /// is let go, the distal end comes to rest. Infinite where none does.</summary>
+        /// is let go, a table of a load has two rows of one time, the distal end comes to rest. Infinite where none
+        /// does.</summary>
         public double NextJump(double time)
         {
             double next = double.PositiveInfinity;
@@ -159,8 +163,24 @@ namespace Guidewire.Core
             {
                 next = TipForceReleaseTime;
             }
+            foreach (TimeTable table in LoadTables)
+            {
+                next = Math.Min(next, table.NextJump(time));
+            }
             bool ramps = DistalDisplacement != 0.0 || DistalRotation != 0.0;
             return ramps && DistalRampTime > time ? Math.Min(next, DistalRampTime) : next;
+        }
+
+        /// <summary>The first time after this one, s, at which something prescribed is not smooth: a jump, or a row of
+        /// a load's table. Infinite where there is none.</summary>
+        public double NextBreak(double time)
+        {
+            double next = NextJump(time);
+            foreach (TimeTable table in LoadTables)
+            {
+                next = Math.Min(next, table.NextRow(time));
+            }
+            return next;
         }
 
         /// <summary>Turn of the distal frame at this time, radians.</summary>
@@ -270,7 +290,7 @@ namespace Guidewire.Core
 
         private static bool Changes(TimeTable? table, double time)
         {
-            return table != null && time < table.End;
+            return table != null && table.ChangesFrom(time);
         }
 
         private double Ramp(double time)

@@ -35,6 +35,7 @@ namespace Guidewire.Core
                 TipForceTable = scene.TipForceTable,
                 DistributedForceTable = scene.DistributedForceTable,
                 AxialForceTable = scene.AxialForceTable,
+                LoadTables = scene.UsedLoadTables(),
                 AxialForce = scene.DistalEnd == DistalEnd.Sliding ? scene.AxialForce : 0.0,
                 ProximalForce = drive.Kind == Core.Drive.Force ? drive.ExternalForce : Vector3d.Zero,
                 ProximalPosition = Shape.X[0],

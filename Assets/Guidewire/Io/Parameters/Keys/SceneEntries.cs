@@ -92,7 +92,8 @@ namespace Guidewire.Io
                 "null or {\"tipForce\": FILE, ..}, with any of gravity, tipForce, distributedForce, axialForce,"
                 + " tipMoment, tipFollowerForce",
                 "CSV files of time (s) and a factor (without unit) on that load, linear between the rows, the first and"
-                + " last value before and after them; a name counts from the parameter file's folder",
+                + " last value before and after them; two rows of one time are a jump; steps of direct end at each row;"
+                + " a name counts from the parameter file's folder",
                 p => p.LoadTables, (p, v) => p.LoadTables = v)
             {
                 Methods = Takers.Material,

@@ -13,8 +13,8 @@ namespace Guidewire.Core
     /// support those of <see cref="ConsistentStart"/>. Where these are more than a step can resolve (a support that was
     /// displaced at once, a wire far from its rest shape) the motion begins with a step of
     /// <see cref="RungeKuttaScheme.Start"/>, which brings what is stiff to rest; so does a step of which a stage has no
-    /// solution. Steps of Runge-Kutta schemes end at
-    /// jumps that are known in time.</remarks>
+    /// solution. Steps of Runge-Kutta schemes end at jumps that are known in time, and at each row of a load's
+    /// table.</remarks>
     internal sealed class RodDynamics
     {
         private const double LargestStart = 0.5;  // radians, or L, by which rates at the start may move the rod
@@ -321,7 +321,7 @@ namespace Guidewire.Core
             double done = 0.0;
             while (done < dt)
             {
-                double jump = _schedule.NextJump(Time + done + nearly);
+                double jump = _schedule.NextBreak(Time + done + nearly);
                 double until = jump - Time < dt - nearly ? jump - Time : dt;
                 while (done < until)
                 {

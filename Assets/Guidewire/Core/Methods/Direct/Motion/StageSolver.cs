@@ -62,11 +62,9 @@ namespace Guidewire.Core
             _direction = new RodVector[_system.VectorCount];
             _totalLength = rod.TotalLength;
             _mass = terms.Mass.Total;
-            _softestBendForce = double.PositiveInfinity;
+            _softestBendForce = rod.SoftestBendStiffness / (_totalLength * _totalLength);
             for (int j = 0; j < rod.ElementCount; j++)
             {
-                double bend = Math.Min(rod.BendStiffness1[j], rod.BendStiffness2[j]);
-                _softestBendForce = Math.Min(_softestBendForce, bend / (_totalLength * _totalLength));
                 _stiffest = Math.Max(_stiffest, rod.StretchStiffness[j]);
                 _axialSpring = Math.Max(_axialSpring, rod.StretchStiffness[j] / rod.Length[j]);
             }

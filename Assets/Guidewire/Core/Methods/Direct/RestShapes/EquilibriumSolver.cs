@@ -6,11 +6,13 @@ namespace Guidewire.Core
     /// <remarks>Each iteration factorises the true second derivative. Where it is not positive definite a multiple of
     /// the metric is added until it is, so that the direction descends; the step is cut until the energy falls by a
     /// part of what the slope promises. At a saddle (a straight rod under a thrust along its axis) the search leaves
-    /// along the direction of most negative curvature. Converged means: the second derivative as it is has positive
-    /// pivots only, and the full step is below the tolerance. Whatever else happens ends with a reason. A shape that
-    /// may turn without any change of energy (a buckled rod about its thrust) has an eigenvalue 0, which rounding
-    /// makes one of either sign: eigenvalues above -1e-4 EI/L^2, 1/25,000 of the straight rod's own, count as not
-    /// negative, and every direction is found with 1e-6 EI/L^2 added.</remarks>
+    /// along the direction of most negative curvature. Converged means: the second derivative as it is has no negative
+    /// eigenvalue but those of neutral motions, and the full step is below the tolerance. Whatever else happens ends
+    /// with a reason. A shape that may turn without any change of energy (a buckled rod about its thrust) has an
+    /// eigenvalue 0, which rounding makes one of either sign: on the way eigenvalues above -1e-4 EI/L^2 of the stiffest
+    /// element do not stand in Newton's way, and at its end <see cref="EquilibriumStability"/> looks at each that is
+    /// negative; where one is not neutral the search leaves the saddle. Every direction is found with 1e-6 EI/L^2
+    /// added, and with no more than 0.01 EI/L^2 of the softest element, which would hold that.</remarks>
     internal sealed class EquilibriumSolver
     {
         private const double LargestTurn = 1.0;          // rad an iteration, of one element where forces act
@@ -20,8 +22,12 @@ namespace Guidewire.Core
         private const int MostCuts = 40;
         private const double Neutral = 1.01e-4;          // of EI/L^2
         private const double Regularisation = 1e-6;      // of EI/L^2, on every direction
+        private const double MostRegularisation = 0.01;  // of the softest element's EI/L^2
         private const int MostHalvings = 40;
         private const int PowerIterations = 40;
+
+        private const string Saddle = "at a saddle of the energy, no direction leads down; a small gravity or tipForce"
+            + " across the wire does";
 
         private readonly MaterialRod _rod;
         private readonly RodSupports _supports;
@@ -33,7 +39,9 @@ namespace Guidewire.Core
         private readonly RodShape _trial;
         private readonly double _totalLength;
         private readonly double _bendForce;  // EI/L^2 of the stiffest element, N
-        private readonly double _neutral;    // eigenvalues above its negative count as not negative, N
+        private readonly double _softestBendForce;  // the same of the softest, N
+        private readonly double _neutral;    // eigenvalues above its negative may be 0, N
+        private EquilibriumStability? _stability;
 
         /// <summary>A solver for this rod, held so, under these terms.</summary>
         public EquilibriumSolver(MaterialRod rod, RodSupports supports, EnergyTerm[] terms)
@@ -48,6 +56,7 @@ namespace Guidewire.Core
             _trial = new RodShape(rod.ElementCount);
             _totalLength = rod.TotalLength;
             _bendForce = rod.BendForce;
+            _softestBendForce = rod.SoftestBendStiffness / (_totalLength * _totalLength);
             _neutral = Neutral * _bendForce;
         }
 
@@ -79,8 +88,7 @@ namespace Guidewire.Core
                 {
                     if (!LeaveSaddle(shape, shift))
                     {
-                        result.Reason = "at a saddle of the energy, no direction leads down; a small gravity or"
-                            + " tipForce across the wire does";
+                        result.Reason = Saddle;
                         return result;
                     }
                     continue;
@@ -88,7 +96,7 @@ namespace Guidewire.Core
                 // Along a direction that costs no energy rounding alone makes steps: there the energy they gain is
                 // asked.
                 double energyStep = Math.Sqrt(Math.Max(0.0, -RodVectors.Dot(_gradient, _direction))
-                    / (_bendForce * _totalLength));
+                    / (_softestBendForce * _totalLength));
                 double scale = Math.Min(1.0, Math.Min(LargestTurn / size, LargestRelativeTurn / relative));
                 double share = EnergySum.LargestShare(_terms, shape, _direction, scale);
                 scale *= share;
@@ -111,7 +119,15 @@ namespace Guidewire.Core
                         result.Reason = string.Empty;
                         return result;
                     }
-                    return Finish(shape, result);
+                    if (IsStable(shape))
+                    {
+                        return Finish(shape, result);
+                    }
+                    if (!LeaveSaddle(shape, _neutral))
+                    {
+                        result.Reason = Saddle;
+                        return result;
+                    }
                 }
             }
             result.Reason = "not converged after " + mostIterations.ToString(
@@ -123,7 +139,8 @@ namespace Guidewire.Core
         /// negative.</summary>
         private bool FindDirection(RodShape shape, ref double shift, ref EquilibriumResult result)
         {
-            for (double small = Regularisation * _bendForce; small <= _neutral; small *= 10.0)
+            double least = Math.Min(Regularisation * _bendForce, MostRegularisation * _softestBendForce);
+            for (double small = least; small <= _neutral; small *= 10.0)
             {
                 result.Factorisations++;
                 if (_system.Factorise(_terms, shape, _gradient, _direction, small) == 0)
@@ -219,30 +236,27 @@ namespace Guidewire.Core
             }
         }
 
-        private EquilibriumResult Finish(RodShape shape, EquilibriumResult result)
+        private bool IsStable(RodShape shape)
         {
             EnergySum.Anchor(_terms, shape);
+            _stability ??= new EquilibriumStability(_rod, _supports, _terms, _system, _neutral);
+            return _stability.IsStable(shape);
+        }
+
+        private EquilibriumResult Finish(RodShape shape, EquilibriumResult result)
+        {
             double shift = 0.0;
-            int negative = _system.Factorise(_terms, shape, _gradient, _direction, shift);
             result.Factorisations++;
-            if (negative > 0)
+            if (_system.Factorise(_terms, shape, _gradient, _direction, shift) > 0)
             {
                 shift = _neutral;
-                negative = _system.Factorise(_terms, shape, _gradient, _direction, shift);
+                _system.Factorise(_terms, shape, _gradient, _direction, shift);
                 result.Factorisations++;
             }
-            if (negative == 0)
-            {
-                InverseIteration(out result.SmallestEigenvalue);
-                result.SmallestEigenvalue -= shift;
-                result.Converged = true;
-                result.Reason = string.Empty;
-            }
-            else
-            {
-                result.Reason = "the energy is not convex at the shape found: a rest shape that a disturbance"
-                    + " leaves; other loads, or another startShape";
-            }
+            InverseIteration(out result.SmallestEigenvalue);
+            result.SmallestEigenvalue -= shift;
+            result.Converged = true;
+            result.Reason = string.Empty;
             return result;
         }
 

@@ -3,40 +3,33 @@ using System;
 namespace Guidewire.Core
 {
     /// <summary>Steps of a wire between walls: a step that moves or turns the proximal end farther than the barriers
-    /// reach is made in parts, and a part that has no solution is halved, a bounded number of times.</summary>
-    /// <remarks>A wire that snaps round or out of a bend is far from where it was after however short a part: Newton's
-    /// method then descends a long way, energy falling in every iteration. So the shortest part has
-    /// <see cref="MoreIterations"/> times as many iterations before it counts as one without a solution.</remarks>
+    /// reach is made in parts, each of which is halved where it has no solution.</summary>
     internal sealed class WallSteps
     {
-        private const int MostHalvings = 8;
         private const int MostParts = 64;
-        private const int MoreIterations = 10;    // as a rest shape has
         private const double LargestTurn = 0.5;   // radians a part
         private const double SmallExcess = 0.01;  // over the longest part that does not make two of it
 
         private readonly RodDynamics _dynamics;
         private readonly RodSchedule _schedule;
         private readonly WallWatch _watch;
-        private readonly StepStart _start;
+        private readonly HalvedSteps _halved;
         private StageForces _meanForces;
         private readonly double _longestMove;     // m
 
         /// <summary>For this motion.</summary>
-        public WallSteps(RodDynamics dynamics, RodSchedule schedule, WallWatch watch)
+        public WallSteps(RodDynamics dynamics, HalvedSteps halved, RodSchedule schedule, WallWatch watch)
         {
             _dynamics = dynamics;
             _schedule = schedule;
             _watch = watch;
-            _start = new StepStart(dynamics.ExchangeStep);
+            _halved = halved;
+            halved.PieceDone = () => watch.AddPart(dynamics.Shape);
             _longestMove = BarrierRule.MostMove * dynamics.Terms.Walls!.Barrier.Barrier.Distance;
         }
 
         /// <summary>The forces from outside, the means over the last step, where reactions are tracked.</summary>
         public StageForces MeanForces => _meanForces;
-
-        /// <summary>Parts that were halved so far.</summary>
-        public long Halvings { get; private set; }
 
         /// <summary>One step.</summary>
         /// <param name="dt">s.</param>
@@ -48,20 +41,14 @@ namespace Guidewire.Core
             int parts = Parts(dt);
             for (int k = 0; k < parts; k++)
             {
-                string? failure = StepPart(dt / parts, dt);
+                string? failure = _halved.Step(dt / parts);
                 if (failure != null)
                 {
                     return failure;
                 }
+                _meanForces.Add(dt / parts / dt, _halved.MeanForces);
             }
             return null;
-        }
-
-        /// <summary>Writes or takes over the counts.</summary>
-        public void Exchange(Snapshot snapshot)
-        {
-            Halvings = snapshot.Exchange(Halvings);
-            _watch.Exchange(snapshot);
         }
 
         private int Parts(double dt)
@@ -73,52 +60,6 @@ namespace Guidewire.Core
             // Rounding, and the little that node 0 is off its support, must not make a part more.
             double parts = Math.Ceiling(Math.Max(move / _longestMove, turn / LargestTurn) * (1.0 - SmallExcess));
             return (int)Math.Min(Math.Max(parts, 1.0), MostParts);
-        }
-
-        // With more iterations.
-        private string? StepLong(double h)
-        {
-            BarrierNewton newton = _dynamics.WallSolver!;
-            int most = newton.MostIterations;
-            newton.MostIterations = (int)Math.Min((long)MoreIterations * most, int.MaxValue);
-            string? failure = _dynamics.Step(h);
-            newton.MostIterations = most;
-            return failure;
-        }
-
-        private string? StepPart(double length, double dt)
-        {
-            const int whole = 1 << MostHalvings;
-            int done = 0;
-            int size = whole;
-            while (done < whole)
-            {
-                double h = length * size / whole;
-                _start.Save();
-                string? failure = _dynamics.Step(h);
-                if (failure != null && size == 1)
-                {
-                    _dynamics.Restore();
-                    failure = StepLong(h);
-                }
-                if (failure == null)
-                {
-                    _meanForces.Add(h / dt, _dynamics.MeanForces);
-                    _watch.AddPart(_dynamics.Shape);
-                    done += size;
-                    // Longer again where the parts done make up whole ones.
-                    size = size < whole && done % (2 * size) == 0 ? 2 * size : size;
-                    continue;
-                }
-                if (size == 1)
-                {
-                    return failure;
-                }
-                _start.Restore();
-                Halvings++;
-                size /= 2;
-            }
-            return null;
         }
     }
 }

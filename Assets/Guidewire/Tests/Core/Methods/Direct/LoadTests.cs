@@ -60,6 +60,89 @@ namespace Guidewire.Core.Tests
             Assert.That(table.At(9.0), Is.EqualTo(-1.0));
         }
 
+        [Test]
+        public void TableWithTwoRowsOfOneTime_Jumps()
+        {
+            var table = new TimeTable(new[] { 0.0, 1.0, 1.0, 2.0, 2.0 }, new[] { 1.0, 3.0, 5.0, 4.0, 0.0 });
+            Assert.That(table.At(0.5), Is.EqualTo(2.0));
+            Assert.That(table.At(1.0), Is.EqualTo(3.0), "before it");
+            Assert.That(table.At(1.5), Is.EqualTo(4.5));
+            Assert.That(table.At(2.0), Is.EqualTo(4.0));
+            Assert.That(table.At(2.1), Is.EqualTo(0.0));
+            Assert.That(table.ChangesFrom(2.0), Is.True);
+            Assert.That(table.ChangesFrom(2.1), Is.False);
+            Assert.That(table.NextJump(0.0), Is.EqualTo(1.0));
+            Assert.That(table.NextJump(1.0), Is.EqualTo(2.0));
+            Assert.That(table.NextJump(2.0), Is.EqualTo(double.PositiveInfinity));
+            Assert.That(table.NextRow(1.0), Is.EqualTo(2.0));
+            Assert.Throws<ArgumentException>(() => _ = new TimeTable(new[] { 1.0, 1.0, 1.0 }, new double[3]));
+            var still = new TimeTable(new[] { 0.0 }, new[] { 0.0 });
+            Assert.Throws<ArgumentException>(() => _ = new DriveTable(table, still), "a hub does not jump");
+        }
+
+        /// <summary>A load that a table takes off at once, or within a ten-millionth of a second, costs no more
+        /// accuracy than one with a release time, wherever in a step the jump lies: against esdirk4 in steps of
+        /// 62.5 us.</summary>
+        [TestCase(Integrator.Esdirk3, 4e-3, 0.0502)]
+        [TestCase(Integrator.Esdirk3, 4e-3, 0.048)]
+        [TestCase(Integrator.Esdirk4, 1e-3, 0.0502)]
+        [TestCase(Integrator.Esdirk4, 1e-3, 0.05)]
+        [TestCase(Integrator.Trbdf2, 1e-3, 0.0507)]
+        public void LoadLetGoByATable_IsAsAccurateAsOneWithAReleaseTime(Integrator integrator, double step, double time)
+        {
+            Vector3d exact = LetGo(Integrator.Esdirk4, 6.25e-5, time, "release");
+            double release = Vector3d.Distance(LetGo(integrator, step, time, "release"), exact);
+            double jump = Vector3d.Distance(LetGo(integrator, step, time, "jump"), exact);
+            double steep = Vector3d.Distance(LetGo(integrator, step, time, "steep"), exact);
+            TestContext.WriteLine("{0:G4} {1:G4} {2:G4}", release, jump, steep);
+            Assert.That(jump, Is.EqualTo(release).Within(1e-3 * release), "two rows of one time");
+            Assert.That(steep, Is.EqualTo(release).Within(0.02 * release), "a steep ramp");
+        }
+
+        /// <summary>A couple that turns with the tip and jumps within a step: as accurate as where the jump lies between
+        /// two, where no step has to be cut.</summary>
+        [Test]
+        public void JumpOfATipMoment_CostsNoAccuracyWithinAStep()
+        {
+            double between = TurnedBack(1e-3, 0.042);
+            double within = TurnedBack(1e-3, 0.0424);
+            TestContext.WriteLine("{0:G4} {1:G4}", between, within);
+            Assert.That(within, Is.LessThan(2.0 * between));
+        }
+
+        // The error at the tip.
+        private static double TurnedBack(double step, double time)
+        {
+            return Vector3d.Distance(Turned(Integrator.Esdirk4, step, time), Turned(Integrator.Esdirk4, 2e-4, time));
+        }
+
+        private static Vector3d Turned(Integrator integrator, double step, double time)
+        {
+            SimulationParameters parameters = Rods.Clamped(12, Solver.Direct, step, (int)Math.Round(0.08 / step));
+            parameters.Method.Integrator = integrator;
+            parameters.Scene.TipMoment = new Vector3d(0.3 * Rods.BendForce * Rods.Length, 0.0, 0.0);
+            parameters.Scene.TipMomentTable = new TimeTable(new[] { 0.0, time, time }, new[] { 1.0, 1.0, -1.0 });
+            return Tip(parameters);
+        }
+
+        private static Vector3d LetGo(Integrator integrator, double step, double time, string how)
+        {
+            const double End = 0.1;
+            SimulationParameters parameters = Rods.Clamped(12, Solver.Direct, step, (int)Math.Round(End / step));
+            parameters.Method.Integrator = integrator;
+            parameters.Scene.TipForce = new Vector3d(0.0, -0.02, 0.0);
+            if (how == "release")
+            {
+                parameters.Scene.TipForceReleaseTime = time;
+            }
+            else
+            {
+                double after = how == "jump" ? time : time + 1e-7;
+                parameters.Scene.TipForceTable = new TimeTable(new[] { 0.0, time, after }, new[] { 1.0, 1.0, 0.0 });
+            }
+            return Tip(parameters);
+        }
+
         /// <summary>A free wire under gravity times t/T: its velocity is g T/2 after T. Implicit midpoint stages of a
         /// linear ramp are exact under schemes of order 2 and more.</summary>
         [Test]
