@@ -187,6 +187,7 @@ namespace Guidewire.Core
         {
             _retry ??= new StepStart(Shape.ElementCount);
             _retry.Save(Shape, Velocities, Spins, _frames);
+            _terms.Walls?.Friction?.Anchors.Save();
             _retryTime = Time;
         }
 
@@ -194,6 +195,7 @@ namespace Guidewire.Core
         public void Restore()
         {
             _retry!.Restore(Shape, Velocities, Spins, _frames);
+            _terms.Walls?.Friction?.Anchors.Restore();
             Time = _retryTime;
             _hasRates = false;
             _hasPast = false;
@@ -343,6 +345,10 @@ namespace Guidewire.Core
                     done = h == left ? until : done + h;
                     _hasRates = true;
                     _hasPast = !isStart;
+                    if (failure == null)
+                    {
+                        EndStep();
+                    }
                     return failure;
                 }
                 _saved.Restore(Shape, Velocities, Spins, _frames);
@@ -445,6 +451,7 @@ namespace Guidewire.Core
                 _history.Complete();
                 _hasPast = true;
                 Control.Accepts(0.0, dt, dt, true);
+                EndStep();
             }
             return failure;
         }
@@ -460,6 +467,14 @@ namespace Guidewire.Core
             foreach (EnergyTerm term in _terms.All)
             {
                 term.BeginStep(Shape, dt);
+            }
+        }
+
+        private void EndStep()
+        {
+            foreach (EnergyTerm term in _terms.All)
+            {
+                term.EndStep(Shape);
             }
         }
 
