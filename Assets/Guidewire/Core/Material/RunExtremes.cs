@@ -102,7 +102,7 @@ namespace Guidewire.Core
         /// <param name="heat">J, 0 or more.</param>
         internal void TakeFriction(double heat, double dt)
         {
-            FrictionPower = Larger(FrictionPower, -heat / dt);
+            FrictionPower = Larger(FrictionPower, 0.0 - heat / dt);
             FrictionWork = (double.IsNaN(FrictionWork) ? 0.0 : FrictionWork) - heat;
         }
 

@@ -2,23 +2,23 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Coulomb friction on walls, elastic before it slips, as an energy over one step: at each contact the wire's
-    /// surface is displaced elastically from its anchor on the wall by z = d + u, d kept from the steps before, u the
-    /// slip along the wall since the step's start. phi = k z^2/2 up to the limit k |z| = mu N, and beyond it
-    /// mu N |z| - (mu N)^2/(2 k): its slope is the force, k z and then mu N against the displacement.</summary>
+    /// <summary>Coulomb friction on walls, elastic before it slips, as an energy over one step: at each contact the
+    /// wire's surface is displaced from its anchor on the wall by z = d + u, d the elastic displacement kept from the
+    /// steps before, u the slip along the wall since the step's start. The energy is k z^2/2 up to the limit
+    /// k |z| = mu N, and beyond it mu N |z| - (mu N)^2/(2 k): its slope is the force, k z and then mu N against the
+    /// displacement.</summary>
     /// <remarks>At the end of an accepted step the anchor follows what is beyond the limit (return mapping; Simo and
-    /// Hughes, Computational Inelasticity, 1998; in contact Wriggers, Computational Contact Mechanics, 2006): the force is
-    /// kept and d is force/k, no longer than mu N/k. What sticks goes back to where it was, and does not creep. The
-    /// heat of the step is mu N (|z| - mu N/k). k = mu N/s with s the elastic slip that is allowed, of the largest N
-    /// since the contact began: a push that falls or rises leaves the force of what sticks as it is, and energy is
-    /// only lost.
+    /// Hughes, Computational Inelasticity, 1998; in contact Wriggers, Computational Contact Mechanics, 2006): d is
+    /// force/k, no longer than mu N/k. What sticks is held by its force without slipping, and does not creep. The heat
+    /// of the step is mu N (|z| - mu N/k). k = mu N/s with s the elastic slip that is allowed, N the largest push since
+    /// the contact began: a push that rises or falls leaves the force of what sticks as it is, and energy is only lost.
     ///
     /// Pushes N and normals n are lagged: those of the shape that was last given to <see cref="Lag"/>. Contacts of
-    /// one element with several ridges of a wall share one anchor by their pushes. The surface of element j at s slips
-    /// by u = P ((1 - s) (x_j - x_j0) + s (x_j+1 - x_j+1,0) + r n x R_0 phi), P = 1 - n n^T, phi the turn of the element
-    /// since the step's start along its axes there: what turns about its own axis rubs, too, and takes a couple.
-    /// With u' = W theta, W = r [n] R_0 J^-1(phi), the second derivative leaves out that of phi, of order |phi|.
-    /// </remarks>
+    /// one element with several ridges of a wall share one anchor by their pushes. The surface of element j at s
+    /// slips by u = P ((1 - s) (x_j - x_j0) + s (x_j+1 - x_j+1,0) + r n x R_0 phi), P = 1 - n n^T, phi the turn of the
+    /// element since the step's start along its axes there: what turns about its own axis rubs, too, and takes a
+    /// couple. With u' = W theta, W = r [n] R_0 J^-1(phi), the second derivative leaves out that of phi, of order
+    /// |phi|.</remarks>
     internal sealed class FrictionEnergy : EnergyTerm
     {
         private const double OfRadius = 1e-2;

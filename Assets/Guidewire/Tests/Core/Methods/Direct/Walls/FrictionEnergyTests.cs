@@ -64,7 +64,7 @@ namespace Guidewire.Core.Tests
         [TestCase(1.0)]
         public void WorkDoneAgainstIt_IsStoredOrLost_AndNoHeatComesBack(double elasticSlip)
         {
-            // f.u = change of F^2/(2k) + mu N (|z| - |d|) + k |change of d|^2/2, the last of which no scheme step keeps.
+            // f.u = change of F^2/(2k) + heat + k |change of d|^2/2, the last of which is an implicit step's own.
             FrictionEnergy friction = Create(elasticSlip, out RodShape shape);
             var random = new RandomGeometry(41);
             var measured = default(GradientMeasures);

@@ -12,6 +12,8 @@ namespace Guidewire.Core.Tests
         private const double Rope = 0.3;
         private const double Pull = 0.02;         // N, T1
         private const double Hanging = 100.0;
+        private const double Radius = 30.0;       // of the bend
+        private const double Straight = 40.0;
         private SimulationParameters? _last;
 
         // A rope without weight lies over half a drum, bent by T1 and T2; where it lifts off (T2 - b)/(T1 - b) =
@@ -105,7 +107,7 @@ namespace Guidewire.Core.Tests
             Assert.That(run.Hub()!.Torque / torque, Is.EqualTo(1.0).Within(1e-3));
         }
 
-        [TestCase(0.3)]
+        [TestCase(0.3, Category = "Long")]
         [TestCase(1.0)]
         public void DraggedAndTurned_OverTenThousandFacets_TheTorqueIsKept(double turning)
         {
@@ -197,6 +199,52 @@ namespace Guidewire.Core.Tests
             Assert.That(Math.Abs(run.Hub()!.Torque), Is.LessThan(1e-3 * torque));
         }
 
+        [Test]
+        public void FedFromASheath_ElementsKeepWhatTheyHold_AndRestoredRunsTakeTheSameSteps()
+        {
+            SimulationParameters parameters = WallScenes.Wire(40, 0.2e-3);
+            parameters.Scene.GuidewireLength = 160.0;
+            parameters.Scene.GuidewireOffset = -170.0;
+            parameters.Scene.Sheath = new Sheath { Exit = new Vector3d(0.0, 0.0, -30.0) };
+            parameters.Scene.Walls = new ContactShape[] { Bend(0.2) };
+            parameters.Drive.Kind = Drive.Displace;
+            parameters.Drive.Table = new DriveTable(
+                new TimeTable(new[] { 0.0, 1.0, 1.5, 2.0 }, new[] { 0.0, 0.09, 0.07, 0.085 }),
+                new TimeTable(new[] { 0.0, 1.0, 2.0 }, new[] { 0.0, 2.0, 2.0 }));
+            parameters.Material.MassDamping = 20.0;
+            parameters.Method.TimeStep = 5e-3;
+            parameters.Method.MaxSimulationSteps = 400;
+            Simulation run = Simulation.Create(parameters);
+            var others = new List<Simulation>();
+            int windows = 0;
+            int before = 0;
+            while (run.Outcome == Outcome.Running)
+            {
+                double work = run.Report()!.Extremes!.FrictionWork;
+                run.Step();
+                others.ForEach(other => other.Step());
+                int outside = run.Hub()!.SpheresInBody!.Value;
+                if (outside != before)
+                {
+                    windows++;
+                    if (windows % 12 == 0)
+                    {
+                        others.Add(Simulation.Restore(parameters, run.Save()));
+                    }
+                }
+                before = outside;
+                Assert.That(run.Report()!.Extremes!.FrictionWork, double.IsNaN(work) ? Is.Not.Null : Is.AtMost(work));
+            }
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Assert.That(windows, Is.GreaterThan(15), "elements come and go");
+            Assert.That(run.Report()!.Extremes!.FrictionWork, Is.LessThan(-1e-5));
+            foreach (Simulation other in others)
+            {
+                Assert.That(other.State.Positions, Is.EqualTo(run.State.Positions));
+                Assert.That(other.Report()!.Extremes!.FrictionWork, Is.EqualTo(run.Report()!.Extremes!.FrictionWork));
+            }
+        }
+
         private static void Go(Simulation run, int steps)
         {
             for (int k = 0; k < steps; k++)
@@ -272,38 +320,23 @@ namespace Guidewire.Core.Tests
         // A straight wire of 0.4 mm in a bend of 30 mm radius, its hub under a hand.
         private Simulation InBend(double mu, out Steering hand)
         {
-            const double bend = 30.0;
-            const double straight = 40.0;
-            const double angle = 0.5 * Math.PI;
-            double length = 2.0 * straight + bend * angle;
-            SimulationParameters parameters = WallScenes.Wire(80, 0.2e-3);
+            const double length = 2.0 * Straight + 0.5 * Math.PI * Radius;
+            SimulationParameters parameters = WallScenes.Wire(50, 0.2e-3);
             int n = parameters.Scene.NumberRodElements;
             parameters.Scene.GuidewireLength = length;
             var positions = new Vector3d[n + 1];
             var orientations = new Quaterniond[n];
             for (int i = 0; i <= n; i++)
             {
-                positions[i] = At(length * i / n - straight, angle, bend, out _);
+                positions[i] = At(length * i / n - Straight, out _);
                 if (i > 0)
                 {
-                    At(length * (i - 0.5) / n - straight, angle, bend, out double turn);
+                    At(length * (i - 0.5) / n - Straight, out double turn);
                     orientations[i - 1] = Quaterniond.FromAxisAngle(Vector3d.UnitX, -turn);
                 }
             }
             parameters.Scene.Start = new RodStart(positions, orientations, new Vector3d[n + 1], new Vector3d[n]);
-            var knots = new List<Vector3d> { At(-straight - 60.0, angle, bend, out _) };
-            for (int k = 0; k <= 90; k++)
-            {
-                knots.Add(At(bend * angle * k / 90.0, angle, bend, out _));
-            }
-            knots.Add(At(bend * angle + straight + 60.0, angle, bend, out _));
-            parameters.Scene.Walls = new ContactShape[]
-            {
-                new TubeShape(knots.ToArray(), knots.ConvertAll(_ => 0.6).ToArray(), true, true)
-                {
-                    FrictionCoefficient = mu,
-                },
-            };
+            parameters.Scene.Walls = new ContactShape[] { Bend(mu) };
             parameters.Material.MassDamping = 40.0;
             parameters.Method.TimeStep = Step;
             hand = new Steering();
@@ -312,12 +345,26 @@ namespace Guidewire.Core.Tests
             return Simulation.Create(parameters);
         }
 
-        // The centreline at an arc length from the bend's start, and how far it has turned from z towards y.
-        private static Vector3d At(double s, double angle, double bend, out double turn)
+        private static TubeShape Bend(double mu)
         {
-            turn = Math.Min(Math.Max(s / bend, 0.0), angle);
-            Vector3d on = bend * new Vector3d(0.0, 1.0 - Math.Cos(turn), Math.Sin(turn));
-            double beyond = s < 0.0 ? s : Math.Max(0.0, s - bend * angle);
+            var knots = new List<Vector3d> { At(-Straight - 60.0, out _) };
+            for (int k = 0; k <= 90; k++)
+            {
+                knots.Add(At(0.5 * Math.PI * Radius * k / 90.0, out _));
+            }
+            knots.Add(At(0.5 * Math.PI * Radius + Straight + 60.0, out _));
+            return new TubeShape(knots.ToArray(), knots.ConvertAll(_ => 0.6).ToArray(), true, true)
+            {
+                FrictionCoefficient = mu,
+            };
+        }
+
+        // The centreline at an arc length from the bend's start, and how far it has turned from z towards y.
+        private static Vector3d At(double s, out double turn)
+        {
+            turn = Math.Min(Math.Max(s / Radius, 0.0), 0.5 * Math.PI);
+            Vector3d on = Radius * new Vector3d(0.0, 1.0 - Math.Cos(turn), Math.Sin(turn));
+            double beyond = s < 0.0 ? s : Math.Max(0.0, s - 0.5 * Math.PI * Radius);
             return on + beyond * new Vector3d(0.0, Math.Sin(turn), Math.Cos(turn));
         }
     }
