@@ -124,6 +124,27 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void Anchors_GoBack_WhereAMotionIsRestored()
+        {
+            SimulationParameters parameters = OnAnIncline(0.3, 0.25);
+            var scene = new MaterialScene(parameters, new Scene(parameters));
+            WallTerms walls = MaterialSetup.WallTermsOf(parameters, scene, new Barrier(5e-5, 1e3),
+                new SupportSpring(scene.Rod, 0.0));
+            RodDynamics motion = MaterialSetup.DynamicsOf(parameters, scene,
+                new RodTerms(scene.Rod, scene.Supports, parameters.Scene, walls, Array.Empty<EnergyTerm>()));
+            for (int k = 0; k < 5; k++)
+            {
+                Assert.That(motion.Step(1e-3), Is.Null);
+            }
+            double stored = walls.Friction!.Anchors.StoredEnergy;
+            motion.Save();
+            Assert.That(motion.Step(1e-3), Is.Null);
+            Assert.That(walls.Friction.Anchors.StoredEnergy, Is.Not.EqualTo(stored));
+            motion.Restore();
+            Assert.That(walls.Friction.Anchors.StoredEnergy, Is.EqualTo(stored));
+        }
+
+        [Test]
         public void Anchors_GoWithTheirNodes_IntoAnotherWindow()
         {
             FrictionEnergy friction = Create(1e-2, out RodShape shape);
@@ -153,19 +174,8 @@ namespace Guidewire.Core.Tests
         [TestCase(0.3, 0.35)]
         public void RodOnAnIncline_StaysBelowTheAngleOfFriction_AndAcceleratesAboveIt(double mu, double slope)
         {
-            SimulationParameters parameters = WallScenes.Wire(10, 0.5e-3);
-            parameters.Scene.GuidewireLength = 50.0;
-            parameters.Scene.GuidewireOffset = 0.0;
-            parameters.Scene.ProximalEnd = ProximalEnd.Free;
+            SimulationParameters parameters = OnAnIncline(mu, slope);
             double angle = Math.Atan(slope);
-            parameters.Scene.Gravity = 9.81 * new Vector3d(0.0, -Math.Cos(angle), Math.Sin(angle));
-            parameters.Scene.Walls = new ContactShape[]
-            {
-                new PlaneShape(new Vector3d(0.0, -0.54, 0.0), Vector3d.UnitY) { FrictionCoefficient = mu },
-            };
-            parameters.Contact.ContactDistance = 5e-5;
-            parameters.Method.TimeStep = 1e-3;
-            parameters.Method.MaxSimulationSteps = 400;
             Simulation run = Simulation.Create(parameters);
             for (int k = 0; k < 200; k++)
             {
@@ -249,6 +259,24 @@ namespace Guidewire.Core.Tests
             Assert.That(carried, Is.EqualTo(weight).Within(0.1 * weight));
             double expected = mu * carried * Math.Cos(Math.Atan(mu * Math.Sin(beta))) * Math.Cos(beta);
             Assert.That(sum, Is.EqualTo(expected).Within(0.05 * expected));
+        }
+
+        private static SimulationParameters OnAnIncline(double mu, double slope)
+        {
+            SimulationParameters parameters = WallScenes.Wire(10, 0.5e-3);
+            parameters.Scene.GuidewireLength = 50.0;
+            parameters.Scene.GuidewireOffset = 0.0;
+            parameters.Scene.ProximalEnd = ProximalEnd.Free;
+            double angle = Math.Atan(slope);
+            parameters.Scene.Gravity = 9.81 * new Vector3d(0.0, -Math.Cos(angle), Math.Sin(angle));
+            parameters.Scene.Walls = new ContactShape[]
+            {
+                new PlaneShape(new Vector3d(0.0, -0.54, 0.0), Vector3d.UnitY) { FrictionCoefficient = mu },
+            };
+            parameters.Contact.ContactDistance = 5e-5;
+            parameters.Method.TimeStep = 1e-3;
+            parameters.Method.MaxSimulationSteps = 400;
+            return parameters;
         }
 
         // Force at the base, N, of a wire that is pulled out of a bend against a force along its tip.

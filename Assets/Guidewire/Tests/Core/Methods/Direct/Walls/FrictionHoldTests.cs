@@ -202,17 +202,11 @@ namespace Guidewire.Core.Tests
         [Test]
         public void FedFromASheath_ElementsKeepWhatTheyHold_AndRestoredRunsTakeTheSameSteps()
         {
-            SimulationParameters parameters = WallScenes.Wire(40, 0.2e-3);
-            parameters.Scene.GuidewireLength = 160.0;
-            parameters.Scene.GuidewireOffset = -170.0;
-            parameters.Scene.Sheath = new Sheath { Exit = new Vector3d(0.0, 0.0, -30.0) };
-            parameters.Scene.Walls = new ContactShape[] { Bend(0.2) };
+            SimulationParameters parameters = InSheath();
             parameters.Drive.Kind = Drive.Displace;
             parameters.Drive.Table = new DriveTable(
                 new TimeTable(new[] { 0.0, 1.0, 1.5, 2.0 }, new[] { 0.0, 0.09, 0.07, 0.085 }),
                 new TimeTable(new[] { 0.0, 1.0, 2.0 }, new[] { 0.0, 2.0, 2.0 }));
-            parameters.Material.MassDamping = 20.0;
-            parameters.Method.TimeStep = 5e-3;
             parameters.Method.MaxSimulationSteps = 400;
             Simulation run = Simulation.Create(parameters);
             var others = new List<Simulation>();
@@ -242,6 +236,29 @@ namespace Guidewire.Core.Tests
             {
                 Assert.That(other.State.Positions, Is.EqualTo(run.State.Positions));
                 Assert.That(other.Report()!.Extremes!.FrictionWork, Is.EqualTo(run.Report()!.Extremes!.FrictionWork));
+            }
+        }
+
+        [Test]
+        public void TurnedInASheath_TheTorqueIsSteady_WhereTheWindowIsBuiltAnew()
+        {
+            // Once in 0.3 rad of its first element; the elastic slip is 0.01 rad.
+            SimulationParameters parameters = InSheath();
+            var hand = new Steering { Push = 0.5 };
+            parameters.Drive.Steering = hand;
+            Simulation run = Simulation.Create(parameters);
+            Go(run, 140);
+            hand.Push = 0.0;
+            hand.Turn = 0.05;
+            Go(run, 60);
+            hand.Turn = 1e-3;
+            Go(run, 20);
+            double torque = run.Hub()!.Torque;
+            Assert.That(torque, Is.GreaterThan(0.9 * Limit(run, 0.2, 0.2e-3)));
+            for (int k = 0; k < 350; k++)
+            {
+                run.Step();
+                Assert.That(run.Hub()!.Torque / torque, Is.EqualTo(1.0).Within(0.01), "step " + k);
             }
         }
 
@@ -343,6 +360,19 @@ namespace Guidewire.Core.Tests
             parameters.Drive.Steering = hand;
             _last = parameters;
             return Simulation.Create(parameters);
+        }
+
+        // Its tip on the way from a sheath into the bend.
+        private static SimulationParameters InSheath()
+        {
+            SimulationParameters parameters = WallScenes.Wire(40, 0.2e-3);
+            parameters.Scene.GuidewireLength = 160.0;
+            parameters.Scene.GuidewireOffset = -170.0;
+            parameters.Scene.Sheath = new Sheath { Exit = new Vector3d(0.0, 0.0, -30.0) };
+            parameters.Scene.Walls = new ContactShape[] { Bend(0.2) };
+            parameters.Material.MassDamping = 20.0;
+            parameters.Method.TimeStep = 5e-3;
+            return parameters;
         }
 
         private static TubeShape Bend(double mu)
