@@ -79,7 +79,8 @@ namespace Guidewire.Core
             double move = parameters.Drive.LargestMove(parameters.Method.TimeStep, scene.Metres);
             var contact = new BarrierEnergy(scene.Rod, scene.Walls, scene.Metres, barrier, scene.Supports.Sheath);
             FrictionEnergy? friction = Array.Exists(scene.Walls, wall => wall.FrictionCoefficient > 0.0)
-                ? new FrictionEnergy(contact, scene.Rod.ElementCount, parameters.Contact.FrictionSpeed) : null;
+                ? new FrictionEnergy(contact, scene.Rod.ElementCount, parameters.Contact.ElasticSlip > 0.0
+                    ? parameters.Contact.ElasticSlip : FrictionEnergy.ElasticSlipOf(scene.Rod)) : null;
             // Looked for where it is asked for: the rule measures how narrow a vessel is, all of it.
             ContactParameters given = parameters.Contact;
             Func<string?>? advice = null;

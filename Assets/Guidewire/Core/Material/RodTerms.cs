@@ -148,7 +148,7 @@ namespace Guidewire.Core
         /// <summary>Energy stored in the wire and in its contacts with walls, J.</summary>
         public double StoredEnergy(RodShape shape)
         {
-            return ElasticEnergy(shape) + (Walls == null ? 0.0 : Walls.Barrier.Value(shape));
+            return ElasticEnergy(shape) + (Walls == null ? 0.0 : Walls.Barrier.Value(shape)) + FrictionStored;
         }
 
         /// <summary>Energy stored in the wire less the work of the loads that have a potential, J.</summary>
@@ -159,7 +159,7 @@ namespace Guidewire.Core
             {
                 sum += term.HasPotential && term.StoresEnergy ? term.Value(shape) : 0.0;
             }
-            return sum;
+            return sum + FrictionStored;
         }
 
         /// <summary>Work of the loads, as they are now, on a wire that goes from one shape to another, J.</summary>
@@ -210,7 +210,10 @@ namespace Guidewire.Core
             {
                 term.Exchange(snapshot);
             }
+            Walls?.ExchangeFriction(snapshot);
         }
+
+        private double FrictionStored => Walls?.Friction == null ? 0.0 : Walls.Friction.Anchors.StoredEnergy;
 
         private static void AddGradient(EnergyTerm[] terms, RodShape shape, RodVector[] gradient)
         {

@@ -7,7 +7,6 @@ namespace Guidewire.Core
     public sealed class RunExtremes
     {
         private Vector3d[] _turns = Array.Empty<Vector3d>();      // of the joints, rad
-        private RodVector[] _gradient = Array.Empty<RodVector>();
         private double[] _stretch = Array.Empty<double>();        // of the elements, without sign
         private double _curvatureSquared;
 
@@ -35,11 +34,12 @@ namespace Guidewire.Core
         /// <summary>Largest of these forces over the element's length and diameter, Pa; NaN without walls.</summary>
         public double WallPressure { get; private set; } = double.NaN;
 
-        /// <summary>Largest power of friction on the wire at the end of a step, W; NaN where no wall rubs. Friction
-        /// takes energy: it is never above 0.</summary>
+        /// <summary>Largest power of the slip against friction in a step, W: friction turns energy into heat, and it is
+        /// never above 0. NaN where no wall rubs.</summary>
         public double FrictionPower { get; private set; } = double.NaN;
 
-        /// <summary>The powers at the ends of all steps times their lengths, J; NaN where no wall rubs.</summary>
+        /// <summary>Work of friction on what slips, J, minus the heat of all steps; NaN where no wall rubs. What its
+        /// contacts store elastically is energy of the wire.</summary>
         public double FrictionWork { get; private set; } = double.NaN;
 
         /// <summary>Takes what the wire's shape alone says.</summary>
@@ -102,32 +102,12 @@ namespace Guidewire.Core
             WallPressure = Larger(WallPressure, pressure);
         }
 
-        /// <summary>Takes the power of friction at the end of a step: its forces and couples on the moving
-        /// wire.</summary>
-        /// <param name="spins">Of the elements along their own axes, rad/s.</param>
-        internal void TakeFriction(FrictionEnergy friction, RodShape shape, Vector3d[] velocities, Vector3d[] spins,
-            double dt)
+        /// <summary>Takes what friction turned into heat in a step of dt (s).</summary>
+        /// <param name="heat">J, 0 or more.</param>
+        internal void TakeFriction(double heat, double dt)
         {
-            int n = shape.ElementCount;
-            if (_gradient.Length < n + 2)
-            {
-                _gradient = new RodVector[n + 2];
-            }
-            Array.Clear(_gradient, 0, _gradient.Length);
-            var measured = default(GradientMeasures);
-            friction.AddGradient(shape, _gradient, 0, n + 1, ref measured);
-            double power = 0.0;
-            for (int i = 0; i <= n; i++)
-            {
-                RodVector g = _gradient[i];
-                power -= g.X1 * velocities[i].X + g.X2 * velocities[i].Y + g.X3 * velocities[i].Z;
-                if (i < n)
-                {
-                    power -= g.T1 * spins[i].X + g.T2 * spins[i].Y + g.T3 * spins[i].Z;
-                }
-            }
-            FrictionPower = Larger(FrictionPower, power);
-            FrictionWork = (double.IsNaN(FrictionWork) ? 0.0 : FrictionWork) + dt * power;
+            FrictionPower = Larger(FrictionPower, 0.0 - heat / dt);
+            FrictionWork = (double.IsNaN(FrictionWork) ? 0.0 : FrictionWork) - heat;
         }
 
         /// <summary>Writes or takes over all of it.</summary>

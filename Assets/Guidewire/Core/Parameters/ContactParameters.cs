@@ -22,9 +22,9 @@ namespace Guidewire.Core
         /// <summary>Stiffness of the barrier, N/m; 0: by rule.</summary>
         public double ContactStiffness { get; set; }
 
-        /// <summary>Speed of slip below which friction on a wire with a material creeps in place of sticking,
-        /// m/s.</summary>
-        public double FrictionSpeed { get; set; } = 1e-3;
+        /// <summary>Elastic displacement along a wall from which a contact of a wire with a material slips, m; 0: by
+        /// rule (<see cref="FrictionEnergy"/>).</summary>
+        public double ElasticSlip { get; set; }
 
         /// <summary>The same values; lists and walls are shared.</summary>
         internal ContactParameters Copy()

@@ -60,6 +60,11 @@ namespace Guidewire.Core
         {
         }
 
+        /// <summary>The step that began last is accepted, and ends in this shape.</summary>
+        public virtual void EndStep(RodShape shape)
+        {
+        }
+
         /// <summary>How far a step may go: the largest share, above 0 and at most 1, of <paramref name="scale"/> times
         /// <paramref name="direction"/> that leaves the term's energy finite on the whole way, which is that of
         /// <see cref="RodStep.Apply"/>.</summary>

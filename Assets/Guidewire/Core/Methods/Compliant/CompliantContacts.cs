@@ -13,7 +13,9 @@ namespace Guidewire.Core
     /// began along its axes there. What a force f does to the surface includes the couple r f x n on the element. V =
     /// W + r^2 max(1/I) is at least as much as f moves the surface in any direction, and the same in all of them: so
     /// where the sweeps have converged f is against u, which it would not be with what f moves it by in its own.
-    /// A slip of 0 is held by any f within the limit: what sticks does not creep.
+    /// A slip of 0 is held by any f within the limit. What sweeps leave of the slip of a contact is kept with f and
+    /// added to that of the next substep, so that what sticks goes back to where it was: no more than V mu lambda, by
+    /// which a force at the limit moves it in a substep, because a contact beyond its limit slips.
     ///
     /// A rigid contact that finds itself in the wall, because a plane is the wall only near the place that it was found
     /// for, is taken out of it by no more than its own way in the substep, or a share of the depth: all at once would
@@ -26,6 +28,7 @@ namespace Guidewire.Core
         private readonly Contact[] _contacts;
         private readonly Contact[] _held;         // of held nodes
         private readonly Vector3d[] _kept;        // lambda n + f of each slot, while contacts are found anew
+        private readonly Vector3d[] _keptSlip;    // the same of slips that are left, m
         private readonly double[] _friction;      // mu, by wall
         private readonly double[] _radius;        // of elements, m
         private readonly double[] _nodeRadius;
@@ -57,6 +60,7 @@ namespace Guidewire.Core
             _compliance = stiffness > 0.0 ? 1.0 / stiffness : 0.0;
             // A search finds each node and each element at most once a wall.
             _kept = new Vector3d[scene.Walls.Length * (2 * n + 1)];
+            _keptSlip = new Vector3d[_kept.Length];
             _contacts = new Contact[_kept.Length];
             _held = new Contact[2 * scene.Walls.Length];
             _old = scene.Shape;
@@ -106,8 +110,10 @@ namespace Guidewire.Core
                 to.Push = Math.Max(0.0, Vector3d.Dot(kept, to.Normal));
                 to.Rub = Shortened(kept - Vector3d.Dot(kept, to.Normal) * to.Normal,
                     _friction[to.Wall] * to.Push);
+                Vector3d slip = _keptSlip[to.Slot];
+                to.Slip = slip - Vector3d.Dot(slip, to.Normal) * to.Normal;
             }
-            Array.Clear(_kept, 0, _kept.Length);
+            ClearKept();
         }
 
         /// <summary>A substep begins; a held node that would come nearer than its radius is kept off.</summary>
@@ -147,6 +153,7 @@ namespace Guidewire.Core
             {
                 _contacts[k].Push = 0.0;
                 _contacts[k].Rub = Vector3d.Zero;
+                _contacts[k].Slip = Vector3d.Zero;
             }
         }
 
@@ -155,9 +162,10 @@ namespace Guidewire.Core
         {
             Keep();
             snapshot.Exchange(_kept);
+            snapshot.Exchange(_keptSlip);
             if (snapshot.IsWritten)
             {
-                Array.Clear(_kept, 0, _kept.Length);
+                ClearKept();
             }
             else
             {
@@ -216,6 +224,18 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>A substep has come to this shape: keeps what is left of the slips.</summary>
+        public void End(RodShape shape)
+        {
+            for (int k = 0; k < _count; k++)
+            {
+                ref Contact contact = ref _contacts[k];
+                double limit = _friction[contact.Wall] * contact.Push;
+                contact.Slip = limit > 0.0 ? Shortened(SlipIn(contact, shape), contact.InverseOfSlip * limit)
+                    : Vector3d.Zero;
+            }
+        }
+
         /// <summary>Takes the largest way, in radii, by which one more sweep would move a contact's point.</summary>
         public void AddResidual(RodShape shape, ref SweepResidual sum)
         {
@@ -251,10 +271,17 @@ namespace Guidewire.Core
             }
         }
 
+        private void ClearKept()
+        {
+            Array.Clear(_kept, 0, _kept.Length);
+            Array.Clear(_keptSlip, 0, _keptSlip.Length);
+        }
+
         private void Keep()
         {
             for (int k = 0; k < _count; k++)
             {
+                _keptSlip[_contacts[k].Slot] = _contacts[k].Slip;
                 _kept[_contacts[k].Slot] = _contacts[k].Push * _contacts[k].Normal + _contacts[k].Rub;
             }
         }
@@ -285,15 +312,20 @@ namespace Guidewire.Core
         // What f should be.
         private Vector3d RubIn(in Contact contact, RodShape shape)
         {
+            return Shortened(contact.Rub - (1.0 / contact.InverseOfSlip) * SlipIn(contact, shape),
+                _friction[contact.Wall] * contact.Push);
+        }
+
+        // u.
+        private Vector3d SlipIn(in Contact contact, RodShape shape)
+        {
             int j = contact.Element;
             double s = contact.Position;
             Vector3d n = contact.Normal;
             Vector3d turn = RotationVector.Log(_old.Q[j].Conjugate * shape.Q[j]);
             Vector3d move = (1.0 - s) * (shape.X[j] - _old.X[j]) + s * (shape.X[j + 1] - _old.X[j + 1])
                 + contact.Radius * Vector3d.Cross(n, Quaterniond.Rotate(_old.Q[j], turn));
-            Vector3d slip = move - Vector3d.Dot(move, n) * n;
-            return Shortened(contact.Rub - (1.0 / contact.InverseOfSlip) * slip,
-                _friction[contact.Wall] * contact.Push);
+            return contact.Slip + move - Vector3d.Dot(move, n) * n;
         }
 
         // What a force along the wall turns the element by, along the element's axes.
@@ -351,6 +383,9 @@ namespace Guidewire.Core
 
             /// <summary>f, kg m.</summary>
             public Vector3d Rub;
+
+            /// <summary>What the substeps before have left of the slip, m.</summary>
+            public Vector3d Slip;
 
             /// <summary>r f x n along the axes of an element of this orientation: the couple of f, kg m^2.</summary>
             public readonly Vector3d Couple(in Quaterniond q)

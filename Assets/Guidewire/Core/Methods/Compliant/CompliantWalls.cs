@@ -120,6 +120,7 @@ namespace Guidewire.Core
                 }
             }
             (_at, _to) = (_to, _at);
+            Contacts.End(shape);
             Contacts.AddPushes(Record.Forces, Record.WallForces);
         }
 

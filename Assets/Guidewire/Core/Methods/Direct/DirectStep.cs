@@ -108,6 +108,7 @@ namespace Guidewire.Core
             Vector3d free = _dynamics.Shape.X[last] + _timeStep * _dynamics.Velocities[last]
                 + (_timeStep * _timeStep) * _scene.Schedule.Gravity;
             Vector3d held = spring == null ? Vector3d.Zero : spring.HeldPlace(_dynamics.Shape);
+            double dissipated = Dissipated;
             string? failure = _walls == null ? _halved.Step(_timeStep) : _walls.Step(_timeStep);
             if (failure != null)
             {
@@ -149,7 +150,7 @@ namespace Guidewire.Core
                     Failure ??= FindOverdriven();
                 }
             }
-            TakeExtremes();
+            TakeExtremes(dissipated);
             return true;
         }
 
@@ -186,7 +187,10 @@ namespace Guidewire.Core
                 : sheath.WorkTo(_dynamics.Shape, _scene.Schedule.ProximalPositionAt(_drive.StepEnd), exit);
         }
 
-        private void TakeExtremes()
+        private double Dissipated => _dynamics.Terms.Walls?.Friction?.Anchors.Dissipated ?? 0.0;
+
+        // Since friction had turned so much into heat, J.
+        private void TakeExtremes(double dissipated)
         {
             RodTerms terms = _dynamics.Terms;
             RodShape shape = _dynamics.Shape;
@@ -211,7 +215,7 @@ namespace Guidewire.Core
             }
             if (terms.Walls.Friction != null)
             {
-                _extremes.TakeFriction(terms.Walls.Friction, shape, _dynamics.Velocities, _dynamics.Spins, _timeStep);
+                _extremes.TakeFriction(Dissipated - dissipated, _timeStep);
             }
         }
 

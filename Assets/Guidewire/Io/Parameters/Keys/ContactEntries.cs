@@ -5,6 +5,9 @@ namespace Guidewire.Io
     /// <summary>The keys of group "contact": how the wire touches walls.</summary>
     internal static class ContactEntries
     {
+        /// <summary>The value of frictionSpeed in files that did not ask for another, m/s.</summary>
+        public const double DefaultFrictionSpeed = 1e-3;
+
         /// <summary>The group, a part of the parameter table.</summary>
         public static ParameterGroup Group { get; } = new ParameterGroup(
             "contact", "how the wire touches walls", new ParameterEntry[]
@@ -30,9 +33,17 @@ namespace Guidewire.Io
             {
                 Methods = Takers.Only(Solver.Xpbd, Solver.Direct),
             },
+            new NumberEntry("elasticSlip", "m", NumberRange.NotNegative,
+                "elastic displacement along a wall up to which a contact sticks, with frictionCoefficient times the"
+                + " push over elasticSlip as its stiffness; 0: by rule, a hundredth of the wire's radius",
+                p => p.Simulation.Contact.ElasticSlip, (p, v) => p.Simulation.Contact.ElasticSlip = v)
+            {
+                Methods = Takers.Only(Solver.Direct),
+            },
             new NumberEntry("frictionSpeed", "m/s", NumberRange.Positive,
-                "speed of slip from which friction has its full force; below it contact creeps, it does not stick",
-                p => p.Simulation.Contact.FrictionSpeed, (p, v) => p.Simulation.Contact.FrictionSpeed = v)
+                "in older files, the speed of slip below which contact crept; it sticks now at any, elasticSlip"
+                + " counts, and a warning says so",
+                p => DefaultFrictionSpeed, (p, v) => { })
             {
                 Methods = Takers.Only(Solver.Direct),
             },

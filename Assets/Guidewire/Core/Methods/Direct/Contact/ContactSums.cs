@@ -66,7 +66,7 @@ namespace Guidewire.Core
         public void AddNode(int w, int i, in Vector3d gradient, in Symmetric3 second)
         {
             bool isLast = i == _coupling.Length;
-            Touch(w, isLast ? i - 1 : i, isLast ? 1.0 : 0.0, -gradient);
+            Touch(w, isLast ? i - 1 : i, isLast ? 1.0 : 0.0, -gradient, true);
             _gradient[i] += gradient;
             _own[i] += second;
         }
@@ -89,7 +89,7 @@ namespace Guidewire.Core
             Vector3d force = (ridge.Weight * slope) * ridge.Normal;
             Vector3d first = r * force + (value * units) * ridge.WeightAlongA;
             Vector3d second = s * force + (value * units) * ridge.WeightAlongB;
-            Touch(w, j, s, -force);
+            Touch(w, j, s, -force, false);
             _gradient[j] += first;
             _gradient[j + 1] += second;
             double stiffness = ridge.Weight * curvature;
@@ -158,9 +158,9 @@ namespace Guidewire.Core
             }
         }
 
-        private void Touch(int w, int j, double position, in Vector3d force)
+        private void Touch(int w, int j, double position, in Vector3d force, bool isNode)
         {
-            Contacts.Add(new WallContact(w, j, position, force));
+            Contacts.Add(new WallContact(w, j, position, force, isNode));
             _isTouched[j] = true;
             _isTouched[j + 1] = true;
         }

@@ -2,38 +2,64 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Coulomb friction on walls as an energy over one step: mu N f(|u|) of each contact, u the slip of the
-    /// wire's surface along the wall since the step's start. Its slope is the force mu N against the slip, smoothed
-    /// below a threshold (Li et al. 2020): with e = threshold speed times dt, f' = 2 y/e - (y/e)^2 below e, 1
-    /// beyond.</summary>
-    /// <remarks>Below the threshold speed a contact creeps, it does not stick. Pushes N and normals n are lagged: those
-    /// of the shape that was last given to <see cref="Lag"/>. The surface of element j at s slips by
-    /// u = P ((1 - s) (x_j - x_j0) + s (x_j+1 - x_j+1,0) + r n x R_0 phi), P = 1 - n n^T, phi the turn of the element
-    /// since the step's start along its axes there: what turns about its own axis rubs, too, and takes a couple.
-    /// With u' = W theta, W = r [n] R_0 J^-1(phi), the second derivative leaves out that of phi, of order |phi|.
-    /// </remarks>
+    /// <summary>Coulomb friction on walls, elastic before it slips, as an energy over one step: at each contact the
+    /// wire's surface is displaced from its anchor on the wall by z = d + u, d the elastic displacement kept from the
+    /// steps before, u the slip along the wall since the step's start. The energy is k z^2/2 up to the limit
+    /// k |z| = mu N, and beyond it mu N |z| - (mu N)^2/(2 k): its slope is the force, k z and then mu N against the
+    /// displacement.</summary>
+    /// <remarks>At the end of an accepted step the anchor follows what is beyond the limit (return mapping; Simo and
+    /// Hughes, Computational Inelasticity, 1998; in contact Wriggers, Computational Contact Mechanics, 2006): d is
+    /// force/k, no longer than mu N/k. What sticks is held by its force without slipping, and does not creep. The heat
+    /// of the step is mu N (|z| - mu N/k). k = mu N/s with s the elastic slip that is allowed, N the largest push since
+    /// the contact began: a push that rises or falls leaves the force of what sticks as it is, and energy is only lost.
+    ///
+    /// Pushes N and normals n are lagged: those of the shape that was last given to <see cref="Lag"/>. Contacts of
+    /// one element with several ridges of a wall share one anchor by their pushes. The surface of element j at s
+    /// slips by u = P ((1 - s) (x_j - x_j0) + s (x_j+1 - x_j+1,0) + r n x R_0 phi), P = 1 - n n^T, phi the turn of the
+    /// element since the step's start along its axes there: what turns about its own axis rubs, too, and takes a
+    /// couple. With u' = W theta, W = r [n] R_0 J^-1(phi), the second derivative leaves out that of phi, of order
+    /// |phi|.</remarks>
     internal sealed class FrictionEnergy : EnergyTerm
     {
+        private const double OfRadius = 1e-2;
+
         private readonly BarrierEnergy _barrier;
-        private readonly double _threshold;       // m/s
-        private readonly StructList<WallContact> _contacts = new StructList<WallContact>(64);
+        private readonly double _elasticSlip;     // s, m
+        private readonly StructList<FrictionContact> _contacts = new StructList<FrictionContact>(64);
+        private readonly double[] _push;          // sum of the limits by anchor, N
         private readonly Vector3d[] _start;       // x_0, m
         private readonly Quaterniond[] _frames;   // q_0
-        private double _creep;                    // e, m
 
         /// <summary>Friction at the contacts of a barrier.</summary>
-        /// <param name="threshold">m/s.</param>
-        public FrictionEnergy(BarrierEnergy barrier, int elementCount, double threshold)
+        /// <param name="elasticSlip">s, m.</param>
+        public FrictionEnergy(BarrierEnergy barrier, int elementCount, double elasticSlip)
         {
             _barrier = barrier;
-            _threshold = threshold;
+            _elasticSlip = elasticSlip;
             _start = new Vector3d[elementCount + 1];
             _frames = new Quaterniond[elementCount];
             Array.Fill(_frames, Quaterniond.Identity);
-            _creep = threshold;
+            Anchors = new FrictionAnchors(barrier.Walls.Length, elementCount);
+            _push = new double[Anchors.Count];
         }
 
-        /// <summary>Its slope is a force; its value is no energy that the wire stores.</summary>
+        /// <summary>s by rule, m: a hundredth of the thinnest element's radius, by which a surface turns about the
+        /// wire's axis by 0.01 rad.</summary>
+        public static double ElasticSlipOf(MaterialRod rod)
+        {
+            double thinnest = double.PositiveInfinity;
+            foreach (double radius in rod.Radius)
+            {
+                thinnest = Math.Min(thinnest, radius);
+            }
+            return OfRadius * thinnest;
+        }
+
+        /// <summary>What is kept from step to step.</summary>
+        public FrictionAnchors Anchors { get; }
+
+        /// <summary>Its slope is a force; its value over a step holds the heat too. What contacts store is
+        /// <see cref="FrictionAnchors.StoredEnergy"/>.</summary>
         public override bool StoresEnergy => false;
 
         /// <inheritdoc/>
@@ -41,21 +67,70 @@ namespace Guidewire.Core
         {
             Array.Copy(shape.X, _start, _start.Length);
             Array.Copy(shape.Q, _frames, _frames.Length);
-            _creep = _threshold * dt;
         }
 
         /// <summary>Takes over pushes and normals from a shape.</summary>
         public void Lag(RodShape shape)
         {
+            for (int k = 0; k < _contacts.Count; k++)
+            {
+                _push[_contacts[k].Index] = 0.0;
+            }
             _contacts.Clear();
             StructList<WallContact> contacts = _barrier.ContactsOf(shape);
             for (int k = 0; k < contacts.Count; k++)
             {
-                if (_barrier.Walls[contacts[k].Wall].FrictionCoefficient > 0.0)
+                ref WallContact contact = ref contacts[k];
+                double limit = _barrier.Walls[contact.Wall].FrictionCoefficient * contact.Force;
+                if (limit > 0.0)
                 {
-                    _contacts.Add(contacts[k]);
+                    int index = Anchors.IndexOf(contact);
+                    _push[index] += limit;
+                    _contacts.Add(new FrictionContact
+                    {
+                        Index = index, Element = contact.Element, Position = contact.Position,
+                        Normal = contact.Normal, Limit = limit,
+                    });
                 }
             }
+            for (int k = 0; k < _contacts.Count; k++)
+            {
+                ref FrictionContact contact = ref _contacts[k];
+                ref FrictionAnchors.Anchor anchor = ref Anchors[contact.Index];
+                double push = _push[contact.Index];
+                double stiffness = Math.Max(anchor.Stiffness, push / _elasticSlip);
+                contact.Stiffness = contact.Limit / push * stiffness;
+                contact.Start = Turned((1.0 / stiffness) * anchor.Force, contact.Normal);
+            }
+        }
+
+        /// <summary>Moves the anchors to where the step has left them: the next begins in this shape.</summary>
+        public override void EndStep(RodShape shape)
+        {
+            double lost = 0.0;
+            for (int k = 0; k < _contacts.Count; k++)
+            {
+                ref FrictionContact contact = ref _contacts[k];
+                Vector3d z = Displacement(shape, contact, out _);
+                contact.Start = Math.Min(1.0, contact.Limit / (contact.Stiffness * z.Length)) * z;
+                lost += contact.Limit * Math.Max(0.0, z.Length - contact.Start.Length);
+            }
+            for (int index = 0; index < _push.Length; index++)
+            {
+                ref FrictionAnchors.Anchor anchor = ref Anchors[index];
+                double push = _push[index];
+                double stiffness = push > 0.0 ? Math.Max(anchor.Stiffness, push / _elasticSlip) : 0.0;
+                // What the stiffer contact does not store, or one that has ended.
+                lost += stiffness == anchor.Stiffness || anchor.Stiffness == 0.0 ? 0.0
+                    : anchor.StoredEnergy * (1.0 - (stiffness > 0.0 ? anchor.Stiffness / stiffness : 0.0));
+                anchor = new FrictionAnchors.Anchor { Stiffness = stiffness };
+            }
+            for (int k = 0; k < _contacts.Count; k++)
+            {
+                Anchors[_contacts[k].Index].Force += _contacts[k].Stiffness * _contacts[k].Start;
+            }
+            Anchors.Dissipated += lost;
+            BeginStep(shape, 0.0);
         }
 
         /// <inheritdoc/>
@@ -64,9 +139,10 @@ namespace Guidewire.Core
             double sum = 0.0;
             for (int k = 0; k < _contacts.Count; k++)
             {
-                double y = Slip(shape, _contacts[k], out _).Length / _creep;
-                double f = y < 1.0 ? y * y * (1.0 - y / 3.0) + 1.0 / 3.0 : y;
-                sum += Limit(_contacts[k]) * _creep * f;
+                ref FrictionContact contact = ref _contacts[k];
+                double z = Displacement(shape, contact, out _).Length;
+                double most = contact.Limit / contact.Stiffness;
+                sum += z <= most ? 0.5 * contact.Stiffness * z * z : contact.Limit * (z - 0.5 * most);
             }
             return sum;
         }
@@ -77,10 +153,10 @@ namespace Guidewire.Core
         {
             for (int k = 0; k < _contacts.Count; k++)
             {
-                WallContact contact = _contacts[k];
+                ref FrictionContact contact = ref _contacts[k];
                 if (contact.Element >= from && contact.Element < to)
                 {
-                    AddForce(contact, Slip(shape, contact, out Vector3d turn), turn, gradient);
+                    AddForce(contact, Displacement(shape, contact, out Vector3d turn), turn, gradient);
                 }
             }
         }
@@ -90,32 +166,49 @@ namespace Guidewire.Core
         {
             for (int k = 0; k < _contacts.Count; k++)
             {
-                WallContact contact = _contacts[k];
+                ref FrictionContact contact = ref _contacts[k];
                 int j = contact.Element;
                 if (j < from || j >= to)
                 {
                     continue;
                 }
-                Vector3d slip = Slip(shape, contact, out Vector3d turn);
-                AddForce(contact, slip, turn, gradient);
-                double y = slip.Length / _creep;
-                double across = Limit(contact) / _creep * (y < 1.0 ? 2.0 - y : 1.0 / y);
-                double along = y < 1.0 ? Limit(contact) / _creep * (2.0 - 2.0 * y) : 0.0;
-                Vector3d n = contact.Normal;
-                Vector3d direction = Vector3d.Normalize(slip);
+                Vector3d z = Displacement(shape, contact, out Vector3d turn);
+                AddForce(contact, z, turn, gradient);
+                double across = StiffnessAt(contact, z);
+                double along = across < contact.Stiffness ? 0.0 : across;
                 Symmetric3 h = new Symmetric3(across, 0.0, across, 0.0, 0.0, across)
-                    + Symmetric3.Outer(-across, n) + Symmetric3.Outer(along - across, direction);
+                    + Symmetric3.Outer(-across, contact.Normal);
+                if (along != across)
+                {
+                    h += Symmetric3.Outer(along - across, Vector3d.Normalize(z));
+                }
                 AddBlocks(contact, turn, h, ref blocks[j], ref blocks[j + 1]);
             }
         }
 
-        private double Limit(in WallContact contact)
+        // Force over displacement, N/m.
+        private static double StiffnessAt(in FrictionContact contact, in Vector3d z)
         {
-            return _barrier.Walls[contact.Wall].FrictionCoefficient * contact.Force;
+            double size = z.Length;
+            return contact.Stiffness * size <= contact.Limit ? contact.Stiffness : contact.Limit / size;
+        }
+
+        // A vector in the plane across a normal, as long as it was.
+        private static Vector3d Turned(in Vector3d v, in Vector3d normal)
+        {
+            Vector3d flat = v - Vector3d.Dot(v, normal) * normal;
+            double size = flat.Length;
+            return size > 0.0 ? (v.Length / size) * flat : Vector3d.Zero;
+        }
+
+        // z, and phi.
+        private Vector3d Displacement(RodShape shape, in FrictionContact contact, out Vector3d turn)
+        {
+            return contact.Start + Slip(shape, contact, out turn);
         }
 
         // u, and phi.
-        private Vector3d Slip(RodShape shape, in WallContact contact, out Vector3d turn)
+        private Vector3d Slip(RodShape shape, in FrictionContact contact, out Vector3d turn)
         {
             int j = contact.Element;
             double s = contact.Position;
@@ -126,11 +219,10 @@ namespace Guidewire.Core
             return move - Vector3d.Dot(move, n) * n;
         }
 
-        private void AddForce(in WallContact contact, in Vector3d slip, in Vector3d turn, RodVector[] gradient)
+        private void AddForce(in FrictionContact contact, in Vector3d z, in Vector3d turn, RodVector[] gradient)
         {
             int j = contact.Element;
-            double y = slip.Length / _creep;
-            Vector3d force = (Limit(contact) / _creep * (y < 1.0 ? 2.0 - y : 1.0 / y)) * slip;
+            Vector3d force = StiffnessAt(contact, z) * z;
             Add(ref gradient[j], 1.0 - contact.Position, force);
             Add(ref gradient[j + 1], contact.Position, force);
             Vector3d couple = Quaterniond.Rotate(_frames[j].Conjugate,
@@ -141,7 +233,7 @@ namespace Guidewire.Core
             gradient[j].T3 += couple.Z;
         }
 
-        private void AddBlocks(in WallContact contact, in Vector3d turn, in Symmetric3 h, ref RodBlock b,
+        private void AddBlocks(in FrictionContact contact, in Vector3d turn, in Symmetric3 h, ref RodBlock b,
             ref RodBlock next)
         {
             double s = contact.Position;
@@ -168,7 +260,7 @@ namespace Guidewire.Core
         }
 
         // W e.
-        private Vector3d Column(in WallContact contact, in Vector3d turn, in Vector3d e)
+        private Vector3d Column(in FrictionContact contact, in Vector3d turn, in Vector3d e)
         {
             int j = contact.Element;
             return _barrier.RadiusOf(j)

@@ -13,6 +13,9 @@ namespace Guidewire.Core
         /// <summary>s.</summary>
         public readonly double Position;
 
+        /// <summary>Whether a node touches, else the inside of the element.</summary>
+        public readonly bool IsNode;
+
         /// <summary>Unit vector of the push.</summary>
         public readonly Vector3d Normal;
 
@@ -20,8 +23,9 @@ namespace Guidewire.Core
         public readonly double Force;
 
         /// <summary>A contact with these values.</summary>
-        public WallContact(int wall, int element, double position, in Vector3d push)
+        public WallContact(int wall, int element, double position, in Vector3d push, bool isNode)
         {
+            IsNode = isNode;
             Wall = wall;
             Element = element;
             Position = position;

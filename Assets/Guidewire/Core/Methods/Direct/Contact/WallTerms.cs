@@ -57,6 +57,14 @@ namespace Guidewire.Core
             return HoldsStart ? Spring.Force(shape) : Vector3d.Zero;
         }
 
+        /// <summary>Writes or takes over what friction keeps from step to step; a reader between as many walls of which
+        /// one rubs takes over what such a writer has.</summary>
+        public void ExchangeFriction(Snapshot snapshot)
+        {
+            snapshot.Section(Friction == null ? "no friction" : "friction at " + Friction.Anchors.Count,
+                snapshot => Friction?.Anchors.Exchange(snapshot));
+        }
+
         /// <summary>Adds minus the force of the walls on the wire.</summary>
         public void AddWallGradient(RodShape shape, RodVector[] gradient)
         {

@@ -273,6 +273,7 @@ namespace Guidewire.Core
             {
                 term.Exchange(snapshot);
             }
+            _terms.Walls?.Friction?.Anchors.Exchange(snapshot);
             ExchangePast(snapshot);
             _damping?.Exchange(snapshot);
             _meanForces.Exchange(snapshot);
@@ -363,6 +364,10 @@ namespace Guidewire.Core
                     done = h == left ? until : done + h;
                     _hasRates = true;
                     _hasPast = !isStart;
+                    if (failure == null)
+                    {
+                        EndStep();
+                    }
                     return failure;
                 }
                 _innerStart.Restore();
@@ -462,6 +467,7 @@ namespace Guidewire.Core
                 _history.Complete();
                 _hasPast = true;
                 Control.Accepts(0.0, dt, dt, true);
+                EndStep();
             }
             return failure;
         }
@@ -477,6 +483,14 @@ namespace Guidewire.Core
             foreach (EnergyTerm term in _terms.All)
             {
                 term.BeginStep(Shape, dt);
+            }
+        }
+
+        private void EndStep()
+        {
+            foreach (EnergyTerm term in _terms.All)
+            {
+                term.EndStep(Shape);
             }
         }
 

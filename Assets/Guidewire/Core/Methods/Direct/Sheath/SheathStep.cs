@@ -25,6 +25,7 @@ namespace Guidewire.Core
         private readonly Vector3d[] _velocities;
         private readonly Vector3d[] _spins;
         private readonly StepStart _start;
+        private readonly FrictionAnchors _anchors;
         private SheathWindow _window;
         private RodDynamics _dynamics = null!;    // this and the next are set wherever the window is
         private DirectStep _inner = null!;
@@ -41,6 +42,7 @@ namespace Guidewire.Core
             _shape.CopyFrom(whole.Shape);
             _velocities = (Vector3d[])whole.Velocities.Clone();
             _spins = (Vector3d[])whole.Spins.Clone();
+            _anchors = new FrictionAnchors(parameters.Scene.Walls.Length, n);
             _stress = new StressRecord(whole.Rod, whole.Supports);
             _setup = new SheathSetup(parameters, whole);
             _start = new StepStart(snapshot => _inner.ExchangeStep(snapshot));
@@ -135,6 +137,7 @@ namespace Guidewire.Core
                 Build(time, null);
             }
             _inner.Exchange(snapshot);
+            TakeAnchors();
             Contacts!.Take(_inner.Contacts!, _window.First);
         }
 
@@ -196,11 +199,21 @@ namespace Guidewire.Core
             _inner = new DirectStep(scene, _dynamics, _whole.Drive, _parameters.Method, _report,
                 new ContactRecord(scene.Shape.X.Length));
             _inner.Contacts!.Take(Contacts!, -_window.First);
+            _dynamics.Terms.Walls!.Friction?.Anchors.Take(_anchors, _window.First);
             if (old != null)
             {
                 var counts = new Snapshot();
                 old.ExchangeCounts(counts);
                 _inner.ExchangeCounts(counts.ToRead());
+            }
+        }
+
+        private void TakeAnchors()
+        {
+            FrictionEnergy? friction = _dynamics.Terms.Walls!.Friction;
+            if (friction != null)
+            {
+                _anchors.Take(friction.Anchors, -_window.First);
             }
         }
 
@@ -213,6 +226,7 @@ namespace Guidewire.Core
             Array.Copy(shape.Q, 0, _shape.Q, first, shape.Q.Length);
             Array.Copy(_dynamics.Velocities, 0, _velocities, first, shape.X.Length);
             Array.Copy(_dynamics.Spins, 0, _spins, first, shape.Q.Length);
+            TakeAnchors();
             double push = AxialForce();
             double torque = Torque();
             double place = _window.Outside(_shape.X[first]);

@@ -1,0 +1,103 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>What friction keeps from step to step: by wall and node, and by wall and element that ridges of the
+    /// wall meet, the elastic force F along the wall, the stiffness k with which it has grown, and so the elastic
+    /// displacement F/k between the wire's surface and its anchor on the wall.</summary>
+    /// <remarks>Kept by what the wire consists of, not by features of a wall: these come and go as a wire moves over a
+    /// mesh. A contact that has ended has k = 0.</remarks>
+    internal sealed class FrictionAnchors
+    {
+        private readonly int _nodes;
+        private readonly int _walls;
+        private readonly Anchor[] _anchors;       // of each wall the nodes', then the elements'
+
+        /// <summary>Of a wire that touches nothing.</summary>
+        public FrictionAnchors(int wallCount, int elementCount)
+        {
+            _walls = wallCount;
+            _nodes = elementCount + 1;
+            _anchors = new Anchor[wallCount * (2 * elementCount + 1)];
+        }
+
+        /// <summary>Where anchors are kept.</summary>
+        public int Count => _anchors.Length;
+
+        /// <summary>What friction has turned into heat so far, J.</summary>
+        public double Dissipated { get; set; }
+
+        /// <summary>The anchor at an index.</summary>
+        public ref Anchor this[int index] => ref _anchors[index];
+
+        /// <summary>Energy of all elastic displacements, sum of F^2/(2 k), J.</summary>
+        public double StoredEnergy
+        {
+            get
+            {
+                double sum = 0.0;
+                for (int k = 0; k < _anchors.Length; k++)
+                {
+                    sum += _anchors[k].StoredEnergy;
+                }
+                return sum;
+            }
+        }
+
+        /// <summary>Where the anchor of a contact is kept.</summary>
+        public int IndexOf(in WallContact contact)
+        {
+            int of = contact.IsNode ? contact.Element + (contact.Position == 1.0 ? 1 : 0) : _nodes + contact.Element;
+            return contact.Wall * (2 * _nodes - 1) + of;
+        }
+
+        /// <summary>Takes over the anchors of another wire between the same walls, whose node i + offset is this one's
+        /// node i; nodes and elements that it does not have touch nothing.</summary>
+        public void Take(FrictionAnchors other, int offset)
+        {
+            Dissipated = other.Dissipated;
+            Array.Clear(_anchors, 0, _anchors.Length);
+            for (int w = 0; w < _walls; w++)
+            {
+                Take(other, w, 0, 0, _nodes, other._nodes, offset);
+                Take(other, w, _nodes, other._nodes, _nodes - 1, other._nodes - 1, offset);
+            }
+        }
+
+        /// <summary>Writes or takes over all of it.</summary>
+        public void Exchange(Snapshot snapshot)
+        {
+            Dissipated = snapshot.Exchange(Dissipated);
+            for (int k = 0; k < _anchors.Length; k++)
+            {
+                snapshot.Exchange(ref _anchors[k].Force);
+                snapshot.Exchange(ref _anchors[k].Stiffness);
+            }
+        }
+
+        private void Take(FrictionAnchors other, int wall, int from, int otherFrom, int count, int otherCount,
+            int offset)
+        {
+            int own = wall * (2 * _nodes - 1) + from;
+            int others = wall * (2 * other._nodes - 1) + otherFrom + offset;
+            int end = Math.Min(count, otherCount - offset);
+            for (int i = Math.Max(0, -offset); i < end; i++)
+            {
+                _anchors[own + i] = other._anchors[others + i];
+            }
+        }
+
+        /// <summary>An elastic force along a wall.</summary>
+        internal struct Anchor
+        {
+            /// <summary>F, of the wire on the wall, N.</summary>
+            public Vector3d Force;
+
+            /// <summary>k, N/m; 0 without contact.</summary>
+            public double Stiffness;
+
+            /// <summary>F^2/(2 k), J.</summary>
+            public readonly double StoredEnergy => Stiffness > 0.0 ? 0.5 * Force.LengthSquared / Stiffness : 0.0;
+        }
+    }
+}

@@ -1,0 +1,28 @@
+namespace Guidewire.Core
+{
+    /// <summary>Friction at one place of contact in the step at hand: where the wall pushes element j at s, how hard,
+    /// and what elastic displacement the contact set out with.</summary>
+    internal struct FrictionContact
+    {
+        /// <summary>Of the anchor.</summary>
+        public int Index;
+
+        /// <summary>j.</summary>
+        public int Element;
+
+        /// <summary>s.</summary>
+        public double Position;
+
+        /// <summary>n.</summary>
+        public Vector3d Normal;
+
+        /// <summary>mu N.</summary>
+        public double Limit;
+
+        /// <summary>k, N/m.</summary>
+        public double Stiffness;
+
+        /// <summary>d at the step's start, m, along the wall.</summary>
+        public Vector3d Start;
+    }
+}
