@@ -62,7 +62,8 @@ namespace Guidewire.Io
                         fields.Allow("shape", "frictionCoefficient", "point", "normal");
                         return Plane(fields, scene, placement);
                     case "tube":
-                        fields.Allow("shape", "frictionCoefficient", "knots", "radius", "openStart", "openEnd");
+                        fields.Allow("shape", "frictionCoefficient", "knots", "radius", "openStart", "openEnd",
+                            "smooth");
                         return Tube(fields, scene, placement);
                     case "mesh":
                         fields.Allow("shape", "frictionCoefficient", "file", "metresPerUnit", "openRims");
@@ -106,9 +107,16 @@ namespace Guidewire.Io
             {
                 knots[i] = placement.Apply(knots[i]);
             }
-            return new TubeShape(
-                knots, Array.ConvertAll(radii, radius => size * radius), fields.Switch("openStart", true),
-                fields.Switch("openEnd", true));
+            radii = Array.ConvertAll(radii, radius => size * radius);
+            bool openStart = fields.Switch("openStart", true);
+            bool openEnd = fields.Switch("openEnd", true);
+            var asGiven = new TubeShape(knots, radii, openStart, openEnd);
+            if (!fields.Switch("smooth", false))
+            {
+                return asGiven;
+            }
+            RoundedCentreline.Round(ref knots, ref radii);
+            return new TubeShape(knots, radii, openStart, openEnd);
         }
 
         private static MeshShape Mesh(
