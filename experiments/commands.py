@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from experiments import building, checking
-from experiments.arguments import Parser, above_zero, assignment, finite, path, positive
+from experiments.arguments import Parser, above_zero, assignment, error_part, finite, path, positive
 from experiments.prepare import DRAWING, ROOT, SWEEPING, TESTING, VIEWING, PreparationError
 from experiments.runner import INTERNAL_ERROR, INTERRUPTED
 from experiments.sweep import FAILED, Bar, Means, SweepResult, sweep
@@ -86,10 +86,17 @@ def parse(argv: list[str]) -> argparse.Namespace:
     advise = commands.add_parser("advise", help="the cheapest settings of a scene that meet an error, found by running")
     advise.add_argument("file", metavar="SCENE", type=Path, help="parameter file, such as params/insertion.json")
     asked = advise.add_mutually_exclusive_group(required=True)
-    asked.add_argument("--error", type=above_zero, metavar="E",
-                       help="RMS distance of the wire from a finer run, over the way that it goes, such as 0.01")
+    asked.add_argument("--error", type=error_part, metavar="E",
+                       help="from a finer run, such as 1%% or 0.01: RMS distance over the way that the wire goes, or "
+                            "what --of names, over its own size")
     asked.add_argument("--budget", type=above_zero, metavar="MS_PER_STEP",
                        help="wall time that a step may take, ms: the most accurate settings within it")
+    advise.add_argument("--of", metavar="QUANTITY", default="position",
+                        help="what the error is of: position, tip, hubForce, hubTorque, twist, largestCurvature, "
+                             "contactForce, or a number of summary.json such as extremes.axialForce (position)")
+    advise.add_argument("--at", choices=("run", "end"), default="run",
+                        help="from start to end, or at the end alone (run)")
+    advise.add_argument("--chart", action="store_true", help="draw error against cost of the settings: chart.png")
     advise.add_argument("--out", type=path, default=Path("results"),
                         help="folder above that of the runs (results); the file and advice.md stand in advice/SCENE")
     _add_workers(advise)
@@ -260,13 +267,14 @@ def _figures(arguments: argparse.Namespace) -> int:
 
 
 def _advise(arguments: argparse.Namespace) -> int:
-    from analysis.advice import plan, report
+    from analysis.advice import chart, plan, report
+    from analysis.advice.quantity import Quantity
     from analysis.logs import LogError
     from analysis.validation.check import replay
 
     checking.check_file(arguments.file)
     checking.check_out(arguments.out)
-    wish = plan.Wish(arguments.error, arguments.budget)
+    wish = plan.Wish(arguments.error, arguments.budget, Quantity(arguments.of, arguments.at))
     check, folder = plan.check_of(arguments.file, wish), plan.folder_of(arguments.out)
     means = _means_of(arguments, _build_runner(), check.name)
     try:
@@ -279,6 +287,9 @@ def _advise(arguments: argparse.Namespace) -> int:
     (place / "advice.md").write_text(report.as_markdown(arguments.file.name, wish, advice), encoding="utf-8")
     print(report.verdict(wish, advice))
     print(f"evidence: {os.path.relpath(place / 'advice.md')}")
+    if arguments.chart:
+        chart.draw_advice(arguments.file.name, wish, advice).savefig(place / "chart.png")
+        print(f"picture: {os.path.relpath(place / 'chart.png')}")
     if advice.taken is None:
         return FAILED
     scene = json.loads(arguments.file.read_text(encoding="utf-8-sig"))
