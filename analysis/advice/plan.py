@@ -159,7 +159,8 @@ def _plan(wish: Wish, cost: Cost, repeats: int) -> Generator[Sequence[Case], Map
     shortlist = _shortlist([key for key in found if key.startswith("candidate-")], found, wish)
     timed = ["file", *(key for key in found if key.startswith("part-")), *shortlist]
     if repeats and has_converged:
-        again = yield [replace(_case(key, scene, asked[key], quantity), key=f"{key}-timed", repeats=repeats) for key in timed]
+        again = yield [replace(_case(key, scene, asked[key], quantity), key=f"{key}-timed", repeats=repeats)
+                       for key in timed]
         for key in timed:
             found[key] = _with_times(found[key], read_repeats(again[f"{key}-timed"], repeats))
     searched = [tried for key, tried in found.items() if key.startswith("candidate-")]
