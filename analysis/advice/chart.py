@@ -38,6 +38,10 @@ def draw_advice(name: str, wish: Wish, advice: Advice) -> Figure:
         axes.axhline(wish.error, color="0.3", linestyle="--", linewidth=1.0, label="asked")
     if advice.reference_error > 0.0 and math.isfinite(advice.reference_error):
         axes.axhspan(0.0, advice.reference_error, color="C1", alpha=0.15, label="below what the reference is known to")
+    levels = [one.error for one in shown] + [level for level in (wish.error, advice.reference_error)
+                                             if level and math.isfinite(level)]
+    if levels:
+        axes.set_ylim(0.5 * min(levels), 2.0 * max(levels))
     axes.set(xscale="log", yscale="log", xlabel="work over that of the file (1)",
              ylabel=f"error of {wish.quantity.said} (1)")
     axes.legend(loc="center left", bbox_to_anchor=(1.02, 0.5))

@@ -140,9 +140,10 @@ def check_of(file: Path, wish: Wish, cost: Cost = by_time, repeats: int = REPEAT
 
 
 def _plan(wish: Wish, cost: Cost, repeats: int) -> Generator[Sequence[Case], Mapping[str, Run], Advice]:
-    scene = _lasting((yield [Case("scene", {"logSpheres": "all"})])["scene"])
+    first = (yield [Case("scene", {"logSpheres": "all"})])["scene"]
+    scene = _lasting(first)
     quantity = wish.quantity
-    quantity.refuse(scene)
+    quantity.refuse(scene, first.summary)
     fine, *coarser = trials.references(scene)
     # Two runs may agree in one number by chance, three hardly.
     coarser = {f"coarser-{k}": trial for k, trial in enumerate(coarser[:1 + quantity.is_one_number])}

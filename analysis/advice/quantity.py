@@ -77,8 +77,11 @@ class Quantity:
         kind = "" if self.is_one_number and self.of != POSITION else "RMS "
         return f"An error is the {kind}difference of {self.said} from the reference's, over the {kind}{base}."
 
-    def refuse(self, scene: Mapping[str, Any]) -> None:
-        """Raises LogError where runs of a scene of these effective values do not have it."""
+    def refuse(self, scene: Mapping[str, Any], summary: Mapping[str, Any]) -> None:
+        """Raises LogError where runs of a scene of these effective values, such as that of a summary, do not have
+        it."""
+        if self.of not in NAMED:
+            number_of(summary, self.of)
         if self.of in _OF_HUB and scene["solver"] != "direct":
             raise LogError(f"--of {self.of} needs solver direct, this is {scene['solver']}")
         if self.of == CONTACT_FORCE and not (scene.get("vessel") or scene.get("obstacles")):

@@ -102,7 +102,7 @@ def test_the_walls_force_is_read_from_the_contacts_of_the_log(advise) -> None:
 ])
 def test_what_a_scene_does_not_have_is_told(of: str, scene: dict, said: str) -> None:
     with pytest.raises(LogError, match=said):
-        Quantity(of).refuse(scene)
+        Quantity(of).refuse(scene, {})
 
 
 def test_an_unknown_name_gets_the_nearest() -> None:
@@ -137,4 +137,5 @@ def test_the_chart_has_a_point_for_each_setting_that_was_not_lost() -> None:
     axes = chart.draw_advice("scene.json", Wish(0.03, quantity=Quantity("hubForce")), advice).axes[0]
     drawn = {line.get_label(): line.get_xydata() for line in axes.lines}
     assert drawn["n = 8"].tolist() == [[1.0, 0.1], [4.0, 0.02]] and drawn["n = 16"].tolist() == [[8.0, 0.01]]
+    assert axes.get_ylim() == pytest.approx((0.0025, 0.2))
     assert drawn["taken"].tolist() == [[4.0, 0.02]] and "the hub's force" in axes.get_ylabel()
