@@ -116,7 +116,15 @@ namespace Guidewire.Io
                 return asGiven;
             }
             RoundedCentreline.Round(ref knots, ref radii);
-            return new TubeShape(knots, radii, openStart, openEnd);
+            try
+            {
+                return new TubeShape(knots, radii, openStart, openEnd);
+            }
+            catch (ArgumentException)
+            {
+                throw fields.Refused("smooth = true: near a corner the radius changes too steeply for an arc: false,"
+                    + " or knots with radii that change less");
+            }
         }
 
         private static MeshShape Mesh(
