@@ -246,7 +246,7 @@ def closed_form(wall: dict[str, Any], rotation: Callable) -> ClosedForm:
 
     Parameters
     ----------
-    wall : a vessel that is a plane or a tube with open ends, or an obstacle that is a sphere, capsule or box.
+    wall : a vessel that is a plane or a tube with open ends and corners, or an obstacle that is a sphere, capsule or box.
     rotation : the matrix of Euler angles in degrees.
     """
     shape = wall["shape"]
@@ -254,6 +254,8 @@ def closed_form(wall: dict[str, Any], rotation: Callable) -> ClosedForm:
         normal = np.array(wall["normal"], float)
         normal /= np.linalg.norm(normal)
         return ClosedForm(lambda x: ((x - wall["point"]) @ normal)[None], True)
+    if wall.get("smooth"):
+        raise ValueError("a tube with rounded corners is not searched here")
     if shape == "tube":
         return ClosedForm(_tube(np.array(wall["knots"], float), np.array(wall["radius"], float)), True)
     if shape == "sphere":

@@ -57,3 +57,14 @@ def above_zero(text: str) -> float:
     if number <= 0.0:
         raise argparse.ArgumentTypeError(f"'{text}' is not a number above 0")
     return number
+
+
+def error_part(text: str) -> float:
+    """A relative error: 5% or 0.05. More than 1 without a percent sign is hardly meant."""
+    if text.endswith("%"):
+        return 0.01 * above_zero(text[:-1])
+    number = above_zero(text)
+    if number > 1.0:
+        raise argparse.ArgumentTypeError(f"'{text}' is {100.0 * number:g} %: write {text}% for {0.01 * number:g}, or "
+                                         f"{100.0 * number:g}% if that is meant")
+    return number

@@ -6,7 +6,7 @@ import argparse
 import os
 from pathlib import Path
 
-from experiments.arguments import Parser, above_zero, assignment, finite, path, positive
+from experiments.arguments import Parser, above_zero, assignment, error_part, finite, path, positive
 from experiments.prepare import DRAWING, SWEEPING, TESTING, VIEWING
 from studies.builtin import STUDIES
 
@@ -63,10 +63,17 @@ def parse(argv: list[str]) -> argparse.Namespace:
     advise = commands.add_parser("advise", help="the cheapest settings of a scene that meet an error, found by running")
     advise.add_argument("file", metavar="SCENE", type=Path, help="parameter file, such as params/insertion.json")
     asked = advise.add_mutually_exclusive_group(required=True)
-    asked.add_argument("--error", type=above_zero, metavar="E",
-                       help="RMS distance of the wire from a finer run, over the way that it goes, such as 0.01")
+    asked.add_argument("--error", type=error_part, metavar="E",
+                       help="from a finer run, such as 1%% or 0.01: RMS distance over the displacement of the wire, or "
+                            "what --of names, over its own size")
     asked.add_argument("--budget", type=above_zero, metavar="MS_PER_STEP",
                        help="wall time that a step may take, ms: the most accurate settings within it")
+    advise.add_argument("--of", metavar="QUANTITY", default="position",
+                        help="what the error is of: position, tip, hubForce, hubTorque, twist, largestCurvature, "
+                             "contactForce, or a number of summary.json such as extremes.axialForce (position)")
+    advise.add_argument("--at", choices=("run", "end"), default="run",
+                        help="from start to end, or at the end alone (run)")
+    advise.add_argument("--chart", action="store_true", help="draw error against cost of the settings: chart.png")
     advise.add_argument("--out", type=path, default=Path("results"),
                         help="folder above that of the runs (results); the file and advice.md stand in advice/SCENE")
     _add_workers(advise)

@@ -158,13 +158,14 @@ def _figures(arguments: argparse.Namespace) -> int:
 
 
 def _advise(arguments: argparse.Namespace) -> int:
-    from analysis.advice import plan, report
+    from analysis.advice import chart, plan, report
+    from analysis.advice.quantity import Quantity
     from analysis.logs import LogError
     from analysis.validation.check import replay
 
     checking.check_file(arguments.file)
     checking.check_out(arguments.out)
-    wish = plan.Wish(arguments.error, arguments.budget)
+    wish = plan.Wish(arguments.error, arguments.budget, Quantity(arguments.of, arguments.at))
     check, folder = plan.check_of(arguments.file, wish), plan.folder_of(arguments.out)
     means = _means_of(arguments, _build_runner(), check.name)
     try:
@@ -177,6 +178,9 @@ def _advise(arguments: argparse.Namespace) -> int:
     write_whole(place / "advice.md", report.as_markdown(arguments.file.name, wish, advice))
     print(report.verdict(wish, advice))
     print(f"evidence: {os.path.relpath(place / 'advice.md')}")
+    if arguments.chart:
+        chart.draw_advice(arguments.file.name, wish, advice).savefig(place / "chart.png")
+        print(f"picture: {os.path.relpath(place / 'chart.png')}")
     if advice.taken is None:
         return FAILED
     scene = json.loads(arguments.file.read_text(encoding="utf-8-sig"))

@@ -1,7 +1,7 @@
 """How far each trial is from the reference, what it costs, and which one to take.
 
-The error of a run is the RMS distance of its wire from the reference's, over points along the wire and times from start
-to end, over the RMS way that the reference's points have gone.
+What the error is of, `quantity` says: without a name the RMS distance of the wire from the reference's,
+over points along the wire and times from start to end, over the RMS way that the reference's points have gone.
 """
 
 from __future__ import annotations
@@ -14,9 +14,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import CubicHermiteSpline
 
 from analysis.advice import trials
+from analysis.advice.quantity import Quantity
 from analysis.advice.trials import Trial
 from analysis.logs import LogError, read_log
 from analysis.runs import Run, read_repeats
@@ -26,7 +26,6 @@ from studies.table import Case
 REPEATS = 3  # timed ones
 _TIMED = 12  # candidates that are timed, those of least work first
 _TIMES = 81
-_POINTS = 21
 _LOGGED = 400  # entries of a log
 _LOST = ("diverged", "failed")
 _STILL = 1e-9  # of L; what moves less does so by rounding
@@ -80,11 +79,11 @@ class Advice:
         The file as it is.
     reference : Tried
     reference_error : float
-        Of the coarser run of the reference's kind: what the reference is known to, or worse.
+        Of coarser runs of the reference's kind, the worst: what the reference is known to, or worse.
     parts, searched : sequence of Tried
         Parts left out, and all candidates.
     taken : Tried or None
-        The cheapest that meets what was asked; None where none does.
+        The cheapest that meets what was asked; None where none does, or where the reference has not converged to it.
     results : tuple
         No lines with gates.
     """
@@ -104,6 +103,11 @@ class Wish:
 
     error: float | None = None
     budget: float | None = None
+    quantity: Quantity = Quantity()
+
+    def has_converged(self, reference_error: float) -> bool:
+        """Whether the reference is known well enough to say what meets the error."""
+        return self.error is None or reference_error <= self.error
 
 
 Cost = Callable[[Tried], float]
@@ -136,26 +140,34 @@ def check_of(file: Path, wish: Wish, cost: Cost = by_time, repeats: int = REPEAT
 
 
 def _plan(wish: Wish, cost: Cost, repeats: int) -> Generator[Sequence[Case], Mapping[str, Run], Advice]:
-    scene = _lasting((yield [Case("scene", {"logSpheres": "all"})])["scene"])
-    fine, coarse = trials.references(scene)
-    asked = {"file": Trial("as the file has it", {}), "reference": fine, "coarser": coarse}
+    first = (yield [Case("scene", {"logSpheres": "all"})])["scene"]
+    scene = _lasting(first)
+    quantity = wish.quantity
+    quantity.refuse(scene, first.summary)
+    fine, *coarser = trials.references(scene)
+    # Two runs may agree in one number by chance, three hardly.
+    coarser = {f"coarser-{k}": trial for k, trial in enumerate(coarser[:1 + quantity.is_one_number])}
+    asked = {"file": Trial("as the file has it", {}), "reference": fine, **coarser}
     asked |= {f"part-{k}": trial for k, trial in enumerate(trials.parts(scene))}
     asked |= {f"candidate-{k}": trial for k, trial in enumerate(trials.candidates(scene))}
-    runs = yield [_case(key, scene, trial) for key, trial in asked.items()]
+    runs = yield [_case(key, scene, trial, quantity) for key, trial in asked.items()]
     if runs["reference"].outcome in _LOST:
         raise LogError(f"the reference is lost ({runs['reference'].measured('reason')}): no error can be measured")
-    measure = _Measure(scene, runs["reference"], runs["file"])
+    measure = _Measure(scene, runs["reference"], runs["file"], quantity)
     found = {key: _tried(trial, runs[key], measure) for key, trial in asked.items()}
+    known = max((found[key].error for key in coarser), key=lambda error: math.inf if math.isnan(error) else error)
+    has_converged = wish.has_converged(known)
     shortlist = _shortlist([key for key in found if key.startswith("candidate-")], found, wish)
     timed = ["file", *(key for key in found if key.startswith("part-")), *shortlist]
-    if repeats:
-        again = yield [replace(_case(key, scene, asked[key]), key=f"{key}-timed", repeats=repeats) for key in timed]
+    if repeats and has_converged:
+        again = yield [replace(_case(key, scene, asked[key], quantity), key=f"{key}-timed", repeats=repeats)
+                       for key in timed]
         for key in timed:
             found[key] = _with_times(found[key], read_repeats(again[f"{key}-timed"], repeats))
     searched = [tried for key, tried in found.items() if key.startswith("candidate-")]
     parts = [tried for key, tried in found.items() if key.startswith("part-")]
-    return Advice(found["file"], found["reference"], found["coarser"].error, parts, searched,
-                  choose(searched, wish, cost))
+    taken = choose(searched, wish, cost) if has_converged else None
+    return Advice(found["file"], found["reference"], known, parts, searched, taken)
 
 
 def _lasting(run: Run) -> dict[str, Any]:
@@ -172,42 +184,35 @@ def _lasting(run: Run) -> dict[str, Any]:
     return {**run.parameters, "maxSimulationSteps": asked if steps == asked else min(asked, -(-steps // 16) * 16)}
 
 
-def _case(key: str, scene: Mapping[str, Any], trial: Trial) -> Case:
+def _case(key: str, scene: Mapping[str, Any], trial: Trial, quantity: Quantity) -> Case:
     effective = {**scene, **trial.changed}
     return Case(key, {
         "maxSimulationSteps": effective["maxSimulationSteps"], "deltaThreshold": 0.0, "logSpheres": "all",
-        "logEvery": trials.log_every(effective, _LOGGED), "logOrientations": False, **trial.changed,
+        "logEvery": trials.log_every(effective, _LOGGED), "logOrientations": False, **quantity.logged,
+        **trial.changed,
     })
 
 
 class _Measure:
     """Distances from a reference run."""
 
-    def __init__(self, scene: Mapping[str, Any], reference: Run, file: Run) -> None:
+    def __init__(self, scene: Mapping[str, Any], reference: Run, file: Run, quantity: Quantity) -> None:
+        self._quantity = quantity
         self._times = np.array(trials.sample_times(scene, _TIMES))
-        self._exact = self._points(reference)
-        self._file = self._points(file)
-        self._way = float(np.sqrt(np.mean((self._exact - self._exact[0]) ** 2)))
+        self._exact = quantity.read(reference, self._times)
+        self._file = quantity.read(file, self._times)
+        self._size = quantity.scale(self._exact)
+        if not self._size > 0.0:
+            raise LogError(f"{quantity.said} is 0 in the reference: there is nothing that an error could be a part of")
 
     def errors(self, run: Run) -> tuple[float, float]:
         """Of a run from the reference and from the file as it is; not numbers where it was lost or passed a wall."""
         if run.outcome in _LOST or run.measured("passages") > 0:
             return math.nan, math.nan
-        points = self._points(run)
-        from_exact, from_file = (float(np.sqrt(np.mean((points - other) ** 2))) / self._way
+        values = self._quantity.read(run, self._times)
+        from_exact, from_file = (self._quantity.distance(values, other) / self._size
                                  for other in (self._exact, self._file))
         return from_exact, from_file
-
-    def _points(self, run: Run) -> np.ndarray:
-        """Places at the sample times, in units, shape (times, points, 3), by cubics in time, straight along elements.
-        A run that ended early rests from then on."""
-        log = read_log(run.folder, spheres="all", velocities=True)
-        inside = np.minimum(self._times, log.time[-1])
-        places = CubicHermiteSpline(log.time, log.positions, log.velocities)(inside)
-        arc = np.linspace(0.0, places.shape[1] - 1.0, _POINTS)
-        low = np.minimum(arc.astype(int), places.shape[1] - 2)
-        share = (arc - low)[None, :, None]
-        return (1.0 - share) * places[:, low] + share * places[:, low + 1]
 
 
 def _tried(trial: Trial, run: Run, measure: _Measure) -> Tried:

@@ -17,16 +17,15 @@ _PATHS = ("startFile", "logFilePath")
 
 def as_markdown(name: str, wish: Wish, advice: Advice) -> str:
     """The evidence: what each part costs and moves, and every setting that was searched."""
-    asked = f"an error of at most {percent(wish.error)}" if wish.budget is None else \
-        f"the least error within {number(wish.budget)} ms a step"
+    said = wish.quantity.said
+    asked = f"an error of at most {percent(wish.error)} in {said}" if wish.budget is None else \
+        f"the least error in {said} within {number(wish.budget)} ms a step"
     lines = [
         f"# Advice for {name}", "", f"Asked: {asked}.", "", verdict(wish, advice), "",
-        "An error is the RMS distance of the wire from the reference, over points along it and times from start to "
-        "end, over the RMS way that the reference went.",
-        f"Reference: {advice.reference.trial.name.removeprefix('reference, ')}; one of its kind that is half as fine "
-        f"is {percent(advice.reference_error)} from it. The file as it is: "
-        f"{_error(advice.scene)} at {_step(advice.scene)} ms a step. Times are medians of three runs; other programs "
-        f"kept {span(_busy(advice), 2)} processors busy beside them.", "",
+        wish.quantity.defined,
+        f"Reference: {advice.reference.trial.name.removeprefix('reference, ')}; it and {_coarser(wish)} "
+        f"{_known(advice)} apart. The file as it is: "
+        f"{_error(advice.scene)} at {_step(advice.scene)} ms a step. {_timed(advice)}", "",
         "## Parts of the model", "",
         "Each part that the scene has, left out or halved: how far the answer moves from the file's, and its cost. "
         "Work is counted, over that of the file, and does not depend on the machine.", "",
@@ -49,6 +48,11 @@ def as_markdown(name: str, wish: Wish, advice: Advice) -> str:
 def verdict(wish: Wish, advice: Advice) -> str:
     """One line: what to take."""
     taken = advice.taken
+    if not wish.has_converged(advice.reference_error):
+        return (f"Not advised: {wish.quantity.said} has not converged. The finest run made "
+                f"({advice.reference.trial.name.removeprefix('reference, ')}) and {_coarser(wish)} {_known(advice)} "
+                f"apart, more than the {percent(wish.error)} asked for: a finer file, or a mean over longer times, is "
+                "needed to say what meets it.")
     if taken is None:
         finite = [one for one in advice.searched if math.isfinite(one.error)]
         best = min(finite, key=lambda one: one.error, default=None)
@@ -76,6 +80,24 @@ def parameters(advice: Advice, scene: Mapping[str, Any], folder: Path) -> str:
     if values.get("loadTables"):
         values["loadTables"] = {load: _relative(file, folder) for load, file in values["loadTables"].items()}
     return json.dumps(values, indent=2) + "\n"
+
+
+def _timed(advice: Advice) -> str:
+    if advice.scene.total is None:
+        return "No run was timed."
+    return (f"Times are medians of three runs; other programs kept {span(_busy(advice), 2)} processors busy beside "
+            "them.")
+
+
+def _coarser(wish: Wish) -> str:
+    return "those of its kind that are half and three quarters as fine" if wish.quantity.is_one_number else \
+        "one of its kind that is half as fine"
+
+
+def _known(advice: Advice) -> str:
+    """What lies between the reference and coarser ones."""
+    known = advice.reference_error
+    return f"are up to {percent(known)}" if math.isfinite(known) else "are, one being lost, not known how far"
 
 
 def _relative(file: str, folder: Path) -> str:

@@ -49,14 +49,16 @@ def has_walls(scene: Values) -> bool:
     return bool(scene.get("vessel") or scene.get("obstacles"))
 
 
-def references(scene: Values) -> tuple[Trial, Trial]:
-    """The reference of a scene of these effective values, and a coarser run that says what it is worth."""
+def references(scene: Values) -> tuple[Trial, Trial, Trial]:
+    """The reference of a scene of these effective values, and runs half and three quarters as fine that say what it is
+    worth."""
     if scene["solver"] == "pbd":
-        return tuple(Trial(f"reference, m times {f} and gains over {f}", _softened(scene, float(f))) for f in (8, 4))
+        return tuple(Trial(f"reference, m times {f} and gains over {f}", _softened(scene, float(f))) for f in (8, 4, 6))
     elements = 2 * max(16, int(scene["numberRodElements"])) if _may_change_elements(scene) else None
-    scheme, parts = ("implicitEuler", (16.0, 8.0)) if has_walls(scene) else ("esdirk4", (4.0, 2.0))
+    scheme, parts = ("implicitEuler", (16.0, 8.0, 12.0)) if has_walls(scene) \
+        else ("esdirk4", (4.0, 2.0, 3.0))
     made = []
-    for share, part in zip((1.0, 0.5), parts):
+    for share, part in zip((1.0, 0.5, 0.75), parts):
         n = {} if elements is None else {"numberRodElements": int(share * elements)}
         changed = {**_direct(scheme), **n, **_stepped(scene, 1.0 / part)}
         made.append(Trial("reference, " + _settings({**scene, **changed}), changed))

@@ -15,7 +15,7 @@ from analysis.figures.style import add_caption, new_figure, styled
 from analysis.figures.wording import number
 from analysis.logs import LogError
 from analysis.validation import (
-    balance, clamp, couples, dynamics, friction, helix, independence, joint, order, ring, stability, statics,
+    balance, clamp, couples, dynamics, friction, helix, hub_force, independence, joint, order, ring, stability, statics,
     tube_buckling, turning, vessel, whip,
 )
 from analysis.validation.check import Check, Finding, Result, replay
@@ -23,8 +23,8 @@ from analysis.validation.pictures import SOLVER_MARKERS
 
 ROWS: tuple[Check, ...] = (
     *clamp.CHECKS, *joint.CHECKS, *statics.CHECKS, *couples.CHECKS, *stability.CHECKS, *ring.CHECKS, *helix.CHECKS,
-    *dynamics.CHECKS, *balance.CHECKS, *order.CHECKS, *turning.CHECKS, *vessel.CHECKS, *friction.CHECKS, *whip.CHECKS,
-    *tube_buckling.CHECKS, *independence.CHECKS,
+    *dynamics.CHECKS, *balance.CHECKS, *order.CHECKS, *turning.CHECKS, *vessel.CHECKS, *friction.CHECKS,
+    *hub_force.CHECKS, *whip.CHECKS, *tube_buckling.CHECKS, *independence.CHECKS,
 )
 _QUICK = (
     "clamp-compliance", "clamp-frequencies", "plane", "end-moment", "end-moment-darboux", "localised-helix", "bar",

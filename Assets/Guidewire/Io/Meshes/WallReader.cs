@@ -61,7 +61,8 @@ namespace Guidewire.Io
                         fields.Allow("shape", "frictionCoefficient", "point", "normal");
                         return Plane(fields, scene, placement);
                     case "tube":
-                        fields.Allow("shape", "frictionCoefficient", "knots", "radius", "openStart", "openEnd");
+                        fields.Allow("shape", "frictionCoefficient", "knots", "radius", "openStart", "openEnd",
+                            "smooth");
                         return Tube(fields, scene, placement);
                     case "mesh":
                         fields.Allow("shape", "frictionCoefficient", "file", "metresPerUnit", "openRims");
@@ -105,9 +106,24 @@ namespace Guidewire.Io
             {
                 knots[i] = placement.Apply(knots[i]);
             }
-            return new TubeShape(
-                knots, Array.ConvertAll(radii, radius => size * radius), fields.Switch("openStart", true),
-                fields.Switch("openEnd", true));
+            radii = Array.ConvertAll(radii, radius => size * radius);
+            bool openStart = fields.Switch("openStart", true);
+            bool openEnd = fields.Switch("openEnd", true);
+            var asGiven = new TubeShape(knots, radii, openStart, openEnd);
+            if (!fields.Switch("smooth", false))
+            {
+                return asGiven;
+            }
+            RoundedCentreline.Round(ref knots, ref radii);
+            try
+            {
+                return new TubeShape(knots, radii, openStart, openEnd);
+            }
+            catch (ArgumentException)
+            {
+                throw fields.Refused("smooth = true: near a corner the radius changes too steeply for an arc: false,"
+                    + " or knots with radii that change less");
+            }
         }
 
         private static MeshShape Mesh(

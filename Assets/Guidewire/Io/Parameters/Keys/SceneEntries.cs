@@ -122,9 +122,10 @@ namespace Guidewire.Io
             },
             new JsonEntry("vessel", JTokenType.Object,
                 "null, {\"shape\": \"plane\", \"point\", \"normal\"}, {\"shape\":"
-                + " \"tube\", \"knots\", \"radius\", \"openStart\", \"openEnd\"} or {\"shape\": \"mesh\", \"file\","
-                + " \"metresPerUnit\", \"openRims\"}",
-                "the wall around the wire; a mesh file's name counts from the parameter"
+                + " \"tube\", \"knots\", \"radius\", \"openStart\", \"openEnd\", \"smooth\"} or {\"shape\": \"mesh\","
+                + " \"file\", \"metresPerUnit\", \"openRims\"}",
+                "the wall around the wire; smooth (false) rounds a tube's corners: forces of a wire that slides"
+                + " along them do not ripple with its knots; a mesh file's name counts from the parameter"
                 + " file's folder, openRims names a point near the middle of each open rim; any may have a"
                 + " \"frictionCoefficient\" (0)",
                 p => p.Vessel, (p, v) => p.Vessel = v)

@@ -1,0 +1,141 @@
+"""Advice for what one asks: what an error is of, and that nothing is advised where a finer run has not converged."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from analysis.advice import chart, plan, quantity, report
+from analysis.advice.plan import Advice, Tried, Wish
+from analysis.advice.quantity import Quantity
+from analysis.advice.trials import Trial
+from analysis.hub import read_hub
+from analysis.logs import LogError, read_log
+from analysis.runs import read_runs
+from analysis.validation.check import replay
+from experiments.arguments import error_part
+from experiments.commands import parse
+from experiments.sweep import Means, sweep
+
+# A short wire that is pushed against a plane at an angle, and slides along it.
+PUSHED = {
+    "solver": "direct", "guidewireLength": 100.0, "numberRodElements": 8, "wireRadius": 0.0004, "massDamping": 20,
+    "proximalEnd": "clamped", "drive": "displace", "insertionSpeed": 0.1, "timeStep": 0.02, "deltaThreshold": 0,
+    "guidewireOffset": -101.0, "maxSimulationSteps": 16,
+    "vessel": {"shape": "plane", "point": [0, -0.5, 0], "normal": [0, 0.94, -0.34]},
+}
+
+
+@pytest.fixture(scope="module")
+def advise(tmp_path_factory, runner_command):
+    """Advice for a wish, all into one folder of runs."""
+    folder = tmp_path_factory.mktemp("advice")
+    file = folder / "pushed.json"
+    file.write_text(json.dumps(PUSHED), encoding="utf-8")
+
+    def made(wish: Wish) -> tuple[Advice, Path]:
+        check = plan.check_of(file, wish, plan.by_work, repeats=0)
+        assert sweep([(check, folder)], folder / "runs", Means(runner_command, 2)).failures == []
+        return replay(check, folder), folder / "pushed"
+
+    return made
+
+
+def test_the_hubs_force_is_judged_by_itself(advise) -> None:
+    """Errors are those of the logs, measured anew."""
+    advice, folder = advise(Wish(0.5, quantity=Quantity("hubForce")))
+    runs = read_runs(folder)
+    exact, file = read_hub(runs["reference"].folder), read_hub(runs["file"].folder)
+    times = np.linspace(0.0, 0.32, 81)
+    force = np.interp(times, exact.time, exact.force)
+    error = np.sqrt(np.mean((np.interp(times, file.time, file.force) - force) ** 2) / np.mean(force**2))
+    assert advice.scene.error == pytest.approx(error, rel=1e-9)
+    places, _ = advise(Wish(0.5))
+    assert abs(places.scene.error / error - 1.0) > 0.5
+
+
+def test_at_the_end_the_last_moment_counts(advise) -> None:
+    advice, folder = advise(Wish(0.5, quantity=Quantity("tip", "end")))
+    runs = read_runs(folder)
+    exact, file = (tips(runs[key].folder) for key in ("reference", "file"))
+    error = np.linalg.norm(file[-1] - exact[-1]) / np.linalg.norm(exact[-1] - exact[0])
+    assert advice.scene.error == pytest.approx(error, rel=1e-6)
+
+
+def tips(folder: Path) -> np.ndarray:
+    return read_log(folder, spheres="all").positions[:, -1]
+
+
+def test_a_number_of_the_summary_is_judged_against_two_coarser_runs(advise) -> None:
+    advice, folder = advise(Wish(0.5, quantity=Quantity("extremes.axialForce")))
+    runs = read_runs(folder)
+    values = {key: runs[key].summary["extremes"]["axialForce"] for key in runs}
+    assert {"coarser-0", "coarser-1"} <= set(values)
+    apart = max(abs(values[key] / values["reference"] - 1.0) for key in ("coarser-0", "coarser-1"))
+    assert advice.reference_error == pytest.approx(apart, rel=1e-9)
+
+
+def test_nothing_is_advised_beyond_what_the_reference_is_known_to(advise) -> None:
+    known = advise(Wish(0.5, quantity=Quantity("hubForce")))[0].reference_error
+    wish = Wish(0.9 * known, quantity=Quantity("hubForce"))
+    advice, _ = advise(wish)
+    assert advice.taken is None
+    said = report.verdict(wish, advice)
+    assert said.startswith("Not advised: the hub's force from start to end has not converged")
+    assert report.percent(known) in said and report.percent(wish.error) in said
+    assert "No run was timed." in report.as_markdown("pushed.json", wish, advice)
+    assert advise(Wish(1.1 * known, quantity=Quantity("hubForce")))[0].taken is not None
+
+
+def test_the_walls_force_is_read_from_the_contacts_of_the_log(advise) -> None:
+    advice, _ = advise(Wish(0.5, quantity=Quantity("contactForce")))
+    assert 0.0 < advice.scene.error < 1.0
+
+
+@pytest.mark.parametrize("of, scene, said", [
+    ("hubForce", {"solver": "pbd"}, "--of hubForce needs solver direct, this is pbd"),
+    ("contactForce", {"solver": "direct", "vessel": None}, "needs walls"),
+])
+def test_what_a_scene_does_not_have_is_told(of: str, scene: dict, said: str) -> None:
+    with pytest.raises(LogError, match=said):
+        Quantity(of).refuse(scene, {})
+
+
+def test_an_unknown_name_gets_the_nearest() -> None:
+    summary = {"steps": 3, "extremes": {"axialForce": 0.5, "strain": None}, "outcome": "finished"}
+    assert quantity.number_of(summary, "extremes.axialForce") == 0.5
+    with pytest.raises(LogError, match="did you mean extremes.axialForce?"):
+        quantity.number_of(summary, "extremes.axialforce")
+    with pytest.raises(LogError, match="did you mean hubForce?"):
+        quantity.number_of(summary, "hubforce")
+
+
+@pytest.mark.parametrize("text, error", [("5%", 0.05), ("0.05", 0.05), ("1", 1.0), ("250%", 2.5)])
+def test_an_error_is_a_part_or_a_percentage(text: str, error: float) -> None:
+    assert error_part(text) == pytest.approx(error, rel=1e-15)
+
+
+@pytest.mark.parametrize("text, said", [("5", "'5' is 500 %: write 5% for 0.05"), ("%", "is not a number"),
+                                        ("0%", "is not a number above 0"), ("1.01", "write 1.01% for 0.0101")])
+def test_a_plain_number_above_one_is_questioned(text: str, said: str, capsys) -> None:
+    with pytest.raises(SystemExit) as ended:
+        parse(["advise", "scene.json", "--error", text])
+    line = capsys.readouterr().err
+    assert ended.value.code == 2 and said in line and line.count("\n") == 1
+
+
+def test_the_chart_has_a_point_for_each_setting_that_was_not_lost() -> None:
+    def tried(n: int, error: float, work: float) -> Tried:
+        return Tried(Trial(f"n = {n}", {}), error, 0.0, "finished", work, None, None, None, {"numberRodElements": n})
+
+    searched = [tried(8, 0.1, 1.0), tried(8, 0.02, 4.0), tried(16, 0.01, 8.0), tried(16, math.nan, 2.0)]
+    advice = Advice(searched[0], tried(32, 0.0, 64.0), 0.005, [], searched, searched[1])
+    axes = chart.draw_advice("scene.json", Wish(0.03, quantity=Quantity("hubForce")), advice).axes[0]
+    drawn = {line.get_label(): line.get_xydata() for line in axes.lines}
+    assert drawn["n = 8"].tolist() == [[1.0, 0.1], [4.0, 0.02]] and drawn["n = 16"].tolist() == [[8.0, 0.01]]
+    assert axes.get_ylim() == pytest.approx((0.0025, 0.2))
+    assert drawn["taken"].tolist() == [[4.0, 0.02]] and "the hub's force" in axes.get_ylabel()
