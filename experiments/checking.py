@@ -105,7 +105,8 @@ def _check(table: dict[str, Key], name: str, value: Any, source: str, shown: str
     if key is None:
         by_small = {known.lower(): known for known in table}
         near = difflib.get_close_matches(whole.lower(), by_small, n=1)
-        hint = f"did you mean '{by_small[near[0]]}{name[len(whole):]}'?" if near else f"{_TABLE.relative_to(ROOT)} lists what is allowed"
+        hint = (f"did you mean '{by_small[near[0]]}{name[len(whole):]}'?" if near
+                else f"{_TABLE.relative_to(ROOT)} lists what is allowed")
         raise PreparationError(f"{source}: unknown key '{_short(name)}': {hint}")
     is_null = value is None or shown == "null"
     if name != whole or key.kind not in ("number", "whole") or (is_null and key.may_be_null):
