@@ -120,7 +120,8 @@ def parse(argv: list[str]) -> argparse.Namespace:
     plot.set_defaults(packages=DRAWING)
 
     keys = commands.add_parser("keys", help="what a parameter file, --set and an axis of a study may hold")
-    keys.add_argument("word", metavar="WORD", nargs="?", default="", help="such as friction: keys that have to do with it")
+    keys.add_argument("word", metavar="WORD", nargs="?", default="",
+                      help="such as friction: keys that have to do with it")
     keys.add_argument("--solver", choices=("pbd", "xpbd", "direct", "explicit"), default="", help="that takes them")
     keys.set_defaults(packages=())
 
@@ -147,7 +148,8 @@ def parse(argv: list[str]) -> argparse.Namespace:
     python.set_defaults(packages=DRAWING)
 
     bench = commands.add_parser("bench", help="what a step costs, part by part, or short runs beside their steps")
-    bench.add_argument("--runs", type=positive, metavar="N", help="what N short runs of a sweep cost beside their steps")
+    bench.add_argument("--runs", type=positive, metavar="N",
+                       help="what N short runs of a sweep cost beside their steps")
     bench.add_argument("--jobs", type=positive, default=os.cpu_count() or 1, metavar="N", help="runs at once")
     bench.set_defaults(packages=SWEEPING)
 

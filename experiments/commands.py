@@ -10,16 +10,15 @@ import signal
 import subprocess
 import sys
 import tempfile
-import threading
 import traceback
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from experiments import building, checking, command_line
 from experiments.prepare import ROOT, PreparationError
+from experiments.progress import seconds_counted
 from experiments.runner import INTERNAL_ERROR, INTERRUPTED
 from experiments.sweep import FAILED, Bar, Means, SweepResult, sweep
 from experiments.whole_files import FULL, whole_file, write_whole
@@ -370,46 +369,13 @@ def _runner_of(arguments: argparse.Namespace) -> list[str]:
 
 
 def _build_benchmarks() -> list[str]:
-    with _seconds_counted() as tell:
+    with seconds_counted() as tell:
         return building.build(building.BENCHMARKS, tell)
 
 
 def _build_runner() -> list[str]:
-    with _seconds_counted() as tell:
+    with seconds_counted() as tell:
         return building.build(building.RUNNER, tell)
-
-
-@contextmanager
-def _seconds_counted() -> Iterator[Callable[[str], None]]:
-    """A function that prints a line and, on a terminal, counts the seconds behind it to the end of the block."""
-    screen, ended, counters = sys.stderr, threading.Event(), []
-
-    def count(line: str, ended: threading.Event) -> None:
-        seconds = 0
-        while not ended.wait(1.0):
-            seconds += 1
-            print(f"\r{line}: {seconds} s", end="", file=screen, flush=True)
-
-    def tell(line: str) -> None:
-        nonlocal ended
-        if counters:
-            finish()
-        print(line, end="" if screen.isatty() else "\n", file=screen, flush=True)
-        if screen.isatty():
-            ended = threading.Event()
-            counters.append(threading.Thread(target=count, args=(line, ended), daemon=True))
-            counters[-1].start()
-
-    def finish() -> None:
-        ended.set()
-        counters.pop().join()
-        print(file=screen)
-
-    try:
-        yield tell
-    finally:
-        if counters:
-            finish()
 
 
 def _means_of(arguments: argparse.Namespace, command: list[str], name: str, folder: Path | None = None) -> Means:

@@ -286,7 +286,7 @@ def _plain(value: Any) -> Any:
 
 
 def _number(name: str, value: Any) -> float:
-    is_number = isinstance(value, (int, float, np.number)) and not isinstance(value, (bool, complex, np.complexfloating))
+    is_number = isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool)
     if not is_number or not math.isfinite(value):
         raise SessionError(f"{name} = {value!r} is not allowed: needs a finite number")
     return float(value)
