@@ -53,7 +53,8 @@ namespace Guidewire.Core
         /// <summary>Whether they change after this time, s.</summary>
         public bool ChangeAfter(double time)
         {
-            return (Moment.Varies && _momentTable!.ChangesFrom(time)) || (Force.Varies && _forceTable!.ChangesFrom(time));
+            return (Moment.Varies && _momentTable!.ChangesFrom(time))
+                || (Force.Varies && _forceTable!.ChangesFrom(time));
         }
 
         private void Set(double time)

@@ -15,8 +15,8 @@ namespace Guidewire.Core
         /// <summary>A table of k rows.</summary>
         /// <param name="times">s, increasing, at least one; two may be the same, three not.</param>
         /// <param name="values">The value at each time.</param>
-        /// <exception cref="ArgumentException">No rows, not as many of both, or times that do not increase or are the same
-        /// in three rows.</exception>
+        /// <exception cref="ArgumentException">No rows, not as many of both, or times that do not increase
+        /// or are the same in three rows.</exception>
         public TimeTable(double[] times, double[] values)
         {
             if (times.Length == 0 || values.Length != times.Length)

@@ -141,7 +141,7 @@ namespace Guidewire.Core
         /// 4 GA/(rho A l^2) + (sum of the joints' stiffness, those to neighbours twice)/(rho I l), by Gershgorin's
         /// circles for the joints. Against it stand the chain of axial springs, 4 EA/(rho A l^2), and that of twist.
         ///
-        /// 2/omega_max bounds small swings about the rest shape, also of a curved wire. But a wire with a rest curvature
+        /// 2/omega_max bounds small swings about the rest shape, also of a curved wire. But one with a rest curvature
         /// moves far under forces of higher order in its strains, and its elements all have nearly the one frequency of
         /// shear. A step turns the phase of a swing by a, sin(a/2) = omega h/2, and k swings can feed each other where
         /// k phases make up a whole turn: from omega h = 2 sin(pi/k) on, 1.73 for three, 1.41 for four, 1.18 for five,

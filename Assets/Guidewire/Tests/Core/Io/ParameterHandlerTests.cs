@@ -181,7 +181,8 @@ namespace Guidewire.Core.Tests
             Assert.That(handler.Values.Simulation.Scene.TipForceTable!.At(0.25), Is.EqualTo(1.0));
             File.WriteAllText(file, "0,0\n0.5,3\n");
             Assert.That(Load(Scene).Hash, Is.Not.EqualTo(handler.Hash), "what the file holds counts");
-            foreach (string wrong in new[] { "0,0\n0,1\n0,2\n", "1,0\n0,1\n", "time,value\n", "0,0\n1;2\n", "0,0\n1,NaN\n" })
+            foreach (string wrong in new[]
+                { "0,0\n0,1\n0,2\n", "1,0\n0,1\n", "time,value\n", "0,0\n1;2\n", "0,0\n1,NaN\n" })
             {
                 File.WriteAllText(file, wrong);
                 Assert.That(() => Load(Scene), Throws.TypeOf<ParameterException>().With.Message.Contains("loadTables")

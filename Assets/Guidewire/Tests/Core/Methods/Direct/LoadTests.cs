@@ -99,8 +99,8 @@ namespace Guidewire.Core.Tests
             Assert.That(steep, Is.EqualTo(release).Within(0.02 * release), "a steep ramp");
         }
 
-        /// <summary>A couple that turns with the tip and jumps within a step: as accurate as where the jump lies between
-        /// two, where no step has to be cut.</summary>
+        /// <summary>A couple that turns with the tip and jumps within a step: as accurate as where it lies between
+        /// two where no step has to be cut.</summary>
         [Test]
         public void JumpOfATipMoment_CostsNoAccuracyWithinAStep()
         {
