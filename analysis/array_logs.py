@@ -95,6 +95,8 @@ class ArrayLog:
                 entry["contact"]["wall"] = {str(w): _vector(force) for w, force in enumerate(columns["wallForces"][k])}
             if "elementForces" in columns:
                 entry["contact"] |= {
+                    "totalMean": _vector(columns["contactTotalMean"][k]),
+                    "reactionAtEnd": _vector(columns["reactionAtEnd"][k]),
                     "pressure": columns["wallPressure"][k].item(),
                     "element": {str(j): _vector(force) for j, force in enumerate(columns["elementForces"][k])
                                 if force.any()}}

@@ -25,6 +25,14 @@ namespace Guidewire.Core
         /// free. With a material: of the support, in N, the mean over the step by the scheme's weights.</summary>
         public Vector3d Reaction { get; internal set; }
 
+        /// <summary>The same at the end of the step, as <see cref="Forces"/> and <see cref="Total"/> are: with the
+        /// direct solver; else 0.</summary>
+        public Vector3d ReactionAtEnd { get; internal set; }
+
+        /// <summary>Mean of <see cref="Total"/> over the step by the scheme's weights, to go with
+        /// <see cref="Reaction"/>, with the direct solver; else 0.</summary>
+        public Vector3d MeanTotal { get; internal set; }
+
         /// <summary>Points of the wire, ten an element, that were inside before a step and outside after it.</summary>
         public long Passages { get; internal set; }
 
@@ -87,6 +95,8 @@ namespace Guidewire.Core
             LargestForce = other.LargestForce;
             LargestTotal = other.LargestTotal;
             Reaction = other.Reaction;
+            ReactionAtEnd = other.ReactionAtEnd;
+            MeanTotal = other.MeanTotal;
             WallForces = other.WallForces;
             Pressure = other.Pressure;
             for (int i = 0; i < Forces.Length; i++)
@@ -118,6 +128,8 @@ namespace Guidewire.Core
             LargestForce = snapshot.Exchange(LargestForce);
             LargestTotal = snapshot.Exchange(LargestTotal);
             Reaction = snapshot.Exchange(Reaction);
+            ReactionAtEnd = snapshot.Exchange(ReactionAtEnd);
+            MeanTotal = snapshot.Exchange(MeanTotal);
             Pressure = snapshot.Exchange(Pressure);
             snapshot.Exchange(Forces);
             snapshot.Exchange(ElementForces);

@@ -35,6 +35,11 @@ namespace Guidewire.Core
         /// <summary>Its torque on the wire about its axis, N m.</summary>
         public double Torque { get; private set; }
 
+        /// <summary>Its work on the wire since the start, J: mean force and torque of each step, by the scheme's
+        /// weights, times how far it went and turned; against what drives a bent wire out of a sheath, the integral
+        /// over what came out, by the mean of the moments before and after the step. NaN without walls.</summary>
+        public double Work { get; internal set; }
+
         /// <summary>Direction of the last element, a unit vector.</summary>
         public Vector3d TipDirection { get; private set; }
 
@@ -50,22 +55,19 @@ namespace Guidewire.Core
         /// <summary>Spheres that are out of the sheath; null without a sheath.</summary>
         public int? SpheresInBody { get; private set; }
 
-        /// <summary>The hub's axis, a unit vector.</summary>
-        internal static Vector3d AxisOf(RodTerms terms, RodShape shape)
-        {
-            return terms.Supports.HasProximalJoint ? shape.ProximalFrame.Director3 : shape.Q[0].Director3;
-        }
-
         /// <summary>Takes the wire as it is.</summary>
+        /// <param name="force">Of the supports on node 0, N.</param>
+        /// <param name="torque">Of the hub about its axis, N m.</param>
         /// <param name="ahead">How far the hub is ahead of the frame of joint 0, radians.</param>
-        internal void Take(RodTerms terms, RodShape shape, MaterialDrive drive, in Vector3d force, in Vector3d couple,
+        internal void Take(RodTerms terms, RodShape shape, MaterialDrive drive, in Vector3d force, double torque,
             double ahead)
         {
-            Vector3d axis = AxisOf(terms, shape);
+            Vector3d axis = terms.HubAxis(shape);
             Insertion = drive.Insertion;
             Turn = drive.Turn;
             Force = Vector3d.Dot(force, axis);
-            Torque = Vector3d.Dot(couple, axis);
+            Force += terms.Sheath == null ? 0.0 : terms.Sheath.HubForce(shape);
+            Torque = torque;
             TipDirection = shape.Q[shape.ElementCount - 1].Director3;
             terms.Bending.Measure(shape, _turns);
             Twist = -ahead;
@@ -75,8 +77,9 @@ namespace Guidewire.Core
                 Vector3d turn = _turns[k];
                 Twist += turn.Z;
                 double bend = Math.Sqrt(turn.X * turn.X + turn.Y * turn.Y);
-                double share = terms.Sheath == null ? 1.0 : terms.Sheath.Share(shape, k);
-                LargestCurvature = Math.Max(LargestCurvature, bend / (share * _jointLength[k]));
+                double share = terms.Sheath == null ? 1.0 : terms.Sheath.Share(k);
+                LargestCurvature = share == 0.0 ? LargestCurvature
+                    : Math.Max(LargestCurvature, bend / (share * _jointLength[k]));
             }
             if (terms.Supports.Sheath is SheathWindow window)
             {

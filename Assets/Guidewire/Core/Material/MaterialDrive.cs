@@ -59,6 +59,9 @@ namespace Guidewire.Core
         /// asked to go.</summary>
         public double Slip { get; private set; }
 
+        /// <summary>When the present step ends, s.</summary>
+        public double StepEnd { get; private set; }
+
         /// <summary>The way asked for in the present step, m, never negative.</summary>
         public double Asked { get; private set; }
 
@@ -79,19 +82,19 @@ namespace Guidewire.Core
             {
                 _schedule.TurnOn(time, Rate(_table.Rotation, time));
             }
-            Turn = _schedule.ProximalTurnAt(time + _timeStep);
+            StepEnd = time + _timeStep;
+            Turn = _schedule.ProximalTurnAt(StepEnd);
             if (_direction == null)
             {
                 return;
             }
-            double speed = _hand != null ? _metres * _hand.Push / _timeStep
-                : _table != null ? Rate(_table.Insertion, time) : _speed;
+            double speed = SpeedAt(time);
             double asked = speed * _timeStep;
             _sense = Math.Abs(asked) < Nothing ? _sense : Math.Sign(asked);
             Asked = Math.Abs(asked);
-            if (Insertion + asked > MostInsertion || Insertion + asked < LeastInsertion)
+            double goes = Limited(asked);
+            if (goes != asked)
             {
-                double goes = Math.Min(Math.Max(Insertion + asked, LeastInsertion), MostInsertion) - Insertion;
                 Slip += _sense * (asked - goes);
                 speed = goes / _timeStep;
             }
@@ -100,6 +103,12 @@ namespace Guidewire.Core
             _schedule.ProximalTime = time;
             _schedule.ProximalVelocity = speed * Axis;
             Insertion += speed * _timeStep;
+        }
+
+        /// <summary>How far it will move node 0 in the step that begins at this time, m.</summary>
+        public double NextMove(double time)
+        {
+            return _direction == null ? 0.0 : Limited(SpeedAt(time) * _timeStep);
         }
 
         /// <summary>The hub gives way, after a step, to the spring between it and node 0.</summary>
@@ -137,7 +146,22 @@ namespace Guidewire.Core
             Exchange(snapshot);
             Axis = snapshot.Exchange(Axis);
             Asked = snapshot.Exchange(Asked);
+            StepEnd = snapshot.Exchange(StepEnd);
             _schedule.ExchangeDrive(snapshot);
+        }
+
+        // What is asked for from this time on, m/s.
+        private double SpeedAt(double time)
+        {
+            return _hand != null ? _metres * _hand.Push / _timeStep
+                : _table != null ? Rate(_table.Insertion, time) : _speed;
+        }
+
+        // What of a move the limits allow, m.
+        private double Limited(double asked)
+        {
+            return Insertion + asked > MostInsertion || Insertion + asked < LeastInsertion
+                ? Math.Min(Math.Max(Insertion + asked, LeastInsertion), MostInsertion) - Insertion : asked;
         }
 
         private double Rate(TimeTable table, double time)

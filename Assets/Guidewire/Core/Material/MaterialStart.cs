@@ -14,18 +14,31 @@ namespace Guidewire.Core
             return FindProblem(scene, 0, scene.Rod.ElementCount, touches ? SweptSearch.ClearanceFor(1.0) : 1.0);
         }
 
-        /// <summary>The same of the elements from one on, with their whole radius.</summary>
-        public static string? FindProblem(MaterialScene scene, int from)
+        /// <summary>The same of the wire from a place on, units, which is in an element, with its whole
+        /// radius.</summary>
+        public static string? FindProblemFrom(MaterialScene scene, int element, in Vector3d place)
         {
-            return FindProblem(scene, from, scene.Rod.ElementCount);
+            Vector3d[] x = Nodes(scene);
+            x[element] = place;
+            return FindProblem(scene, x, element, scene.Rod.ElementCount, 1.0);
         }
 
         /// <summary>The same of the elements before one, exclusive.</summary>
         /// <param name="share">Of the radius, that has to be free.</param>
         public static string? FindProblem(MaterialScene scene, int from, int to, double share = 1.0)
         {
+            return FindProblem(scene, Nodes(scene), from, to, share);
+        }
+
+        private static Vector3d[] Nodes(MaterialScene scene)
+        {
             double units = 1.0 / scene.Metres;
-            Vector3d[] x = System.Array.ConvertAll(scene.Shape.X, node => units * node);
+            return System.Array.ConvertAll(scene.Shape.X, node => units * node);
+        }
+
+        private static string? FindProblem(MaterialScene scene, Vector3d[] x, int from, int to, double share)
+        {
+            double units = 1.0 / scene.Metres;
             for (int j = from; j < to; j++)
             {
                 double radius = units * scene.Rod.Radius[j];

@@ -46,7 +46,7 @@ namespace Guidewire.Core
             };
             if (supports.Sheath != null)
             {
-                Sheath = new SheathEnergy(rod, supports.Sheath);
+                Sheath = new SheathEnergy(supports.Sheath, Bending);
                 _elastic = Joined(_elastic, new EnergyTerm[] { Sheath });
             }
             _loads = Joined(new EnergyTerm[]
@@ -111,8 +111,9 @@ namespace Guidewire.Core
         {
             schedule.SetLoads(Loads, time);
             Followers.SetTime(time);
-            if (Supports.Sheath != null)
+            if (Sheath != null)
             {
+                Sheath.SetHub(schedule.ProximalPositionAt(time));
                 Bending.TurnProximal(schedule.HubAhead(time));
             }
             foreach (EnergyTerm term in All)
@@ -171,6 +172,21 @@ namespace Guidewire.Core
                 sum += term.Value(from) - term.Value(to);
             }
             return sum;
+        }
+
+        /// <summary>Force of the hub on the wire along its axis between walls, N: the slope of the energy in the hub's
+        /// place.</summary>
+        public double HubForce(RodShape shape)
+        {
+            double held = Walls == null ? 0.0 : Vector3d.Dot(Walls.SupportForce(shape), HubAxis(shape));
+            return Sheath == null ? held : held + Sheath.HubForce(shape);
+        }
+
+        /// <summary>The hub's axis, a unit vector.</summary>
+        public Vector3d HubAxis(RodShape shape)
+        {
+            return Supports.Sheath != null ? Supports.Sheath.Axis
+                : Supports.HasProximalJoint ? shape.ProximalFrame.Director3 : shape.Q[0].Director3;
         }
 
         /// <summary>Gradient of the elastic energy at node 0 or n, N: minus the force of the wire on it.</summary>

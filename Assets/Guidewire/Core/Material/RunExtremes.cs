@@ -64,8 +64,12 @@ namespace Guidewire.Core
             for (int k = 0; k <= n; k++)
             {
                 Vector3d turn = _turns[k];
-                double share = k < 2 && terms.Sheath != null ? terms.Sheath.Share(shape, k) : 1.0;
-                Vector3d change = turn - share * joints[k].Rest;
+                double share = terms.Sheath == null ? 1.0 : terms.Sheath.Share(k);
+                Vector3d change = turn - (terms.Sheath == null ? joints[k].Rest : terms.Sheath.RestOf(k));
+                if (share == 0.0)
+                {
+                    continue;
+                }
                 double perLength = 1.0 / (share * lengths[k]);
                 largest = Math.Max(largest, perLength * perLength * (turn.X * turn.X + turn.Y * turn.Y));
                 int before = Math.Max(k - 1, 0);

@@ -12,10 +12,12 @@ namespace Guidewire.Core
         /// <param name="whole">The whole wire.</param>
         /// <param name="joints">Its n + 1 joints.</param>
         /// <param name="lengths">The length that each of them stands for, m.</param>
+        /// <param name="pieces">What each of them is made of.</param>
         /// <param name="first">The first element that is simulated.</param>
-        public SheathWindow(MaterialRod whole, Joint[] joints, double[] lengths, int first)
+        public SheathWindow(MaterialRod whole, Joint[] joints, double[] lengths, JointPieces pieces, int first)
         {
             First = first;
+            Pieces = pieces;
             int count = joints.Length - first;
             Joints = new Joint[count];
             JointLengths = new double[count];
@@ -33,10 +35,10 @@ namespace Guidewire.Core
             {
                 compliance += 1.0 / joints[k].Twist;
                 rest += joints[k].Rest.Z;
+                HeldBefore += k < first ? pieces.Beyond(k, double.PositiveInfinity).Held : 0.0;
             }
             Joints[0].Twist = 1.0 / compliance;
             Joints[0].Rest = new Vector3d(Joints[0].Rest.X, Joints[0].Rest.Y, rest);
-            LengthBefore = whole.Length[Math.Max(first - 1, 0)];
         }
 
         /// <summary>The first element that is simulated.</summary>
@@ -57,13 +59,34 @@ namespace Guidewire.Core
         /// <summary>Sum of l/EA in the sheath, m/N.</summary>
         public double AxialCompliance { get; }
 
-        /// <summary>Length of the element before the window's first, m.</summary>
-        public double LengthBefore { get; }
+        /// <summary>What the joints of the whole wire are made of.</summary>
+        public JointPieces Pieces { get; }
+
+        /// <summary>Energy of the joints before the window's, all of them kept straight, J.</summary>
+        public double HeldBefore { get; }
 
         /// <summary>EA, N, and GJ, N m^2, of sheathed element j.</summary>
         public (double Stretch, double Twist) Stiffness(int j)
         {
             return _sheathed[j];
+        }
+
+        /// <summary>Where the exit is along the wire, m from node 0 of the whole.</summary>
+        /// <param name="place">Where the hub would have the window's node 0 if nothing were compressed, m.</param>
+        public double ExitFrom(in Vector3d place)
+        {
+            return Pieces.Stations[First] - Outside(place);
+        }
+
+        /// <summary>How many nodes of the window, from its first on, are in the sheath.</summary>
+        public int NodesInside(Vector3d[] x)
+        {
+            int inside = 0;
+            while (inside < x.Length && Outside(x[inside]) < 0.0)
+            {
+                inside++;
+            }
+            return inside;
         }
 
         /// <summary>How far a node of the window is out of the sheath, m; negative inside.</summary>

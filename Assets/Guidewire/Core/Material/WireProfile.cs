@@ -37,6 +37,12 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>Borders of the pieces, units, first 0, last L.</summary>
+        public double[] Borders => _border;
+
+        /// <summary>The pieces between them.</summary>
+        public CrossSection[] Pieces => _piece;
+
         /// <summary>Sets all but the length of element j, which lies between these places (units).</summary>
         public void SetElement(MaterialRod rod, int j, double from, double to)
         {

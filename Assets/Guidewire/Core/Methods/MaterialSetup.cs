@@ -77,7 +77,7 @@ namespace Guidewire.Core
             SupportSpring spring)
         {
             double move = parameters.Drive.LargestMove(parameters.Method.TimeStep, scene.Metres);
-            var contact = new BarrierEnergy(scene.Rod, scene.Walls, scene.Metres, barrier);
+            var contact = new BarrierEnergy(scene.Rod, scene.Walls, scene.Metres, barrier, scene.Supports.Sheath);
             FrictionEnergy? friction = Array.Exists(scene.Walls, wall => wall.FrictionCoefficient > 0.0)
                 ? new FrictionEnergy(contact, scene.Rod.ElementCount, parameters.Contact.FrictionSpeed) : null;
             // Looked for where it is asked for: the rule measures how narrow a vessel is, all of it.

@@ -99,6 +99,8 @@ namespace Guidewire.Io
                 if (contacts.ElementForces.Length > 0)
                 {
                     Put(contacts.Pressure);
+                    Put(contacts.MeanTotal);
+                    Put(contacts.ReactionAtEnd);
                 }
             }
             _count++;
@@ -213,6 +215,8 @@ namespace Guidewire.Io
             {
                 Add("elementForces", _number, contacts.ElementForces.Length, 3);
                 Add("wallPressure", _number);
+                Add("contactTotalMean", _number, 3);
+                Add("reactionAtEnd", _number, 3);
             }
         }
 

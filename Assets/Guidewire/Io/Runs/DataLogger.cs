@@ -187,6 +187,8 @@ namespace Guidewire.Io
             Append(contacts.WallForces.Length > 0 ? "}" : "");
             if (contacts.ElementForces.Length > 0)
             {
+                Append(", \"totalMean\": ", contacts.MeanTotal);
+                Append(", \"reactionAtEnd\": ", contacts.ReactionAtEnd);
                 Append(", \"pressure\": ", contacts.Pressure);
                 Append(", \"element\": ");
                 AppendNonzero(contacts.ElementForces);

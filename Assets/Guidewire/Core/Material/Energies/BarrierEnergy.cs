@@ -11,6 +11,9 @@ namespace Guidewire.Core
     /// has b'' times the square of the gap's derivative and, where asked for, all but that of the ridge's
     /// weight.
     ///
+    /// Walls do not act in a sheath: for them the nodes in it are at its exit, and the element that leaves it begins
+    /// there.
+    ///
     /// Walls are in units, all else in metres. Elements that are far from walls are passed over
     /// (<see cref="NearWalls"/>); that changes no value. What one shape comes to is kept until another is asked
     /// for.</remarks>
@@ -30,6 +33,8 @@ namespace Guidewire.Core
         private readonly double[] _elementRadius;
         private readonly Barrier _barrier;
         private readonly NearWalls _near;
+        private readonly SheathWindow? _sheath;
+        private int _inside;                      // nodes in the sheath in the shape at hand
         private readonly Vector3d[] _x;           // of the shape at hand, units
         private readonly Vector3d[] _to;          // where its nodes go, units
         private readonly double[] _nodeGap;       // by wall and node, m, no more than the barrier's distance
@@ -48,8 +53,11 @@ namespace Guidewire.Core
         /// <param name="walls">In units.</param>
         /// <param name="metresPerUnit">m.</param>
         /// <param name="barrier">Of each gap.</param>
-        public BarrierEnergy(MaterialRod rod, ContactShape[] walls, double metresPerUnit, in Barrier barrier)
+        /// <param name="sheath">In which no wall acts, or null.</param>
+        public BarrierEnergy(MaterialRod rod, ContactShape[] walls, double metresPerUnit, in Barrier barrier,
+            SheathWindow? sheath = null)
         {
+            _sheath = sheath;
             int n = rod.ElementCount;
             _walls = walls;
             _units = 1.0 / metresPerUnit;
@@ -90,6 +98,25 @@ namespace Guidewire.Core
 
         /// <summary>b.</summary>
         public Barrier Barrier => _barrier;
+
+        /// <summary>How many nodes of a shape, from its first on, are in the sheath.</summary>
+        public int NodesInside(RodShape shape)
+        {
+            return _sheath == null ? 0 : _sheath.NodesInside(shape.X);
+        }
+
+        /// <summary>The nodes of a shape as walls meet them, units.</summary>
+        /// <param name="x">Receives them.</param>
+        /// <returns>How many of them are in the sheath.</returns>
+        public int SetNodes(RodShape shape, Vector3d[] x)
+        {
+            int inside = NodesInside(shape);
+            for (int i = 0; i < x.Length; i++)
+            {
+                x[i] = NodeOf(shape.X[i], i < inside);
+            }
+            return inside;
+        }
 
         /// <summary>Whether a wall pushes the wire in the shape last looked at.</summary>
         public bool Touches => _sums.Contacts.Count > 0;
@@ -164,11 +191,19 @@ namespace Guidewire.Core
             Look(shape);
             double step = scale * _units;
             double longest = 0.0;
+            bool isInside = _sheath != null;
             for (int i = 0; i < _x.Length; i++)
             {
                 RodVector d = direction[i];
                 Vector3d move = step * new Vector3d(d.X1, d.X2, d.X3);
                 _to[i] = _x[i] + move;
+                if (isInside)
+                {
+                    Vector3d to = shape.X[i] + (1.0 / _units) * move;
+                    isInside = _sheath!.Outside(to) < 0.0;
+                    _to[i] = NodeOf(to, isInside);
+                    move = _to[i] - _x[i];
+                }
                 longest = Math.Max(longest, move.LengthSquared);
             }
             double sure = QuickShare * _units * _leastGap;
@@ -197,10 +232,7 @@ namespace Guidewire.Core
         public NearWalls Near(RodShape shape, RodShape other)
         {
             Look(other);
-            for (int i = 0; i < _to.Length; i++)
-            {
-                _to[i] = _units * shape.X[i];
-            }
+            SetNodes(shape, _to);
             _near.Follow(_to);
             return _near;
         }
@@ -252,20 +284,18 @@ namespace Guidewire.Core
         // Finds what the shape comes to, unless it is that of the last call.
         private void Look(RodShape shape)
         {
-            bool isSame = _isKnown && _near.IsCurrent;
+            int inside = NodesInside(shape);
+            bool isSame = _isKnown && _near.IsCurrent && inside == _inside;
             for (int i = 0; i < _x.Length && isSame; i++)
             {
-                isSame = _units * shape.X[i] == _x[i];
+                isSame = NodeOf(shape.X[i], i < inside) == _x[i];
             }
             if (isSame)
             {
                 return;
             }
             _sums.Clear();
-            for (int i = 0; i < _x.Length; i++)
-            {
-                _x[i] = _units * shape.X[i];
-            }
+            _inside = SetNodes(shape, _x);
             Array.Clear(_resultant, 0, _resultant.Length);
             _isKnown = true;
             _value = 0.0;
@@ -282,9 +312,9 @@ namespace Guidewire.Core
         private void AddWall(int w)
         {
             int n = _elementRadius.Length;
-            for (int j = 0; j <= n; j++)
+            for (int j = Math.Max(_inside - 1, 0); j <= n; j++)
             {
-                if (_near.IsNodeNear(w, j))
+                if (j >= _inside && _near.IsNodeNear(w, j))
                 {
                     AddNode(w, j);
                 }
@@ -293,6 +323,15 @@ namespace Guidewire.Core
                     AddElement(w, j);
                 }
             }
+            if (_inside > 0 && _inside <= n)
+            {
+                _sums.Hold(_inside - 1);
+            }
+        }
+
+        private Vector3d NodeOf(in Vector3d x, bool isInside)
+        {
+            return _units * (isInside ? _sheath!.Exit : x);
         }
 
         private void AddNode(int w, int i)

@@ -12,7 +12,8 @@ namespace Guidewire.Core
         private readonly bool _hasProximal;
         private readonly bool _hasDistal;
         private readonly TLaw _law;
-        private readonly double _proximalRest;  // turn of joint 0 at rest about d3, radians
+        private double _proximalRest;   // turn of joint 0 at rest about d3, radians
+        private double _proximalTurn;   // and what its frame is behind
         private bool _isStiffened;
         private RodBlock _clampBlock;     // what falls on a clamp's frame, which does not move
         private RodVector _clampVector;
@@ -31,8 +32,26 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void TurnProximal(double turn)
         {
+            _proximalTurn = turn;
             Vector3d rest = _joint[0].Rest;
             _joint[0].Rest = new Vector3d(rest.X, rest.Y, _proximalRest + turn);
+        }
+
+        /// <inheritdoc/>
+        public override double TurnCouple(RodShape shape)
+        {
+            return _joint[0].Twist * (_joint[0].Rest.Z - TurnOf(shape, 0).Z);
+        }
+
+        /// <inheritdoc/>
+        public override void SetJoint(int k, in Joint joint)
+        {
+            _joint[k] = joint;
+            if (k == 0)
+            {
+                _proximalRest = joint.Rest.Z;
+                TurnProximal(_proximalTurn);
+            }
         }
 
         /// <inheritdoc/>
@@ -126,13 +145,22 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void Measure(RodShape shape, Vector3d[] turns)
         {
-            int n = shape.ElementCount;
-            turns[0] = _hasProximal ? _law.Measure(shape.ProximalFrame.Conjugate * shape.Q[0]) : Vector3d.Zero;
-            for (int k = 1; k < n; k++)
+            for (int k = 0; k <= shape.ElementCount; k++)
             {
-                turns[k] = _law.Measure(Relative(shape, k - 1));
+                turns[k] = TurnOf(shape, k);
             }
-            turns[n] = _hasDistal ? _law.Measure(shape.Q[n - 1].Conjugate * shape.DistalFrame) : Vector3d.Zero;
+        }
+
+        /// <inheritdoc/>
+        public override Vector3d TurnOf(RodShape shape, int k)
+        {
+            int n = shape.ElementCount;
+            if ((k == 0 && !_hasProximal) || (k == n && !_hasDistal))
+            {
+                return Vector3d.Zero;
+            }
+            return _law.Measure((k == 0 ? shape.ProximalFrame : shape.Q[k - 1]).Conjugate
+                * (k == n ? shape.DistalFrame : shape.Q[k]));
         }
 
         /// <inheritdoc/>

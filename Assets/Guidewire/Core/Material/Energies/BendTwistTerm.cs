@@ -12,6 +12,12 @@ namespace Guidewire.Core
         /// where an end has no joint.</summary>
         public abstract void Measure(RodShape shape, Vector3d[] turns);
 
+        /// <summary>The same of joint k alone.</summary>
+        public abstract Vector3d TurnOf(RodShape shape, int k);
+
+        /// <summary>Joint k is this one from now on.</summary>
+        public abstract void SetJoint(int k, in Joint joint);
+
         /// <summary>Couple that the piece after joint k exerts on the piece before it, N m, along the world's axes; 0
         /// where an end has no joint.</summary>
         public abstract Vector3d Couple(RodShape shape, int k);
@@ -37,6 +43,9 @@ namespace Guidewire.Core
         /// <summary>Joint 0 is without torque where it is turned by this more than at rest, radians: what is beyond its
         /// frame has turned so far.</summary>
         public abstract void TurnProximal(double turn);
+
+        /// <summary>dE/dturn of <see cref="TurnProximal"/>, N m.</summary>
+        public abstract double TurnCouple(RodShape shape);
 
         /// <summary>Couple of the proximal clamp on the rod, N m, along the world's axes; 0 without a clamp.</summary>
         public abstract Vector3d ProximalCouple(RodShape shape);

@@ -101,6 +101,18 @@ namespace Guidewire.Core
             return first + second;
         }
 
+        /// <summary>Node i, which begins the first element that touches anything, does not move as walls see it.
+        /// </summary>
+        public void Hold(int i)
+        {
+            _gradient[i] = Vector3d.Zero;
+            _own[i] = default;
+            _ownBending[i] = default;
+            _coupling[i] = default;
+            _couplingBending[i] = default;
+            _couplingTurn[i] = Vector3d.Zero;
+        }
+
         /// <summary>Adds the first derivatives of nodes from one (inclusive) to another (exclusive).</summary>
         public void AddGradient(RodVector[] gradient, int from, int to, ref GradientMeasures measured)
         {

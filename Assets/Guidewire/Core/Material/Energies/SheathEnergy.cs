@@ -1,181 +1,180 @@
+using System;
+
 namespace Guidewire.Core
 {
-    /// <summary>Keeps a wire straight in its sheath: each joint bends by the part of its length that is outside. With
-    /// phi that part, a joint of stiffness B has B/phi: this adds 1/2 B (1/phi - 1) |theta|^2 to its energy.</summary>
-    /// <remarks>A joint stands for the piece of wire that its hat function weighs: 1 at its node, 0 at both neighbours.
-    /// phi is the share of that weight beyond the exit, from 0 where the next node is at the exit to 1 where the one
-    /// before is; it has a continuous slope, and the shares of all joints sum up to the length outside, so nothing
-    /// jumps where a node passes the exit. Its slope is the force by which a bent wire is driven out of a sheath
-    /// without friction, M^2/(2 B). A joint wholly inside keeps 1e-6 of its compliance.</remarks>
+    /// <summary>Keeps a wire straight in its sheath: of the wire that a joint stands for only what is beyond the exit
+    /// bends. It cuts the joints of <see cref="BendTwistTerm"/> where the exit is, and has the energy of what is kept
+    /// straight.</summary>
+    /// <remarks>With a and f compliance and turn at rest beyond the exit (<see cref="JointPieces"/>), and W the energy
+    /// of what is before it, a joint has |theta - f|^2/(2 a) + W. The exit lies at a place along the wire that follows
+    /// from the hub's, not from the nodes: so the energy depends on the hub, and its slope,
+    /// -sum over joints of the hat function at the exit times |m + B kappa|^2/(2 B), is the force by which a bent wire
+    /// is driven out of a sheath without friction. It acts on the hub, at any speed. A joint wholly inside keeps 1e-6
+    /// of its compliance.</remarks>
     internal sealed class SheathEnergy : EnergyTerm
     {
         private const double LeastShare = 1e-6;
 
         private readonly SheathWindow _window;
-        private readonly double[] _length;   // of elements, m
-        private readonly RotationVectorLaw _law;
-        private RodVector _clampVector;      // what falls on the clamp's frame, which does not move
-        private RodBlock _clampBlock;
+        private readonly BendTwistTerm _bending;
+        private readonly Joint[] _cutJoint;     // of the first joints, as they are cut
+        private readonly double[] _outside;     // shares of their lengths
+        private int _cutCount;
+        private double _exit;                   // along the wire, m from node 0 of the whole
+        private double _held;                   // J
 
-        /// <summary>For the elements of a window.</summary>
-        public SheathEnergy(MaterialRod rod, SheathWindow window)
+        /// <summary>For the joints of a window.</summary>
+        public SheathEnergy(SheathWindow window, BendTwistTerm bending)
         {
             _window = window;
-            _length = rod.Length;
-            _law = default;
+            _bending = bending;
+            _cutJoint = new Joint[window.Joints.Length];
+            _outside = new double[window.Joints.Length];
+            _exit = double.NaN;
         }
 
-        /// <summary>The share of joint k that is outside, above 0 to 1.</summary>
-        public double Share(RodShape shape, int k)
+        /// <summary>The share of joint k that is outside: 0 where none of it is, above 0 to 1 elsewhere.</summary>
+        public double Share(int k)
         {
-            return k < 2 && k < shape.ElementCount ? Share(shape, k, out _, out _) : 1.0;
+            return k < _cutCount ? _outside[k] : 1.0;
         }
 
-        /// <inheritdoc/>
-        public override double Value(RodShape shape)
+        /// <summary>Turn of joint k at rest, as it is cut, rad.</summary>
+        public Vector3d RestOf(int k)
         {
-            double sum = 0.0;
-            for (int k = 0; k < 2 && k < shape.ElementCount; k++)
+            return k < _cutCount ? _cutJoint[k].Rest : _window.Joints[k].Rest;
+        }
+
+        /// <summary>The hub is where it would have the window's node 0 here, m, were nothing compressed.</summary>
+        public void SetHub(in Vector3d place)
+        {
+            SetExit(_window.ExitFrom(place));
+        }
+
+        /// <summary>Force that the hub has to exert along the axis besides that of its spring, N: dE/dp. Negative where
+        /// the wire is driven out.</summary>
+        public double HubForce(RodShape shape)
+        {
+            return -ReleaseAt(shape, _exit);
+        }
+
+        /// <summary>Work of the hub, J, against what drives the wire out, while the exit's place along the wire goes on
+        /// to where a place of the hub has it, by the moments of a shape.</summary>
+        /// <param name="place">As of <see cref="SetHub"/>.</param>
+        /// <param name="from">Where the exit was, m from node 0 of the whole.</param>
+        public double WorkTo(RodShape shape, in Vector3d place, double from)
+        {
+            double to = _window.ExitFrom(place);
+            double end = Math.Max(from, to);
+            double work = 0.0;
+            for (double at = Math.Min(from, to); at < end;)
             {
-                sum += _law.Value(Bending(k, 1.0 / Share(shape, k) - 1.0), Relative(shape, k));
+                double next = Math.Min(_window.Pieces.NextBreak(at), end);
+                work += (next - at) * ReleaseAt(shape, 0.5 * (at + next));
+                at = next;
+            }
+            return to > from ? work : -work;
+        }
+
+        /// <summary>Where the exit is along the wire, m from node 0 of the whole.</summary>
+        public double Exit => _exit;
+
+        // What the joints on both sides of a cut release as it moves, J/m.
+        private double ReleaseAt(RodShape shape, double cut)
+        {
+            double[] station = _window.Pieces.Stations;
+            double sum = 0.0;
+            int last = _window.Joints.Length - 1;
+            for (int k = 0; k < last && station[Before(k)] < cut; k++)
+            {
+                if (station[_window.First + k + 1] > cut)
+                {
+                    Joint joint = k < _cutCount ? _cutJoint[k] : _window.Joints[k];
+                    Vector3d change = _bending.TurnOf(shape, k) - joint.Rest;
+                    sum += _window.Pieces.ReleaseAt(_window.First + k, cut, joint.Bend1 * change.X,
+                        joint.Bend2 * change.Y);
+                }
             }
             return sum;
+        }
+
+        /// <summary>That force where the step began, N.</summary>
+        public double StartForce { get; private set; }
+
+        /// <inheritdoc/>
+        public override void BeginStep(RodShape shape, double dt)
+        {
+            StartForce = HubForce(shape);
+        }
+
+        /// <summary>Energy of what is kept straight, J, all that is still in the sheath among it.</summary>
+        public override double Value(RodShape shape)
+        {
+            return _held;
         }
 
         /// <inheritdoc/>
         public override void AddGradient(RodShape shape, RodVector[] gradient, int from, int to,
             ref GradientMeasures measured)
         {
-            if (from > 0)
-            {
-                return;
-            }
-            for (int k = 0; k < 2 && k < shape.ElementCount; k++)
-            {
-                double share = Share(shape, k, out double slope, out _);
-                Quaterniond relative = Relative(shape, k);
-                _law.AddGradient(Bending(k, 1.0 / share - 1.0), relative, ref Before(gradient, k), ref gradient[k]);
-                AddForce(ref gradient[k], k, relative, -slope / (share * share));
-            }
         }
 
         /// <inheritdoc/>
         public override void AddBlocks(RodShape shape, RodBlock[] blocks, RodVector[] gradient, int from, int to)
         {
-            if (from > 0)
+        }
+
+        /// <inheritdoc/>
+        public override void Exchange(Snapshot snapshot)
+        {
+            double exit = _exit;
+            snapshot.Exchange(ref exit);
+            if (!snapshot.IsWritten && !double.IsNaN(exit))
+            {
+                SetExit(exit);
+            }
+        }
+
+        private void SetExit(double exit)
+        {
+            if (exit == _exit)
             {
                 return;
             }
-            for (int k = 0; k < 2 && k < shape.ElementCount; k++)
+            _exit = exit;
+            double[] station = _window.Pieces.Stations;
+            int last = _window.Joints.Length - 1;
+            int cut = 0;
+            _held = _window.HeldBefore;
+            for (int k = 0; k < last && (k < _cutCount || station[Before(k)] < exit); k++)
             {
-                double share = Share(shape, k, out double slope, out double change);
-                Quaterniond relative = Relative(shape, k);
-                _law.AddBlocks(Bending(k, 1.0 / share - 1.0), relative, ref Before(gradient, k), ref gradient[k],
-                    ref k == 0 ? ref _clampBlock : ref blocks[0], ref blocks[k]);
-                double first = -slope / (share * share);
-                AddForce(ref gradient[k], k, relative, first);
-                double second = (2.0 * slope * slope / share - change) / (share * share);
-                AddAxial(ref blocks[k], second * _law.Value(Bending(k, 1.0), relative));
-                RodVector before = default;
-                RodVector after = default;
-                _law.AddGradient(Bending(k, first), relative, ref before, ref after);
-                AddCross(ref blocks[k], after);
-                if (k > 0)
+                Joint joint = _window.Joints[k];
+                if (station[Before(k)] < exit)
                 {
-                    AddNext(ref blocks[k - 1], before);
+                    joint = Cut(k, joint);
+                    cut = k + 1;
                 }
+                _bending.SetJoint(k, joint);
             }
+            _cutCount = cut;
         }
 
-        private double Share(RodShape shape, int k, out double slope, out double change)
+        private Joint Cut(int k, Joint joint)
         {
-            double before = k == 0 ? _window.LengthBefore : _length[k - 1];
-            double after = _length[k];
-            double z = _window.Outside(shape.X[k]);
-            double scale = (1.0 - LeastShare) / (before + after);
-            double share;
-            if (z <= 0.0)
-            {
-                double part = z > -after ? 1.0 + z / after : 0.0;
-                share = after * part * part;
-                slope = 2.0 * part;
-                change = z > -after ? 2.0 / after : 0.0;
-            }
-            else
-            {
-                double part = z < before ? 1.0 - z / before : 0.0;
-                share = before + after - before * part * part;
-                slope = 2.0 * part;
-                change = z < before ? -2.0 / before : 0.0;
-            }
-            slope *= scale;
-            change *= scale;
-            return LeastShare + scale * share;
+            JointPart part = _window.Pieces.Beyond(_window.First + k, _exit);
+            _held += part.Held;
+            joint.Bend1 = 1.0 / (part.Compliance1 + LeastShare / joint.Bend1);
+            joint.Bend2 = 1.0 / (part.Compliance2 + LeastShare / joint.Bend2);
+            joint.Rest = new Vector3d(part.Rest.X, part.Rest.Y, joint.Rest.Z);
+            _cutJoint[k] = joint;
+            _outside[k] = part.Length > 0.0 ? LeastShare + part.Length / _window.JointLengths[k] : 0.0;
+            return joint;
         }
 
-        private Joint Bending(int k, double factor)
+        // The node before joint k of the window, in the whole wire.
+        private int Before(int k)
         {
-            Joint joint = _window.Joints[k];
-            return new Joint { Bend1 = factor * joint.Bend1, Bend2 = factor * joint.Bend2 };
-        }
-
-        private static Quaterniond Relative(RodShape shape, int k)
-        {
-            return (k == 0 ? shape.ProximalFrame : shape.Q[k - 1]).Conjugate * shape.Q[k];
-        }
-
-        private ref RodVector Before(RodVector[] gradient, int k)
-        {
-            return ref k == 0 ? ref _clampVector : ref gradient[k - 1];
-        }
-
-        private void AddForce(ref RodVector gradient, int k, in Quaterniond relative, double slope)
-        {
-            double force = slope * _law.Value(Bending(k, 1.0), relative);
-            gradient.X1 += force * _window.Axis.X;
-            gradient.X2 += force * _window.Axis.Y;
-            gradient.X3 += force * _window.Axis.Z;
-        }
-
-        private void AddAxial(ref RodBlock block, double stiffness)
-        {
-            Vector3d a = _window.Axis;
-            block.A11 += stiffness * a.X * a.X;
-            block.A21 += stiffness * a.Y * a.X;
-            block.A22 += stiffness * a.Y * a.Y;
-            block.A31 += stiffness * a.Z * a.X;
-            block.A32 += stiffness * a.Z * a.Y;
-            block.A33 += stiffness * a.Z * a.Z;
-        }
-
-        // Of the node's place and the element after it.
-        private void AddCross(ref RodBlock block, in RodVector couple)
-        {
-            Vector3d a = _window.Axis;
-            block.B11 += couple.T1 * a.X;
-            block.B12 += couple.T1 * a.Y;
-            block.B13 += couple.T1 * a.Z;
-            block.B21 += couple.T2 * a.X;
-            block.B22 += couple.T2 * a.Y;
-            block.B23 += couple.T2 * a.Z;
-            block.B31 += couple.T3 * a.X;
-            block.B32 += couple.T3 * a.Y;
-            block.B33 += couple.T3 * a.Z;
-        }
-
-        // Of the node's place and the element before it.
-        private void AddNext(ref RodBlock block, in RodVector couple)
-        {
-            Vector3d a = _window.Axis;
-            block.E11 += a.X * couple.T1;
-            block.E12 += a.X * couple.T2;
-            block.E13 += a.X * couple.T3;
-            block.E21 += a.Y * couple.T1;
-            block.E22 += a.Y * couple.T2;
-            block.E23 += a.Y * couple.T3;
-            block.E31 += a.Z * couple.T1;
-            block.E32 += a.Z * couple.T2;
-            block.E33 += a.Z * couple.T3;
+            return Math.Max(_window.First + k - 1, 0);
         }
     }
 }

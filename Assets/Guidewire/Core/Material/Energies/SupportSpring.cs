@@ -6,7 +6,8 @@ namespace Guidewire.Core
     /// the support's motion is then part of the energy that a step minimises.</summary>
     /// <remarks>k = 10 EA/l of the first element: a push that would buckle the wire moves node 0 off its place by less
     /// than a ten thousandth of the wire's radius. A hub that gives way at an axial force F has the same energy up to F
-    /// and a straight line beyond: 1/2 k d^2 - 1/2 (k |d_a| - F)^2/k, d_a along the axis.</remarks>
+    /// and a straight line beyond: 1/2 k d^2 - 1/2 (|k d_a + b| - F)^2/k, d_a along the axis, b what the hub exerts
+    /// besides.</remarks>
     internal sealed class SupportSpring : EnergyTerm
     {
         private const double OverAxialSpring = 10.0;
@@ -32,6 +33,9 @@ namespace Guidewire.Core
 
         /// <summary>The hub's axis, a unit vector, along which it gives way.</summary>
         public Vector3d Axis { get; set; }
+
+        /// <summary>b, the force that the hub exerts along the axis besides that of the spring, N.</summary>
+        public double Besides { get; set; }
 
         /// <summary>p, m.</summary>
         public Vector3d Place { get; set; }
@@ -128,7 +132,7 @@ namespace Guidewire.Core
         // What the axial force would have beyond the limit, N, with its sign.
         private double Excess(RodShape shape)
         {
-            double force = _axial * Vector3d.Dot(Place - shape.X[0], Axis);
+            double force = _axial * Vector3d.Dot(Place - shape.X[0], Axis) + Besides;
             return Math.Abs(force) > _limit ? force - Math.Sign(force) * _limit : 0.0;
         }
 
@@ -136,6 +140,7 @@ namespace Guidewire.Core
         public override void Exchange(Snapshot snapshot)
         {
             Place = snapshot.Exchange(Place);
+            Besides = snapshot.Exchange(Besides);
         }
     }
 }

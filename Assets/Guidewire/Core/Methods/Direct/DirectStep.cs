@@ -10,6 +10,8 @@ namespace Guidewire.Core
         // A step in which a disturbance would grow by much (a thrust beyond buckling) may end in any shape.
         private const string Shorter = "; in a motion a shorter timeStep, or a timeStepError, may do";
 
+        private const int MostSlips = 4;
+
         private readonly MaterialScene _scene;
         private readonly RodDynamics _dynamics;
         private readonly MaterialDrive _drive;
@@ -25,6 +27,7 @@ namespace Guidewire.Core
         private readonly WallWatch? _watch;
         private readonly ElementPushes? _pushes;
         private readonly RunExtremes _extremes;
+        private double _hubWork;            // J
         private readonly Joint[] _joints;
         private readonly double[] _jointLengths;
 
@@ -84,12 +87,15 @@ namespace Guidewire.Core
         public bool Step()
         {
             int last = _dynamics.Shape.ElementCount;
+            (double insertion, double turn) = (_drive.Insertion, _drive.Turn);
             _drive.Prepare(_dynamics.Shape, _dynamics.Time);
             SupportSpring? spring = _dynamics.Terms.Walls?.Spring;
             if (spring != null && _drive.Axis != Vector3d.Zero)
             {
                 spring.Axis = _drive.Axis;
             }
+            double exit = _dynamics.Terms.Sheath == null ? 0.0 : _dynamics.Terms.Sheath.Exit;
+            _hubWork += 0.5 * SheathWork(exit);
             Vector3d free = _dynamics.Shape.X[last] + _timeStep * _dynamics.Velocities[last]
                 + (_timeStep * _timeStep) * _scene.Schedule.Gravity;
             Vector3d held = spring == null ? Vector3d.Zero : spring.HeldPlace(_dynamics.Shape);
@@ -114,17 +120,55 @@ namespace Guidewire.Core
             PredictionError = Vector3d.Distance(free, _dynamics.Shape.X[last]) / _scene.Metres;
             if (Contacts != null)
             {
-                Contacts.Reaction = _walls == null ? _dynamics.MeanReaction : _walls.MeanReaction;
+                StageForces mean = _walls == null ? _dynamics.MeanForces : _walls.MeanForces;
+                Contacts.Reaction = mean.Proximal;
+                Contacts.ReactionAtEnd = _dynamics.EndForces.Proximal;
+                Contacts.MeanTotal = mean.Walls;
+                _hubWork += Vector3d.Dot(mean.Proximal, _dynamics.Terms.HubAxis(_dynamics.Shape))
+                    * (_drive.Insertion - insertion) + mean.HubTorque * (_drive.Turn - turn) + 0.5 * SheathWork(exit);
                 _watch?.EndStep(_dynamics.Shape, Contacts);
                 if (spring != null && _dynamics.Terms.Walls!.HoldsStart)
                 {
-                    _drive.GiveWay(spring, _dynamics.Shape);
+                    GiveWay(spring);
                     CountDrive(held, spring.HeldPlace(_dynamics.Shape));
                     Failure ??= FindOverdriven();
                 }
             }
             TakeExtremes();
             return true;
+        }
+
+        // What drives the wire out of a sheath changes with the hub's place: so it gives way once more, by much less.
+        private void GiveWay(SupportSpring spring)
+        {
+            RodTerms terms = _dynamics.Terms;
+            double asked = _drive.Insertion;
+            double before;
+            int left = terms.Sheath == null ? 1 : MostSlips;
+            do
+            {
+                before = _drive.Insertion;
+                spring.Besides = terms.Sheath == null ? 0.0 : terms.Sheath.HubForce(_dynamics.Shape);
+                _drive.GiveWay(spring, _dynamics.Shape);
+                if (_drive.Insertion != before)
+                {
+                    terms.SetTime(_scene.Schedule, _dynamics.Time);
+                }
+                left--;
+            }
+            while (_drive.Insertion != before && left > 0);
+            if (_drive.Insertion != asked)
+            {
+                _hubWork += terms.HubForce(_dynamics.Shape) * (_drive.Insertion - asked);
+            }
+        }
+
+        // Of the hub in this step against what drives the wire out of a sheath, by the moments of now, J.
+        private double SheathWork(double exit)
+        {
+            SheathEnergy? sheath = _dynamics.Terms.Sheath;
+            return sheath == null ? 0.0
+                : sheath.WorkTo(_dynamics.Shape, _scene.Schedule.ProximalPositionAt(_drive.StepEnd), exit);
         }
 
         private void TakeExtremes()
@@ -141,9 +185,7 @@ namespace Guidewire.Core
             _extremes.TakeWalls(_pushes.LargestForce, _pushes.LargestPressure);
             if (terms.Walls!.HoldsStart)
             {
-                Vector3d axis = HubRecord.AxisOf(terms, shape);
-                _extremes.TakeHub(Vector3d.Dot(terms.Walls.SupportForce(shape), axis),
-                    Vector3d.Dot(_dynamics.ProximalCouple, axis));
+                _extremes.TakeHub(terms.HubForce(shape), _dynamics.HubTorque);
             }
             if (terms.Walls.Friction != null)
             {
@@ -182,8 +224,9 @@ namespace Guidewire.Core
                 return null;
             }
             _hub ??= new HubRecord(_scene.Rod, _scene.Supports);
-            _hub.Take(terms, _dynamics.Shape, _drive, _dynamics.ReactionAt(0), _dynamics.ProximalCouple,
+            _hub.Take(terms, _dynamics.Shape, _drive, _dynamics.ReactionAt(0), _dynamics.HubTorque,
                 _scene.Schedule.HubAhead(_dynamics.Time));
+            _hub.Work = _walls == null ? double.NaN : _hubWork;
             return _hub;
         }
 
@@ -249,6 +292,7 @@ namespace Guidewire.Core
             _rest.Exchange(snapshot);
             _extremes.Exchange(snapshot);
             _watch?.Exchange(snapshot);
+            snapshot.Exchange(ref _hubWork);
             Contacts?.Exchange(snapshot);
         }
 
@@ -256,6 +300,7 @@ namespace Guidewire.Core
         public void ExchangeCounts(Snapshot snapshot)
         {
             snapshot.Exchange(ref _startFactorisations);
+            snapshot.Exchange(ref _hubWork);
             _walls?.Exchange(snapshot);
             _ends.ExchangeWork(snapshot);
             _dynamics.ExchangeCounts(snapshot);
@@ -274,6 +319,7 @@ namespace Guidewire.Core
         private void ExchangeOwn(Snapshot snapshot)
         {
             snapshot.Exchange(ref _startFactorisations);
+            snapshot.Exchange(ref _hubWork);
             _report.Exchange(snapshot);
             _energy.Exchange(snapshot);
             _drive.Exchange(snapshot);

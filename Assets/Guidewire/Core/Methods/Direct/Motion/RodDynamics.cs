@@ -150,6 +150,12 @@ namespace Guidewire.Core
         /// inertia.</summary>
         public Vector3d MeanReaction => _meanForces.Proximal;
 
+        /// <summary>The forces from outside, the means over the last step by the scheme's weights.</summary>
+        public StageForces MeanForces => _meanForces;
+
+        /// <summary>The same at its end.</summary>
+        public StageForces EndForces => _stage.Forces;
+
         /// <summary>Force that the supports exert on the last node, N, the mean over the last step.</summary>
         public Vector3d MeanDistalReaction => _meanForces.Distal;
 
@@ -175,6 +181,10 @@ namespace Guidewire.Core
         /// damping by the rates of the last stage.</summary>
         public Vector3d ProximalCouple => _terms.Bending.ProximalCouple(Shape)
             + (_damping == null ? Vector3d.Zero : _damping.ProximalCouple(Shape));
+
+        /// <summary>Torque of the hub on the wire about its axis, N m; that on a wire in a sheath is the slope of the
+        /// energy in the hub's turn.</summary>
+        public double HubTorque => _stage.HubTorque();
 
         /// <summary>The same of the distal clamp.</summary>
         public Vector3d DistalCouple => _terms.Bending.DistalCouple(Shape)
@@ -409,9 +419,7 @@ namespace Guidewire.Core
                 return false;
             }
             _rates.SetFirst(Velocities, Spins, false);
-            StageForces forces = _start.Forces;
-            forces.Load = _stage.LoadSum();
-            _stage.Forces = forces;
+            _stage.Forces = _stage.WithWalls(_start.Forces);
             return true;
         }
 

@@ -139,17 +139,44 @@ namespace Guidewire.Core
             if (TracksForces)
             {
                 RodVector[] gradient = Solver.Reactions(_shape);
-                Vector3d held = _terms.Walls == null ? Vector3d.Zero : _terms.Walls.SupportForce(_shape);
                 RodVector first = gradient[0];
                 RodVector last = gradient[_shape.ElementCount];
-                Forces = new StageForces
+                Forces = WithWalls(new StageForces
                 {
-                    Proximal = held + new Vector3d(first.X1, first.X2, first.X3),
+                    Proximal = new Vector3d(first.X1, first.X2, first.X3),
                     Distal = new Vector3d(last.X1, last.X2, last.X3),
-                    Load = LoadSum(),
-                };
+                });
             }
             return null;
+        }
+
+        /// <summary>Torque of the hub on the wire about its axis, N m; that on a wire in a sheath is the slope of the
+        /// energy in the hub's turn.</summary>
+        public double HubTorque()
+        {
+            if (_terms.Sheath != null)
+            {
+                return _terms.Bending.TurnCouple(_shape);
+            }
+            Vector3d couple = _terms.Bending.ProximalCouple(_shape)
+                + (Damping == null ? Vector3d.Zero : Damping.ProximalCouple(_shape));
+            return Vector3d.Dot(couple, _terms.HubAxis(_shape));
+        }
+
+        /// <summary>These forces, what nodes 0 and n need to be where they are, with the loads, and with what walls and
+        /// the hub add between walls.</summary>
+        public StageForces WithWalls(StageForces forces)
+        {
+            forces.Load = LoadSum();
+            if (_terms.Walls != null)
+            {
+                forces.Proximal = _terms.Walls.SupportForce(_shape) + forces.Proximal;
+                Array.Clear(_loads, 0, _loads.Length);
+                _terms.Walls.AddWallGradient(_shape, _loads);
+                forces.Walls = -Sum(_loads);
+                forces.HubTorque = HubTorque();
+            }
+            return forces;
         }
 
         /// <summary>Writes or takes over what a solution leaves to the next one, besides what the scheme has.</summary>
@@ -163,10 +190,15 @@ namespace Guidewire.Core
         {
             Array.Clear(_loads, 0, _loads.Length);
             _terms.AddLoadGradient(_shape, _loads);
+            return -Sum(_loads);
+        }
+
+        private static Vector3d Sum(RodVector[] gradient)
+        {
             Vector3d sum = Vector3d.Zero;
-            foreach (RodVector g in _loads)
+            foreach (RodVector g in gradient)
             {
-                sum -= new Vector3d(g.X1, g.X2, g.X3);
+                sum += new Vector3d(g.X1, g.X2, g.X3);
             }
             return sum;
         }

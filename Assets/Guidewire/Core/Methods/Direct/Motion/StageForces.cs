@@ -1,11 +1,14 @@
 namespace Guidewire.Core
 {
-    /// <summary>The forces from outside on a rod in one stage, or their weighted sum, N.</summary>
+    /// <summary>The forces from outside on a rod in one stage, or their weighted sum, N; the hub's torque, N
+    /// m.</summary>
     internal struct StageForces
     {
         public Vector3d Proximal;
         public Vector3d Distal;
         public Vector3d Load;
+        public Vector3d Walls;
+        public double HubTorque;  // about its axis
 
         /// <summary>Adds others with a weight.</summary>
         public void Add(double weight, in StageForces other)
@@ -13,6 +16,8 @@ namespace Guidewire.Core
             Proximal += weight * other.Proximal;
             Distal += weight * other.Distal;
             Load += weight * other.Load;
+            Walls += weight * other.Walls;
+            HubTorque += weight * other.HubTorque;
         }
 
         /// <summary>Writes or takes over.</summary>
@@ -21,6 +26,8 @@ namespace Guidewire.Core
             snapshot.Exchange(ref Proximal);
             snapshot.Exchange(ref Distal);
             snapshot.Exchange(ref Load);
+            snapshot.Exchange(ref Walls);
+            snapshot.Exchange(ref HubTorque);
         }
     }
 }

@@ -69,11 +69,11 @@ namespace Guidewire.Core
             {
                 first++;
             }
-            string? problem = MaterialStart.FindProblem(whole, first);
+            string? problem = MaterialStart.FindProblemFrom(whole, first, exit);
             if (problem != null)
             {
                 return problem + "; the sheath ends at " + Text(exit)
-                    + ", and the element that leaves it has to be inside the vessel";
+                    + ", and the wire from there on has to be inside the vessel";
             }
             double room = whole.Metres * Vector3d.Dot(exit - units * whole.Shape.X[0], axis);
             double asked = parameters.Drive.LargestInsertion(

@@ -9,6 +9,7 @@ namespace Guidewire.Core
         private readonly SimulationParameters _parameters;
         private readonly MaterialScene _whole;
         private readonly double[] _jointLengths;  // m
+        private readonly JointPieces _pieces;
         private readonly Barrier _barrier;
         private readonly SupportSpring _support;
 
@@ -28,6 +29,8 @@ namespace Guidewire.Core
             var even = new RodSupports { Clamp = ClampRule.HalfElement };
             Joints = whole.Rod.Joints(even);
             _jointLengths = whole.Rod.JointLengths(even);
+            _pieces = new JointPieces(new WireProfile(parameters.Material, parameters.Scene.GuidewireLength),
+                whole.Metres, Stations);
             _barrier = BarrierRule.Of(whole.Rod, parameters.Contact, whole.Walls, whole.Metres,
                 parameters.Drive.LargestMove(parameters.Method.TimeStep, whole.Metres));
             _support = new SupportSpring(whole.Rod, parameters.Drive.HubForceLimit);
@@ -45,11 +48,12 @@ namespace Guidewire.Core
         /// <summary>The n + 1 joints of the whole wire.</summary>
         public Joint[] Joints { get; }
 
-        /// <summary>The last node that has not come out yet, or the first of the least number of elements.</summary>
-        public int FirstOutside(RodShape shape, int leastElements)
+        /// <summary>The last element that is wholly in the sheath, or the first of the least number of
+        /// elements.</summary>
+        public int FirstElement(RodShape shape, int leastElements)
         {
             int first = shape.ElementCount - leastElements;
-            while (first > 0 && Vector3d.Dot(shape.X[first] - Exit, Axis) > 0.0)
+            while (first > 0 && Vector3d.Dot(shape.X[first + 1] - Exit, Axis) > 0.0)
             {
                 first--;
             }
@@ -69,7 +73,7 @@ namespace Guidewire.Core
         /// <summary>What the sheathed part is to the elements from one on.</summary>
         public SheathWindow Window(int first)
         {
-            return new SheathWindow(_whole.Rod, Joints, _jointLengths, first) { Exit = Exit, Axis = Axis };
+            return new SheathWindow(_whole.Rod, Joints, _jointLengths, _pieces, first) { Exit = Exit, Axis = Axis };
         }
 
         /// <summary>A frame about the sheath's axis, turned by an angle, radians.</summary>

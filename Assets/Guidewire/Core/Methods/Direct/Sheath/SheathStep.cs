@@ -5,13 +5,13 @@ namespace Guidewire.Core
     /// <summary>Steps of a wire in a sheath: only what is outside is simulated, by a <see cref="DirectStep"/> of its
     /// own, and elements come and go with the hub. The sheathed part is straight on the sheath's axis and massless: a
     /// spring along it and one about it, in series with the hub.</summary>
-    /// <remarks>An element comes in before its distal node has passed the exit, with the strain and the twist that the
-    /// springs have, so that no force changes; it goes again where that node is a part of its length inside. What is
-    /// simulated is built anew whenever that happens.</remarks>
+    /// <remarks>What is simulated begins with an element that is wholly in the sheath until the step's end, however far
+    /// the hub goes: so every joint that comes out, or goes in, does so within a step, and no force and no energy
+    /// changes where an element comes in, with the strain and the twist that the springs have. It goes again where the
+    /// next one is well inside too. What is simulated is built anew whenever that happens.</remarks>
     internal sealed class SheathStep : TimeStepper
     {
-        private const double Early = 0.1;       // of an element's length, by which it comes in early
-        private const double Late = 0.3;        // and goes late
+        private const double Late = 0.3;        // of an element's length, by which it goes late
         private const double LargestTurn = 0.3; // radians of the first element against its frame
         private const double Ahead = 2.4;       // radians by which the frame is ahead of a wire that jumps round
         private const int LeastElements = 2;
@@ -49,7 +49,7 @@ namespace Guidewire.Core
                 WallForces = new Vector3d[parameters.Scene.Walls.Length],
                 ElementForces = new Vector3d[n],
             };
-            int first = _setup.FirstOutside(_shape, LeastElements);
+            int first = _setup.FirstElement(_shape, LeastElements);
             whole.Schedule.ProximalPosition += _setup.Stations[first] * _setup.Axis;
             _setup.LimitDrive(_shape);
             _window = _setup.Window(first);
@@ -58,6 +58,12 @@ namespace Guidewire.Core
 
         /// <inheritdoc/>
         public override ContactRecord? Contacts { get; }
+
+        /// <summary>The motion of what is simulated.</summary>
+        public RodDynamics Dynamics => _dynamics;
+
+        /// <summary>Steps what is simulated.</summary>
+        public DirectStep Inner => _inner;
 
         /// <inheritdoc/>
         public override string? AccuracyWarning => _inner.AccuracyWarning;
@@ -132,19 +138,21 @@ namespace Guidewire.Core
             Contacts!.Take(_inner.Contacts!, _window.First);
         }
 
-        // Elements that have come to the exit come in, others go; and the frame follows the first element where that
-        // has turned far.
-        private void MoveWindow()
+        /// <summary>A step begins: elements that will come to the exit come in, others go; and the frame follows the
+        /// first element where that has turned far. A second time nothing changes.</summary>
+        public void MoveWindow()
         {
             int first = _window.First;
-            double[] length = _whole.Rod.Length;
-            while (first > 0 && _window.Outside(_shape.X[first]) >= -Early * length[first - 1])
+            double[] station = _setup.Stations;
+            double exit = _window.ExitFrom(_whole.Schedule.ProximalPositionAt(_dynamics.Time))
+                - Math.Max(0.0, _whole.Drive.NextMove(_dynamics.Time));
+            while (first > 0 && station[first + 1] > exit)
             {
                 first--;
                 Enter(first);
             }
             int last = _shape.ElementCount - LeastElements;
-            while (first < last && _window.Outside(_shape.X[first + 1]) < -Late * length[first])
+            while (first < last && station[first + 2] < exit - Late * _whole.Rod.Length[first + 1])
             {
                 first++;
             }
@@ -183,6 +191,7 @@ namespace Guidewire.Core
             MaterialScene scene = _setup.Scene(_window, _shape, _velocities, _spins, _frameTurn);
             _dynamics = _setup.Dynamics(scene, _window);
             _dynamics.GoOn(time, _frameTurn);
+            _dynamics.Terms.SetTime(_whole.Schedule, time);
             _dynamics.Terms.Walls!.Spring.Axis = _setup.Axis;
             _inner = new DirectStep(scene, _dynamics, _whole.Drive, _parameters.Method, _report,
                 new ContactRecord(scene.Shape.X.Length));
@@ -239,7 +248,7 @@ namespace Guidewire.Core
         private double Torque()
         {
             _dynamics.Terms.SetTime(_whole.Schedule, _dynamics.Time);
-            return -Vector3d.Dot(_dynamics.Terms.Bending.ProximalCouple(_dynamics.Shape), _setup.Axis);
+            return -_dynamics.Terms.Bending.TurnCouple(_dynamics.Shape);
         }
 
         private double TurnOfJoint(int k, double torque)

@@ -32,16 +32,17 @@ namespace Guidewire.Core
         {
             NearWalls near = _barrier.Near(shape, before);
             int n = shape.ElementCount;
+            int first = _barrier.NodesInside(shape);
             for (int w = 0; w < _barrier.Walls.Length; w++)
             {
-                for (int i = 1; i <= last; i++)
+                for (int i = Math.Max(first, 1); i <= last; i++)
                 {
                     if (near.IsNodeNear(w, i))
                     {
                         PushNode(w, i, near.FeaturesOfNode(w, i, _units * shape.X[i]), ref shape.X[i]);
                     }
                 }
-                for (int j = 0; j < n; j++)
+                for (int j = first; j < n; j++)
                 {
                     if (near.IsNear(w, j))
                     {

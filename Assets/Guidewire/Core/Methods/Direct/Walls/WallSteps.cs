@@ -15,6 +15,7 @@ namespace Guidewire.Core
         private readonly RodSchedule _schedule;
         private readonly WallWatch _watch;
         private readonly StepStart _start;
+        private StageForces _meanForces;
         private readonly double _longestMove;     // m
 
         /// <summary>For this motion.</summary>
@@ -27,9 +28,8 @@ namespace Guidewire.Core
             _longestMove = BarrierRule.MostMove * dynamics.Terms.Walls!.Barrier.Barrier.Distance;
         }
 
-        /// <summary>Force of the proximal support, N, the mean over the last step, where reactions are
-        /// tracked.</summary>
-        public Vector3d MeanReaction { get; private set; }
+        /// <summary>The forces from outside, the means over the last step, where reactions are tracked.</summary>
+        public StageForces MeanForces => _meanForces;
 
         /// <summary>Parts that were halved so far.</summary>
         public long Halvings { get; private set; }
@@ -39,7 +39,7 @@ namespace Guidewire.Core
         /// <returns>Null, or why a part has no solution however short; the shape is then not to be used.</returns>
         public string? Step(double dt)
         {
-            MeanReaction = Vector3d.Zero;
+            _meanForces = default;
             _watch.BeginStep(_dynamics.Shape);
             int parts = Parts(dt);
             for (int k = 0; k < parts; k++)
@@ -83,7 +83,7 @@ namespace Guidewire.Core
                 string? failure = _dynamics.Step(h);
                 if (failure == null)
                 {
-                    MeanReaction += (h / dt) * _dynamics.MeanReaction;
+                    _meanForces.Add(h / dt, _dynamics.MeanForces);
                     _watch.AddPart(_dynamics.Shape);
                     done += size;
                     // Longer again where the parts done make up whole ones.

@@ -147,10 +147,7 @@ namespace Guidewire.Core
 
         private void SetUnits(RodShape shape, Vector3d[] x)
         {
-            for (int i = 0; i < x.Length; i++)
-            {
-                x[i] = _units * shape.X[i];
-            }
+            _barrier.SetNodes(shape, x);
         }
     }
 }

@@ -15,7 +15,7 @@ namespace Guidewire.Core.Tests
         private const double HessianTolerance = 1e-8;
 
         public static readonly string[] TermNames = { "stretch", "rotationVector", "darboux", "inertia", "plane",
-            "damping", "sheath" };
+            "damping" };
 
         [Test]
         public void Gradient_IsTheDifferenceOfTheEnergy([ValueSource(nameof(TermNames))] string name,
@@ -141,8 +141,6 @@ namespace Guidewire.Core.Tests
                     return new BendTwistEnergy<DarbouxLaw>(rod.Joints(supports), true, true);
                 case "plane":
                     return Plane(rod, shape);
-                case "sheath":
-                    return Sheath(shape);
                 case "damping":
                     rod.MassDamping = 0.3;
                     rod.MaterialDamping = 0.7;
@@ -178,20 +176,6 @@ namespace Guidewire.Core.Tests
                 rod.RestCurvature[j] = new Vector3d(0.2, -0.4, 0.3);
             }
             return rod;
-        }
-
-        /// <summary>Of the last N elements, the exit between the first two nodes.</summary>
-        private static SheathEnergy Sheath(RodShape shape)
-        {
-            const int first = 2;
-            MaterialRod whole = Uneven(first + N);
-            var even = new RodSupports { Clamp = ClampRule.HalfElement };
-            var window = new SheathWindow(whole, whole.Joints(even), whole.JointLengths(even), first)
-            {
-                Exit = Vector3d.Lerp(shape.X[0], shape.X[1], 0.4) + new Vector3d(0.05, 0.1, 0.0),
-                Axis = Vector3d.Normalize(shape.X[1] - shape.X[0]),
-            };
-            return new SheathEnergy(whole.From(first), window);
         }
 
         /// <summary>The guide of a plane without its springs on turns, which have no value: no bending stiffness, no

@@ -248,6 +248,32 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void ExitLessThanAnElementInsideAClosedVessel_LetsTheWireGoOutAndIn([Values(0.3, 2.0)] double exit)
+        {
+            // Elements of 5 mm come through the closed end of a tube, a half sphere from z = 0 on, in their sheath, and
+            // go back.
+            SimulationParameters parameters = Sheathed(40, 0.2, 7.0);
+            parameters.Scene.Sheath = new Sheath { Exit = new Vector3d(0.0, 0.0, exit) };
+            parameters.Scene.Walls = new ContactShape[]
+            {
+                new TubeShape(new[] { new Vector3d(0.0, 0.0, Lumen), new Vector3d(0.0, 0.0, 300.0) },
+                    new[] { Lumen, Lumen }, false, true),
+            };
+            parameters.Drive.Table = new DriveTable(
+                new TimeTable(new[] { 0.0, 1.0, 2.0 }, new[] { 0.0, 0.043, 0.0 }),
+                new TimeTable(new[] { 0.0, 1.0 }, new[] { 0.0, 2.0 }));
+            parameters.Method.TimeStep = 0.02;
+            parameters.Method.MaxSimulationSteps = 100;
+            Assert.That(Simulation.FindProblemOfStart(parameters), Is.Null);
+            Simulation run = Run(parameters);
+            Assert.That(run.Hub()!.LengthInBody, Is.EqualTo(1e-3 * (7.0 - exit)).Within(1e-5));
+            Assert.That(run.Contacts!.Passages, Is.Zero);
+            Assert.That(run.Contacts.MaxPenetration, Is.Zero);
+            parameters.Scene.Sheath = new Sheath { Exit = new Vector3d(0.0, 0.0, -0.3) };
+            Assert.That(Simulation.FindProblemOfStart(parameters), Does.Contain("starts outside"));
+        }
+
+        [Test]
         public void ExitThatIsNotNamed_IsOneElementInsideTheInlet()
         {
             SimulationParameters parameters = Sheathed(20, 0.1, 25.0);

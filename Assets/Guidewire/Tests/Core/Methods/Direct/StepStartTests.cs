@@ -38,6 +38,21 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void StepsTakenAgainAtRandom_LeaveTheSameBits_OfAWireInASheath()
+        {
+            SimulationParameters parameters = WallScenes.Arch(60, 0.02, 100.0, 100.0);
+            parameters.Scene.GuidewireOffset = -295.0;
+            parameters.Scene.Sheath = new Sheath { Exit = new Vector3d(0.0, 0.0, -10.0) };
+            parameters.Scene.Walls[0].FrictionCoefficient = 0.1;
+            parameters.Drive.RotationSpeed = 5.0;
+            parameters.Material.Sections = new[]
+            {
+                new WireSection { From = 270.0, To = 300.0, RestCurvature = new Vector3d(5.0, 0.0, 0.0) },
+            };
+            AssertSameBits(parameters, 45, 4);
+        }
+
+        [Test]
         public void StepWithoutASolution_LeavesTheNextTryNothing()
         {
             // A term that is no number from some evaluation on: whatever a stage has done until then is undone.
@@ -84,17 +99,18 @@ namespace Guidewire.Core.Tests
             var random = new System.Random(seed);
             MethodStart a = Start(parameters);
             MethodStart b = Start(parameters);
-            var start = new StepStart(((DirectStep)b.Stepper).ExchangeStep);
             int again = 0;
             for (int k = 0; k < steps; k++)
             {
                 a.Stepper.Advance(a.State);
                 if (random.Next(2) == 0)
                 {
+                    DirectStep step = b.Stepper is SheathStep sheath ? sheath.Inner : (DirectStep)b.Stepper;
+                    var start = new StepStart(step.ExchangeStep);
                     start.Save();
                     for (int tries = random.Next(1, 3); tries > 0; tries--)
                     {
-                        ((DirectStep)b.Stepper).Step();
+                        step.Step();
                     }
                     start.Restore();
                     again++;
