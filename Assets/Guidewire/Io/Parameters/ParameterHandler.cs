@@ -304,7 +304,7 @@ namespace Guidewire.Io
                 AddWarning("{0}: rodElementLength = {1} is not guidewireLength / numberRodElements = {2}, which counts",
                     length.Source, (double)length.Value, l);
             }
-            if (Method == Solver.Direct && _given.TryGetValue("frictionSpeed", out var speed)
+            if (Method == Solver.Direct && _given.TryGet("frictionSpeed", out var speed)
                 && (double)speed.Value != ContactEntries.DefaultFrictionSpeed)
             {
                 AddWarning("{0}: frictionSpeed is of no effect: contact sticks at any speed, elastically up to"

@@ -71,7 +71,7 @@ namespace Guidewire.Core
 
         private double HubForce(RodShape shape)
         {
-            return Vector3d.Dot(_terms.Walls!.SupportForce(shape), HubRecord.AxisOf(_terms, shape));
+            return Vector3d.Dot(_terms.Walls!.SupportForce(shape), _terms.HubAxis(shape));
         }
     }
 }

@@ -289,7 +289,7 @@ namespace Guidewire.Core.Tests
             parameters.Method.SolverTolerance = 1e-10;
             parameters.Drive.InsertionSpeed = perStep * TipLength / 23.0 / parameters.Method.TimeStep;
             parameters.Drive.RotationSpeed = 5.0;
-            MethodStart start = MethodTable.Of(Solver.Direct).Build(parameters, new Scene(parameters));
+            MethodStart start = MethodBuilder.Build(parameters, new Scene(parameters));
             state = start.State;
             return (SheathStep)start.Stepper;
         }

@@ -136,7 +136,7 @@ namespace Guidewire.Core.Tests
 
         private static MethodStart Start(SimulationParameters parameters)
         {
-            return MethodTable.Of(Solver.Direct).Build(parameters, new Scene(parameters));
+            return MethodBuilder.Build(parameters, new Scene(parameters));
         }
 
         private static (RodDynamics Motion, NotANumber Poison) Failing(RungeKuttaScheme scheme)
