@@ -215,16 +215,14 @@ namespace Guidewire.Core.Tests
             parameters.Scene.Walls = new ContactShape[] { Vessel(0.0) };
             parameters.Material.RestCurvature = Vector3d.Zero;
             parameters.Material.Sections = Array.Empty<WireSection>();
-            parameters.Method.MaxSimulationSteps = 100;
             Simulation run = Simulation.Create(parameters);
             hand.Push = 1.0 * way;
-            while (run.Outcome == Outcome.Running)
+            for (int k = 0; k < 100; k++)
             {
                 run.Step();
             }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Running), "a hand may go on: " + run.Reason);
             Assert.That(run.Hub()!.LengthInBody, Is.EqualTo(way > 0.0 ? 0.1 : 0.0).Within(1e-4));
-            Assert.That(run.Reason, Does.Contain("came to an end"));
         }
 
         [TestCase("points out of the vessel", 0.0, 0.0, 0.0, -1.0, 0.1)]
