@@ -10,6 +10,9 @@ namespace Guidewire.Core.Tests
     internal sealed class MeshPlaceTests
     {
         private const double Tolerance = 1e-9;
+        // Of two distances that are one; by the square of what a foot is off an edge they differ by less than that of
+        // two feet 1e-7 apart.
+        private const double Equal = 1e-14;
         private const double Doubtful = 1e-6;
 
         private static readonly string[] Names = { "cube", "bumpy ball", "open tube" };
@@ -213,7 +216,7 @@ namespace Guidewire.Core.Tests
                             continue;
                         }
                         double more = part.Distance - simplex.Distance;
-                        if (more < Tolerance)
+                        if (more < Equal)
                         {
                             nearest = key;
                             break;
