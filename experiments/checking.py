@@ -104,18 +104,11 @@ def _check(table: dict[str, Key], name: str, value: Any, source: str, shown: str
     whole = _PART.split(name, maxsplit=1)[0]
     key = table.get(whole)
     if key is None:
-<<<<<<< HEAD
         by_small = {known.lower(): known for known in table if solver is None or solver in table[known].solvers}
         near = difflib.get_close_matches(whole.lower(), by_small, n=1, cutoff=_CLOSE)
         if not near:
             return  # the runner knows what else it may be called
         hint = f"did you mean '{by_small[near[0]]}{name[len(whole):]}'?"
-=======
-        by_small = {known.lower(): known for known in table}
-        near = difflib.get_close_matches(whole.lower(), by_small, n=1)
-        hint = (f"did you mean '{by_small[near[0]]}{name[len(whole):]}'?" if near
-                else f"{_TABLE.relative_to(ROOT)} lists what is allowed")
->>>>>>> users
         raise PreparationError(f"{source}: unknown key '{_short(name)}': {hint}")
     is_null = value is None or shown == "null"
     if name != whole or key.kind not in ("number", "whole") or (is_null and key.may_be_null):

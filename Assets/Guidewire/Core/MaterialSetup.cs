@@ -20,7 +20,7 @@ namespace Guidewire.Core
         public static MethodStart Build(SimulationParameters parameters, Scene prescribed, CreateStepper create)
         {
             var scene = new MaterialScene(parameters, prescribed);
-            var state = new RodState(ElementLayout.Lengths(parameters, 1.0, out _), parameters.Gains.TotalMass,
+            var state = new RodState(ElementLayout.Lengths(parameters, 1.0, out _), parameters.Pbd.TotalMass,
                 parameters.Scene.GuidewireOffset);
             bool isSheathed = parameters.Scene.Sheath != null;
             WallTerms? walls = isSheathed ? null : Walls(parameters, scene);
@@ -67,7 +67,7 @@ namespace Guidewire.Core
                 return null;
             }
             double move = parameters.Drive.LargestMove(parameters.Method.TimeStep, scene.Metres);
-            Barrier barrier = BarrierRule.Of(scene.Rod, parameters.Contact, scene.Walls, scene.Metres, move);
+            Barrier barrier = BarrierDefaults.Of(scene.Rod, parameters.Contact, scene.Walls, scene.Metres, move);
             return WallTermsOf(parameters, scene, barrier,
                 new SupportSpring(scene.Rod, parameters.Drive.HubForceLimit));
         }
@@ -86,7 +86,7 @@ namespace Guidewire.Core
             Func<string?>? advice = null;
             if (given.ContactDistance != 0.0 || given.ContactStiffness != 0.0)
             {
-                advice = () => BarrierRule.Advice(barrier, BarrierRule.Of(scene.Rod, new ContactParameters(),
+                advice = () => BarrierDefaults.Advice(barrier, BarrierDefaults.Of(scene.Rod, new ContactParameters(),
                     scene.Walls, scene.Metres, move));
             }
             return new WallTerms(contact, friction, spring, scene.Supports.HasSpring, advice);

@@ -13,7 +13,7 @@ namespace Guidewire.Core
             switch (parameters.Method.Solver)
             {
                 case Solver.Pbd:
-                    return GainSetup.Build(parameters, scene);
+                    return PbdSetup.Build(parameters, scene);
                 case Solver.Xpbd:
                     return MaterialSetup.Build(parameters, scene, MaterialSetup.Compliant);
                 case Solver.Direct:

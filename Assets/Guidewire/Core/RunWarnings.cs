@@ -13,13 +13,13 @@ namespace Guidewire.Core
 
         private readonly double _length;            // at rest, units
         private readonly double _depth;             // that contact allows, units
-        private readonly RimWatch _rims;
+        private readonly RimMonitor _rims;
 
         /// <summary>For runs of these parameters.</summary>
         public RunWarnings(SimulationParameters parameters)
         {
             _length = parameters.Scene.GuidewireLength;
-            _rims = new RimWatch(parameters.Scene.Walls);
+            _rims = new RimMonitor(parameters.Scene.Walls);
             MethodTraits method = MethodTable.Of(parameters.Method.Solver);
             _depth = method.DepthInRadii * (method.TakesMaterial
                 ? parameters.Material.WireRadius / parameters.Scene.MetresPerUnit : parameters.Contact.SphereRadius);
@@ -59,9 +59,9 @@ namespace Guidewire.Core
 
         /// <summary>Writes or takes over what was seen.</summary>
         /// <param name="state">Where the wire is.</param>
-        public void Exchange(Snapshot snapshot, RodState state)
+        public void Serialize(Snapshot snapshot, RodState state)
         {
-            _rims.Exchange(snapshot, state);
+            _rims.Serialize(snapshot, state);
         }
 
         private List<string> Doubts(RodState state, ContactRecord? contacts)

@@ -186,7 +186,7 @@ namespace Guidewire.Core
                     + " wire that it has");
             }
             var snapshot = new Snapshot();
-            Exchange(snapshot);
+            Serialize(snapshot);
             var start = new RodStart(State.Positions, State.Orientations, State.Velocities, State.AngularVelocities)
             {
                 ProximalFrame = _start.ProximalFrame,
@@ -201,14 +201,14 @@ namespace Guidewire.Core
         {
             var snapshot = new Snapshot();
             int elements = State.ElementCount;
-            snapshot.Exchange(ref elements);
-            ExchangeStart(snapshot, _start);
-            Exchange(snapshot);
-            snapshot.Exchange(PredictionError);
-            Contacts?.Exchange(snapshot);    // of the last step, as the error before: what is shown and not what counts
-            snapshot.Exchange((int)Outcome);
-            snapshot.Exchange(Outcome == Outcome.Running ? "" : _ownReason ?? _stopRule.Reason);
-            snapshot.Exchange(_warning ?? "");
+            snapshot.Serialize(ref elements);
+            SerializeStart(snapshot, _start);
+            Serialize(snapshot);
+            snapshot.Serialize(PredictionError);
+            Contacts?.Serialize(snapshot);    // of the last step, as the error before: shown, not used
+            snapshot.Serialize((int)Outcome);
+            snapshot.Serialize(Outcome == Outcome.Running ? "" : _ownReason ?? _stopRule.Reason);
+            snapshot.Serialize(_warning ?? "");
             return snapshot.ToBytes();
         }
 
@@ -222,20 +222,20 @@ namespace Guidewire.Core
             Snapshot snapshot = Snapshot.OfBytes(saved);
             try
             {
-                int n = snapshot.Exchange(0);
+                int n = snapshot.Serialize(0);
                 if (n != ElementLayout.Count(parameters))
                 {
                     throw new ArgumentException("what was saved is a wire of " + n + " elements");
                 }
                 var start = new RodStart(new Vector3d[n + 1], new Quaterniond[n], new Vector3d[n + 1],
                     new Vector3d[n]);
-                ExchangeStart(snapshot, start);
+                SerializeStart(snapshot, start);
                 Simulation simulation = Rebuild(parameters, start, snapshot);
-                simulation._stepper.PredictionError = snapshot.Exchange(0.0);
-                simulation.Contacts?.Exchange(snapshot);
-                var outcome = (Outcome)snapshot.Exchange(0);
-                string reason = snapshot.Exchange("");
-                string warning = snapshot.Exchange("");
+                simulation._stepper.PredictionError = snapshot.Serialize(0.0);
+                simulation.Contacts?.Serialize(snapshot);
+                var outcome = (Outcome)snapshot.Serialize(0);
+                string reason = snapshot.Serialize("");
+                string warning = snapshot.Serialize("");
                 if (outcome != Outcome.Running)
                 {
                     simulation.End(outcome, reason);
@@ -267,26 +267,26 @@ namespace Guidewire.Core
             continued.Scene.InitialState = InitialState.Straight;
             continued.Drive.Displacement = 0.0;
             Simulation next = Create(continued);
-            next.Exchange(snapshot);
+            next.Serialize(snapshot);
             return next;
         }
 
-        private static void ExchangeStart(Snapshot snapshot, RodStart start)
+        private static void SerializeStart(Snapshot snapshot, RodStart start)
         {
-            snapshot.Exchange(start.Positions);
-            snapshot.Exchange(start.Orientations);
-            snapshot.Exchange(start.Velocities);
-            snapshot.Exchange(start.AngularVelocities);
-            start.ProximalFrame = snapshot.Exchange(start.ProximalFrame);
-            start.DistalFrame = snapshot.Exchange(start.DistalFrame);
+            snapshot.Serialize(start.Positions);
+            snapshot.Serialize(start.Orientations);
+            snapshot.Serialize(start.Velocities);
+            snapshot.Serialize(start.AngularVelocities);
+            start.ProximalFrame = snapshot.Serialize(start.ProximalFrame);
+            start.DistalFrame = snapshot.Serialize(start.DistalFrame);
         }
 
-        private void Exchange(Snapshot snapshot)
+        private void Serialize(Snapshot snapshot)
         {
-            _clock.Exchange(snapshot);
-            State.Exchange(snapshot);
-            _stepper.Exchange(snapshot);
-            _warnings.Exchange(snapshot, State);
+            _clock.Serialize(snapshot);
+            State.Serialize(snapshot);
+            _stepper.Serialize(snapshot);
+            _warnings.Serialize(snapshot, State);
         }
     }
 }

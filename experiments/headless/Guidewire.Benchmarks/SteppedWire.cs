@@ -18,11 +18,11 @@ namespace Guidewire.Benchmarks
         public SteppedWire(int elements, int iterations, Func<ScalarSweeps, ISweeps?> choice)
         {
             var parameters = new SimulationParameters();
-            _state = new RodState(elements, 10.0 * elements, parameters.Gains.TotalMass, 0.0);
+            _state = new RodState(elements, 10.0 * elements, parameters.Pbd.TotalMass, 0.0);
             _state.InverseMasses[0] = 0.0;
             Bend(_state);
-            var scalar = new ScalarSweeps(new StretchConstraint(_state, parameters.Gains.StretchStiffness),
-                new BendTwistConstraint(_state, parameters.Gains.BendStiffness), SweepOrder.Naive);
+            var scalar = new ScalarSweeps(new StretchConstraint(_state, parameters.Pbd.StretchStiffness),
+                new BendTwistConstraint(_state, parameters.Pbd.BendStiffness), SweepOrder.Naive);
             Sweeps = choice(scalar);
             _step = new PositionBasedStep(parameters.Method.TimeStep,
                 new VerletPrediction(parameters.Method.Damping, parameters.Scene.Gravity), new OrientationEulerPrediction(), null,

@@ -9,7 +9,7 @@ namespace Guidewire.Unity.Tests
     internal sealed class FrameTimes
     {
         private readonly double[] _milliseconds;
-        private readonly Stopwatch _watch = new Stopwatch();
+        private readonly Stopwatch _monitor = new Stopwatch();
         private int _count;
 
         /// <summary>For so many frames at most; none of them leaves garbage.</summary>
@@ -23,9 +23,9 @@ namespace Guidewire.Unity.Tests
         {
             for (int k = 0; k < count; k++)
             {
-                _watch.Restart();
+                _monitor.Restart();
                 Stage.Frames(1);
-                _milliseconds[_count++] = _watch.Elapsed.TotalMilliseconds;
+                _milliseconds[_count++] = _monitor.Elapsed.TotalMilliseconds;
             }
         }
 

@@ -117,22 +117,22 @@ namespace Guidewire.Core
             Array.Clear(_impulses, 0, _impulses.Length);
         }
 
-        internal void Exchange(Snapshot snapshot)
+        internal void Serialize(Snapshot snapshot)
         {
-            Passages = snapshot.Exchange(Passages);
-            MaxPenetration = snapshot.Exchange(MaxPenetration);
-            DriveShortfall = snapshot.Exchange(DriveShortfall);
-            DriveAsked = snapshot.Exchange(DriveAsked);
-            StuckSteps = snapshot.Exchange(StuckSteps);
-            Total = snapshot.Exchange(Total);
-            LargestForce = snapshot.Exchange(LargestForce);
-            LargestTotal = snapshot.Exchange(LargestTotal);
-            Reaction = snapshot.Exchange(Reaction);
-            ReactionAtEnd = snapshot.Exchange(ReactionAtEnd);
-            MeanTotal = snapshot.Exchange(MeanTotal);
-            Pressure = snapshot.Exchange(Pressure);
-            snapshot.Exchange(Forces);
-            snapshot.Exchange(ElementForces);
+            Passages = snapshot.Serialize(Passages);
+            MaxPenetration = snapshot.Serialize(MaxPenetration);
+            DriveShortfall = snapshot.Serialize(DriveShortfall);
+            DriveAsked = snapshot.Serialize(DriveAsked);
+            StuckSteps = snapshot.Serialize(StuckSteps);
+            Total = snapshot.Serialize(Total);
+            LargestForce = snapshot.Serialize(LargestForce);
+            LargestTotal = snapshot.Serialize(LargestTotal);
+            Reaction = snapshot.Serialize(Reaction);
+            ReactionAtEnd = snapshot.Serialize(ReactionAtEnd);
+            MeanTotal = snapshot.Serialize(MeanTotal);
+            Pressure = snapshot.Serialize(Pressure);
+            snapshot.Serialize(Forces);
+            snapshot.Serialize(ElementForces);
         }
 
         /// <summary>Adds what the drive asked of sphere 0 in a step, and what of it the walls did not give,

@@ -60,9 +60,9 @@ namespace Guidewire.Core
         }
 
         /// <summary>Writes into a snapshot, or takes over from one, the passages so far.</summary>
-        public void Exchange(Snapshot snapshot)
+        public void Serialize(Snapshot snapshot)
         {
-            Total = snapshot.Exchange(Total);
+            Total = snapshot.Serialize(Total);
         }
 
         /// <summary>Counts those of the whole step, from x_k to x_{k+1} in units.</summary>

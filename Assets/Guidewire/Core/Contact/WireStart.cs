@@ -39,9 +39,9 @@ namespace Guidewire.Core
                 {
                     continue;
                 }
-                double share = box.Value.LargestSide / length;
+                double fraction = box.Value.LargestSide / length;
                 double width = DistanceFrom(wall, wire[wire.Length - 1]);
-                if (share > OddLengths || share < 1.0 / OddLengths || width > OddRadii * radius)
+                if (fraction > OddLengths || fraction < 1.0 / OddLengths || width > OddRadii * radius)
                 {
                     return string.Format(CultureInfo.InvariantCulture,
                         "the sizes of vessel and wire hardly belong together: the vessel is {0:G3} units long and its"
@@ -70,7 +70,7 @@ namespace Guidewire.Core
             foreach (ContactShape wall in scene.Walls)
             {
                 var lumen = new LumenWidth(wall, parameters.Contact.SphereRadius);
-                if (lumen.IsTooNarrow(x, WayAhead(parameters)))
+                if (lumen.IsTooNarrow(x, DistanceAhead(parameters)))
                 {
                     return string.Format(CultureInfo.InvariantCulture,
                         "sphereRadius = {0} is larger than the lumen on the wire's way: {1:G4} units at ({2:G4},"
@@ -118,7 +118,7 @@ namespace Guidewire.Core
         }
 
         // How far the drive means to push the tip, units.
-        private static double WayAhead(SimulationParameters parameters)
+        private static double DistanceAhead(SimulationParameters parameters)
         {
             DriveParameters drive = parameters.Drive;
             return drive.Steering != null || drive.Kind == Drive.Force ? double.PositiveInfinity

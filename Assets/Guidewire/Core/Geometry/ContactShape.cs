@@ -42,8 +42,8 @@ namespace Guidewire.Core
         /// takes off what two places to both sides of it have in common. The order follows from wall and point alone.
         /// Nothing is allocated once the list, and the shape's own scratch memory, have been as long before; one object
         /// serves one thread.</remarks>
-        internal abstract void FindPlaces(in Vector3d x, double range, FeatureRange features,
-            StructList<WallPlace> places);
+        internal abstract void FindContactPoints(in Vector3d x, double range, FeatureRange features,
+            StructList<ContactPoint> places);
 
         /// <summary>True where the wire may be: in a vessel's lumen, outside an obstacle.</summary>
         public abstract bool Contains(in Vector3d point);
@@ -74,7 +74,7 @@ namespace Guidewire.Core
             double start = Nearest(a0, b0, 2.0 * clearance, ref hint, out SurfaceContact before)
                 ? Math.Abs(before.Distance) : 2.0 * clearance;
             double kept = Kept(start, clearance);
-            double impact = FreeUntil(a0, b0, a1, b1, kept, Resolved * kept, hint);
+            double impact = TimeOfImpact(a0, b0, a1, b1, kept, Resolved * kept, hint);
             if (impact == NoImpact)
             {
                 return NoImpact;
@@ -84,7 +84,7 @@ namespace Guidewire.Core
             if (floor < kept && !Nearest(a1, b1, kept, ref hint, out _))
             {
                 // It ends clear of the wall.
-                double free = FreeUntil(a0, b0, a1, b1, floor, Resolved * floor, near);
+                double free = TimeOfImpact(a0, b0, a1, b1, floor, Resolved * floor, near);
                 impact = Math.Max(impact, LastKept(a0, b0, a1, b1, free, kept, ref hint));
                 if (impact == NoImpact)
                 {
@@ -126,7 +126,7 @@ namespace Guidewire.Core
         /// distance of at least <paramref name="keep"/>, <see cref="NoImpact"/> for all of it. An approach of less than
         /// the resolution, units, is none. The hint, where the nearest place was at the start or -1, changes the time
         /// that it takes.</summary>
-        private protected abstract double FreeUntil(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
+        private protected abstract double TimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
             double keep, double resolution, int hint);
 
         // The time itself where the distance is kept then, or 0.
@@ -171,7 +171,7 @@ namespace Guidewire.Core
 
         /// <summary>These features, kept for all that asks for them with this reach, units; null where there are
         /// none.</summary>
-        internal virtual FeatureCells? CellsFor(double reach)
+        internal virtual FeatureCache? CellsFor(double reach)
         {
             return null;
         }
@@ -184,10 +184,10 @@ namespace Guidewire.Core
         }
 
         /// <summary>The ridges within a range of a segment, by the features near it.</summary>
-        internal virtual void FindRidges(in Vector3d a, in Vector3d b, double range, FeatureRange features,
-            StructList<WallRidge> ridges)
+        internal virtual void FindEdgeContacts(in Vector3d a, in Vector3d b, double range, FeatureRange features,
+            StructList<EdgeContact> edgeContacts)
         {
-            FindRidges(a, b, range, ridges);
+            FindEdgeContacts(a, b, range, edgeContacts);
         }
 
         /// <summary>Whether the whole segment surely lies where the wire may be; false too where a shape cannot tell
@@ -204,14 +204,14 @@ namespace Guidewire.Core
         internal virtual double FreeShare(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
             double resolution, int hint, in ElementFeatures features)
         {
-            return FreeUntil(a0, b0, a1, b1, keep, resolution, hint);
+            return TimeOfImpact(a0, b0, a1, b1, keep, resolution, hint);
         }
 
         /// <summary>Adds the ridges of the wall within <paramref name="range"/> of segment a b: where the wall bulges
         /// into the free side, so that the inside of a segment can meet it before its ends do. None of a wall that
         /// bulges nowhere.</summary>
-        internal virtual void FindRidges(
-            in Vector3d a, in Vector3d b, double range, StructList<WallRidge> ridges)
+        internal virtual void FindEdgeContacts(
+            in Vector3d a, in Vector3d b, double range, StructList<EdgeContact> edgeContacts)
         {
         }
 

@@ -8,7 +8,7 @@ namespace Guidewire.Core
     public sealed class ConvexObstacle : ContactShape
     {
         private const double RelativeFlatness = 1e-9;
-        private const double GoldenShare = 0.38196601125010515;    // 2 less the golden ratio
+        private const double GoldenFraction = 0.38196601125010515;    // 2 less the golden ratio
         private const int GoldenSections = 60;                     // to 3e-13 of the segment
         private readonly Vector3d[] _points;
         private readonly double _radius;
@@ -80,8 +80,8 @@ namespace Guidewire.Core
         /// is stated.</summary>
         /// <remarks>The points that lie highest along the normal are the corner, the edge or the face of the hull on
         /// which the place lies; the curvature is that about them.</remarks>
-        internal override void FindPlaces(in Vector3d x, double range, FeatureRange features,
-            StructList<WallPlace> places)
+        internal override void FindContactPoints(in Vector3d x, double range, FeatureRange features,
+            StructList<ContactPoint> places)
         {
             int hint = -1;
             if (!Nearest(x, x, range, ref hint, out SurfaceContact contact))
@@ -101,9 +101,9 @@ namespace Guidewire.Core
                     along = along == Vector3d.Zero ? Vector3d.Normalize(offset) : along;
                 }
             }
-            places.Add(isFlat ? WallPlace.Flat(contact, 1)
-                : along == Vector3d.Zero ? WallPlace.Corner(contact, 1, core)
-                : WallPlace.Edge(contact, 1, along, core));
+            places.Add(isFlat ? ContactPoint.Flat(contact, 1)
+                : along == Vector3d.Zero ? ContactPoint.Corner(contact, 1, core)
+                : ContactPoint.Edge(contact, 1, along, core));
         }
 
         private int Highest(in Vector3d direction)
@@ -122,7 +122,7 @@ namespace Guidewire.Core
             return _gjk.Distance(point, point, _points, out _, out _, out _) > _radius;
         }
 
-        private protected override double FreeUntil(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
+        private protected override double TimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
             double keep, double resolution, int hint)
         {
             return SweptTest.Impact(new Body(this), a0, b0, a1, b1, keep, resolution);
@@ -135,8 +135,8 @@ namespace Guidewire.Core
         {
             double from = 0.0;
             double to = 1.0;
-            double lower = GoldenShare;
-            double upper = 1.0 - GoldenShare;
+            double lower = GoldenFraction;
+            double upper = 1.0 - GoldenFraction;
             double atLower = DistanceOf(Vector3d.Lerp(a, b, lower));
             double atUpper = DistanceOf(Vector3d.Lerp(a, b, upper));
             double least = Math.Min(Math.Min(DistanceOf(a), DistanceOf(b)), Math.Min(atLower, atUpper));
@@ -147,7 +147,7 @@ namespace Guidewire.Core
                     to = upper;
                     upper = lower;
                     atUpper = atLower;
-                    lower = from + GoldenShare * (to - from);
+                    lower = from + GoldenFraction * (to - from);
                     atLower = DistanceOf(Vector3d.Lerp(a, b, lower));
                     least = Math.Min(least, atLower);
                 }
@@ -156,7 +156,7 @@ namespace Guidewire.Core
                     from = lower;
                     lower = upper;
                     atLower = atUpper;
-                    upper = to - GoldenShare * (to - from);
+                    upper = to - GoldenFraction * (to - from);
                     atUpper = DistanceOf(Vector3d.Lerp(a, b, upper));
                     least = Math.Min(least, atUpper);
                 }
@@ -170,14 +170,14 @@ namespace Guidewire.Core
         }
 
         /// <summary>The edges of the hull: over a face a segment is nearest with an end.</summary>
-        internal override void FindRidges(
-            in Vector3d a, in Vector3d b, double range, StructList<WallRidge> ridges)
+        internal override void FindEdgeContacts(
+            in Vector3d a, in Vector3d b, double range, StructList<EdgeContact> edgeContacts)
         {
             _edges ??= HullEdges.Find(_points, _flatness);
             foreach (HullEdges.Edge edge in _edges)
             {
-                RidgeOfEdge.Add(a, b, _points[edge.Start], _points[edge.End], _radius,
-                    RidgeOfEdge.Weight(edge.Angle), range, ridges);
+                ConvexEdge.Add(a, b, _points[edge.Start], _points[edge.End], _radius,
+                    ConvexEdge.Weight(edge.Angle), range, edgeContacts);
             }
         }
 

@@ -79,14 +79,14 @@ namespace Guidewire.Core
         // False where the lumen becomes too narrow to count.
         private bool Walk(Vector3d centre, double width, Vector3d along)
         {
-            double share = StepOverWidth;
-            for (int k = 0; k < MostSteps && share > ShortestStep && width <= WideAgain * _narrowest; k++)
+            double fraction = StepOverWidth;
+            for (int k = 0; k < MostSteps && fraction > ShortestStep && width <= WideAgain * _narrowest; k++)
             {
-                _ball.Climb(centre + share * width * along, along, Fineness * width, 2.0 * WideAgain * width);
+                _ball.Climb(centre + fraction * width * along, along, Fineness * width, 2.0 * WideAgain * width);
                 double way = Vector3d.Distance(centre, _ball.Place);
                 if (width - _ball.Width > EndSlope * way || !(_ball.Width > 0.0))
                 {
-                    share *= 0.5;
+                    fraction *= 0.5;
                     continue;
                 }
                 Vector3d chord = Vector3d.Normalize(_ball.Place - centre);

@@ -182,10 +182,10 @@ namespace Guidewire.Core
                 double value = tube.PieceDistance(i, x, out Vector3d centre, out _);
                 if (value > best)
                 {
-                    double share = Vector3d.Distance(tube.Knots[i], centre) / (stations[i + 1] - stations[i]);
+                    double fraction = Vector3d.Distance(tube.Knots[i], centre) / (stations[i + 1] - stations[i]);
                     best = value;
-                    station = stations[i] + share * (stations[i + 1] - stations[i]);
-                    radius = tube.Radii[i] + share * (tube.Radii[i + 1] - tube.Radii[i]);
+                    station = stations[i] + fraction * (stations[i + 1] - stations[i]);
+                    radius = tube.Radii[i] + fraction * (tube.Radii[i + 1] - tube.Radii[i]);
                 }
             }
             return station;

@@ -38,13 +38,13 @@ namespace Guidewire.Core
         }
 
         /// <summary>The foot of the perpendicular.</summary>
-        internal override void FindPlaces(in Vector3d x, double range, FeatureRange features,
-            StructList<WallPlace> places)
+        internal override void FindContactPoints(in Vector3d x, double range, FeatureRange features,
+            StructList<ContactPoint> places)
         {
             int hint = -1;
             if (Nearest(x, x, range, ref hint, out SurfaceContact contact))
             {
-                places.Add(WallPlace.Flat(contact, 1));
+                places.Add(ContactPoint.Flat(contact, 1));
             }
         }
 
@@ -54,7 +54,7 @@ namespace Guidewire.Core
             return Vector3d.Dot(point - _point, _normal) > 0.0;
         }
 
-        private protected override double FreeUntil(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
+        private protected override double TimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
             double keep, double resolution, int hint)
         {
             double da0 = Vector3d.Dot(a0 - _point, _normal);

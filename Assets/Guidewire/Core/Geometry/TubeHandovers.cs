@@ -9,7 +9,7 @@ namespace Guidewire.Core
     {
         private const int MostCuts = 24;
         private readonly TubeTree _tree;
-        private readonly StructList<TubePlace> _places = new StructList<TubePlace>(16);
+        private readonly StructList<TubePoint> _places = new StructList<TubePoint>(16);
 
         /// <summary>For the tree of a tube's pieces.</summary>
         public TubeHandovers(TubeTree tree)
@@ -35,15 +35,15 @@ namespace Guidewire.Core
             int first = _tree.Deepest(a, _places.Count > 0 ? _places[0].Piece : 0, out double da);
             int last = _tree.Deepest(b, first, out double db);
             Least = Math.Min(da, db);
-            var start = new TubePlace(0.0, da, first);
+            var start = new TubePoint(0.0, da, first);
             _places.Clear();
             _places.Add(start);
             if (Least < enough)
             {
                 return;
             }
-            Cut(start, new TubePlace(1.0, db, last), 0);
-            _places.Add(new TubePlace(1.0, db, last));
+            Cut(start, new TubePoint(1.0, db, last), 0);
+            _places.Add(new TubePoint(1.0, db, last));
         }
 
         /// <summary>True where a linear motion of the segment to where <paramref name="after"/> has it is proven to
@@ -59,10 +59,10 @@ namespace Guidewire.Core
             double turn = ((after.B - after.A) - (B - A)).Length;
             for (int k = 0; k + 1 < _places.Count; k++)
             {
-                TubePlace left = _places[k];
-                TubePlace right = _places[k + 1];
-                TubePlace leftAfter = after._places[k];
-                TubePlace rightAfter = after._places[k + 1];
+                TubePoint left = _places[k];
+                TubePoint right = _places[k + 1];
+                TubePoint leftAfter = after._places[k];
+                TubePoint rightAfter = after._places[k + 1];
                 double slide = Math.Max(Math.Abs(leftAfter.S - left.S), Math.Abs(rightAfter.S - right.S));
                 double least = Math.Min(
                     Math.Min(left.Distance, right.Distance), Math.Min(leftAfter.Distance, rightAfter.Distance));
@@ -74,7 +74,7 @@ namespace Guidewire.Core
             return true;
         }
 
-        private void Cut(in TubePlace from, in TubePlace to, int cuts)
+        private void Cut(in TubePoint from, in TubePoint to, int cuts)
         {
             if (from.Piece == to.Piece)
             {
@@ -92,10 +92,10 @@ namespace Guidewire.Core
             if (d <= equal + _tree.Resolution)
             {
                 Least = Math.Min(Least, equal);
-                _places.Add(new TubePlace(s, equal, to.Piece));
+                _places.Add(new TubePoint(s, equal, to.Piece));
                 return;
             }
-            var cut = new TubePlace(s, d, deepest);
+            var cut = new TubePoint(s, d, deepest);
             Cut(from, cut, cuts + 1);
             Cut(cut, to, cuts + 1);
         }

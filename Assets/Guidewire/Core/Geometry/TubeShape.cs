@@ -16,8 +16,8 @@ namespace Guidewire.Core
         private readonly double[] _radii;
         private readonly TubeTree _tree;
         private readonly TubeSweep _sweep;
-        private TubeRidges? _ridges;
-        private TubeKeeping? _keeping;
+        private TubeCreases? _edgeContacts;
+        private TubeCcd? _ccd;
         private TubePlanes? _planes;
 
         /// <summary>The tube through <paramref name="knots"/> (at least 2, units) with a radius at each (positive,
@@ -137,7 +137,8 @@ namespace Guidewire.Core
             int guess = hint >= 0 && hint < _tree.Pieces.Length ? hint : 0;
             hint = _tree.Deepest(a, guess, out double atA);
             int last = _tree.Deepest(b, hint, out double atB);
-            return Math.Min(Math.Min(atA, atB), Ridges.Nearest(a, b, Math.Min(hint, last), Math.Max(hint, last) + 1));
+            return Math.Min(
+                Math.Min(atA, atB), EdgeContacts.Nearest(a, b, Math.Min(hint, last), Math.Max(hint, last) + 1));
         }
 
         /// <summary>Pieces that hold something within the reach of the segment, along the centreline.</summary>
@@ -153,13 +154,13 @@ namespace Guidewire.Core
             var found = new FeatureRange(features, from, features.Count, 0.0);
             hint = Deepest(a, found, out double atA);
             Deepest(b, found, out double atB);
-            return Math.Min(Math.Min(atA, atB), Ridges.Nearest(a, b, found));
+            return Math.Min(Math.Min(atA, atB), EdgeContacts.Nearest(a, b, found));
         }
 
         /// <summary>The place of the deepest piece. On a piece's centreline the normal is 0 and no curvature is
         /// stated.</summary>
-        internal override void FindPlaces(in Vector3d x, double range, FeatureRange features,
-            StructList<WallPlace> places)
+        internal override void FindContactPoints(in Vector3d x, double range, FeatureRange features,
+            StructList<ContactPoint> places)
         {
             int piece = features.From == features.To ? _tree.Deepest(x, 0, out double distance)
                 : Deepest(x, features, out distance);
@@ -173,20 +174,20 @@ namespace Guidewire.Core
             var contact = new SurfaceContact(0.0, x - distance * normal, normal, distance);
             Vector3d around = Vector3d.Normalize(Vector3d.Cross(_knots[piece + 1] - _knots[piece], normal));
             bool isRound = along <= 0.0 || along >= 1.0;
-            places.Add(isRound ? WallPlace.Corner(contact, 1, -radius)
-                : WallPlace.Edge(contact, 1, Vector3d.Cross(around, normal), -radius));
+            places.Add(isRound ? ContactPoint.Corner(contact, 1, -radius)
+                : ContactPoint.Edge(contact, 1, Vector3d.Cross(around, normal), -radius));
         }
 
         /// <inheritdoc/>
-        internal override void FindRidges(in Vector3d a, in Vector3d b, double range, FeatureRange features,
-            StructList<WallRidge> ridges)
+        internal override void FindEdgeContacts(in Vector3d a, in Vector3d b, double range, FeatureRange features,
+            StructList<EdgeContact> edgeContacts)
         {
             if (!features.IsKnown)
             {
-                FindRidges(a, b, range, ridges);
+                FindEdgeContacts(a, b, range, edgeContacts);
                 return;
             }
-            Ridges.Find(a, b, range, features, ridges);
+            EdgeContacts.Find(a, b, range, features, edgeContacts);
         }
 
         /// <inheritdoc/>
@@ -230,11 +231,11 @@ namespace Guidewire.Core
             return piece;
         }
 
-        /// <summary>The creases at its knots; see <see cref="TubeRidges"/>.</summary>
-        internal override void FindRidges(
-            in Vector3d a, in Vector3d b, double range, StructList<WallRidge> ridges)
+        /// <summary>The creases at its knots; see <see cref="TubeCreases"/>.</summary>
+        internal override void FindEdgeContacts(
+            in Vector3d a, in Vector3d b, double range, StructList<EdgeContact> edgeContacts)
         {
-            Ridges.Find(a, b, range, ridges);
+            EdgeContacts.Find(a, b, range, edgeContacts);
         }
 
         /// <summary>That of the narrowest knot.</summary>
@@ -252,18 +253,18 @@ namespace Guidewire.Core
         internal override double FreeShare(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
             double resolution, int hint, in ElementFeatures features)
         {
-            _keeping ??= new TubeKeeping(_tree.Pieces, Planes);
-            return _keeping.Keeping(a0, b0, a1, b1, keep, hint);
+            _ccd ??= new TubeCcd(_tree.Pieces, Planes);
+            return _ccd.SafeFraction(a0, b0, a1, b1, keep, hint);
         }
 
-        private TubeRidges Ridges => _ridges ??= new TubeRidges(this, _tree.Pieces, Planes);
+        private TubeCreases EdgeContacts => _edgeContacts ??= new TubeCreases(this, _tree.Pieces, Planes);
 
         private TubePlanes Planes => _planes ??= new TubePlanes(_knots);
 
-        private protected override double FreeUntil(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
+        private protected override double TimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
             double keep, double resolution, int hint)
         {
-            return _sweep.FreeUntil(a0, b0, a1, b1, keep);
+            return _sweep.TimeOfImpact(a0, b0, a1, b1, keep);
         }
 
         // Where d is least along the segment, and the piece whose term it is. A piece that serves both ends of a part
@@ -291,14 +292,14 @@ namespace Guidewire.Core
             if (first != last)
             {
                 double length = Vector3d.Distance(a, b);
-                var start = new TubePlace(0.0, da, first);
-                var end = new TubePlace(1.0, db, last);
+                var start = new TubePoint(0.0, da, first);
+                var end = new TubePoint(1.0, db, last);
                 Between(a, b, length, start, end, range, 0, ref s, ref distance, ref piece);
             }
             return piece;
         }
 
-        private void Between(in Vector3d a, in Vector3d b, double length, in TubePlace from, in TubePlace to,
+        private void Between(in Vector3d a, in Vector3d b, double length, in TubePoint from, in TubePoint to,
             double range, int cuts, ref double s, ref double distance, ref int piece)
         {
             double bound = 0.5 * (from.Distance + to.Distance - length * (to.S - from.S));
@@ -322,7 +323,7 @@ namespace Guidewire.Core
             {
                 return;
             }
-            var cut = new TubePlace(middle, d, deepest);
+            var cut = new TubePoint(middle, d, deepest);
             Between(a, b, length, from, cut, range, cuts + 1, ref s, ref distance, ref piece);
             Between(a, b, length, cut, to, range, cuts + 1, ref s, ref distance, ref piece);
         }

@@ -13,7 +13,7 @@ namespace Guidewire.Core
     {
         private const int MostLooks = 16;
         private const double SafePart = 0.9;
-        private const double LeastShare = 1.0 / 16.0;
+        private const double LeastFraction = 1.0 / 16.0;
         private const double ShortestTime = 1.0 / 128.0;
         private readonly TubeShape _tube;
         private TubeHandovers _before;
@@ -29,7 +29,7 @@ namespace Guidewire.Core
 
         /// <summary>Largest fraction of the motion for which every point of the segment is proven to keep a distance of
         /// <paramref name="keep"/>, <see cref="ContactShape.NoImpact"/> for all of it.</summary>
-        public double FreeUntil(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep)
+        public double TimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep)
         {
             bool isPoint = a0 == b0 && a1 == b1;
             double time = 0.0;
@@ -49,9 +49,9 @@ namespace Guidewire.Core
                 {
                     // How far it goes if the distance falls evenly.
                     double before = isPoint ? _tube.Distance(Vector3d.Lerp(a0, a1, time), out _) : _before.Least;
-                    double share = SafePart * (before - keep) / (before - least);
+                    double fraction = SafePart * (before - keep) / (before - least);
                     end = until;
-                    step = (end - time) * Math.Min(0.5, Math.Max(share, LeastShare));
+                    step = (end - time) * Math.Min(0.5, Math.Max(fraction, LeastFraction));
                 }
                 else if (isPoint || IsFree(keep))
                 {

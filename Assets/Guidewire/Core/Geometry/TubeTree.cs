@@ -58,7 +58,7 @@ namespace Guidewire.Core
 
         /// <summary>Where on segment a b, between two places, the terms of their pieces are equal; false position with
         /// the weight of an end that stays halved (Illinois).</summary>
-        public double Crossing(in Vector3d a, in Vector3d b, in TubePlace from, in TubePlace to)
+        public double Crossing(in Vector3d a, in Vector3d b, in TubePoint from, in TubePoint to)
         {
             ref readonly TubePiece first = ref _pieces[from.Piece];
             ref readonly TubePiece last = ref _pieces[to.Piece];

@@ -171,11 +171,11 @@ namespace Guidewire.Core
                 }
                 for (int row = k + 1; row < _size; row++)
                 {
-                    double share = _matrix[row * Most + k] / _matrix[k * Most + k];
-                    _matrix[row * Most + k] = share;
+                    double fraction = _matrix[row * Most + k] / _matrix[k * Most + k];
+                    _matrix[row * Most + k] = fraction;
                     for (int column = k + 1; column < _size; column++)
                     {
-                        _matrix[row * Most + column] -= share * _matrix[k * Most + column];
+                        _matrix[row * Most + column] -= fraction * _matrix[k * Most + column];
                     }
                 }
             }

@@ -123,27 +123,27 @@ namespace Guidewire.Core
         }
 
         /// <summary>Writes or takes over the turns that the frames have made.</summary>
-        public void ExchangeTurns(Snapshot snapshot)
+        public void SerializeTurns(Snapshot snapshot)
         {
-            snapshot.Exchange(ref _proximalTurn);
-            snapshot.Exchange(ref _distalTurn);
+            snapshot.Serialize(ref _proximalTurn);
+            snapshot.Serialize(ref _distalTurn);
         }
 
         /// <summary>Writes or takes over the work.</summary>
-        public void ExchangeWork(Snapshot snapshot)
+        public void SerializeWork(Snapshot snapshot)
         {
-            Work = snapshot.Exchange(Work);
-            MostWork = snapshot.Exchange(MostWork);
-            snapshot.Exchange(ref _carried);
+            Work = snapshot.Serialize(Work);
+            MostWork = snapshot.Serialize(MostWork);
+            snapshot.Serialize(ref _carried);
         }
 
         /// <summary>Writes or takes over all that a step may touch, for a <see cref="StepStart"/>.</summary>
-        public void ExchangeStep(Snapshot snapshot)
+        public void SerializeStep(Snapshot snapshot)
         {
-            ExchangeTurns(snapshot);
-            ExchangeWork(snapshot);
-            snapshot.Exchange(ref _firstPlace);
-            snapshot.Exchange(ref _lastPlace);
+            SerializeTurns(snapshot);
+            SerializeWork(snapshot);
+            snapshot.Serialize(ref _firstPlace);
+            snapshot.Serialize(ref _lastPlace);
         }
 
         private void Shift(RodShape shape, int node, in Vector3d to)

@@ -77,9 +77,9 @@ namespace Guidewire.Core
                 Vector3d turn = _turns[k];
                 Twist += turn.Z;
                 double bend = Math.Sqrt(turn.X * turn.X + turn.Y * turn.Y);
-                double share = terms.Sheath == null ? 1.0 : terms.Sheath.Share(k);
-                LargestCurvature = share == 0.0 ? LargestCurvature
-                    : Math.Max(LargestCurvature, bend / (share * _jointLength[k]));
+                double fraction = terms.Sheath == null ? 1.0 : terms.Sheath.Share(k);
+                LargestCurvature = fraction == 0.0 ? LargestCurvature
+                    : Math.Max(LargestCurvature, bend / (fraction * _jointLength[k]));
             }
             if (terms.Supports.Sheath is SheathWindow window)
             {

@@ -131,23 +131,23 @@ namespace Guidewire.Core
         }
 
         /// <summary>Writes or takes over how far the hub has come.</summary>
-        public void Exchange(Snapshot snapshot)
+        public void Serialize(Snapshot snapshot)
         {
-            Insertion = snapshot.Exchange(Insertion);
-            Turn = snapshot.Exchange(Turn);
-            Slip = snapshot.Exchange(Slip);
-            snapshot.Exchange(ref _sense);
+            Insertion = snapshot.Serialize(Insertion);
+            Turn = snapshot.Serialize(Turn);
+            Slip = snapshot.Serialize(Slip);
+            snapshot.Serialize(ref _sense);
         }
 
         /// <summary>Writes or takes over all that a step may touch, what it prescribes among it, for a
         /// <see cref="StepStart"/>.</summary>
-        public void ExchangeStep(Snapshot snapshot)
+        public void SerializeStep(Snapshot snapshot)
         {
-            Exchange(snapshot);
-            Axis = snapshot.Exchange(Axis);
-            Asked = snapshot.Exchange(Asked);
-            StepEnd = snapshot.Exchange(StepEnd);
-            _schedule.ExchangeDrive(snapshot);
+            Serialize(snapshot);
+            Axis = snapshot.Serialize(Axis);
+            Asked = snapshot.Serialize(Asked);
+            StepEnd = snapshot.Serialize(StepEnd);
+            _schedule.SerializeDrive(snapshot);
         }
 
         // What is asked for from this time on, m/s.

@@ -28,7 +28,7 @@ namespace Guidewire.Core
             scene.Schedule.ProximalPosition += scene.Displacement;
             Drive = new MaterialDrive(parameters, scene, Supports.HasSpring);
             StartsStraight = parameters.Scene.Start == null && parameters.Scene.StartShape == StartShape.Straight;
-            Joints = new JointWatch(this, parameters.Method.MaxSimulationSteps * parameters.Method.TimeStep);
+            Joints = new JointMonitor(this, parameters.Method.MaxSimulationSteps * parameters.Method.TimeStep);
             AlignTurns();
         }
 
@@ -57,7 +57,7 @@ namespace Guidewire.Core
                 Sheath = window,
             };
             Drive = whole.Drive;
-            Joints = new JointWatch(this, 0.0);
+            Joints = new JointMonitor(this, 0.0);
         }
 
         /// <summary>Metres per unit.</summary>
@@ -73,7 +73,7 @@ namespace Guidewire.Core
         public MaterialDrive Drive { get; }
 
         /// <summary>Looks for joints that are turned too far.</summary>
-        public JointWatch Joints { get; }
+        public JointMonitor Joints { get; }
 
         /// <summary>Whether the rod sets out straight, from no shape of its own.</summary>
         public bool StartsStraight { get; }
@@ -112,7 +112,7 @@ namespace Guidewire.Core
         }
 
         // q and -q are the same orientation. A start counts each joint's turn as the shorter one, with Re(q_a* q_b) of
-        // 0 or more; from then on the signs keep what joints have turned (JointWatch).
+        // 0 or more; from then on the signs keep what joints have turned (JointMonitor).
         private void AlignTurns()
         {
             Quaterniond before = Shape.ProximalFrame;

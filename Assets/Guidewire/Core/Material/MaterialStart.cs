@@ -25,9 +25,9 @@ namespace Guidewire.Core
 
         /// <summary>The same of the elements before one, exclusive.</summary>
         /// <param name="share">Of the radius, that has to be free.</param>
-        public static string? FindProblem(MaterialScene scene, int from, int to, double share = 1.0)
+        public static string? FindProblem(MaterialScene scene, int from, int to, double fraction = 1.0)
         {
-            return FindProblem(scene, Nodes(scene), from, to, share);
+            return FindProblem(scene, Nodes(scene), from, to, fraction);
         }
 
         private static Vector3d[] Nodes(MaterialScene scene)
@@ -36,7 +36,7 @@ namespace Guidewire.Core
             return System.Array.ConvertAll(scene.Shape.X, node => units * node);
         }
 
-        private static string? FindProblem(MaterialScene scene, Vector3d[] x, int from, int to, double share)
+        private static string? FindProblem(MaterialScene scene, Vector3d[] x, int from, int to, double fraction)
         {
             double units = 1.0 / scene.Metres;
             for (int j = from; j < to; j++)
@@ -44,7 +44,7 @@ namespace Guidewire.Core
                 double radius = units * scene.Rod.Radius[j];
                 foreach (ContactShape wall in scene.Walls)
                 {
-                    if (!WireStart.IsFree(wall, scene.IsReached, x, j, share * radius, out double distance))
+                    if (!WireStart.IsFree(wall, scene.IsReached, x, j, fraction * radius, out double distance))
                     {
                         return Text(j, x[j], x[j + 1], radius, distance, wall);
                     }

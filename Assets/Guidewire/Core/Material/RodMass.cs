@@ -16,11 +16,11 @@ namespace Guidewire.Core
             for (int j = 0; j < n; j++)
             {
                 double mass = rod.LineDensity[j] * rod.Length[j];
-                double share = rule == MassRule.Consistent ? mass / 3.0 : 0.5 * mass;
+                double fraction = rule == MassRule.Consistent ? mass / 3.0 : 0.5 * mass;
                 Nodal[j] += 0.5 * mass;
                 Nodal[j + 1] += 0.5 * mass;
-                Diagonal[j] += share;
-                Diagonal[j + 1] += share;
+                Diagonal[j] += fraction;
+                Diagonal[j + 1] += fraction;
                 Coupling[j] = rule == MassRule.Consistent ? mass / 6.0 : 0.0;
                 double first = rod.RotaryInertia1[j] * rod.Length[j];
                 double second = rod.RotaryInertia2[j] * rod.Length[j];

@@ -204,13 +204,13 @@ namespace Guidewire.Core
         }
 
         /// <summary>Writes or takes over what the terms keep from step to step.</summary>
-        public void Exchange(Snapshot snapshot)
+        public void Serialize(Snapshot snapshot)
         {
             foreach (EnergyTerm term in All)
             {
-                term.Exchange(snapshot);
+                term.Serialize(snapshot);
             }
-            Walls?.ExchangeFriction(snapshot);
+            Walls?.SerializeFriction(snapshot);
         }
 
         private double FrictionStored => Walls?.Friction == null ? 0.0 : Walls.Friction.Anchors.StoredEnergy;

@@ -64,13 +64,13 @@ namespace Guidewire.Core
             for (int k = 0; k <= n; k++)
             {
                 Vector3d turn = _turns[k];
-                double share = terms.Sheath == null ? 1.0 : terms.Sheath.Share(k);
+                double fraction = terms.Sheath == null ? 1.0 : terms.Sheath.Share(k);
                 Vector3d change = turn - (terms.Sheath == null ? joints[k].Rest : terms.Sheath.RestOf(k));
-                if (share == 0.0)
+                if (fraction == 0.0)
                 {
                     continue;
                 }
-                double perLength = 1.0 / (share * lengths[k]);
+                double perLength = 1.0 / (fraction * lengths[k]);
                 largest = Math.Max(largest, perLength * perLength * (turn.X * turn.X + turn.Y * turn.Y));
                 int before = Math.Max(k - 1, 0);
                 int after = Math.Min(k, n - 1);
@@ -111,16 +111,16 @@ namespace Guidewire.Core
         }
 
         /// <summary>Writes or takes over all of it.</summary>
-        internal void Exchange(Snapshot snapshot)
+        internal void Serialize(Snapshot snapshot)
         {
-            _curvatureSquared = snapshot.Exchange(_curvatureSquared);
-            Strain = snapshot.Exchange(Strain);
-            AxialForce = snapshot.Exchange(AxialForce);
-            AxialTorque = snapshot.Exchange(AxialTorque);
-            ElementForce = snapshot.Exchange(ElementForce);
-            WallPressure = snapshot.Exchange(WallPressure);
-            FrictionPower = snapshot.Exchange(FrictionPower);
-            FrictionWork = snapshot.Exchange(FrictionWork);
+            _curvatureSquared = snapshot.Serialize(_curvatureSquared);
+            Strain = snapshot.Serialize(Strain);
+            AxialForce = snapshot.Serialize(AxialForce);
+            AxialTorque = snapshot.Serialize(AxialTorque);
+            ElementForce = snapshot.Serialize(ElementForce);
+            WallPressure = snapshot.Serialize(WallPressure);
+            FrictionPower = snapshot.Serialize(FrictionPower);
+            FrictionWork = snapshot.Serialize(FrictionWork);
         }
 
         // NaN gives way to any number.

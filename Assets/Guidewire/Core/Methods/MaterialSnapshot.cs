@@ -9,14 +9,14 @@ namespace Guidewire.Core
         /// <param name="velocities">m/s.</param>
         /// <param name="spins">rad/s along the elements' axes.</param>
         /// <param name="time">s.</param>
-        public static void Exchange(Snapshot snapshot, RodSchedule schedule, RodShape shape, Vector3d[] velocities,
+        public static void Serialize(Snapshot snapshot, RodSchedule schedule, RodShape shape, Vector3d[] velocities,
             Vector3d[] spins, ref double time)
         {
-            snapshot.Exchange(ref time);
-            shape.Exchange(snapshot);
-            snapshot.Exchange(velocities);
-            snapshot.Exchange(spins);
-            schedule.Exchange(snapshot, time);
+            snapshot.Serialize(ref time);
+            shape.Serialize(snapshot);
+            snapshot.Serialize(velocities);
+            snapshot.Serialize(spins);
+            schedule.Serialize(snapshot, time);
         }
     }
 }

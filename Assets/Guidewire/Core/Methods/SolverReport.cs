@@ -75,14 +75,14 @@ namespace Guidewire.Core
 
         /// <summary>Writes or takes over what the rest shape of the start left here, and the run's extremes; the
         /// rest is stated anew by each report.</summary>
-        internal void Exchange(Snapshot snapshot)
+        internal void Serialize(Snapshot snapshot)
         {
-            Method = snapshot.Exchange(Method);
-            Factorisations = snapshot.Exchange(Factorisations);
-            EquilibriumIterations = snapshot.Exchange(EquilibriumIterations);
-            EquilibriumResidual = snapshot.Exchange(EquilibriumResidual);
-            SmallestEigenvalue = snapshot.Exchange(SmallestEigenvalue);
-            Extremes?.Exchange(snapshot);
+            Method = snapshot.Serialize(Method);
+            Factorisations = snapshot.Serialize(Factorisations);
+            EquilibriumIterations = snapshot.Serialize(EquilibriumIterations);
+            EquilibriumResidual = snapshot.Serialize(EquilibriumResidual);
+            SmallestEigenvalue = snapshot.Serialize(SmallestEigenvalue);
+            Extremes?.Serialize(snapshot);
         }
     }
 }

@@ -29,13 +29,13 @@ namespace Guidewire.Core
 
         /// <summary>Writes the clock into a snapshot, or goes on from one; with another dt from that moment
         /// on.</summary>
-        public void Exchange(Snapshot snapshot)
+        public void Serialize(Snapshot snapshot)
         {
             double timeStep = _timeStep;
-            snapshot.Exchange(ref timeStep);
-            snapshot.Exchange(ref _step);
-            snapshot.Exchange(ref _originStep);
-            snapshot.Exchange(ref _originTime);
+            snapshot.Serialize(ref timeStep);
+            snapshot.Serialize(ref _step);
+            snapshot.Serialize(ref _originStep);
+            snapshot.Serialize(ref _originTime);
             if (timeStep != _timeStep)
             {
                 _originTime += (_step - _originStep) * timeStep;

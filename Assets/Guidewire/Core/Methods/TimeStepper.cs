@@ -52,14 +52,14 @@ namespace Guidewire.Core
 
         /// <summary>Writes into a snapshot, or takes over from one, all that the next step depends on besides the
         /// <see cref="RodState"/>: history, predictors, counters, what is prescribed.</summary>
-        public virtual void Exchange(Snapshot snapshot)
+        public virtual void Serialize(Snapshot snapshot)
         {
         }
 
         /// <summary>The same for <see cref="PredictionError"/>.</summary>
-        protected void ExchangePredictionError(Snapshot snapshot)
+        protected void SerializePredictionError(Snapshot snapshot)
         {
-            PredictionError = snapshot.Exchange(PredictionError);
+            PredictionError = snapshot.Serialize(PredictionError);
         }
     }
 }

@@ -61,7 +61,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>A count.</summary>
-        public void Exchange(ref long value)
+        public void Serialize(ref long value)
         {
             ref long bits = ref Next(1)[0];
             if (IsWritten)
@@ -72,152 +72,152 @@ namespace Guidewire.Core
         }
 
         /// <summary>A number.</summary>
-        public void Exchange(ref double value)
+        public void Serialize(ref double value)
         {
             long bits = BitConverter.DoubleToInt64Bits(value);
-            Exchange(ref bits);
+            Serialize(ref bits);
             value = BitConverter.Int64BitsToDouble(bits);
         }
 
         /// <summary>A whole number.</summary>
-        public void Exchange(ref int value)
+        public void Serialize(ref int value)
         {
             long wide = value;
-            Exchange(ref wide);
+            Serialize(ref wide);
             value = (int)wide;
         }
 
         /// <summary>Yes or no.</summary>
-        public void Exchange(ref bool value)
+        public void Serialize(ref bool value)
         {
             long wide = value ? 1 : 0;
-            Exchange(ref wide);
+            Serialize(ref wide);
             value = wide != 0;
         }
 
         /// <summary>A vector.</summary>
-        public void Exchange(ref Vector3d value)
+        public void Serialize(ref Vector3d value)
         {
             double x = value.X;
             double y = value.Y;
             double z = value.Z;
-            Exchange(ref x);
-            Exchange(ref y);
-            Exchange(ref z);
+            Serialize(ref x);
+            Serialize(ref y);
+            Serialize(ref z);
             value = new Vector3d(x, y, z);
         }
 
         /// <summary>An orientation.</summary>
-        public void Exchange(ref Quaterniond value)
+        public void Serialize(ref Quaterniond value)
         {
             double x = value.X;
             double y = value.Y;
             double z = value.Z;
             double w = value.W;
-            Exchange(ref x);
-            Exchange(ref y);
-            Exchange(ref z);
-            Exchange(ref w);
+            Serialize(ref x);
+            Serialize(ref y);
+            Serialize(ref z);
+            Serialize(ref w);
             value = new Quaterniond(x, y, z, w);
         }
 
         /// <summary>A text.</summary>
-        public void Exchange(ref string value)
+        public void Serialize(ref string value)
         {
             int length = value.Length;
-            Exchange(ref length);
+            Serialize(ref length);
             char[] characters = IsWritten ? value.ToCharArray() : new char[length];
             for (int i = 0; i < length; i++)
             {
                 int character = characters[i];
-                Exchange(ref character);
+                Serialize(ref character);
                 characters[i] = (char)character;
             }
             value = new string(characters);
         }
 
         /// <summary>A count that is a property: writes it, or returns what it is to be.</summary>
-        public long Exchange(long value)
+        public long Serialize(long value)
         {
-            Exchange(ref value);
+            Serialize(ref value);
             return value;
         }
 
         /// <summary>A whole number that is a property, as a count.</summary>
-        public int Exchange(int value)
+        public int Serialize(int value)
         {
-            Exchange(ref value);
+            Serialize(ref value);
             return value;
         }
 
         /// <summary>A number that is a property, as a count.</summary>
-        public double Exchange(double value)
+        public double Serialize(double value)
         {
-            Exchange(ref value);
+            Serialize(ref value);
             return value;
         }
 
         /// <summary>A vector that is a property, as a count.</summary>
-        public Vector3d Exchange(Vector3d value)
+        public Vector3d Serialize(Vector3d value)
         {
-            Exchange(ref value);
+            Serialize(ref value);
             return value;
         }
 
         /// <summary>An orientation that is a property, as a count.</summary>
-        public Quaterniond Exchange(Quaterniond value)
+        public Quaterniond Serialize(Quaterniond value)
         {
-            Exchange(ref value);
+            Serialize(ref value);
             return value;
         }
 
         /// <summary>A text that is a property, as a count.</summary>
-        public string Exchange(string value)
+        public string Serialize(string value)
         {
-            Exchange(ref value);
+            Serialize(ref value);
             return value;
         }
 
         /// <summary>Counts; a reader has as many.</summary>
-        public void Exchange(long[] values)
+        public void Serialize(long[] values)
         {
             for (int i = 0; i < values.Length; i++)
             {
-                Exchange(ref values[i]);
+                Serialize(ref values[i]);
             }
         }
 
         /// <summary>Numbers; a reader has as many.</summary>
-        public void Exchange(double[] values)
+        public void Serialize(double[] values)
         {
-            Exchange(MemoryMarshal.Cast<double, long>(values));
+            Serialize(MemoryMarshal.Cast<double, long>(values));
         }
 
         /// <summary>Vectors; a reader has as many.</summary>
-        public void Exchange(Vector3d[] values)
+        public void Serialize(Vector3d[] values)
         {
-            Exchange(MemoryMarshal.Cast<Vector3d, long>(values));
+            Serialize(MemoryMarshal.Cast<Vector3d, long>(values));
         }
 
         /// <summary>Several lists of vectors; a reader has as many, of the same lengths.</summary>
-        public void Exchange(Vector3d[][] values)
+        public void Serialize(Vector3d[][] values)
         {
             foreach (Vector3d[] list in values)
             {
-                Exchange(list);
+                Serialize(list);
             }
         }
 
         /// <summary>Orientations; a reader has as many.</summary>
-        public void Exchange(Quaterniond[] values)
+        public void Serialize(Quaterniond[] values)
         {
-            Exchange(MemoryMarshal.Cast<Quaterniond, long>(values));
+            Serialize(MemoryMarshal.Cast<Quaterniond, long>(values));
         }
 
         /// <summary>A section that means something only to a reader made like its writer: written whole, and read where
         /// the reader's key is the writer's (method, scheme, step size), else left out.</summary>
         /// <param name="key">What both must agree in.</param>
-        /// <param name="content">Exchanges the section's numbers.</param>
+        /// <param name="content">Serializes the section's numbers.</param>
         /// <param name="timeStep">The step size, s, in which they must agree too; 0 where it means nothing.</param>
         /// <returns>False where a reader leaves it out: what it would have taken over is then as it was made.</returns>
         /// <exception cref="InvalidOperationException">The section is read otherwise than it was written.</exception>
@@ -227,19 +227,19 @@ namespace Guidewire.Core
             {
                 int start = _count;
                 long end = 0;
-                Exchange(ref end);
-                Exchange(ref key);
-                Exchange(ref timeStep);
+                Serialize(ref end);
+                Serialize(ref key);
+                Serialize(ref timeStep);
                 content(this);
                 _bits[start] = _count;
                 return true;
             }
             long next = 0;
-            Exchange(ref next);
+            Serialize(ref next);
             string written = key;
             double writtenStep = timeStep;
-            Exchange(ref written);
-            Exchange(ref writtenStep);
+            Serialize(ref written);
+            Serialize(ref writtenStep);
             bool agrees = written == key && writtenStep == timeStep;
             if (agrees)
             {
@@ -256,14 +256,14 @@ namespace Guidewire.Core
         /// <summary>A section of a part that a writer or a reader may be without; where only one of them has it, it is
         /// left out.</summary>
         /// <param name="key">What both must agree in.</param>
-        /// <param name="content">Exchanges the part's numbers; null without the part.</param>
+        /// <param name="content">Serializes the part's numbers; null without the part.</param>
         public void OptionalSection(string key, Action<Snapshot>? content)
         {
             Section(content == null ? "no " + key : key, content ?? (_ => { }));
         }
 
         // Numbers as they lie in memory: a step keeps tens of thousands of them.
-        private void Exchange(Span<long> values)
+        private void Serialize(Span<long> values)
         {
             Span<long> kept = Next(values.Length);
             if (IsWritten)

@@ -16,7 +16,7 @@ namespace Guidewire.Core
         public ElementContact ElementContact { get; set; } = ElementContact.Barycentric;
 
         /// <summary>g0, the gap below which walls push a wire with a material, m; 0: by rule
-        /// (<see cref="BarrierRule"/>).</summary>
+        /// (<see cref="BarrierDefaults"/>).</summary>
         public double ContactDistance { get; set; }
 
         /// <summary>Stiffness of the barrier, N/m; 0: by rule.</summary>

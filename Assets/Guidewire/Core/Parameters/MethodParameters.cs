@@ -38,7 +38,7 @@ namespace Guidewire.Core
         public int MaxNewtonIterations { get; set; } = 50;
 
         /// <summary>epsilon, in units: with gains, a steady state's prediction errors lie below it (<see
-        /// cref="GainWatch"/>); a wire with a material is no farther from rest (<see cref="RestWatch"/>). 0 switches
+        /// cref="PbdMonitor"/>); a wire with a material is no farther from rest (<see cref="RestMonitor"/>). 0 switches
         /// the test off.</summary>
         public double DeltaThreshold { get; set; } = 0.001;
 

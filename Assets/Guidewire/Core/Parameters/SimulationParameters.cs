@@ -12,7 +12,7 @@ namespace Guidewire.Core
         public DriveParameters Drive { get; private set; } = new DriveParameters();
 
         /// <summary>The wire as gains, for solver pbd.</summary>
-        public GainParameters Gains { get; private set; } = new GainParameters();
+        public PbdParameters Pbd { get; private set; } = new PbdParameters();
 
         /// <summary>The wire as a material, for the other solvers.</summary>
         public MaterialParameters Material { get; private set; } = new MaterialParameters();
@@ -40,7 +40,7 @@ namespace Guidewire.Core
             {
                 Scene = Scene.Copy(),
                 Drive = Drive.Copy(),
-                Gains = Gains.Copy(),
+                Pbd = Pbd.Copy(),
                 Material = Material.Copy(),
                 Contact = Contact.Copy(),
                 Method = Method.Copy(),

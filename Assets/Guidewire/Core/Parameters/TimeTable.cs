@@ -89,8 +89,8 @@ namespace Guidewire.Core
             {
                 return _values[Math.Max(next - 1, 0)];
             }
-            double share = (time - _times[next - 1]) / (_times[next] - _times[next - 1]);
-            return _values[next - 1] + share * (_values[next] - _values[next - 1]);
+            double fraction = (time - _times[next - 1]) / (_times[next] - _times[next - 1]);
+            return _values[next - 1] + fraction * (_values[next] - _values[next - 1]);
         }
 
         /// <summary>Whether the value changes at this time, s, or after it.</summary>

@@ -39,12 +39,12 @@ namespace Guidewire.Core
         }
 
         /// <summary>Writes this shape into a snapshot, or takes over one of the same n.</summary>
-        public void Exchange(Snapshot snapshot)
+        public void Serialize(Snapshot snapshot)
         {
-            snapshot.Exchange(X);
-            snapshot.Exchange(Q);
-            ProximalFrame = snapshot.Exchange(ProximalFrame);
-            DistalFrame = snapshot.Exchange(DistalFrame);
+            snapshot.Serialize(X);
+            snapshot.Serialize(Q);
+            ProximalFrame = snapshot.Serialize(ProximalFrame);
+            DistalFrame = snapshot.Serialize(DistalFrame);
         }
 
         /// <summary>A straight rod along d3 of <paramref name="frame"/>.</summary>

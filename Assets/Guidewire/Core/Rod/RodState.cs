@@ -132,15 +132,15 @@ namespace Guidewire.Core
         }
 
         /// <summary>Writes all that a moment of the wire is into a snapshot, or takes it over from one.</summary>
-        internal void Exchange(Snapshot snapshot)
+        internal void Serialize(Snapshot snapshot)
         {
-            snapshot.Exchange(Positions);
-            snapshot.Exchange(PreviousPositions);
-            snapshot.Exchange(PredictedPositions);
-            snapshot.Exchange(Velocities);
-            snapshot.Exchange(Orientations);
-            snapshot.Exchange(PredictedOrientations);
-            snapshot.Exchange(AngularVelocities);
+            snapshot.Serialize(Positions);
+            snapshot.Serialize(PreviousPositions);
+            snapshot.Serialize(PredictedPositions);
+            snapshot.Serialize(Velocities);
+            snapshot.Serialize(Orientations);
+            snapshot.Serialize(PredictedOrientations);
+            snapshot.Serialize(AngularVelocities);
         }
 
         /// <summary>Moves a sphere without giving it a velocity.</summary>

@@ -27,7 +27,7 @@ namespace Guidewire.Core
 
         /// <summary>A section's length over that of the longest element it touches; 0 where it lies beyond the
         /// wire.</summary>
-        public static double ShareOfAnElement(SimulationParameters parameters, WireSection section)
+        public static double FractionOfAnElement(SimulationParameters parameters, WireSection section)
         {
             double longest = 0.0;
             double slack = Rounding * parameters.Scene.GuidewireLength;
@@ -135,12 +135,12 @@ namespace Guidewire.Core
             {
                 pieces.Add(new Piece { From = reached, To = length });
             }
-            ShareOut(pieces, parameters.Scene.NumberRodElements);
+            Distribute(pieces, parameters.Scene.NumberRodElements);
             return pieces;
         }
 
         /// <summary>Gives the pieces that have no number of their own theirs.</summary>
-        private static void ShareOut(List<Piece> pieces, int count)
+        private static void Distribute(List<Piece> pieces, int count)
         {
             List<Piece> rest = pieces.FindAll(piece => piece.Count == 0);
             double total = 0.0;

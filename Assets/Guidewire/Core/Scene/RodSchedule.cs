@@ -234,20 +234,20 @@ namespace Guidewire.Core
 
         /// <summary>Writes or takes over how the proximal end moves: what a drive prescribes anew before every step.
         /// </summary>
-        public void ExchangeDrive(Snapshot snapshot)
+        public void SerializeDrive(Snapshot snapshot)
         {
-            ProximalPosition = snapshot.Exchange(ProximalPosition);
-            ProximalVelocity = snapshot.Exchange(ProximalVelocity);
-            ProximalTime = snapshot.Exchange(ProximalTime);
-            ProximalTwistRate = snapshot.Exchange(ProximalTwistRate);
-            snapshot.Exchange(ref _twistOrigin);
-            snapshot.Exchange(ref _twistOriginTime);
+            ProximalPosition = snapshot.Serialize(ProximalPosition);
+            ProximalVelocity = snapshot.Serialize(ProximalVelocity);
+            ProximalTime = snapshot.Serialize(ProximalTime);
+            ProximalTwistRate = snapshot.Serialize(ProximalTwistRate);
+            snapshot.Serialize(ref _twistOrigin);
+            snapshot.Serialize(ref _twistOriginTime);
         }
 
         /// <summary>Writes into a snapshot, or takes over from one, where the prescribed motions began and how far they
         /// have come at this time. Loads, ramps and rates stay this schedule's own: a twist at another rate goes on
         /// from the present turn, and node 0 stays where a drive has brought it until a drive takes it on.</summary>
-        public void Exchange(Snapshot snapshot, double time)
+        public void Serialize(Snapshot snapshot, double time)
         {
             Vector3d proximal = ProximalPosition;
             Vector3d velocity = ProximalVelocity;
@@ -256,15 +256,15 @@ namespace Guidewire.Core
             double rate = ProximalTwistRate;
             Vector3d distal = DistalPosition;
             Quaterniond distalFrame = DistalFrame;
-            snapshot.Exchange(ref proximal);
-            snapshot.Exchange(ref velocity);
-            snapshot.Exchange(ref since);
-            snapshot.Exchange(ref proximalFrame);
-            snapshot.Exchange(ref rate);
-            snapshot.Exchange(ref _twistOrigin);
-            snapshot.Exchange(ref _twistOriginTime);
-            snapshot.Exchange(ref distal);
-            snapshot.Exchange(ref distalFrame);
+            snapshot.Serialize(ref proximal);
+            snapshot.Serialize(ref velocity);
+            snapshot.Serialize(ref since);
+            snapshot.Serialize(ref proximalFrame);
+            snapshot.Serialize(ref rate);
+            snapshot.Serialize(ref _twistOrigin);
+            snapshot.Serialize(ref _twistOriginTime);
+            snapshot.Serialize(ref distal);
+            snapshot.Serialize(ref distalFrame);
             if (snapshot.IsWritten)
             {
                 return;

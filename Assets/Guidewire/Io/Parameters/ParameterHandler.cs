@@ -314,15 +314,15 @@ namespace Guidewire.Io
             {
                 return;
             }
-            if (simulation.Gains.StretchStiffness >= 2.0)
+            if (simulation.Pbd.StretchStiffness >= 2.0)
             {
                 AddWarning("stretchStiffness = {0} is at or beyond 2, where transversal motion breaks down",
-                    simulation.Gains.StretchStiffness);
+                    simulation.Pbd.StretchStiffness);
             }
-            if (simulation.Gains.BendStiffness > l)
+            if (simulation.Pbd.BendStiffness > l)
             {
                 AddWarning("bendStiffness = {0} is beyond the element length {1}, where bending breaks down",
-                    simulation.Gains.BendStiffness, l);
+                    simulation.Pbd.BendStiffness, l);
             }
         }
 
@@ -331,17 +331,17 @@ namespace Guidewire.Io
             IReadOnlyList<WireSection> sections = simulation.Material.Sections;
             for (int k = 0; k < sections.Count; k++)
             {
-                double share = ElementLayout.ShareOfAnElement(simulation, sections[k]);
-                if (share == 0.0)
+                double fraction = ElementLayout.FractionOfAnElement(simulation, sections[k]);
+                if (fraction == 0.0)
                 {
                     AddWarning("wireSections[{0}] from {1} to {2} lies beyond the wire's end: it has no effect", k,
                         sections[k].From, sections[k].To);
                 }
-                else if (share < 0.5)
+                else if (fraction < 0.5)
                 {
                     AddWarning("wireSections[{0}] from {1} to {2} is {3:G3} of an element long: it acts as a part of"
                         + " that element; give it a numberRodElements of its own", k, sections[k].From,
-                        sections[k].To, share);
+                        sections[k].To, fraction);
                 }
             }
         }

@@ -29,7 +29,7 @@ namespace Guidewire.Io
         /// <summary>The groups in the order of the help text.</summary>
         public static IReadOnlyList<ParameterGroup> Groups { get; } = new[]
         {
-            MethodEntries.Group, SceneEntries.Group, DriveEntries.Group, GainEntries.Group, MaterialEntries.Group,
+            MethodEntries.Group, SceneEntries.Group, DriveEntries.Group, PbdEntries.Group, MaterialEntries.Group,
             ContactEntries.Group, LogEntries.Group,
         };
 

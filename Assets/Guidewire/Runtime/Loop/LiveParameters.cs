@@ -31,8 +31,8 @@ namespace Guidewire.Runtime
         public void Read(SimulationParameters parameters)
         {
             constraintSolverSteps = parameters.Method.ConstraintSolverSteps;
-            stretchStiffness = parameters.Gains.StretchStiffness;
-            bendStiffness = parameters.Gains.BendStiffness;
+            stretchStiffness = parameters.Pbd.StretchStiffness;
+            bendStiffness = parameters.Pbd.BendStiffness;
             collisionStiffness = parameters.Contact.CollisionStiffness;
             damping = parameters.Method.Damping;
             timeStep = parameters.Method.TimeStep;
@@ -48,8 +48,8 @@ namespace Guidewire.Runtime
                 value = constraintSolverSteps;
                 return "constraintSolverSteps";
             }
-            return Differs("stretchStiffness", stretchStiffness, parameters.Gains.StretchStiffness, out value)
-                ?? Differs("bendStiffness", bendStiffness, parameters.Gains.BendStiffness, out value)
+            return Differs("stretchStiffness", stretchStiffness, parameters.Pbd.StretchStiffness, out value)
+                ?? Differs("bendStiffness", bendStiffness, parameters.Pbd.BendStiffness, out value)
                 ?? Differs("collisionStiffness", collisionStiffness, parameters.Contact.CollisionStiffness, out value)
                 ?? Differs("damping", damping, parameters.Method.Damping, out value)
                 ?? Differs("timeStep", timeStep, parameters.Method.TimeStep, out value);

@@ -50,7 +50,7 @@ namespace Guidewire.Core.Tests
         public static RodState Straight(SimulationParameters parameters)
         {
             return new RodState(parameters.Scene.NumberRodElements, parameters.Scene.GuidewireLength,
-                parameters.Gains.TotalMass, parameters.Scene.GuidewireOffset);
+                parameters.Pbd.TotalMass, parameters.Scene.GuidewireOffset);
         }
 
         /// <summary>Gives a wire another start.</summary>

@@ -89,7 +89,7 @@ namespace Guidewire.Unity.Tests
             _loop.Live.stretchStiffness = 0.25;
             _loop.Live.constraintSolverSteps = 20;
             _loop.TakeLive();
-            Assert.That(_loop.Session.Parameters.Gains.StretchStiffness, Is.EqualTo(0.25));
+            Assert.That(_loop.Session.Parameters.Pbd.StretchStiffness, Is.EqualTo(0.25));
             Assert.That(_loop.Session.Parameters.Method.ConstraintSolverSteps, Is.EqualTo(20));
             Assert.That(_loop.Session.Simulation.State.Positions[30], Is.EqualTo(tip));
             Assert.That(_loop.Session.Simulation.StepCount, Is.EqualTo(1));

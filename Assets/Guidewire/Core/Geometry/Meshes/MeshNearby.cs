@@ -15,13 +15,13 @@ namespace Guidewire.Core
         private readonly MeshGeometry _mesh;
         private readonly Vector3d[] _centre;     // of the triangles
         private readonly double[] _radius;       // of the balls around them
-        private readonly int[] _ridge;           // places of the edges that are ridges
-        private readonly Vector3d[] _ridgeNormal; // between those of an edge's faces, unit vectors
-        private readonly Bvh? _ridgeTree;
+        private readonly int[] _convexEdge;           // places of the edges that are ridges
+        private readonly Vector3d[] _edgeNormal; // between those of an edge's faces, unit vectors
+        private readonly Bvh? _edgeTree;
         private readonly StructList<int> _found = new StructList<int>(256);
 
         /// <summary>For this mesh where it stands.</summary>
-        public MeshNearby(MeshGeometry mesh, MeshRidges ridges)
+        public MeshNearby(MeshGeometry mesh, MeshEdges edgeContacts)
         {
             _mesh = mesh;
             _centre = new Vector3d[mesh.Corners.Length / 3];
@@ -36,19 +36,19 @@ namespace Guidewire.Core
                     _radius[i] = Math.Max(_radius[i], Vector3d.Distance(centre, mesh.Corners[k]));
                 }
             }
-            _ridge = ridges.Edges();
-            _ridgeNormal = Array.ConvertAll(_ridge, mesh.NormalOfEdge);
-            if (_ridge.Length > 0)
+            _convexEdge = edgeContacts.Edges();
+            _edgeNormal = Array.ConvertAll(_convexEdge, mesh.NormalOfEdge);
+            if (_convexEdge.Length > 0)
             {
-                var corners = new Vector3d[3 * _ridge.Length];
-                for (int k = 0; k < _ridge.Length; k++)
+                var corners = new Vector3d[3 * _convexEdge.Length];
+                for (int k = 0; k < _convexEdge.Length; k++)
                 {
-                    mesh.EndsOf(_ridge[k], out int from, out int to);
+                    mesh.EndsOf(_convexEdge[k], out int from, out int to);
                     corners[3 * k] = mesh.Corners[from];
                     corners[3 * k + 1] = mesh.Corners[to];
                     corners[3 * k + 2] = mesh.Corners[to];
                 }
-                _ridgeTree = new Bvh(corners, _ridgeNormal);
+                _edgeTree = new Bvh(corners, _edgeNormal);
             }
         }
 
@@ -81,22 +81,22 @@ namespace Guidewire.Core
 
         /// <summary>Adds the ridges within a range of segment a b, nearest first.</summary>
         /// <returns>The distance of the nearest; infinite where there is none.</returns>
-        public double FindRidges(in Vector3d a, in Vector3d b, double range, StructList<WallFeature> ridges)
+        public double FindEdgeContacts(in Vector3d a, in Vector3d b, double range, StructList<WallFeature> edgeContacts)
         {
-            int from = ridges.Count;
+            int from = edgeContacts.Count;
             _found.Clear();
-            _ridgeTree?.Within(a, b, range, _found);
+            _edgeTree?.Within(a, b, range, _found);
             for (int k = 0; k < _found.Count; k++)
             {
-                int edge = _ridge[_found[k]];
+                int edge = _convexEdge[_found[k]];
                 double distance = Distance(a, b, edge);
                 if (distance <= range)
                 {
-                    ridges.Add(new WallFeature(edge, distance));
+                    edgeContacts.Add(new WallFeature(edge, distance));
                 }
             }
-            ridges.Sort(from);
-            return ridges.Count > from ? ridges[from].Distance : double.PositiveInfinity;
+            edgeContacts.Sort(from);
+            return edgeContacts.Count > from ? edgeContacts[from].Distance : double.PositiveInfinity;
         }
 
         /// <summary>Adds those triangles that may be within a distance of a point.</summary>
@@ -112,13 +112,13 @@ namespace Guidewire.Core
         }
 
         /// <summary>Adds the ridges that may be within a distance of segment a b.</summary>
-        public void ChooseRidges(in Vector3d a, in Vector3d b, double distance, StructList<int> ridges)
+        public void ChooseEdges(in Vector3d a, in Vector3d b, double distance, StructList<int> edgeContacts)
         {
-            int from = ridges.Count;
-            _ridgeTree?.Within(a, b, distance, ridges);
-            for (int k = from; k < ridges.Count; k++)
+            int from = edgeContacts.Count;
+            _edgeTree?.Within(a, b, distance, edgeContacts);
+            for (int k = from; k < edgeContacts.Count; k++)
             {
-                ridges[k] = _ridge[ridges[k]];
+                edgeContacts[k] = _convexEdge[edgeContacts[k]];
             }
         }
 
@@ -161,18 +161,18 @@ namespace Guidewire.Core
                 double reach = (keep + motion) * RoundedUp;
                 for (int k = among.From; k < among.To && among.LeastDistance(k) <= reach; k++)
                 {
-                    SweepRidge(among[k], a0, b0, a1, b1, keep, resolution, motion, ref impact);
+                    SweepEdge(among[k], a0, b0, a1, b1, keep, resolution, motion, ref impact);
                 }
                 return;
             }
             _found.Clear();
             var swept = new SweptSegment(a0, b0, a1, b1, keep);
-            _ridgeTree?.Within(swept, _found);
+            _edgeTree?.Within(swept, _found);
             for (int k = 0; k < _found.Count; k++)
             {
                 if (!IsBeside(_found[k], swept))
                 {
-                    SweepRidge(_ridge[_found[k]], a0, b0, a1, b1, keep, resolution, motion, ref impact);
+                    SweepEdge(_convexEdge[_found[k]], a0, b0, a1, b1, keep, resolution, motion, ref impact);
                 }
             }
         }
@@ -210,15 +210,15 @@ namespace Guidewire.Core
         }
 
         // Whether the motion stays on one side of a plane, or a thin slab, that a ridge lies in.
-        private bool IsBeside(int ridge, in SweptSegment swept)
+        private bool IsBeside(int edgeContact, in SweptSegment swept)
         {
-            _mesh.EndsOf(_ridge[ridge], out int from, out int to);
-            double start = Vector3d.Dot(_ridgeNormal[ridge], _mesh.Corners[from]);
-            double end = Vector3d.Dot(_ridgeNormal[ridge], _mesh.Corners[to]);
-            return swept.IsBeside(_ridgeNormal[ridge], Math.Min(start, end), Math.Max(start, end));
+            _mesh.EndsOf(_convexEdge[edgeContact], out int from, out int to);
+            double start = Vector3d.Dot(_edgeNormal[edgeContact], _mesh.Corners[from]);
+            double end = Vector3d.Dot(_edgeNormal[edgeContact], _mesh.Corners[to]);
+            return swept.IsBeside(_edgeNormal[edgeContact], Math.Min(start, end), Math.Max(start, end));
         }
 
-        private void SweepRidge(int edge, in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
+        private void SweepEdge(int edge, in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
             double resolution, double motion, ref double impact)
         {
             _mesh.EndsOf(edge, out int from, out int to);

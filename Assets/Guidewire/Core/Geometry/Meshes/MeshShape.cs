@@ -14,10 +14,10 @@ namespace Guidewire.Core
         private readonly TriangleMesh _mesh;
         private readonly MeshGeometry _wall;
         private readonly MeshGeometry _closed;
-        private MeshPlaces? _places;
-        private MeshRidges? _ridges;
+        private MeshContactPoints? _places;
+        private MeshEdges? _edgeContacts;
         private MeshNearby? _nearby;
-        private FeatureCells? _cells;         // with the reach that was asked for last
+        private FeatureCache? _cells;         // with the reach that was asked for last
         private (double Above, double Radius)? _narrowest;    // what was asked for last
 
         /// <summary>The wall at the place where its file has it.</summary>
@@ -86,32 +86,32 @@ namespace Guidewire.Core
         }
 
         /// <summary>The nearest places of all triangles, edges and corners, less those that cancel each other: feet
-        /// inside faces, and what of edges and corners is left over; see <see cref="MeshPlaces"/>. All have the sign of
-        /// the nearest. On an edge or corner itself, at
+        /// inside faces, and what of edges and corners is left over; see <see cref="MeshContactPoints"/>. All have the
+        /// sign of the nearest. On an edge or corner itself, at
         /// distance 0, no curvature is stated.</summary>
-        internal override void FindPlaces(in Vector3d x, double range, FeatureRange features,
-            StructList<WallPlace> places)
+        internal override void FindContactPoints(in Vector3d x, double range, FeatureRange features,
+            StructList<ContactPoint> places)
         {
-            _places ??= new MeshPlaces(_wall);
+            _places ??= new MeshContactPoints(_wall);
             _places.Find(x, range, Nearby, features, places);
         }
 
-        /// <summary>Edges that bulge into the lumen, and those of open rims; see <see cref="MeshRidges"/>.</summary>
-        internal override void FindRidges(
-            in Vector3d a, in Vector3d b, double range, StructList<WallRidge> ridges)
+        /// <summary>Edges that bulge into the lumen, and those of open rims; see <see cref="MeshEdges"/>.</summary>
+        internal override void FindEdgeContacts(
+            in Vector3d a, in Vector3d b, double range, StructList<EdgeContact> edgeContacts)
         {
-            FindRidges(a, b, range, default, ridges);
+            FindEdgeContacts(a, b, range, default, edgeContacts);
         }
 
         /// <inheritdoc/>
         internal override bool HasPointFeatures => true;
 
         /// <inheritdoc/>
-        internal override FeatureCells? CellsFor(double reach)
+        internal override FeatureCache? CellsFor(double reach)
         {
             if (_cells == null || _cells.Reach != reach)
             {
-                _cells = new FeatureCells(this, reach);
+                _cells = new FeatureCache(this, reach);
             }
             return _cells;
         }
@@ -126,14 +126,14 @@ namespace Guidewire.Core
         internal override double FindFeatures(in Vector3d a, in Vector3d b, double range, double reach, ref int hint,
             StructList<WallFeature> features)
         {
-            return Nearby.FindRidges(a, b, range, features);
+            return Nearby.FindEdgeContacts(a, b, range, features);
         }
 
         /// <inheritdoc/>
-        internal override void FindRidges(in Vector3d a, in Vector3d b, double range, FeatureRange features,
-            StructList<WallRidge> ridges)
+        internal override void FindEdgeContacts(in Vector3d a, in Vector3d b, double range, FeatureRange features,
+            StructList<EdgeContact> edgeContacts)
         {
-            Ridges.Find(a, b, range, Nearby, features, ridges);
+            EdgeContacts.Find(a, b, range, Nearby, features, edgeContacts);
         }
 
         /// <summary>Of both ends and the triangles, and of what is between them and the ridges.</summary>
@@ -154,9 +154,9 @@ namespace Guidewire.Core
             return _wall.Tree.MayMeet(new SweptSegment(a0, b0, a1, b1, distance));
         }
 
-        private MeshRidges Ridges => _ridges ??= new MeshRidges(_wall);
+        private MeshEdges EdgeContacts => _edgeContacts ??= new MeshEdges(_wall);
 
-        private MeshNearby Nearby => _nearby ??= new MeshNearby(_wall, Ridges);
+        private MeshNearby Nearby => _nearby ??= new MeshNearby(_wall, EdgeContacts);
 
         /// <summary>Of the balls that touch the wall in the middle of a triangle and lie in the lumen.</summary>
         internal override double NarrowestRadius(double above)
@@ -176,7 +176,7 @@ namespace Guidewire.Core
             return _closed.ContactAt(point, 0.0, c, Math.Sqrt(squared), triangle, feature).Distance > 0.0;
         }
 
-        private protected override double FreeUntil(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
+        private protected override double TimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
             double keep, double resolution, int hint)
         {
             return _wall.Tree.Sweep(a0, b0, a1, b1, keep, resolution, hint);

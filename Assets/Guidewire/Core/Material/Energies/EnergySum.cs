@@ -72,14 +72,14 @@ namespace Guidewire.Core
         }
 
         /// <summary>The largest share of a step, at most 1, that no term forbids.</summary>
-        public static double LargestShare(EnergyTerm[] terms, RodShape shape, RodVector[] direction, double scale)
+        public static double MaxStep(EnergyTerm[] terms, RodShape shape, RodVector[] direction, double scale)
         {
-            double share = 1.0;
+            double fraction = 1.0;
             foreach (EnergyTerm term in terms)
             {
-                share = Math.Min(share, term.LargestShare(shape, direction, scale));
+                fraction = Math.Min(fraction, term.MaxStep(shape, direction, scale));
             }
-            return share;
+            return fraction;
         }
     }
 }

@@ -68,13 +68,13 @@ namespace Guidewire.Core
         /// <summary>How far a step may go: the largest share, above 0 and at most 1, of <paramref name="scale"/> times
         /// <paramref name="direction"/> that leaves the term's energy finite on the whole way, which is that of
         /// <see cref="RodStep.Apply"/>.</summary>
-        public virtual double LargestShare(RodShape shape, RodVector[] direction, double scale)
+        public virtual double MaxStep(RodShape shape, RodVector[] direction, double scale)
         {
             return 1.0;
         }
 
         /// <summary>Writes into a snapshot, or takes over from one, what the term keeps from step to step.</summary>
-        public virtual void Exchange(Snapshot snapshot)
+        public virtual void Serialize(Snapshot snapshot)
         {
         }
     }

@@ -65,13 +65,13 @@ namespace Guidewire.Core
         }
 
         /// <summary>Writes or takes over all of it.</summary>
-        public void Exchange(Snapshot snapshot)
+        public void Serialize(Snapshot snapshot)
         {
-            Dissipated = snapshot.Exchange(Dissipated);
+            Dissipated = snapshot.Serialize(Dissipated);
             for (int k = 0; k < _anchors.Length; k++)
             {
-                snapshot.Exchange(ref _anchors[k].Force);
-                snapshot.Exchange(ref _anchors[k].Stiffness);
+                snapshot.Serialize(ref _anchors[k].Force);
+                snapshot.Serialize(ref _anchors[k].Stiffness);
             }
         }
 

@@ -13,7 +13,7 @@ namespace Guidewire.Core
     /// of its compliance.</remarks>
     internal sealed class SheathEnergy : EnergyTerm
     {
-        private const double LeastShare = 1e-6;
+        private const double LeastFraction = 1e-6;
 
         private readonly SheathWindow _window;
         private readonly BendTwistTerm _bending;
@@ -125,10 +125,10 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override void Exchange(Snapshot snapshot)
+        public override void Serialize(Snapshot snapshot)
         {
             double exit = _exit;
-            snapshot.Exchange(ref exit);
+            snapshot.Serialize(ref exit);
             if (!snapshot.IsWritten && !double.IsNaN(exit))
             {
                 SetExit(exit);
@@ -163,11 +163,11 @@ namespace Guidewire.Core
         {
             JointPart part = _window.Pieces.Beyond(_window.First + k, _exit);
             _held += part.Held;
-            joint.Bend1 = 1.0 / (part.Compliance1 + LeastShare / joint.Bend1);
-            joint.Bend2 = 1.0 / (part.Compliance2 + LeastShare / joint.Bend2);
+            joint.Bend1 = 1.0 / (part.Compliance1 + LeastFraction / joint.Bend1);
+            joint.Bend2 = 1.0 / (part.Compliance2 + LeastFraction / joint.Bend2);
             joint.Rest = new Vector3d(part.Rest.X, part.Rest.Y, joint.Rest.Z);
             _cutJoint[k] = joint;
-            _outside[k] = part.Length > 0.0 ? LeastShare + part.Length / _window.JointLengths[k] : 0.0;
+            _outside[k] = part.Length > 0.0 ? LeastFraction + part.Length / _window.JointLengths[k] : 0.0;
             return joint;
         }
 

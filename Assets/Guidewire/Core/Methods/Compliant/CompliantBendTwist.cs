@@ -32,9 +32,9 @@ namespace Guidewire.Core
         }
 
         /// <summary>Writes or takes over the multipliers.</summary>
-        public void Exchange(Snapshot snapshot)
+        public void Serialize(Snapshot snapshot)
         {
-            snapshot.Exchange(_multiplier);
+            snapshot.Serialize(_multiplier);
         }
 
         /// <summary>Adds the motion that the multipliers make in this shape.</summary>

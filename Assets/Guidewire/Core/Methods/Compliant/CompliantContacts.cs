@@ -158,11 +158,11 @@ namespace Guidewire.Core
         }
 
         /// <summary>Writes or takes over the multipliers; where they act is found anew.</summary>
-        public void Exchange(Snapshot snapshot)
+        public void Serialize(Snapshot snapshot)
         {
             Keep();
-            snapshot.Exchange(_kept);
-            snapshot.Exchange(_keptSlip);
+            snapshot.Serialize(_kept);
+            snapshot.Serialize(_keptSlip);
             if (snapshot.IsWritten)
             {
                 ClearKept();

@@ -53,8 +53,8 @@ namespace Guidewire.Core
         private readonly DirectionError _directions;
         private readonly ConvergenceRecord _convergence;
         private readonly HeldEnds _ends;
-        private readonly EnergyWatch _energy;
-        private readonly RestWatch _rest;
+        private readonly EnergyMonitor _energy;
+        private readonly RestMonitor _rest;
         private readonly SolverReport _report;
         private readonly CompliantWalls? _walls;
         private readonly double _contactStiffness;    // N/m
@@ -90,9 +90,9 @@ namespace Guidewire.Core
             _directions = new DirectionError(scene, _inertia, _stretch, _bendTwist, _walls?.Contacts);
             _convergence = new ConvergenceRecord(scene.Rod.TotalLength);
             _ends = new HeldEnds(terms, scene.Schedule);
-            _energy = new EnergyWatch(terms, _inertia, _shape, _velocities, _spins, _ends);
-            _rest = new RestWatch(scene, terms, _velocities, _spins, method, _walls == null ? null
-                : new ContactPushes(_walls.Contacts, scene.Rod, contactStiffness, _timeStep / _substeps));
+            _energy = new EnergyMonitor(terms, _inertia, _shape, _velocities, _spins, _ends);
+            _rest = new RestMonitor(scene, terms, _velocities, _spins, method, _walls == null ? null
+                : new ContactLoads(_walls.Contacts, scene.Rod, contactStiffness, _timeStep / _substeps));
             _report = report;
         }
 
@@ -188,35 +188,35 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override void Exchange(Snapshot snapshot)
+        public override void Serialize(Snapshot snapshot)
         {
-            MaterialSnapshot.Exchange(snapshot, _scene.Schedule, _shape, _velocities, _spins, ref _time);
-            _ends.ExchangeTurns(snapshot);
+            MaterialSnapshot.Serialize(snapshot, _scene.Schedule, _shape, _velocities, _spins, ref _time);
+            _ends.SerializeTurns(snapshot);
             int walls = _scene.Walls.Length;
-            if (!snapshot.Section(walls == 0 ? "xpbd" : "xpbd, walls " + walls, ExchangeOwn))
+            if (!snapshot.Section(walls == 0 ? "xpbd" : "xpbd, walls " + walls, SerializeOwn))
             {
                 _energy.Start();
             }
         }
 
-        private void ExchangeOwn(Snapshot snapshot)
+        private void SerializeOwn(Snapshot snapshot)
         {
-            _terms.Exchange(snapshot);
-            _energy.Exchange(snapshot);
-            _ends.ExchangeWork(snapshot);
-            _convergence.Exchange(snapshot);
-            _rest.Exchange(snapshot);
-            _report.Exchange(snapshot);
-            _walls?.Exchange(snapshot);
+            _terms.Serialize(snapshot);
+            _energy.Serialize(snapshot);
+            _ends.SerializeWork(snapshot);
+            _convergence.Serialize(snapshot);
+            _rest.Serialize(snapshot);
+            _report.Serialize(snapshot);
+            _walls?.Serialize(snapshot);
             // A multiplier is a force times h^2.
-            snapshot.Section((_timeStep / _substeps).ToString("R", CultureInfo.InvariantCulture), ExchangeMultipliers);
+            snapshot.Section((_timeStep / _substeps).ToString("R", CultureInfo.InvariantCulture), SerializeMultipliers);
         }
 
-        private void ExchangeMultipliers(Snapshot snapshot)
+        private void SerializeMultipliers(Snapshot snapshot)
         {
-            _stretch.Exchange(snapshot);
-            _bendTwist.Exchange(snapshot);
-            _walls?.Contacts.Exchange(snapshot);
+            _stretch.Serialize(snapshot);
+            _bendTwist.Serialize(snapshot);
+            _walls?.Contacts.Serialize(snapshot);
         }
 
         private void Substep(double time, double h, bool isMeasured)

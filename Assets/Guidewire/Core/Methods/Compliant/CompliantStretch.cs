@@ -36,9 +36,9 @@ namespace Guidewire.Core
         }
 
         /// <summary>Writes or takes over the multipliers.</summary>
-        public void Exchange(Snapshot snapshot)
+        public void Serialize(Snapshot snapshot)
         {
-            snapshot.Exchange(_multiplier);
+            snapshot.Serialize(_multiplier);
         }
 
         /// <summary>What element 0 gives node 1, and takes from node 0, in this shape, kg m.</summary>

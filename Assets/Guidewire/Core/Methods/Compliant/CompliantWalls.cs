@@ -88,7 +88,7 @@ namespace Guidewire.Core
         public void BeginSubstep(RodShape old, RodShape predicted, double substep)
         {
             SetUnits(predicted, _to);
-            double way = LongestWay(_from, _to);
+            double way = LongestDisplacement(_from, _to);
             if ((_isNew || way > _reused) && way <= double.MaxValue)
             {
                 _passages.AddPart(_from, _at);
@@ -103,7 +103,7 @@ namespace Guidewire.Core
         public void EndSubstep(RodShape shape)
         {
             SetUnits(shape, _to);
-            double way = LongestWay(_from, _to);
+            double way = LongestDisplacement(_from, _to);
             if (way >= _room && way <= double.MaxValue)
             {
                 _passages.AddPart(_from, _at);
@@ -148,10 +148,10 @@ namespace Guidewire.Core
         }
 
         /// <summary>Writes or takes over what was counted.</summary>
-        public void Exchange(Snapshot snapshot)
+        public void Serialize(Snapshot snapshot)
         {
-            _passages.Exchange(snapshot);
-            Record.Exchange(snapshot);
+            _passages.Serialize(snapshot);
+            Record.Serialize(snapshot);
         }
 
         // For contacts on the way from where the substep begins, and how far nothing passes a wall.
@@ -171,7 +171,7 @@ namespace Guidewire.Core
         }
 
         // Infinite where a place is no number.
-        private static double LongestWay(Vector3d[] from, Vector3d[] to)
+        private static double LongestDisplacement(Vector3d[] from, Vector3d[] to)
         {
             double longest = 0.0;
             for (int i = 0; i < to.Length; i++)

@@ -89,12 +89,12 @@ namespace Guidewire.Core
         }
 
         /// <summary>Writes or takes over the steps so far.</summary>
-        public void Exchange(Snapshot snapshot)
+        public void Serialize(Snapshot snapshot)
         {
-            snapshot.Exchange(_classes);
-            snapshot.Exchange(_largest);
-            snapshot.Exchange(_peak);
-            snapshot.Exchange(ref _steps);
+            snapshot.Serialize(_classes);
+            snapshot.Serialize(_largest);
+            snapshot.Serialize(_peak);
+            snapshot.Serialize(ref _steps);
         }
 
         private void Add(int kind, double residual, double strain)

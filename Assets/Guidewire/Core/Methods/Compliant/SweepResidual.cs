@@ -29,12 +29,12 @@ namespace Guidewire.Core
 
         /// <summary>Takes in a later moment: residuals add up, weighed by the share of time that this one stands for,
         /// of strains the largest stays.</summary>
-        public void Include(in SweepResidual other, double share)
+        public void Include(in SweepResidual other, double fraction)
         {
-            Bend += share * other.Bend;
-            Twist += share * other.Twist;
-            Stretch += share * other.Stretch;
-            Contact += share * other.Contact;
+            Bend += fraction * other.Bend;
+            Twist += fraction * other.Twist;
+            Stretch += fraction * other.Stretch;
+            Contact += fraction * other.Contact;
             BendStrain = Math.Max(BendStrain, other.BendStrain);
             TwistStrain = Math.Max(TwistStrain, other.TwistStrain);
             StretchStrain = Math.Max(StretchStrain, other.StretchStrain);

@@ -26,12 +26,12 @@ namespace Guidewire.Core
         private double _largestSpinTurn;    // of an element in a step, rad; of a wire that nothing holds
         private long _startFactorisations;  // of the rest shape
         private readonly HeldEnds _ends;
-        private readonly EnergyWatch _energy;
-        private readonly RestWatch _rest;
+        private readonly EnergyMonitor _energy;
+        private readonly RestMonitor _rest;
         private readonly HalvedSteps _halved;
         private readonly WallSteps? _walls;
-        private readonly WallWatch? _watch;
-        private readonly ElementPushes? _pushes;
+        private readonly WallMonitor? _monitor;
+        private readonly ElementContactForces? _pushes;
         private readonly JamReport? _jam;
         private readonly RunExtremes _extremes;
         private double _hubWork;            // J
@@ -57,9 +57,9 @@ namespace Guidewire.Core
             if (walls != null)
             {
                 walls.Spring.Place = scene.Schedule.ProximalPositionAt(dynamics.Time);
-                _watch = new WallWatch(scene.Rod, walls, scene.Metres);
-                _walls = new WallSteps(dynamics, _halved, scene.Schedule, _watch);
-                _pushes = new ElementPushes(scene.Rod, walls.Barrier);
+                _monitor = new WallMonitor(scene.Rod, walls, scene.Metres);
+                _walls = new WallSteps(dynamics, _halved, scene.Schedule, _monitor);
+                _pushes = new ElementContactForces(scene.Rod, walls.Barrier);
                 _jam = new JamReport(dynamics.Terms, scene.Metres);
                 if (record != null)
                 {
@@ -74,9 +74,9 @@ namespace Guidewire.Core
             _extremes.TakeShape(dynamics.Terms, _joints, _jointLengths, dynamics.Shape);
             _ends = new HeldEnds(dynamics.Terms, scene.Schedule);
             FollowEnds();
-            _energy = new EnergyWatch(dynamics.Terms, new FreeInertia(dynamics.Terms.Mass, scene.Supports),
+            _energy = new EnergyMonitor(dynamics.Terms, new FreeInertia(dynamics.Terms.Mass, scene.Supports),
                 dynamics.Shape, dynamics.Velocities, dynamics.Spins, _ends);
-            _rest = new RestWatch(scene, dynamics.Terms, dynamics.Velocities, dynamics.Spins, method);
+            _rest = new RestMonitor(scene, dynamics.Terms, dynamics.Velocities, dynamics.Spins, method);
         }
 
         /// <inheritdoc/>
@@ -142,7 +142,7 @@ namespace Guidewire.Core
                 Contacts.MeanTotal = mean.Walls;
                 _hubWork += Vector3d.Dot(mean.Proximal, _dynamics.Terms.HubAxis(_dynamics.Shape))
                     * (_drive.Insertion - insertion) + mean.HubTorque * (_drive.Turn - turn) + 0.5 * SheathWork(exit);
-                _watch?.EndStep(_dynamics.Shape, Contacts);
+                _monitor?.EndStep(_dynamics.Shape, Contacts);
                 if (spring != null && _dynamics.Terms.Walls!.HoldsStart)
                 {
                     GiveWay(spring);
@@ -302,14 +302,14 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override void Exchange(Snapshot snapshot)
+        public override void Serialize(Snapshot snapshot)
         {
-            _dynamics.Exchange(snapshot);
+            _dynamics.Serialize(snapshot);
             if (!snapshot.IsWritten)
             {
                 FollowEnds();
             }
-            if (!snapshot.Section(SectionKey, ExchangeOwn))
+            if (!snapshot.Section(SectionKey, SerializeOwn))
             {
                 _energy.Start();
             }
@@ -317,28 +317,28 @@ namespace Guidewire.Core
 
         /// <summary>Writes or takes over all that <see cref="Step"/> may touch, for a <see cref="StepStart"/>.
         /// </summary>
-        public void ExchangeStep(Snapshot snapshot)
+        public void SerializeStep(Snapshot snapshot)
         {
-            _drive.ExchangeStep(snapshot);
-            _dynamics.ExchangeStep(snapshot);
-            _ends.ExchangeStep(snapshot);
-            _energy.ExchangeStep(snapshot);
-            _rest.Exchange(snapshot);
-            _extremes.Exchange(snapshot);
-            _watch?.Exchange(snapshot);
-            snapshot.Exchange(ref _hubWork);
-            Contacts?.Exchange(snapshot);
+            _drive.SerializeStep(snapshot);
+            _dynamics.SerializeStep(snapshot);
+            _ends.SerializeStep(snapshot);
+            _energy.SerializeStep(snapshot);
+            _rest.Serialize(snapshot);
+            _extremes.Serialize(snapshot);
+            _monitor?.Serialize(snapshot);
+            snapshot.Serialize(ref _hubWork);
+            Contacts?.Serialize(snapshot);
         }
 
         /// <summary>Writes or takes over what was counted, whatever the number of elements.</summary>
-        public void ExchangeCounts(Snapshot snapshot)
+        public void SerializeCounts(Snapshot snapshot)
         {
-            snapshot.Exchange(ref _startFactorisations);
-            snapshot.Exchange(ref _hubWork);
-            _halved.Exchange(snapshot);
-            _watch?.Exchange(snapshot);
-            _ends.ExchangeWork(snapshot);
-            _dynamics.ExchangeCounts(snapshot);
+            snapshot.Serialize(ref _startFactorisations);
+            snapshot.Serialize(ref _hubWork);
+            _halved.Serialize(snapshot);
+            _monitor?.Serialize(snapshot);
+            _ends.SerializeWork(snapshot);
+            _dynamics.SerializeCounts(snapshot);
         }
 
         // Between walls more is kept than without.
@@ -351,26 +351,26 @@ namespace Guidewire.Core
             }
         }
 
-        private void ExchangeOwn(Snapshot snapshot)
+        private void SerializeOwn(Snapshot snapshot)
         {
-            snapshot.Exchange(ref _startFactorisations);
-            snapshot.Exchange(ref _hubWork);
-            _report.Exchange(snapshot);
-            _energy.Exchange(snapshot);
-            _drive.Exchange(snapshot);
-            _halved.Exchange(snapshot);
-            _watch?.Exchange(snapshot);
-            ExchangeRecord(snapshot);
-            _ends.ExchangeWork(snapshot);
-            _rest.Exchange(snapshot);
-            _dynamics.ExchangeHistory(snapshot, _timeStep);
+            snapshot.Serialize(ref _startFactorisations);
+            snapshot.Serialize(ref _hubWork);
+            _report.Serialize(snapshot);
+            _energy.Serialize(snapshot);
+            _drive.Serialize(snapshot);
+            _halved.Serialize(snapshot);
+            _monitor?.Serialize(snapshot);
+            SerializeRecord(snapshot);
+            _ends.SerializeWork(snapshot);
+            _rest.Serialize(snapshot);
+            _dynamics.SerializeHistory(snapshot, _timeStep);
         }
 
-        private void ExchangeRecord(Snapshot snapshot)
+        private void SerializeRecord(Snapshot snapshot)
         {
             if (_walls != null)
             {
-                Contacts!.Exchange(snapshot);
+                Contacts!.Serialize(snapshot);
             }
         }
 

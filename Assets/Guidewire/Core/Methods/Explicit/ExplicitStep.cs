@@ -22,8 +22,8 @@ namespace Guidewire.Core
         private readonly int _substeps;
         private readonly double _remainingVelocity;
         private readonly HeldEnds _ends;
-        private readonly EnergyWatch _energy;
-        private readonly RestWatch _rest;
+        private readonly EnergyMonitor _energy;
+        private readonly RestMonitor _rest;
         private readonly double _stable;    // s
         private readonly SolverReport _report;
         private StressRecord? _stress;
@@ -48,12 +48,12 @@ namespace Guidewire.Core
             _ends = new HeldEnds(terms, scene.Schedule);
             _stable = StableTimeStep(scene.Rod, scene.Supports);
             double part = _timeStep / _substeps / _stable;
-            _energy = new EnergyWatch(terms, _inertia, _shape, _velocities, _spins, _ends)
+            _energy = new EnergyMonitor(terms, _inertia, _shape, _velocities, _spins, _ends)
             {
                 Allowance = part < 1.0
-                    ? Math.Max(EnergyWatch.LeastAllowance, 2.0 / (1.0 - part * part)) : EnergyWatch.LeastAllowance,
+                    ? Math.Max(EnergyMonitor.LeastAllowance, 2.0 / (1.0 - part * part)) : EnergyMonitor.LeastAllowance,
             };
-            _rest = new RestWatch(scene, terms, _velocities, _spins, method);
+            _rest = new RestMonitor(scene, terms, _velocities, _spins, method);
             _report = report;
             Contacts = record;
         }
@@ -116,23 +116,23 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override void Exchange(Snapshot snapshot)
+        public override void Serialize(Snapshot snapshot)
         {
-            MaterialSnapshot.Exchange(snapshot, _scene.Schedule, _shape, _velocities, _spins, ref _time);
-            _ends.ExchangeTurns(snapshot);
-            if (!snapshot.Section("explicit", ExchangeOwn))
+            MaterialSnapshot.Serialize(snapshot, _scene.Schedule, _shape, _velocities, _spins, ref _time);
+            _ends.SerializeTurns(snapshot);
+            if (!snapshot.Section("explicit", SerializeOwn))
             {
                 _energy.Start();
             }
         }
 
-        private void ExchangeOwn(Snapshot snapshot)
+        private void SerializeOwn(Snapshot snapshot)
         {
-            _terms.Exchange(snapshot);
-            _energy.Exchange(snapshot);
-            _ends.ExchangeWork(snapshot);
-            _report.Exchange(snapshot);
-            _rest.Exchange(snapshot);
+            _terms.Serialize(snapshot);
+            _energy.Serialize(snapshot);
+            _ends.SerializeWork(snapshot);
+            _report.Serialize(snapshot);
+            _rest.Serialize(snapshot);
         }
 
         /// <summary>The longest stable substep, s: 2/omega_max of a wire that is straight at rest, the true limit of an

@@ -32,7 +32,7 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public void Exchange(Snapshot snapshot)
+        public void Serialize(Snapshot snapshot)
         {
             snapshot.OptionalSection(ContactSolver.SectionKey, null);
         }

@@ -8,6 +8,6 @@ namespace Guidewire.Core
         void Solve(RodState state);
 
         /// <summary>Writes into a snapshot, or takes over from one, what it keeps from step to step.</summary>
-        void Exchange(Snapshot snapshot);
+        void Serialize(Snapshot snapshot);
     }
 }

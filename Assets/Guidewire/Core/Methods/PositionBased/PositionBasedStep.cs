@@ -12,7 +12,7 @@ namespace Guidewire.Core
         private readonly IOrientationPrediction _orientationPrediction;
         private readonly IDriveMotion? _drive;
         private readonly IConstraintSolver _solver;
-        private GainWatch? _watch;
+        private PbdMonitor? _monitor;
 
         /// <param name="timeStep">dt in s.</param>
         /// <param name="prediction">How positions are predicted.</param>
@@ -37,14 +37,14 @@ namespace Guidewire.Core
 
         /// <inheritdoc/>
         public override string? AccuracyWarning => Contacts == null || Contacts.StuckSteps < StepsThatAreStuck
-            ? _watch?.LostTurn
+            ? _monitor?.LostTurn
             : "the drive is stuck: in the last " + Contacts.StuckSteps.ToString(CultureInfo.InvariantCulture)
                 + " steps the walls gave sphere 0 less than 1 % of its way";
 
         /// <summary>Sets what ends the run before its last step; without it nothing does.</summary>
-        public void EndBy(GainWatch watch)
+        public void EndBy(PbdMonitor watch)
         {
-            _watch = watch;
+            _monitor = watch;
             SteadySteps = watch.Hold;
         }
 
@@ -58,23 +58,23 @@ namespace Guidewire.Core
             _solver.Solve(state);
             PredictionError = Vector3d.Distance(predictedTip, state.PredictedPositions[state.ElementCount]);
             VelocityUpdate.Apply(state, _timeStep);
-            if (_watch != null)
+            if (_monitor != null)
             {
-                _watch.Look(state, PredictionError);
-                Divergence = _watch.Loss;
-                SteadyState = _watch.SteadyState;
+                _monitor.Look(state, PredictionError);
+                Divergence = _monitor.Loss;
+                SteadyState = _monitor.SteadyState;
             }
         }
 
         /// <inheritdoc/>
-        public override void Exchange(Snapshot snapshot)
+        public override void Serialize(Snapshot snapshot)
         {
-            ExchangePredictionError(snapshot);
-            _watch?.Exchange(snapshot);
-            snapshot.OptionalSection("distal clamp", _drive is DistalClampDrive clamp ? clamp.Exchange : null);
-            _solver.Exchange(snapshot);
-            _prediction.Exchange(snapshot, _timeStep);
-            _orientationPrediction.Exchange(snapshot, _timeStep);
+            SerializePredictionError(snapshot);
+            _monitor?.Serialize(snapshot);
+            snapshot.OptionalSection("distal clamp", _drive is DistalClampDrive clamp ? clamp.Serialize : null);
+            _solver.Serialize(snapshot);
+            _prediction.Serialize(snapshot, _timeStep);
+            _orientationPrediction.Serialize(snapshot, _timeStep);
         }
     }
 }

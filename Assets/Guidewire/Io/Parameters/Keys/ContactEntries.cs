@@ -15,7 +15,7 @@ namespace Guidewire.Io
             new NumberEntry("sphereRadius", "units", NumberRange.Positive, "r",
                 p => p.Simulation.Contact.SphereRadius, (p, v) => p.Simulation.Contact.SphereRadius = v)
             {
-                Methods = Takers.Gains,
+                Methods = Takers.Pbd,
             },
             new NumberEntry("contactDistance", "m", NumberRange.NotNegative,
                 "gap between the wire's surface and a wall below which the wall pushes; 0: by rule, a tenth of the"
@@ -50,20 +50,20 @@ namespace Guidewire.Io
             new NumberEntry("collisionMargin", "units", NumberRange.NotNegative, "distance kept beyond the radius",
                 p => p.Simulation.Contact.CollisionMargin, (p, v) => p.Simulation.Contact.CollisionMargin = v)
             {
-                Methods = Takers.Gains,
+                Methods = Takers.Pbd,
             },
             new NumberEntry("collisionStiffness", "", NumberRange.Between(0.0, 1.0),
                 "k_C, gain of a contact an iteration",
                 p => p.Simulation.Contact.CollisionStiffness, (p, v) => p.Simulation.Contact.CollisionStiffness = v)
             {
-                Methods = Takers.Gains,
+                Methods = Takers.Pbd,
             },
             new ChoiceEntry<ElementContact>("elementContact",
                 "what touches a wall besides the spheres: rod elements by the"
                 + " lever rule, nothing, or rod elements by the rule as published",
                 p => p.Simulation.Contact.ElementContact, (p, v) => p.Simulation.Contact.ElementContact = v)
             {
-                Methods = Takers.Gains,
+                Methods = Takers.Pbd,
             },
         });
     }

@@ -42,12 +42,12 @@ namespace Guidewire.Io
                 p => p.Simulation.Method.Integrator == Integrator.Verlet,
                 (p, v) => p.Simulation.Method.Integrator = v ? Integrator.Verlet : Integrator.Euler)
             {
-                Methods = Takers.Gains,
+                Methods = Takers.Pbd,
             },
             new ChoiceEntry<SweepOrder>("sweepOrder", "order of one sweep over the elements",
                 p => p.Simulation.Method.SweepOrder, (p, v) => p.Simulation.Method.SweepOrder = v)
             {
-                Methods = Takers.Gains,
+                Methods = Takers.Pbd,
             },
             new IntegerEntry("substeps", "", 1, 100_000_000, "parts of a time step",
                 p => p.Simulation.Method.Substeps, (p, v) => p.Simulation.Method.Substeps = v)
@@ -78,7 +78,7 @@ namespace Guidewire.Io
                 "share of its velocity that a sphere loses a step; a material has massDamping and materialDamping",
                 p => p.Simulation.Method.Damping, (p, v) => p.Simulation.Method.Damping = v)
             {
-                Methods = Takers.Gains,
+                Methods = Takers.Pbd,
                 IsRefusedElsewhere = true,
                 Instead = "massDamping (1/s), which is damping over timeStep, or materialDamping (s)",
             },
@@ -90,7 +90,7 @@ namespace Guidewire.Io
                 "how long the prediction errors must stay below deltaThreshold",
                 p => p.Simulation.Method.SteadyStateHold, (p, v) => p.Simulation.Method.SteadyStateHold = v)
             {
-                Methods = Takers.Gains,
+                Methods = Takers.Pbd,
             },
         });
     }

@@ -10,7 +10,7 @@ namespace Guidewire.Io
         public static IReadOnlyList<Solver> All { get; } = Where(gains: true, material: true);
 
         /// <summary>Those whose wire is gains.</summary>
-        public static IReadOnlyList<Solver> Gains { get; } = Where(gains: true, material: false);
+        public static IReadOnlyList<Solver> Pbd { get; } = Where(gains: true, material: false);
 
         /// <summary>Those whose wire is a material.</summary>
         public static IReadOnlyList<Solver> Material { get; } = Where(gains: false, material: true);

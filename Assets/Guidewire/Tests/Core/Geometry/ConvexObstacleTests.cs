@@ -102,9 +102,9 @@ namespace Guidewire.Core.Tests
                 for (int k = 0; k < 36; k++)
                 {
                     double above = from[k / 6] - from[k % 6];
-                    double share = above / (above - to[k / 6] + to[k % 6]);
-                    expected = share > 0.0 && share < 1.0
-                        ? Math.Min(expected, Highest(from, to, share)) : expected;
+                    double fraction = above / (above - to[k / 6] + to[k % 6]);
+                    expected = fraction > 0.0 && fraction < 1.0
+                        ? Math.Min(expected, Highest(from, to, fraction)) : expected;
                 }
                 worst = Math.Max(worst, Math.Abs(box.LeastAlong(s[0], s[1], wayOut) - expected));
                 shorter += expected > wayOut + 1e-3 ? 1 : 0;
@@ -118,12 +118,12 @@ namespace Guidewire.Core.Tests
             return new[] { p.X - half.X, -p.X - half.X, p.Y - half.Y, -p.Y - half.Y, p.Z - half.Z, -p.Z - half.Z };
         }
 
-        private static double Highest(double[] from, double[] to, double share)
+        private static double Highest(double[] from, double[] to, double fraction)
         {
             double highest = double.NegativeInfinity;
             for (int k = 0; k < from.Length; k++)
             {
-                highest = Math.Max(highest, from[k] + share * (to[k] - from[k]));
+                highest = Math.Max(highest, from[k] + fraction * (to[k] - from[k]));
             }
             return highest;
         }

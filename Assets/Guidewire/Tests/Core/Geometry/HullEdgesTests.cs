@@ -93,15 +93,16 @@ namespace Guidewire.Core.Tests
 
         private static double Sum(ConvexObstacle box, double tilt)
         {
-            var ridges = new StructList<WallRidge>(8);
-            box.FindRidges(new Vector3d(-3.0, 1.1 - 3.0 * tilt, 0.1), new Vector3d(3.0, 1.1 + 3.0 * tilt, 0.2), 0.2,
-                ridges);
+            var edgeContacts = new StructList<EdgeContact>(8);
+            box.FindEdgeContacts(
+                new Vector3d(-3.0, 1.1 - 3.0 * tilt, 0.1), new Vector3d(3.0, 1.1 + 3.0 * tilt, 0.2), 0.2,
+                edgeContacts);
             double sum = 0.0;
-            for (int k = 0; k < ridges.Count; k++)
+            for (int k = 0; k < edgeContacts.Count; k++)
             {
-                sum += ridges[k].Weight * Math.Pow(0.2 - ridges[k].Distance, 3.0);
+                sum += edgeContacts[k].Weight * Math.Pow(0.2 - edgeContacts[k].Distance, 3.0);
             }
-            Assert.That(ridges.Count, Is.GreaterThanOrEqualTo(2), "both edges are met");
+            Assert.That(edgeContacts.Count, Is.GreaterThanOrEqualTo(2), "both edges are met");
             return sum;
         }
 

@@ -32,11 +32,11 @@ namespace Guidewire.Core.Tests
             Assert.That(defaults.Scene.NumberRodElements, Is.EqualTo(30));
             Assert.That(defaults.Method.TimeStep, Is.EqualTo(0.01));
             Assert.That(defaults.Scene.GuidewireLength, Is.EqualTo(300.0));
-            Assert.That(defaults.Gains.TotalMass, Is.EqualTo(0.01));
+            Assert.That(defaults.Pbd.TotalMass, Is.EqualTo(0.01));
             Assert.That(defaults.Drive.Displacement, Is.EqualTo(10.0));
             Assert.That(defaults.Contact.SphereRadius, Is.EqualTo(5.0));
-            Assert.That(defaults.Gains.StretchStiffness, Is.EqualTo(0.1));
-            Assert.That(defaults.Gains.BendStiffness, Is.EqualTo(0.1));
+            Assert.That(defaults.Pbd.StretchStiffness, Is.EqualTo(0.1));
+            Assert.That(defaults.Pbd.BendStiffness, Is.EqualTo(0.1));
             Assert.That(defaults.Contact.CollisionStiffness, Is.EqualTo(1e-4));
         }
 

@@ -47,11 +47,11 @@ namespace Guidewire.Core.Tests
             using SimulationSession session = Open("", false, "bendStiffness=0.3");
             session.Step(0.0, 0.0);
             session.Set("stretchStiffness", 0.2);
-            Assert.That(session.Parameters.Gains.StretchStiffness, Is.EqualTo(0.2));
-            Assert.That(session.Parameters.Gains.BendStiffness, Is.EqualTo(0.3), "the override");
+            Assert.That(session.Parameters.Pbd.StretchStiffness, Is.EqualTo(0.2));
+            Assert.That(session.Parameters.Pbd.BendStiffness, Is.EqualTo(0.3), "the override");
             Assert.That(session.Parameters.Method.ConstraintSolverSteps, Is.EqualTo(20), "the file");
             session.Set("damping", 0.1);
-            Assert.That(session.Parameters.Gains.StretchStiffness, Is.EqualTo(0.2), "the earlier change");
+            Assert.That(session.Parameters.Pbd.StretchStiffness, Is.EqualTo(0.2), "the earlier change");
             Assert.That(session.Simulation.StepCount, Is.EqualTo(1));
         }
 

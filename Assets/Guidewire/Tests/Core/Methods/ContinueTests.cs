@@ -26,10 +26,10 @@ namespace Guidewire.Core.Tests
 
         private static IEnumerable<TestCaseData> Runs()
         {
-            yield return Gains("swings", p => p.Drive.DisplacementDirection = Vector3d.UnitY);
+            yield return Pbd("swings", p => p.Drive.DisplacementDirection = Vector3d.UnitY);
             foreach (Integrator integrator in MethodTable.Of(Solver.Pbd).Integrators)
             {
-                yield return Gains("twists and pushes, " + integrator, p =>
+                yield return Pbd("twists and pushes, " + integrator, p =>
                 {
                     p.Method.Integrator = integrator;
                     p.Method.Damping = 0.01;
@@ -38,7 +38,7 @@ namespace Guidewire.Core.Tests
                     p.Drive.TwistPerStep = 0.04;
                 });
             }
-            yield return Gains("is turned at both clamps, in the middle of the ramp", p =>
+            yield return Pbd("is turned at both clamps, in the middle of the ramp", p =>
             {
                 p.Scene.ProximalEnd = ProximalEnd.Clamped;
                 p.Scene.DistalEnd = DistalEnd.Clamped;
@@ -46,7 +46,7 @@ namespace Guidewire.Core.Tests
                 p.Scene.DistalDisplacement = -4.0;
                 p.Scene.DistalRampTime = 0.5;
             });
-            yield return Gains("is pushed into a bend", p =>
+            yield return Pbd("is pushed into a bend", p =>
             {
                 p.Scene.GuidewireOffset = -310.0;
                 p.Scene.Walls = new ContactShape[] { ArchVessel.Shape };
@@ -92,7 +92,7 @@ namespace Guidewire.Core.Tests
             }
         }
 
-        private static TestCaseData Gains(string name, Action<SimulationParameters> set)
+        private static TestCaseData Pbd(string name, Action<SimulationParameters> set)
         {
             SimulationParameters parameters = Transversal();
             set(parameters);

@@ -228,11 +228,11 @@ namespace Guidewire.Core.Tests
             // The frame is read off by a snapshot, where it follows time, nodes and elements.
             var shape = new RodShape(N);
             var snapshot = new Snapshot();
-            motion.Stepper.Exchange(snapshot);
+            motion.Stepper.Serialize(snapshot);
             Snapshot reader = snapshot.ToRead();
             double time = 0.0;
-            reader.Exchange(ref time);
-            shape.Exchange(reader);
+            reader.Serialize(ref time);
+            shape.Serialize(reader);
             Assert.That(RotationVector.Log(shape.ProximalFrame).Z, Is.EqualTo(turn).Within(1e-12));
         }
 
@@ -287,8 +287,8 @@ namespace Guidewire.Core.Tests
             public void GoOnFrom(Motion other)
             {
                 var snapshot = new Snapshot();
-                other.Stepper.Exchange(snapshot);
-                Stepper.Exchange(snapshot.ToRead());
+                other.Stepper.Serialize(snapshot);
+                Stepper.Serialize(snapshot.ToRead());
                 Array.Copy(other.State.Positions, State.Positions, N + 1);
                 Array.Copy(other.State.PreviousPositions, State.PreviousPositions, N + 1);
                 Array.Copy(other.State.Velocities, State.Velocities, N + 1);

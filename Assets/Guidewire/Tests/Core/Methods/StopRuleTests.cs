@@ -13,8 +13,8 @@ namespace Guidewire.Core.Tests
         public void GainBeyondItsLimit_IsDiverged(double stretch, double bend)
         {
             SimulationParameters parameters = Wires.Transversal(1000);
-            parameters.Gains.StretchStiffness = stretch;
-            parameters.Gains.BendStiffness = bend;
+            parameters.Pbd.StretchStiffness = stretch;
+            parameters.Pbd.BendStiffness = bend;
             Simulation run = Wires.Run(parameters);
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Diverged), run.Reason);
             Assert.That(run.Reason, Does.Contain("wrong in length"));
@@ -25,8 +25,8 @@ namespace Guidewire.Core.Tests
         public void GainWithinItsLimit_IsNotDiverged(double stretch, double bend)
         {
             SimulationParameters parameters = Wires.Transversal(1000);
-            parameters.Gains.StretchStiffness = stretch;
-            parameters.Gains.BendStiffness = bend;
+            parameters.Pbd.StretchStiffness = stretch;
+            parameters.Pbd.BendStiffness = bend;
             Assert.That(Wires.Run(parameters).Outcome, Is.EqualTo(Outcome.Finished));
         }
 
@@ -45,10 +45,10 @@ namespace Guidewire.Core.Tests
         public void LongitudinalMotion_BreaksDownBeyond213()
         {
             SimulationParameters held = Wires.Longitudinal(600);
-            held.Gains.StretchStiffness = 2.12;
+            held.Pbd.StretchStiffness = 2.12;
             Assert.That(Wires.Run(held).Outcome, Is.EqualTo(Outcome.Finished));
             SimulationParameters lost = Wires.Longitudinal(600);
-            lost.Gains.StretchStiffness = 2.14;
+            lost.Pbd.StretchStiffness = 2.14;
             Assert.That(Wires.Run(lost).Outcome, Is.EqualTo(Outcome.Diverged));
         }
 
@@ -75,7 +75,7 @@ namespace Guidewire.Core.Tests
         {
             SimulationParameters parameters = Wires.Longitudinal(400);
             parameters.Method.DeltaThreshold = 0.001;
-            parameters.Gains.StretchStiffness = 1e-4;
+            parameters.Pbd.StretchStiffness = 1e-4;
             parameters.Method.ConstraintSolverSteps = 1;
             Assert.That(Wires.Run(parameters).Outcome, Is.Not.EqualTo(Outcome.Converged));
         }

@@ -15,34 +15,34 @@ namespace Guidewire.Core
     /// there.
     ///
     /// Walls are in units, all else in metres. Elements that are far from walls are passed over
-    /// (<see cref="NearWalls"/>); that changes no value. What one shape comes to is kept until another is asked
+    /// (<see cref="NeighbourList"/>); that changes no value. What one shape comes to is kept until another is asked
     /// for.</remarks>
     internal sealed class BarrierEnergy : EnergyTerm
     {
         private const double LeftOfGap = 0.3;     // that a step leaves at least
         private const double MostLeft = 0.2;      // of the barrier's distance
-        private const double LongReach = 20.0;    // of the barrier's distance, between looks for walls
-        private const double ReachInMesh = 0.5;   // of the wire's radius, the same at least
+        private const double LongSkin = 20.0;    // of the barrier's distance, between looks for walls
+        private const double SkinInMesh = 0.5;   // of the wire's radius, the same at least
         private const double Resolved = 1e-3;     // of the distance that is kept: an approach that is none
         private const double ResolvedOfWay = 0.05;    // the same, of the way to it
-        private const double QuickShare = 0.9;    // of a gap that is only about right
+        private const double QuickFraction = 0.9;    // of a gap that is only about right
 
         private readonly ContactShape[] _walls;
         private readonly double _units;           // per metre
         private readonly double[] _nodeRadius;    // m
         private readonly double[] _elementRadius;
         private readonly Barrier _barrier;
-        private readonly NearWalls _near;
+        private readonly NeighbourList _near;
         private readonly SheathWindow? _sheath;
         private int _inside;                      // nodes in the sheath in the shape at hand
         private readonly Vector3d[] _x;           // of the shape at hand, units
         private readonly Vector3d[] _to;          // where its nodes go, units
         private readonly double[] _nodeGap;       // by wall and node, m, no more than the barrier's distance
-        private readonly double[] _ridgeGap;      // by wall and element, between its nodes
+        private readonly double[] _edgeGap;      // by wall and element, between its nodes
         private readonly ContactSums _sums;       // of the shape at hand
         private readonly Vector3d[] _resultant;   // of each wall on the wire, N
-        private readonly StructList<WallPlace> _places = new StructList<WallPlace>(16);
-        private readonly StructList<WallRidge> _ridges = new StructList<WallRidge>(16);
+        private readonly StructList<ContactPoint> _places = new StructList<ContactPoint>(16);
+        private readonly StructList<EdgeContact> _edgeContacts = new StructList<EdgeContact>(16);
         private double _leastGap;                 // of all of these
         private bool _hasBending = true;
         private bool _isKnown;
@@ -78,11 +78,11 @@ namespace Guidewire.Core
             }
             // Lists of features of points grow with the square of the reach, all others hardly.
             double reach = Array.Exists(walls, wall => wall.HasPointFeatures)
-                ? Math.Max(barrier.Distance, ReachInMesh * rod.Radius[n - 1])
-                : Math.Max(LongReach * barrier.Distance, rod.Radius[n - 1]);
-            _near = new NearWalls(walls, range, _units * reach);
+                ? Math.Max(barrier.Distance, SkinInMesh * rod.Radius[n - 1])
+                : Math.Max(LongSkin * barrier.Distance, rod.Radius[n - 1]);
+            _near = new NeighbourList(walls, range, _units * reach);
             _nodeGap = new double[walls.Length * (n + 1)];
-            _ridgeGap = new double[walls.Length * n];
+            _edgeGap = new double[walls.Length * n];
             _sums = new ContactSums(n);
             _resultant = new Vector3d[walls.Length];
         }
@@ -186,7 +186,7 @@ namespace Guidewire.Core
         /// <summary>Leaves at least 30 % of every gap, or a fifth of the barrier's distance, on the straight way of all
         /// nodes, to elements too. From a gap that is left too small Newton's method comes back by doubling it.
         /// </summary>
-        public override double LargestShare(RodShape shape, RodVector[] direction, double scale)
+        public override double MaxStep(RodShape shape, RodVector[] direction, double scale)
         {
             Look(shape);
             double step = scale * _units;
@@ -206,12 +206,12 @@ namespace Guidewire.Core
                 }
                 longest = Math.Max(longest, move.LengthSquared);
             }
-            double sure = QuickShare * _units * _leastGap;
+            double sure = QuickFraction * _units * _leastGap;
             if (longest < sure * sure)
             {
                 return 1.0;
             }
-            double share = 1.0;
+            double fraction = 1.0;
             for (int j = 0; j < _elementRadius.Length; j++)
             {
                 double motion = Math.Sqrt(Math.Max((_to[j] - _x[j]).LengthSquared,
@@ -221,15 +221,15 @@ namespace Guidewire.Core
                 {
                     if (!(_near.ClearanceOf(w, _x, j) > most))
                     {
-                        share = Math.Min(share, ShareOf(w, j, motion));
+                        fraction = Math.Min(fraction, MaxStepOf(w, j, motion));
                     }
                 }
             }
-            return share;
+            return fraction;
         }
 
         /// <summary>What is near a shape; gaps are those of another.</summary>
-        public NearWalls Near(RodShape shape, RodShape other)
+        public NeighbourList Near(RodShape shape, RodShape other)
         {
             Look(other);
             SetNodes(shape, _to);
@@ -245,40 +245,40 @@ namespace Guidewire.Core
         }
 
         /// <summary>The same between the inside of element j and ridges of the wall.</summary>
-        public double RidgeGap(int w, int j)
+        public double EdgeGap(int w, int j)
         {
-            return _ridgeGap[w * _elementRadius.Length + j];
+            return _edgeGap[w * _elementRadius.Length + j];
         }
 
-        private double ShareOf(int w, int j, double motion)
+        private double MaxStepOf(int w, int j, double motion)
         {
             int n = _elementRadius.Length;
             double radius = _units * _elementRadius[j];
             double gap = Math.Min(Math.Min(_nodeGap[w * (n + 1) + j], _nodeGap[w * (n + 1) + j + 1]),
-                _ridgeGap[w * n + j]) * _units;
-            if (motion < QuickShare * gap)
+                _edgeGap[w * n + j]) * _units;
+            if (motion < QuickFraction * gap)
             {
                 return 1.0;
             }
             ref int hint = ref _near.HintOf(w, j);
-            double share = ShareOf(w, j, radius, gap, hint);
-            if (share == 0.0)
+            double fraction = MaxStepOf(w, j, radius, gap, hint);
+            if (fraction == 0.0)
             {
                 _walls[w].Nearest(
                     _x[j], _x[j + 1], double.PositiveInfinity, ref hint, out SurfaceContact contact);
                 gap = contact.Distance - radius;
-                share = ShareOf(w, j, radius, gap, hint);
+                fraction = MaxStepOf(w, j, radius, gap, hint);
             }
-            return Math.Min(1.0, share);
+            return Math.Min(1.0, fraction);
         }
 
-        private double ShareOf(int w, int j, double radius, double gap, int hint)
+        private double MaxStepOf(int w, int j, double radius, double gap, int hint)
         {
             double left = Math.Min(LeftOfGap * gap, MostLeft * _units * _barrier.Distance);
             double keep = radius + left;
             double resolution = Math.Min(Resolved * keep, ResolvedOfWay * (gap - left));
             return gap > 0.0 ? _walls[w].FreeShare(_x[j], _x[j + 1], _to[j], _to[j + 1], keep, resolution, hint,
-                _near.FeaturesOnWay(w, j, _x, _to)) : 0.0;
+                _near.FeaturesAlong(w, j, _x, _to)) : 0.0;
         }
 
         // Finds what the shape comes to, unless it is that of the last call.
@@ -301,7 +301,7 @@ namespace Guidewire.Core
             _value = 0.0;
             _near.Follow(_x);
             Array.Fill(_nodeGap, _barrier.Distance);
-            Array.Fill(_ridgeGap, _barrier.Distance);
+            Array.Fill(_edgeGap, _barrier.Distance);
             _leastGap = _barrier.Distance;
             for (int w = 0; w < _walls.Length; w++)
             {
@@ -338,7 +338,7 @@ namespace Guidewire.Core
         {
             double radius = _nodeRadius[i];
             _places.Clear();
-            _walls[w].FindPlaces(
+            _walls[w].FindContactPoints(
                 _x[i], _units * (radius + _barrier.Distance), _near.FeaturesOfNode(w, i, _x[i]), _places);
             Vector3d gradient = Vector3d.Zero;
             Symmetric3 second = default;
@@ -346,7 +346,7 @@ namespace Guidewire.Core
             ref double nearest = ref _nodeGap[w * _x.Length + i];
             for (int k = 0; k < _places.Count; k++)
             {
-                ref WallPlace place = ref _places[k];
+                ref ContactPoint place = ref _places[k];
                 double gap = place.Contact.Distance / _units - radius;
                 nearest = Math.Min(nearest, gap);
                 _leastGap = Math.Min(_leastGap, gap);
@@ -381,18 +381,18 @@ namespace Guidewire.Core
         private void AddElement(int w, int j)
         {
             double radius = _elementRadius[j];
-            _ridges.Clear();
-            ref double nearest = ref _ridgeGap[w * _elementRadius.Length + j];
-            _walls[w].FindRidges(_x[j], _x[j + 1], _units * (radius + _barrier.Distance),
-                _near.FeaturesOf(w, j, _x[j], _x[j + 1]), _ridges);
-            for (int k = 0; k < _ridges.Count; k++)
+            _edgeContacts.Clear();
+            ref double nearest = ref _edgeGap[w * _elementRadius.Length + j];
+            _walls[w].FindEdgeContacts(_x[j], _x[j + 1], _units * (radius + _barrier.Distance),
+                _near.FeaturesOf(w, j, _x[j], _x[j + 1]), _edgeContacts);
+            for (int k = 0; k < _edgeContacts.Count; k++)
             {
-                ref WallRidge ridge = ref _ridges[k];
-                double gap = ridge.Distance / _units - radius;
+                ref EdgeContact edge = ref _edgeContacts[k];
+                double gap = edge.Distance / _units - radius;
                 nearest = Math.Min(nearest, gap);
                 _leastGap = Math.Min(_leastGap, gap);
                 double value = _barrier.At(gap, out double slope, out double curvature);
-                if (value == 0.0 || ridge.Weight == 0.0)
+                if (value == 0.0 || edge.Weight == 0.0)
                 {
                     continue;
                 }
@@ -401,8 +401,8 @@ namespace Guidewire.Core
                     _value = value;
                     return;
                 }
-                _value += ridge.Weight * value;
-                _resultant[w] -= _sums.AddRidge(w, j, ridge, _x[j + 1] - _x[j], _units, value, slope, curvature);
+                _value += edge.Weight * value;
+                _resultant[w] -= _sums.AddEdgeContact(w, j, edge, _x[j + 1] - _x[j], _units, value, slope, curvature);
             }
         }
     }

@@ -81,23 +81,23 @@ namespace Guidewire.Core
         /// <param name="slope">b', N.</param>
         /// <param name="curvature">b'', N/m.</param>
         /// <returns>The sum of the gradients, N.</returns>
-        public Vector3d AddRidge(int w, int j, in WallRidge ridge, in Vector3d chord, double units, double value,
+        public Vector3d AddEdgeContact(int w, int j, in EdgeContact edge, in Vector3d chord, double units, double value,
             double slope, double curvature)
         {
-            double s = ridge.Position;
+            double s = edge.Position;
             double r = 1.0 - s;
-            Vector3d force = (ridge.Weight * slope) * ridge.Normal;
-            Vector3d first = r * force + (value * units) * ridge.WeightAlongA;
-            Vector3d second = s * force + (value * units) * ridge.WeightAlongB;
+            Vector3d force = (edge.Weight * slope) * edge.Normal;
+            Vector3d first = r * force + (value * units) * edge.WeightAlongA;
+            Vector3d second = s * force + (value * units) * edge.WeightAlongB;
             Touch(w, j, s, -force, false);
             _gradient[j] += first;
             _gradient[j + 1] += second;
-            double stiffness = ridge.Weight * curvature;
-            _own[j] += Symmetric3.Outer(stiffness * r * r, ridge.Normal);
-            _own[j + 1] += Symmetric3.Outer(stiffness * s * s, ridge.Normal);
-            _coupling[j] += Symmetric3.Outer(stiffness * r * s, ridge.Normal);
-            AddBending(j, ridge, chord, units * ridge.Weight * slope);
-            AddPairs(j, units * slope, r * ridge.Normal, s * ridge.Normal, ridge.WeightAlongA, ridge.WeightAlongB);
+            double stiffness = edge.Weight * curvature;
+            _own[j] += Symmetric3.Outer(stiffness * r * r, edge.Normal);
+            _own[j + 1] += Symmetric3.Outer(stiffness * s * s, edge.Normal);
+            _coupling[j] += Symmetric3.Outer(stiffness * r * s, edge.Normal);
+            AddBending(j, edge, chord, units * edge.Weight * slope);
+            AddPairs(j, units * slope, r * edge.Normal, s * edge.Normal, edge.WeightAlongA, edge.WeightAlongB);
             return first + second;
         }
 
@@ -166,18 +166,18 @@ namespace Guidewire.Core
         }
 
         // The force of a ridge times the second derivative of its distance.
-        private void AddBending(int j, in WallRidge ridge, in Vector3d chord, double force)
+        private void AddBending(int j, in EdgeContact edge, in Vector3d chord, double force)
         {
-            double s = ridge.Position;
+            double s = edge.Position;
             double r = 1.0 - s;
-            Symmetric3 h = ridge.Curvature;
+            Symmetric3 h = edge.Curvature;
             _ownBending[j] += (force * r * r) * h;
             _ownBending[j + 1] += (force * s * s) * h;
             _couplingBending[j] += (force * r * s) * h;
             Vector3d hu = h.Times(chord);
             double half = 0.5 * Vector3d.Dot(chord, hu);
-            AddPairs(j, force, r * hu - ridge.Normal + half * ridge.SlideAlongA,
-                s * hu + ridge.Normal + half * ridge.SlideAlongB, ridge.SlideAlongA, ridge.SlideAlongB);
+            AddPairs(j, force, r * hu - edge.Normal + half * edge.SlideAlongA,
+                s * hu + edge.Normal + half * edge.SlideAlongB, edge.SlideAlongA, edge.SlideAlongB);
         }
 
         // weight (c d^T + d c^T) of vectors over both nodes of an element.

@@ -140,10 +140,10 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override void Exchange(Snapshot snapshot)
+        public override void Serialize(Snapshot snapshot)
         {
-            Place = snapshot.Exchange(Place);
-            Besides = snapshot.Exchange(Besides);
+            Place = snapshot.Serialize(Place);
+            Besides = snapshot.Serialize(Besides);
         }
     }
 }

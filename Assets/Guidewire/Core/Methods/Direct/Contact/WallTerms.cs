@@ -59,10 +59,10 @@ namespace Guidewire.Core
 
         /// <summary>Writes or takes over what friction keeps from step to step; a reader between as many walls of which
         /// one rubs takes over what such a writer has.</summary>
-        public void ExchangeFriction(Snapshot snapshot)
+        public void SerializeFriction(Snapshot snapshot)
         {
             snapshot.Section(Friction == null ? "no friction" : "friction at " + Friction.Anchors.Count,
-                snapshot => Friction?.Anchors.Exchange(snapshot));
+                snapshot => Friction?.Anchors.Serialize(snapshot));
         }
 
         /// <summary>Adds minus the force of the walls on the wire.</summary>

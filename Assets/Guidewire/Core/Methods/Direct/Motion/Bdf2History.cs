@@ -77,13 +77,13 @@ namespace Guidewire.Core
         }
 
         /// <summary>Writes or takes over the step before.</summary>
-        public void Exchange(Snapshot snapshot)
+        public void Serialize(Snapshot snapshot)
         {
-            snapshot.Exchange(ref _isComplete);
-            snapshot.Exchange(_positions);
-            snapshot.Exchange(_velocities);
-            snapshot.Exchange(_orientations);
-            snapshot.Exchange(_spins);
+            snapshot.Serialize(ref _isComplete);
+            snapshot.Serialize(_positions);
+            snapshot.Serialize(_velocities);
+            snapshot.Serialize(_orientations);
+            snapshot.Serialize(_spins);
         }
     }
 }

@@ -58,8 +58,8 @@ namespace Guidewire.Core
             inParts = parts > 1;
             for (int k = 1; k <= parts; k++)
             {
-                double share = (double)k / parts;
-                _schedule.TurnFrames(shape, _proximal + share * proximal, _distal + share * distal);
+                double fraction = (double)k / parts;
+                _schedule.TurnFrames(shape, _proximal + fraction * proximal, _distal + fraction * distal);
                 if (k < parts)
                 {
                     failure = _solver.Search(shape);
@@ -75,10 +75,10 @@ namespace Guidewire.Core
         }
 
         /// <summary>Writes or takes over the turns.</summary>
-        public void Exchange(Snapshot snapshot)
+        public void Serialize(Snapshot snapshot)
         {
-            snapshot.Exchange(ref _proximal);
-            snapshot.Exchange(ref _distal);
+            snapshot.Serialize(ref _proximal);
+            snapshot.Serialize(ref _distal);
         }
     }
 }

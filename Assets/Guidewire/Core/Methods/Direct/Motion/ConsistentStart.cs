@@ -129,9 +129,9 @@ namespace Guidewire.Core
             }
             for (int i = 1; i <= n; i++)
             {
-                double share = i == 1 && _holdsFirst ? 0.0 : coupling[i - 1] / _pivot[i - 1];
-                _pivot[i] = diagonal[i] - share * coupling[i - 1];
-                y[i] -= share * y[i - 1];
+                double fraction = i == 1 && _holdsFirst ? 0.0 : coupling[i - 1] / _pivot[i - 1];
+                _pivot[i] = diagonal[i] - fraction * coupling[i - 1];
+                y[i] -= fraction * y[i - 1];
             }
             Vector3d end = (1.0 / _pivot[n]) * y[n];
             if (_distal == DistalEnd.Clamped)

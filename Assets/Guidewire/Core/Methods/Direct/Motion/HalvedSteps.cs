@@ -20,7 +20,7 @@ namespace Guidewire.Core
         public HalvedSteps(RodDynamics dynamics)
         {
             _dynamics = dynamics;
-            _start = new StepStart(dynamics.ExchangeStep);
+            _start = new StepStart(dynamics.SerializeStep);
         }
 
         /// <summary>What is told of each piece that is done, or null.</summary>
@@ -86,9 +86,9 @@ namespace Guidewire.Core
         }
 
         /// <summary>Writes or takes over the count.</summary>
-        public void Exchange(Snapshot snapshot)
+        public void Serialize(Snapshot snapshot)
         {
-            Halvings = snapshot.Exchange(Halvings);
+            Halvings = snapshot.Serialize(Halvings);
         }
 
         // With more iterations.

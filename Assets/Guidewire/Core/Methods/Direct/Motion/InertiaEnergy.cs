@@ -120,10 +120,10 @@ namespace Guidewire.Core
             double mass = 0.0;
             for (int i = 0; i < _diagonal.Length; i++)
             {
-                double share = _diagonal[i] + (i > 0 ? _coupling[i - 1] : 0.0)
+                double fraction = _diagonal[i] + (i > 0 ? _coupling[i - 1] : 0.0)
                     + (i < _coupling.Length ? _coupling[i] : 0.0);
-                sum += share * (shape.X[i] - FreePositions[i]);
-                mass += share;
+                sum += fraction * (shape.X[i] - FreePositions[i]);
+                mass += fraction;
             }
             Vector3d shift = (1.0 / mass) * (StageLength * StageLength * loads - sum);
             for (int i = 0; i < _diagonal.Length; i++)
@@ -163,14 +163,14 @@ namespace Guidewire.Core
         }
 
         /// <summary>Writes or takes over the last stage, by which forces are told between steps.</summary>
-        public override void Exchange(Snapshot snapshot)
+        public override void Serialize(Snapshot snapshot)
         {
-            StageLength = snapshot.Exchange(StageLength);
-            snapshot.Exchange(Start);
-            snapshot.Exchange(FreePositions);
-            snapshot.Exchange(TurnHistory);
-            snapshot.Exchange(SpinHistory);
-            snapshot.Exchange(_countedTurn);
+            StageLength = snapshot.Serialize(StageLength);
+            snapshot.Serialize(Start);
+            snapshot.Serialize(FreePositions);
+            snapshot.Serialize(TurnHistory);
+            snapshot.Serialize(SpinHistory);
+            snapshot.Serialize(_countedTurn);
             BeginStage();
         }
 

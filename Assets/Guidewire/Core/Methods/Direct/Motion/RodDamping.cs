@@ -218,12 +218,12 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override void Exchange(Snapshot snapshot)
+        public override void Serialize(Snapshot snapshot)
         {
-            snapshot.Exchange(ref _hasBegun);
-            snapshot.Exchange(ref _perStage);
-            _begun.Exchange(snapshot);
-            _history.Exchange(snapshot);
+            snapshot.Serialize(ref _hasBegun);
+            snapshot.Serialize(ref _perStage);
+            _begun.Serialize(snapshot);
+            _history.Serialize(snapshot);
             if (!snapshot.IsWritten)
             {
                 Stiffen(_perStage);
@@ -322,11 +322,11 @@ namespace Guidewire.Core
                 Set(Position, scale, a.Position, b.Position);
             }
 
-            public void Exchange(Snapshot snapshot)
+            public void Serialize(Snapshot snapshot)
             {
-                snapshot.Exchange(Joint);
-                snapshot.Exchange(Chord);
-                snapshot.Exchange(Position);
+                snapshot.Serialize(Joint);
+                snapshot.Serialize(Chord);
+                snapshot.Serialize(Position);
             }
 
             private static void Add(Vector3d[] to, double weight, Vector3d[] what)

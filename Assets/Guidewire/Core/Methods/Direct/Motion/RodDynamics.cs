@@ -73,7 +73,7 @@ namespace Guidewire.Core
             _startPositions = new Vector3d[n + 1];
             _last = scheme == null ? 0 : scheme.StageCount - 1;
             _start = new ConsistentStart(terms, _damping);
-            _innerStart = new StepStart(ExchangeMotion);
+            _innerStart = new StepStart(SerializeMotion);
             _history = new Bdf2History(scheme == null ? n : 0);
             Control = new StepControl(scheme == null ? 1 : scheme.EmbeddedOrder);
         }
@@ -217,12 +217,12 @@ namespace Guidewire.Core
 
         /// <summary>Writes or takes over where the rod is and how it moves: what a motion by any scheme goes on
         /// from.</summary>
-        public void Exchange(Snapshot snapshot)
+        public void Serialize(Snapshot snapshot)
         {
             double time = Time;
-            MaterialSnapshot.Exchange(snapshot, _schedule, Shape, Velocities, Spins, ref time);
+            MaterialSnapshot.Serialize(snapshot, _schedule, Shape, Velocities, Spins, ref time);
             Time = time;
-            _frames.Exchange(snapshot);
+            _frames.Serialize(snapshot);
             if (!snapshot.IsWritten)
             {
                 TakeSupportVelocities();
@@ -231,12 +231,12 @@ namespace Guidewire.Core
 
         /// <summary>Writes or takes over what went before, as far as it means something to a motion by this scheme
         /// and steps of dt (s).</summary>
-        public void ExchangeHistory(Snapshot snapshot, double dt)
+        public void SerializeHistory(Snapshot snapshot, double dt)
         {
-            _terms.Exchange(snapshot);
-            ExchangeCounts(snapshot);
+            _terms.Serialize(snapshot);
+            SerializeCounts(snapshot);
             string scheme = _scheme == null ? "BDF2" : _scheme.StageCount + " stages " + Text(_scheme.Diagonal);
-            if (snapshot.Section(scheme + " " + Text(dt), ExchangeStages))
+            if (snapshot.Section(scheme + " " + Text(dt), SerializeStages))
             {
                 _lastStep = dt;
             }
@@ -244,70 +244,70 @@ namespace Guidewire.Core
 
         /// <summary>Writes or takes over all that <see cref="Step"/> may touch, for a <see cref="StepStart"/>.
         /// </summary>
-        public void ExchangeStep(Snapshot snapshot)
+        public void SerializeStep(Snapshot snapshot)
         {
-            Time = snapshot.Exchange(Time);
-            MomentumRate = snapshot.Exchange(MomentumRate);
-            snapshot.Exchange(ref _lastStep);
-            Control.ExchangeCounts(snapshot);
-            Control.ExchangeLength(snapshot);
-            ExchangeMotion(snapshot);
+            Time = snapshot.Serialize(Time);
+            MomentumRate = snapshot.Serialize(MomentumRate);
+            snapshot.Serialize(ref _lastStep);
+            Control.SerializeCounts(snapshot);
+            Control.SerializeLength(snapshot);
+            SerializeMotion(snapshot);
         }
 
         /// <summary>Writes or takes over what was counted.</summary>
-        public void ExchangeCounts(Snapshot snapshot)
+        public void SerializeCounts(Snapshot snapshot)
         {
-            Solver.ExchangeCounts(snapshot);
-            WallSolver?.Exchange(snapshot);
-            Control.ExchangeCounts(snapshot);
+            Solver.SerializeCounts(snapshot);
+            WallSolver?.Serialize(snapshot);
+            Control.SerializeCounts(snapshot);
         }
 
         // What a step of the scheme may touch; how long the next one is follows from how this one went.
-        private void ExchangeMotion(Snapshot snapshot)
+        private void SerializeMotion(Snapshot snapshot)
         {
-            Shape.Exchange(snapshot);
-            snapshot.Exchange(Velocities);
-            snapshot.Exchange(Spins);
-            _frames.Exchange(snapshot);
+            Shape.Serialize(snapshot);
+            snapshot.Serialize(Velocities);
+            snapshot.Serialize(Spins);
+            _frames.Serialize(snapshot);
             foreach (EnergyTerm term in _terms.All)
             {
-                term.Exchange(snapshot);
+                term.Serialize(snapshot);
             }
-            _terms.Walls?.Friction?.Anchors.Exchange(snapshot);
-            ExchangePast(snapshot);
-            _damping?.Exchange(snapshot);
-            _meanForces.Exchange(snapshot);
-            snapshot.Exchange(ref _hasRates);
-            _stage.ExchangeStep(snapshot);
+            _terms.Walls?.Friction?.Anchors.Serialize(snapshot);
+            SerializePast(snapshot);
+            _damping?.Serialize(snapshot);
+            _meanForces.Serialize(snapshot);
+            snapshot.Serialize(ref _hasRates);
+            _stage.SerializeStep(snapshot);
         }
 
-        private void ExchangePast(Snapshot snapshot)
+        private void SerializePast(Snapshot snapshot)
         {
-            snapshot.Exchange(ref _hasStepped);
-            snapshot.Exchange(ref _oldMomentum);
-            _rates.Exchange(snapshot);
-            _history.Exchange(snapshot);
-            _inertia.Exchange(snapshot);
-            Solver.ExchangeTrust(snapshot);
-            snapshot.Exchange(ref _hasPast);
-            snapshot.Exchange(ref _proximalVelocity);
-            snapshot.Exchange(ref _distalVelocity);
+            snapshot.Serialize(ref _hasStepped);
+            snapshot.Serialize(ref _oldMomentum);
+            _rates.Serialize(snapshot);
+            _history.Serialize(snapshot);
+            _inertia.Serialize(snapshot);
+            Solver.SerializeTrust(snapshot);
+            snapshot.Serialize(ref _hasPast);
+            snapshot.Serialize(ref _proximalVelocity);
+            snapshot.Serialize(ref _distalVelocity);
             StageForces forces = _stage.Forces;
-            forces.Exchange(snapshot);
+            forces.Serialize(snapshot);
             _stage.Forces = forces;
         }
 
-        private void ExchangeStages(Snapshot snapshot)
+        private void SerializeStages(Snapshot snapshot)
         {
-            ExchangePast(snapshot);
-            snapshot.OptionalSection("damping", _damping == null ? null : _damping.Exchange);
-            Control.ExchangeLength(snapshot);
+            SerializePast(snapshot);
+            snapshot.OptionalSection("damping", _damping == null ? null : _damping.Serialize);
+            Control.SerializeLength(snapshot);
             // Rates are those of this rod under these loads; a reader on which other forces act begins anew.
             _terms.SetTime(_schedule, Time);
             double own = _start.CheckSum(Shape);
             double sum = own;
-            snapshot.Exchange(ref sum);
-            snapshot.Exchange(ref _hasRates);
+            snapshot.Serialize(ref sum);
+            snapshot.Serialize(ref _hasRates);
             _hasRates &= sum == own;
         }
 
@@ -425,7 +425,7 @@ namespace Guidewire.Core
             return true;
         }
 
-        private string? StepByRungeKutta(RungeKuttaScheme scheme, double time, double dt, double jump, double share)
+        private string? StepByRungeKutta(RungeKuttaScheme scheme, double time, double dt, double jump, double fraction)
         {
             BeginStep(time, dt);
             _inertia.StageLength = scheme.Diagonal * dt;
@@ -433,7 +433,7 @@ namespace Guidewire.Core
             int first = scheme.IsFirstExplicit ? 1 : 0;
             if (first > 0 && TracksReactions)
             {
-                _meanForces.Add(share * final[0], _stage.Forces);
+                _meanForces.Add(fraction * final[0], _stage.Forces);
             }
             for (int s = first; s < scheme.StageCount; s++)
             {
@@ -447,7 +447,7 @@ namespace Guidewire.Core
                 {
                     return failure;
                 }
-                TakeForces(share * final[s]);
+                TakeForces(fraction * final[s]);
             }
             _rates.Accept(_inertia, Velocities, Spins);
             return null;

@@ -180,9 +180,9 @@ namespace Guidewire.Core
         }
 
         /// <summary>Writes or takes over what a solution leaves to the next one, besides what the scheme has.</summary>
-        public void ExchangeStep(Snapshot snapshot)
+        public void SerializeStep(Snapshot snapshot)
         {
-            WallSolver?.ExchangeShift(snapshot);
+            WallSolver?.SerializeShift(snapshot);
         }
 
         /// <summary>Sum of the forces of all loads, N, whose time has been set.</summary>
@@ -247,10 +247,10 @@ namespace Guidewire.Core
             double largest = 0.0;
             Vector3d[] first = Rates.SpinRate[predictor.First];
             Vector3d[] second = Rates.SpinRate[predictor.Second];
-            double share = predictor.Share;
+            double fraction = predictor.Share;
             for (int j = 0; j < _predicted.Length; j++)
             {
-                Vector3d rate = first[j] + share * (second[j] - first[j]);
+                Vector3d rate = first[j] + fraction * (second[j] - first[j]);
                 Vector3d turn = Inertia.TurnHistory[j] + h * (Inertia.SpinHistory[j] + h * rate);
                 _predicted[j] = Inertia.Start[j] * RotationVector.Exp(turn);
                 largest = Math.Max(largest, Inertia.SquaredChange(turn, j));

@@ -169,12 +169,12 @@ namespace Guidewire.Core
                 for (int k = 0; k < StageCount; k++)
                 {
                     double second = time - Times[k] + (k < stage ? 0.0 : 1.0);
-                    double share = first / (first - second);
-                    double wrong = Math.Abs(first * second) * (Math.Abs(share) + Math.Abs(1.0 - share));
+                    double fraction = first / (first - second);
+                    double wrong = Math.Abs(first * second) * (Math.Abs(fraction) + Math.Abs(1.0 - fraction));
                     if (Math.Abs(first) < Math.Abs(second) && wrong < least)
                     {
                         least = wrong;
-                        best = new StagePredictor { First = i, Second = k, Share = share };
+                        best = new StagePredictor { First = i, Second = k, Share = fraction };
                     }
                 }
             }

@@ -21,13 +21,13 @@ namespace Guidewire.Core
         }
 
         /// <summary>Writes or takes over.</summary>
-        public void Exchange(Snapshot snapshot)
+        public void Serialize(Snapshot snapshot)
         {
-            snapshot.Exchange(ref Proximal);
-            snapshot.Exchange(ref Distal);
-            snapshot.Exchange(ref Load);
-            snapshot.Exchange(ref Walls);
-            snapshot.Exchange(ref HubTorque);
+            snapshot.Serialize(ref Proximal);
+            snapshot.Serialize(ref Distal);
+            snapshot.Serialize(ref Load);
+            snapshot.Serialize(ref Walls);
+            snapshot.Serialize(ref HubTorque);
         }
     }
 }

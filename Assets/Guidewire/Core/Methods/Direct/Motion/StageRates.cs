@@ -153,10 +153,10 @@ namespace Guidewire.Core
         }
 
         /// <summary>Writes or takes over what the next step needs.</summary>
-        public void Exchange(Snapshot snapshot)
+        public void Serialize(Snapshot snapshot)
         {
-            snapshot.Exchange(_acceleration);
-            snapshot.Exchange(_spinRate);
+            snapshot.Serialize(_acceleration);
+            snapshot.Serialize(_spinRate);
         }
 
         private static Vector3d[][] Arrays(int count, int length)

@@ -34,7 +34,7 @@ namespace Guidewire.Core
         private readonly EnergyTerm[] _terms;  // with it
         private readonly BlockTridiagonal _system;
         private readonly EquilibriumSolver _search;
-        private readonly DragFlow? _creep;  // in place of the search where a couple at the tip has no potential
+        private readonly ViscousRelaxation? _creep;  // where a couple at the tip has no potential
         private readonly RodVector[] _gradient;
         private readonly RodVector[] _direction;
         private readonly double _totalLength;
@@ -57,7 +57,7 @@ namespace Guidewire.Core
             _terms = terms.With(inertia);
             _system = new BlockTridiagonal(rod, _supports);
             _search = new EquilibriumSolver(rod, _supports, _terms);
-            _creep = terms.HavePotential ? null : new DragFlow(rod, _supports, _terms, terms.Followers);
+            _creep = terms.HavePotential ? null : new ViscousRelaxation(rod, _supports, _terms, terms.Followers);
             _gradient = new RodVector[_system.VectorCount];
             _direction = new RodVector[_system.VectorCount];
             _totalLength = rod.TotalLength;
@@ -106,8 +106,8 @@ namespace Guidewire.Core
                     return false;
                 }
                 _system.Back(_direction);
-                double first = Move(shape, out double share);
-                if (share < 1.0)
+                double first = Move(shape, out double fraction);
+                if (fraction < 1.0)
                 {
                     continue;
                 }
@@ -137,8 +137,8 @@ namespace Guidewire.Core
                     }
                     KeptSolutions++;
                     _system.Solve(_direction);
-                    double next = Move(shape, out share);
-                    if (share < 1.0)
+                    double next = Move(shape, out fraction);
+                    if (fraction < 1.0)
                     {
                         break;
                     }
@@ -188,23 +188,23 @@ namespace Guidewire.Core
         }
 
         /// <summary>Writes or takes over the counts.</summary>
-        public void ExchangeCounts(Snapshot snapshot)
+        public void SerializeCounts(Snapshot snapshot)
         {
-            Factorisations = snapshot.Exchange(Factorisations);
-            KeptSolutions = snapshot.Exchange(KeptSolutions);
-            Searches = snapshot.Exchange(Searches);
+            Factorisations = snapshot.Serialize(Factorisations);
+            KeptSolutions = snapshot.Serialize(KeptSolutions);
+            Searches = snapshot.Serialize(Searches);
         }
 
         /// <summary>Writes or takes over what is expected of the next stage; a rod that answers otherwise than the
         /// writer's is measured anew.</summary>
-        public void ExchangeTrust(Snapshot snapshot)
+        public void SerializeTrust(Snapshot snapshot)
         {
             bool isSame = Agrees(snapshot, _stiffest) & Agrees(snapshot, _axialSpring) & Agrees(snapshot, _mass)
                 & Agrees(snapshot, _softestBendForce) & Agrees(snapshot, Tolerance) & Agrees(snapshot, Balance);
-            snapshot.Exchange(ref _largestForce);
-            snapshot.Exchange(ref _knownStep);
-            snapshot.Exchange(ref _knownForce);
-            snapshot.Exchange(ref _stagesOnTrust);
+            snapshot.Serialize(ref _largestForce);
+            snapshot.Serialize(ref _knownStep);
+            snapshot.Serialize(ref _knownForce);
+            snapshot.Serialize(ref _stagesOnTrust);
             if (!isSame)
             {
                 _knownForce = double.PositiveInfinity;
@@ -214,7 +214,7 @@ namespace Guidewire.Core
         private static bool Agrees(Snapshot snapshot, double own)
         {
             double value = own;
-            snapshot.Exchange(ref value);
+            snapshot.Serialize(ref value);
             return value == own;
         }
 
@@ -241,11 +241,11 @@ namespace Guidewire.Core
         }
 
         /// <summary>Takes the step, or the share of it that the terms allow; returns its full size.</summary>
-        private double Move(RodShape shape, out double share)
+        private double Move(RodShape shape, out double fraction)
         {
             double size = RodStep.Size(_direction, _rod.ElementCount, _totalLength, out _);
-            share = EnergySum.LargestShare(_terms, shape, _direction, 1.0);
-            RodStep.Apply(_rod, _supports, shape, _direction, share, shape);
+            fraction = EnergySum.MaxStep(_terms, shape, _direction, 1.0);
+            RodStep.Apply(_rod, _supports, shape, _direction, fraction, shape);
             return size;
         }
     }

@@ -71,17 +71,17 @@ namespace Guidewire.Core
         }
 
         /// <summary>Writes or takes over the counts.</summary>
-        public void ExchangeCounts(Snapshot snapshot)
+        public void SerializeCounts(Snapshot snapshot)
         {
-            LargestError = snapshot.Exchange(LargestError);
-            Steps = snapshot.Exchange(Steps);
-            StepsAbove = snapshot.Exchange(StepsAbove);
+            LargestError = snapshot.Serialize(LargestError);
+            Steps = snapshot.Serialize(Steps);
+            StepsAbove = snapshot.Serialize(StepsAbove);
         }
 
         /// <summary>Writes or takes over the length of the next step.</summary>
-        public void ExchangeLength(Snapshot snapshot)
+        public void SerializeLength(Snapshot snapshot)
         {
-            snapshot.Exchange(ref _length);
+            snapshot.Serialize(ref _length);
         }
     }
 }

@@ -98,9 +98,9 @@ namespace Guidewire.Core
                 double energyStep = Math.Sqrt(Math.Max(0.0, -RodVectors.Dot(_gradient, _direction))
                     / (_softestBendForce * _totalLength));
                 double scale = Math.Min(1.0, Math.Min(LargestTurn / size, LargestRelativeTurn / relative));
-                double share = EnergySum.LargestShare(_terms, shape, _direction, scale);
-                scale *= share;
-                bool done = convex && share == 1.0 && (size <= tolerance || energyStep <= tolerance);
+                double fraction = EnergySum.MaxStep(_terms, shape, _direction, scale);
+                scale *= fraction;
+                bool done = convex && fraction == 1.0 && (size <= tolerance || energyStep <= tolerance);
                 if (done)
                 {
                     RodStep.Apply(_rod, _supports, shape, _direction, 1.0, _trial);
@@ -204,7 +204,7 @@ namespace Guidewire.Core
             double size = RodStep.Size(_direction, _rod.ElementCount, _totalLength, out _);
             double sign = RodVectors.Dot(_gradient, _direction) > 0.0 ? -1.0 : 1.0;
             double start = EnergySum.Value(_terms, shape, out double magnitude);
-            double largest = 0.3 * EnergySum.LargestShare(_terms, shape, _direction, sign * 0.3 / size);
+            double largest = 0.3 * EnergySum.MaxStep(_terms, shape, _direction, sign * 0.3 / size);
             for (double turn = largest; turn > 1e-6; turn *= 0.5)
             {
                 RodStep.Apply(_rod, _supports, shape, _direction, sign * turn / size, _trial);

@@ -90,8 +90,8 @@ namespace Guidewire.Core
                 }
                 for (int j = 0; j < last; j++)
                 {
-                    double share = turn / parts * (j + 0.5) / last;
-                    shape.Q[j] = shape.Q[j] * Quaterniond.FromAxisAngle(Vector3d.UnitZ, share);
+                    double fraction = turn / parts * (j + 0.5) / last;
+                    shape.Q[j] = shape.Q[j] * Quaterniond.FromAxisAngle(Vector3d.UnitZ, fraction);
                 }
                 schedule.TurnFrames(shape, 0.0, turn * k / parts);
                 EquilibriumResult result = statics.Solve(shape, _tolerance, _mostIterations);

@@ -66,7 +66,7 @@ namespace Guidewire.Core
             {
                 return first;
             }
-            EquilibriumResult result = new DragFlow(_rod, _supports, _terms.All, _terms.Followers).Solve(
+            EquilibriumResult result = new ViscousRelaxation(_rod, _supports, _terms.All, _terms.Followers).Solve(
                 shape, tolerance, mostIterations);
             result.Iterations += first.Iterations;
             result.Factorisations += first.Factorisations;
@@ -76,7 +76,7 @@ namespace Guidewire.Core
         private bool IsStableInSpace(RodShape shape)
         {
             var tangent = new FollowerTangent(_rod, _supports, _terms.All, _terms.Followers);
-            return new DragSpectrum(tangent, _rod).IsStable(shape);
+            return new ViscousSpectrum(tangent, _rod).IsStable(shape);
         }
 
         /// <summary>Largest unbalanced force over EI/L^2 + the sum of the loads, or couple over that times L.</summary>

@@ -31,7 +31,7 @@ namespace Guidewire.Core
             _jointLengths = whole.Rod.JointLengths(even);
             _pieces = new JointPieces(new WireProfile(parameters.Material, parameters.Scene.GuidewireLength),
                 whole.Metres, Stations);
-            _barrier = BarrierRule.Of(whole.Rod, parameters.Contact, whole.Walls, whole.Metres,
+            _barrier = BarrierDefaults.Of(whole.Rod, parameters.Contact, whole.Walls, whole.Metres,
                 parameters.Drive.LargestMove(parameters.Method.TimeStep, whole.Metres));
             _support = new SupportSpring(whole.Rod, parameters.Drive.HubForceLimit);
         }

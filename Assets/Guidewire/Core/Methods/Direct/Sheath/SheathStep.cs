@@ -45,7 +45,7 @@ namespace Guidewire.Core
             _anchors = new FrictionAnchors(parameters.Scene.Walls.Length, n);
             _stress = new StressRecord(whole.Rod, whole.Supports);
             _setup = new SheathSetup(parameters, whole);
-            _start = new StepStart(snapshot => _inner.ExchangeStep(snapshot));
+            _start = new StepStart(snapshot => _inner.SerializeStep(snapshot));
             Contacts = new ContactRecord(n + 1)
             {
                 WallForces = new Vector3d[parameters.Scene.Walls.Length],
@@ -120,23 +120,23 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override void Exchange(Snapshot snapshot)
+        public override void Serialize(Snapshot snapshot)
         {
             int first = _window.First;
             double time = _dynamics.Time;
-            snapshot.Exchange(ref first);
-            snapshot.Exchange(ref _frameTurn);
-            snapshot.Exchange(ref time);
-            snapshot.Exchange(_shape.X);
-            snapshot.Exchange(_shape.Q);
-            snapshot.Exchange(_velocities);
-            snapshot.Exchange(_spins);
+            snapshot.Serialize(ref first);
+            snapshot.Serialize(ref _frameTurn);
+            snapshot.Serialize(ref time);
+            snapshot.Serialize(_shape.X);
+            snapshot.Serialize(_shape.Q);
+            snapshot.Serialize(_velocities);
+            snapshot.Serialize(_spins);
             if (!snapshot.IsWritten)
             {
                 _window = _setup.Window(first);
                 Build(time, null);
             }
-            _inner.Exchange(snapshot);
+            _inner.Serialize(snapshot);
             TakeAnchors();
             Contacts!.Take(_inner.Contacts!, _window.First);
         }
@@ -203,8 +203,8 @@ namespace Guidewire.Core
             if (old != null)
             {
                 var counts = new Snapshot();
-                old.ExchangeCounts(counts);
-                _inner.ExchangeCounts(counts.ToRead());
+                old.SerializeCounts(counts);
+                _inner.SerializeCounts(counts.ToRead());
             }
         }
 

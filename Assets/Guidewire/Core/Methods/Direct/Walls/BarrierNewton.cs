@@ -77,9 +77,9 @@ namespace Guidewire.Core
         public long Factorisations { get; private set; }
 
         /// <summary>Largest part of the motion that a step of this direction may take, 0 to 1.</summary>
-        public double ShareOf(RodShape shape, RodVector[] direction)
+        public double MaxStepOf(RodShape shape, RodVector[] direction)
         {
-            return EnergySum.LargestShare(_terms, shape, direction, 1.0);
+            return EnergySum.MaxStep(_terms, shape, direction, 1.0);
         }
 
         /// <summary>Moves the shape to the stage's.</summary>
@@ -150,17 +150,17 @@ namespace Guidewire.Core
         }
 
         /// <summary>Writes or takes over what the next stage depends on.</summary>
-        public void ExchangeShift(Snapshot snapshot)
+        public void SerializeShift(Snapshot snapshot)
         {
-            snapshot.Exchange(ref _shift);
+            snapshot.Serialize(ref _shift);
         }
 
         /// <summary>The same, and the counts.</summary>
-        public void Exchange(Snapshot snapshot)
+        public void Serialize(Snapshot snapshot)
         {
-            ExchangeShift(snapshot);
-            Iterations = snapshot.Exchange(Iterations);
-            Factorisations = snapshot.Exchange(Factorisations);
+            SerializeShift(snapshot);
+            Iterations = snapshot.Serialize(Iterations);
+            Factorisations = snapshot.Serialize(Factorisations);
         }
 
         // Where small forces balance, N: by the wire's free length, which is less where it touches walls.
@@ -227,7 +227,7 @@ namespace Guidewire.Core
         {
             size = RodStep.Size(_direction, _rod.ElementCount, _totalLength, out double relative);
             double scale = Math.Min(1.0, Math.Min(LargestTurn / size, LargestRelativeTurn / relative));
-            return scale * EnergySum.LargestShare(_terms, shape, _direction, scale);
+            return scale * EnergySum.MaxStep(_terms, shape, _direction, scale);
         }
 
         // Cuts the step until the energy falls enough; the accepted shape is left in the trial.

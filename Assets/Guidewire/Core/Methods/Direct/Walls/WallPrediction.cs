@@ -15,7 +15,7 @@ namespace Guidewire.Core
         private const int MostParts = 16;
         private const double OfElement = 0.5;
         private readonly RodSupports _supports;
-        private readonly WallPush _push;
+        private readonly WallProjection _push;
         private readonly InertiaEnergy _inertia;
         private readonly Vector3d[] _past;       // x'
         private readonly Vector3d[] _before;     // x
@@ -31,7 +31,7 @@ namespace Guidewire.Core
         public WallPrediction(RodTerms terms, InertiaEnergy inertia)
         {
             _supports = terms.Supports;
-            _push = new WallPush(terms.Walls!.Barrier);
+            _push = new WallProjection(terms.Walls!.Barrier);
             _inertia = inertia;
             _past = new Vector3d[terms.Rod.ElementCount + 1];
             _before = new Vector3d[_past.Length];
@@ -77,16 +77,16 @@ namespace Guidewire.Core
         /// <param name="orientations">The elements' by their spins, of which the turn about the element counts.</param>
         /// <param name="shape">Where the wire is now.</param>
         /// <param name="predicted">Receives it; its last node, where that is held, and its frames are kept.</param>
-        public void Set(double share, Quaterniond[] orientations, RodShape shape, RodShape predicted)
+        public void Set(double fraction, Quaterniond[] orientations, RodShape shape, RodShape predicted)
         {
             int n = shape.ElementCount;
             int last = _supports.Distal == DistalEnd.Free ? n : n - 1;
             int at = 0;
             for (int i = 0; i <= last; i++)
             {
-                _place[i] = PlaceOn(_before, _at[i] + share * _way, ref at) + share * _change[i];
+                _place[i] = PlaceOn(_before, _at[i] + fraction * _way, ref at) + fraction * _change[i];
             }
-            predicted.X[0] = _isHeld ? Vector3d.Lerp(_before[0], _start, share) : _place[0];
+            predicted.X[0] = _isHeld ? Vector3d.Lerp(_before[0], _start, fraction) : _place[0];
             Lay(_place, predicted.X, last);
             _push.Apply(shape, predicted, last);
             Array.Copy(predicted.X, _place, last + 1);

@@ -4,7 +4,7 @@ namespace Guidewire.Core
     /// the walls let it, to the minimum of the stage's energy.</summary>
     internal sealed class WallStage
     {
-        private const int Relags = 1;       // of the pushes that friction goes with
+        private const int FrictionLagIterations = 1;       // of the pushes that friction goes with
         private const double Far = 1e3;     // of the error that a stage may have: after such a way it is not done
 
         private readonly RodTerms _terms;
@@ -54,20 +54,20 @@ namespace Guidewire.Core
                 _predicted.CopyFrom(shape);
                 _prediction.Set((double)k / parts, orientations, shape, _predicted);
                 SetDirection(shape);
-                double share = Newton.ShareOf(shape, _direction);
-                if (!(share > 0.0) && k == 1)
+                double fraction = Newton.MaxStepOf(shape, _direction);
+                if (!(fraction > 0.0) && k == 1)
                 {
                     return "the wire's surface is at a wall at the start of the step";
                 }
                 isFar |= RodStep.Size(_direction, shape.ElementCount, _totalLength, out _) > Far * Newton.Tolerance;
-                RodStep.ApplyStraight(shape, _direction, share, shape);
-                if (share < 1.0)
+                RodStep.ApplyStraight(shape, _direction, fraction, shape);
+                if (fraction < 1.0)
                 {
                     break;
                 }
             }
             string? failure = Newton.Solve(shape, stageLength, loads, isFar);
-            for (int k = 0; k < Relags && failure == null && _terms.Walls.Friction != null; k++)
+            for (int k = 0; k < FrictionLagIterations && failure == null && _terms.Walls.Friction != null; k++)
             {
                 _terms.Walls.Friction.Lag(shape);
                 failure = Newton.Solve(shape, stageLength, loads, isFar: false);

@@ -12,20 +12,20 @@ namespace Guidewire.Core
 
         private readonly RodDynamics _dynamics;
         private readonly RodSchedule _schedule;
-        private readonly WallWatch _watch;
+        private readonly WallMonitor _monitor;
         private readonly HalvedSteps _halved;
         private StageForces _meanForces;
         private readonly double _longestMove;     // m
 
         /// <summary>For this motion.</summary>
-        public WallSteps(RodDynamics dynamics, HalvedSteps halved, RodSchedule schedule, WallWatch watch)
+        public WallSteps(RodDynamics dynamics, HalvedSteps halved, RodSchedule schedule, WallMonitor watch)
         {
             _dynamics = dynamics;
             _schedule = schedule;
-            _watch = watch;
+            _monitor = watch;
             _halved = halved;
             halved.PieceDone = () => watch.AddPart(dynamics.Shape);
-            _longestMove = BarrierRule.MostMove * dynamics.Terms.Walls!.Barrier.Barrier.Distance;
+            _longestMove = BarrierDefaults.MostMove * dynamics.Terms.Walls!.Barrier.Barrier.Distance;
         }
 
         /// <summary>The forces from outside, the means over the last step, where reactions are tracked.</summary>
@@ -37,7 +37,7 @@ namespace Guidewire.Core
         public string? Step(double dt)
         {
             _meanForces = default;
-            _watch.BeginStep(_dynamics.Shape);
+            _monitor.BeginStep(_dynamics.Shape);
             int parts = Parts(dt);
             for (int k = 0; k < parts; k++)
             {

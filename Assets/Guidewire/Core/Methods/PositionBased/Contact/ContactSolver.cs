@@ -81,12 +81,12 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public void Exchange(Snapshot snapshot)
+        public void Serialize(Snapshot snapshot)
         {
             snapshot.OptionalSection(SectionKey, sums =>
             {
-                _passages.Exchange(sums);
-                _record.Exchange(sums);
+                _passages.Serialize(sums);
+                _record.Serialize(sums);
             });
         }
 

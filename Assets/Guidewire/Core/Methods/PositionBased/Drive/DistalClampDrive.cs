@@ -30,10 +30,10 @@ namespace Guidewire.Core
         }
 
         /// <summary>Writes into a snapshot, or takes over from one, where the clamp's motion stands.</summary>
-        public void Exchange(Snapshot snapshot)
+        public void Serialize(Snapshot snapshot)
         {
-            _clock.Exchange(snapshot);
-            _schedule.Exchange(snapshot, _clock.Time);
+            _clock.Serialize(snapshot);
+            _schedule.Serialize(snapshot, _clock.Time);
         }
     }
 }

@@ -10,6 +10,6 @@ namespace Guidewire.Core
 
         /// <summary>Writes into a snapshot, or takes over from one, what it remembers of earlier steps; from a
         /// prediction of its kind and the same step size only.</summary>
-        void Exchange(Snapshot snapshot, double timeStep);
+        void Serialize(Snapshot snapshot, double timeStep);
     }
 }

@@ -16,7 +16,7 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public void Exchange(Snapshot snapshot, double timeStep)
+        public void Serialize(Snapshot snapshot, double timeStep)
         {
             snapshot.Section("Euler, orientations", _ => { });
         }

@@ -42,12 +42,12 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public void Exchange(Snapshot snapshot, double timeStep)
+        public void Serialize(Snapshot snapshot, double timeStep)
         {
             snapshot.Section("Verlet, orientations", history =>
             {
-                history.Exchange(ref _started);
-                history.Exchange(_previous);
+                history.Serialize(ref _started);
+                history.Serialize(_previous);
             }, timeStep);
         }
     }

@@ -38,9 +38,9 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public void Exchange(Snapshot snapshot, double timeStep)
+        public void Serialize(Snapshot snapshot, double timeStep)
         {
-            snapshot.Section("Verlet", history => history.Exchange(ref _started), timeStep);
+            snapshot.Section("Verlet", history => history.Serialize(ref _started), timeStep);
         }
     }
 }

@@ -69,9 +69,9 @@ namespace Guidewire.Core.Tests
         [TestCase(1, 0.4, 20, 6e-3)]
         [TestCase(3, 0.4, 100, 1e-4)]
         [TestCase(10, 0.05, 5, 1e-4)]
-        public void Wire_AlongASlope_StaysBelowTheAngleOfFriction(int sweeps, double share, int steps, double creep)
+        public void Wire_AlongASlope_StaysBelowTheAngleOfFriction(int sweeps, double fraction, int steps, double creep)
         {
-            SimulationParameters scene = WallScenes.Compliant(Lying(0.4), Young, share);
+            SimulationParameters scene = WallScenes.Compliant(Lying(0.4), Young, fraction);
             scene.Scene.Gravity = Slope(Vector3d.UnitZ);
             scene.Method.ConstraintSolverSteps = sweeps;
             scene.Method.MaxSimulationSteps = steps;

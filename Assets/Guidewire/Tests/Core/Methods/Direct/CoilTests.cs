@@ -57,11 +57,11 @@ namespace Guidewire.Core.Tests
 
         [TestCase(0.9, Outcome.Converged)]
         [TestCase(1.01, Outcome.Failed)]
-        public void SineLaw_HasNoRestTurnBeyondTwo(double share, Outcome outcome)
+        public void SineLaw_HasNoRestTurnBeyondTwo(double fraction, Outcome outcome)
         {
             // 2 sin(angle/2) = l kappa.
             const int N = 12;
-            SimulationParameters parameters = Coil(share * 2.0 * N / (2.0 * Math.PI), 0.0, N);
+            SimulationParameters parameters = Coil(fraction * 2.0 * N / (2.0 * Math.PI), 0.0, N);
             parameters.Material.BendLaw = BendLaw.Darboux;
             parameters.Material.ClampRule = ClampRule.WholeElement;
             Simulation run = Simulation.Create(parameters);

@@ -98,10 +98,11 @@ namespace Guidewire.Core.Tests
                 Assert.That(motion.Step(Step), Is.Null);
                 if (k == 40 || k == 200)
                 {
-                    double share = k == 40 ? 0.4 + Damping / Ramp : 1.0;
-                    Assert.That(motion.ReactionAt(0).Z, Is.EqualTo(-share * Pull * Rods.Young * Rods.Area)
+                    double fraction = k == 40 ? 0.4 + Damping / Ramp : 1.0;
+                    Assert.That(motion.ReactionAt(0).Z, Is.EqualTo(-fraction * Pull * Rods.Young * Rods.Area)
                         .Within(0.1).Percent, "force, step " + k);
-                    Assert.That(motion.ProximalCouple.Z, Is.EqualTo(-share * Turn * Rods.TwistStiffness / Rods.Length)
+                    Assert.That(
+                        motion.ProximalCouple.Z, Is.EqualTo(-fraction * Turn * Rods.TwistStiffness / Rods.Length)
                         .Within(0.1).Percent, "couple, step " + k);
                     Assert.That(motion.DistalCouple.Z, Is.EqualTo(-motion.ProximalCouple.Z).Within(0.1).Percent);
                 }

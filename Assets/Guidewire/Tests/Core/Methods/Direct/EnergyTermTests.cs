@@ -82,11 +82,11 @@ namespace Guidewire.Core.Tests
             {
                 Assert.That(motion.Step(Dt), Is.Null);
             }
-            double share = Math.Pow(1.0 + Rate * Dt, -Steps);
+            double fraction = Math.Pow(1.0 + Rate * Dt, -Steps);
             for (int i = 0; i <= N; i++)
             {
-                Assert.That(motion.Velocities[i].X, Is.EqualTo(0.3 * share).Within(1e-7), "node " + i);
-                Assert.That(motion.Velocities[i].Z, Is.EqualTo(0.1 * share).Within(1e-7), "node " + i);
+                Assert.That(motion.Velocities[i].X, Is.EqualTo(0.3 * fraction).Within(1e-7), "node " + i);
+                Assert.That(motion.Velocities[i].Z, Is.EqualTo(0.1 * fraction).Within(1e-7), "node " + i);
             }
         }
 
@@ -158,8 +158,8 @@ namespace Guidewire.Core.Tests
             written.BeginStep(Rods.Straight(rod), 0.5);
             var read = new StepDrag(mass, 2.0);
             var snapshot = new Snapshot();
-            new RodTerms(rod, supports, new SceneParameters(), written).Exchange(snapshot);
-            new RodTerms(rod, supports, new SceneParameters(), read).Exchange(snapshot.ToRead());
+            new RodTerms(rod, supports, new SceneParameters(), written).Serialize(snapshot);
+            new RodTerms(rod, supports, new SceneParameters(), read).Serialize(snapshot.ToRead());
             Assert.That(read.Target, Is.EqualTo(written.Target));
             Assert.That(read.Stiffness, Is.EqualTo(written.Stiffness));
         }

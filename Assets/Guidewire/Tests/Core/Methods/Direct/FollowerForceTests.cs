@@ -44,7 +44,8 @@ namespace Guidewire.Core.Tests
             };
             var terms = new RodTerms(rod, supports, scene);
             RodShape rest = Rods.Straight(rod);
-            EquilibriumResult found = new DragFlow(rod, supports, terms.All, terms.Followers).Settle(rest, 1e-13, 5000);
+            EquilibriumResult found =
+                new ViscousRelaxation(rod, supports, terms.All, terms.Followers).Settle(rest, 1e-13, 5000);
             Assert.That(found.Converged, Is.True, found.Reason);
             var tangent = new FollowerTangent(rod, supports, terms.All, terms.Followers);
             var step = new RodVector[tangent.System.VectorCount];

@@ -74,11 +74,11 @@ namespace Guidewire.Core.Tests
             var velocities = new Vector3d[11];
             var spins = new Vector3d[10];
             velocities[10] = new Vector3d(0.0, 1.0, 0.0);
-            var watch = new EnergyWatch(terms, new FreeInertia(terms.Mass, terms.Supports), shape, velocities, spins,
+            var watch = new EnergyMonitor(terms, new FreeInertia(terms.Mass, terms.Supports), shape, velocities, spins,
                 new HeldEnds(terms, new RodSchedule()));
-            velocities[10] = new Vector3d(0.0, 0.99 * Math.Sqrt(EnergyWatch.LeastAllowance), 0.0);
+            velocities[10] = new Vector3d(0.0, 0.99 * Math.Sqrt(EnergyMonitor.LeastAllowance), 0.0);
             Assert.That(watch.Blowup(), Is.Null);
-            velocities[10] = new Vector3d(0.0, 1.01 * Math.Sqrt(EnergyWatch.LeastAllowance), 0.0);
+            velocities[10] = new Vector3d(0.0, 1.01 * Math.Sqrt(EnergyMonitor.LeastAllowance), 0.0);
             Assert.That(watch.Blowup(), Does.Contain("energy").And.Contain("step 2"));
             velocities[10] = new Vector3d(0.0, double.NaN, 0.0);
             Assert.That(watch.Blowup(), Does.Contain("no finite"));

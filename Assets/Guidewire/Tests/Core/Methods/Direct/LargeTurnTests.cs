@@ -14,7 +14,7 @@ namespace Guidewire.Core.Tests
         [TestCase(Integrator.Trbdf2, 0.2 * Rods.Radius, 5e-5)]
         [TestCase(Integrator.Esdirk3, 0.2 * Rods.Radius, 5e-5)]
         [TestCase(Integrator.Esdirk4, 0.2 * Rods.Radius, 5e-5)]
-        public void Pendulum_LetGoLevel_KeepsItsEnergy(Integrator scheme, double radius, double share)
+        public void Pendulum_LetGoLevel_KeepsItsEnergy(Integrator scheme, double radius, double fraction)
         {
             // On a ball joint, 2 s; as a share of m g L/2, the energy that falling turns into motion.
             const int N = 30;
@@ -31,7 +31,7 @@ namespace Guidewire.Core.Tests
             }
             energy.Of(shape.X, motion.Velocities, shape.Q, motion.Spins);
             double lost = Math.Abs(energy.Kinetic + energy.Elastic + Gravity * energy.MassMoment.Y);
-            Assert.That(lost / (0.5 * energy.Mass * Gravity * Rods.Length), Is.LessThan(share));
+            Assert.That(lost / (0.5 * energy.Mass * Gravity * Rods.Length), Is.LessThan(fraction));
         }
 
         [TestCase(Integrator.Trbdf2, 3e-4, 1e-4)]

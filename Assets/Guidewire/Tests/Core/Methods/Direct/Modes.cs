@@ -97,10 +97,10 @@ namespace Guidewire.Core.Tests
                 {
                     for (int f = 0; f < m; f++)
                     {
-                        double share = Dot(found[f], Times(v));
+                        double fraction = Dot(found[f], Times(v));
                         for (int i = 0; i < order; i++)
                         {
-                            v[i] -= share * found[f][i];
+                            v[i] -= fraction * found[f][i];
                         }
                     }
                     double norm = Math.Sqrt(Dot(v, Times(v)));

@@ -19,7 +19,7 @@ namespace Guidewire.Core.Tests
         [TestCase(2.13, 40, -333.0, 0.05)]
         [TestCase(3.0, 61, 333.0, 0.05)]
         public void HubForce_IsWhatDrivesABentWireOut_AtAnySpeed(double perStep, int tipElements, double curvature,
-            double share)
+            double fraction)
         {
             // -EI kappa^2/2, whatever the elements are and wherever nodes stand: fed, and drawn back.
             double length = TipLength / tipElements;
@@ -44,7 +44,7 @@ namespace Guidewire.Core.Tests
                 if (seen >= 5)
                 {
                     double mean = (last[0] + last[1] + last[2] + last[3] + last[4]) / 5.0;
-                    Assert.That(mean, Is.EqualTo(right).Within(-share * right), "at " + bent);
+                    Assert.That(mean, Is.EqualTo(right).Within(-fraction * right), "at " + bent);
                     means++;
                 }
             }

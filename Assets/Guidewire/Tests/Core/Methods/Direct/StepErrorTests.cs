@@ -119,10 +119,10 @@ namespace Guidewire.Core.Tests
         [TestCase(1.0, 0.0, false)]
         [TestCase(0.5, 0.0, true)]
         [TestCase(1.0, 1e-3, true)]
-        public void WireThatBucklesWithinAStep_FailsByTheStepsName_AndAShorterOneDoes(double share, double stepError,
+        public void WireThatBucklesWithinAStep_FailsByTheStepsName_AndAShorterOneDoes(double fraction, double stepError,
             bool lasts)
         {
-            SimulationParameters parameters = PulledBack(Integrator.Esdirk3, share * 1e-4, (int)(60.0 / share));
+            SimulationParameters parameters = PulledBack(Integrator.Esdirk3, fraction * 1e-4, (int)(60.0 / fraction));
             parameters.Method.TimeStepError = stepError;
             Simulation run = Wires.Run(parameters);
             Assert.That(run.Outcome, Is.EqualTo(lasts ? Outcome.Finished : Outcome.Failed), run.Reason);

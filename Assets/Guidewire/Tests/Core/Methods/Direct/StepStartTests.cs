@@ -59,7 +59,7 @@ namespace Guidewire.Core.Tests
             var random = new System.Random(3);
             (RodDynamics a, _) = Failing(RungeKuttaScheme.Esdirk3());
             (RodDynamics b, NotANumber poison) = Failing(RungeKuttaScheme.Esdirk3());
-            var start = new StepStart(b.ExchangeStep);
+            var start = new StepStart(b.SerializeStep);
             int failed = 0;
             for (int k = 0; k < 30; k++)
             {
@@ -84,7 +84,7 @@ namespace Guidewire.Core.Tests
         public void KeepingAStep_LeavesNoGarbage()
         {
             (RodDynamics dynamics, _) = Failing(RungeKuttaScheme.Esdirk3());
-            var start = new StepStart(dynamics.ExchangeStep);
+            var start = new StepStart(dynamics.SerializeStep);
             start.Save();
             Assert.That(Garbage.LeftBy(() =>
             {
@@ -106,7 +106,7 @@ namespace Guidewire.Core.Tests
                 if (random.Next(2) == 0)
                 {
                     DirectStep step = b.Stepper is SheathStep sheath ? sheath.Inner : (DirectStep)b.Stepper;
-                    var start = new StepStart(step.ExchangeStep);
+                    var start = new StepStart(step.SerializeStep);
                     start.Save();
                     for (int tries = random.Next(1, 3); tries > 0; tries--)
                     {

@@ -95,10 +95,10 @@ namespace Guidewire.Core.Tests
             Array.Copy(shape.X, Target, Target.Length);
         }
 
-        public override void Exchange(Snapshot snapshot)
+        public override void Serialize(Snapshot snapshot)
         {
-            snapshot.Exchange(Target);
-            snapshot.Exchange(Stiffness);
+            snapshot.Serialize(Target);
+            snapshot.Serialize(Stiffness);
         }
     }
 
@@ -117,11 +117,11 @@ namespace Guidewire.Core.Tests
             _cuts = true;
         }
 
-        public override double LargestShare(RodShape shape, RodVector[] direction, double scale)
+        public override double MaxStep(RodShape shape, RodVector[] direction, double scale)
         {
-            double share = _cuts ? 0.5 : 1.0;
+            double fraction = _cuts ? 0.5 : 1.0;
             _cuts = false;
-            return share;
+            return fraction;
         }
     }
 
@@ -180,15 +180,15 @@ namespace Guidewire.Core.Tests
             }
         }
 
-        public override double LargestShare(RodShape shape, RodVector[] direction, double scale)
+        public override double MaxStep(RodShape shape, RodVector[] direction, double scale)
         {
-            double share = 1.0;
-            while (share > 1e-9 && !IsClear(shape, direction, share * scale))
+            double fraction = 1.0;
+            while (fraction > 1e-9 && !IsClear(shape, direction, fraction * scale))
             {
-                share *= 0.5;
+                fraction *= 0.5;
             }
-            Cuts += share < 1.0 ? 1 : 0;
-            return share;
+            Cuts += fraction < 1.0 ? 1 : 0;
+            return fraction;
         }
 
         private bool IsClear(RodShape shape, RodVector[] direction, double scale)

@@ -201,7 +201,7 @@ namespace Guidewire.Core.Tests
                 }
             }
 
-            public void Exchange(Snapshot snapshot)
+            public void Serialize(Snapshot snapshot)
             {
             }
         }

@@ -103,7 +103,7 @@ namespace Guidewire.Core.Tests
                 sum += k >= Steps ? simulation.Contacts!.Total : Vector3d.Zero;
             }
             Vector3d mean = sum / Steps;
-            double weight = p.Gains.TotalMass * -p.Scene.Gravity.Y;
+            double weight = p.Pbd.TotalMass * -p.Scene.Gravity.Y;
             Assert.That(mean.Y, Is.EqualTo(weight).Within(ForceTolerance * weight));
             Assert.That(mean.X, Is.EqualTo(0.0).Within(ForceTolerance * weight));
             Assert.That(simulation.Contacts!.Reaction, Is.EqualTo(Vector3d.Zero));
@@ -122,7 +122,7 @@ namespace Guidewire.Core.Tests
             {
                 simulation.Step();
             }
-            double free = p.Gains.TotalMass * p.Scene.NumberRodElements / (p.Scene.NumberRodElements + 1.0);
+            double free = p.Pbd.TotalMass * p.Scene.NumberRodElements / (p.Scene.NumberRodElements + 1.0);
             double weight = free * -p.Scene.Gravity.Y;
             ContactRecord contacts = simulation.Contacts!;
             Assert.That(contacts.Total.Y, Is.GreaterThan(0.1 * weight));
@@ -138,8 +138,8 @@ namespace Guidewire.Core.Tests
             p.Drive.Displacement = 3.0;
             p.Drive.DisplacementDirection = Vector3d.UnitY;
             Simulation simulation = Simulation.Create(p);
-            double weight = p.Gains.TotalMass * -p.Scene.Gravity.Y;
-            double mass = p.Gains.TotalMass / (p.Scene.NumberRodElements + 1.0);
+            double weight = p.Pbd.TotalMass * -p.Scene.Gravity.Y;
+            double mass = p.Pbd.TotalMass / (p.Scene.NumberRodElements + 1.0);
             for (int k = 0; k < 200; k++)
             {
                 Vector3d before = Momentum(simulation.State, mass);
@@ -237,7 +237,7 @@ namespace Guidewire.Core.Tests
                 Scene = { NumberRodElements = 10 },
                 Drive = { Kind = Drive.Push, TwistPerStep = 0.01 },
                 Method = { MaxSimulationSteps = 400, Damping = 0.1, DeltaThreshold = 0.0 },
-                Gains = { BendStiffness = 10.0 },
+                Pbd = { BendStiffness = 10.0 },
             };
             Simulation simulation = Simulation.Create(p);
             double tip = 0.0;
@@ -307,7 +307,7 @@ namespace Guidewire.Core.Tests
                     MaxSimulationSteps = 1000,
                 },
                 Drive = { Kind = Drive.Force },
-                Gains = { TotalMass = 1.0 },
+                Pbd = { TotalMass = 1.0 },
             });
         }
 

@@ -61,7 +61,7 @@ namespace Guidewire.Core.Tests
             Simulation run = Simulation.Create(new SimulationParameters
             {
                 Drive = { Kind = Drive.Force, ExternalForce = new Vector3d(0.0, 0.003, -0.002) },
-                Gains = { TotalMass = 0.01 },
+                Pbd = { TotalMass = 0.01 },
                 Method = { ConstraintSolverSteps = 20 },
             });
             for (int step = 0; step < 50; step++)

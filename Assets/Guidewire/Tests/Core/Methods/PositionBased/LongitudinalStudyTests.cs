@@ -49,7 +49,7 @@ namespace Guidewire.Core.Tests
             // An independent double-precision implementation gives these digits.
             Simulation run = Simulation.Create(new SimulationParameters
             {
-                Gains = { StretchStiffness = 0.3, BendStiffness = 0.05 },
+                Pbd = { StretchStiffness = 0.3, BendStiffness = 0.05 },
                 Method = { DeltaThreshold = 0.0 },
             });
             Assert.That(TipAfter(run, 10), Is.EqualTo(10.2667809).Within(1e-7));

@@ -73,9 +73,9 @@ namespace Guidewire.Core.Tests
             double reach = radius + contact.CollisionMargin;
             bool asPublished = contact.ElementContact == ElementContact.Seed;
             IContactResponse response = asPublished
-                ? (IContactResponse)new SeedContactResponse(state, walls.Length, reach, contact.CollisionStiffness)
+                ? (IContactResponse)new ThesisContactResponse(state, walls.Length, reach, contact.CollisionStiffness)
                 : new ContactResponse(state, walls, radius, reach, contact.CollisionStiffness, Iterations);
-            IContactSearch search = asPublished ? (IContactSearch)new SeedContactSearch(walls, Elements, radius)
+            IContactSearch search = asPublished ? (IContactSearch)new ThesisContactSearch(walls, Elements, radius)
                 : new ContactSearch(walls, Elements, Length / Elements, radius, reach,
                     contact.ElementContact == ElementContact.Barycentric);
             var record = new ContactRecord(state.SphereCount);

@@ -107,15 +107,15 @@ namespace Guidewire.Core.Tests
             };
             parameters.Scene.NumberRodElements = 5 + random.Index(56);
             parameters.Method.ConstraintSolverSteps = 50 + random.Index(451);
-            parameters.Gains.StretchStiffness = random.Number(0.1, 1.5);
-            parameters.Gains.BendStiffness = Math.Pow(10.0, random.Number(-2.0, 0.3));
+            parameters.Pbd.StretchStiffness = random.Number(0.1, 1.5);
+            parameters.Pbd.BendStiffness = Math.Pow(10.0, random.Number(-2.0, 0.3));
             parameters.Scene.Gravity = random.Number(0.0, 10.0) * random.Direction();
             parameters.Contact.SphereRadius = random.Number(1.0, 5.0);
             parameters.Contact.CollisionStiffness = Math.Pow(10.0, random.Number(-3.0, 0.0));
             parameters.Contact.CollisionMargin = random.Number(0.0, 1.0);
             parameters.Method.Damping = random.Number(0.0, 0.3);
             parameters.Method.TimeStep = Math.Pow(10.0, random.Number(-4.0, -1.0));
-            parameters.Gains.TotalMass = Math.Pow(10.0, random.Number(-3.0, 0.0));
+            parameters.Pbd.TotalMass = Math.Pow(10.0, random.Number(-3.0, 0.0));
             parameters.Drive.TwistPerStep = random.Index(2) == 0 ? 0.0 : random.Number(-0.5, 0.5);
             parameters.Drive.DisplacementPerStep = random.Number(0.05, 20.0) * parameters.Contact.SphereRadius;
             parameters.Method.MaxSimulationSteps = (int)Math.Ceiling(Asked / parameters.Drive.DisplacementPerStep);

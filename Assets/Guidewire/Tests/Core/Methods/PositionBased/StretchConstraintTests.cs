@@ -45,9 +45,9 @@ namespace Guidewire.Core.Tests
             state.InverseMasses[1] = 5.0;
             state.Positions[1] = new Vector3d(0.0, 0.0, 12.0);
             new StretchConstraint(state, 0.5).Sweep(state.Positions, state.Orientations, OneElement);
-            double share = 0.5 * 10.0 * 0.2 / (3.0 + 5.0 + 400.0);
-            Assert.That(state.Positions[0].Z, Is.EqualTo(3.0 * share).Within(1e-15));
-            Assert.That(state.Positions[1].Z, Is.EqualTo(12.0 - 5.0 * share).Within(1e-14));
+            double fraction = 0.5 * 10.0 * 0.2 / (3.0 + 5.0 + 400.0);
+            Assert.That(state.Positions[0].Z, Is.EqualTo(3.0 * fraction).Within(1e-15));
+            Assert.That(state.Positions[1].Z, Is.EqualTo(12.0 - 5.0 * fraction).Within(1e-14));
             Assert.That(state.Orientations[0], Is.EqualTo(Quaterniond.Identity));
         }
 

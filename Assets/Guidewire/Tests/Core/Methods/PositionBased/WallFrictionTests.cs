@@ -136,14 +136,14 @@ namespace Guidewire.Core.Tests
 
         // How far each sphere is moved by a share of mu times the weight, put on slowly: what is put on at once swings
         // to twice its force.
-        private static double[] AfterForce(ElementContact rule, double share, out double expected)
+        private static double[] AfterForce(ElementContact rule, double fraction, out double expected)
         {
             const int Steps = 1500;
             SimulationParameters p = LyingWire(rule, 0.3);
             p.Drive.Kind = Drive.Force;
             double friction = Coefficient * Weight(p);
             double dt = p.Method.TimeStep;
-            expected = (share - 1.0) * friction * dt / (p.Method.Damping * p.Gains.TotalMass) * Steps * dt;
+            expected = (fraction - 1.0) * friction * dt / (p.Method.Damping * p.Pbd.TotalMass) * Steps * dt;
             Simulation simulation = Simulation.Create(p);
             for (int k = 0; k < 500; k++)
             {
@@ -153,7 +153,7 @@ namespace Guidewire.Core.Tests
             for (int k = 0; k < 2 * Steps; k++)
             {
                 double part = Math.Min(1.0, k / (double)Steps);
-                simulation.State.Forces[0] = new Vector3d(0.0, 0.0, part * share * friction);
+                simulation.State.Forces[0] = new Vector3d(0.0, 0.0, part * fraction * friction);
                 simulation.Step();
             }
             var ways = new double[before.Length];
@@ -182,12 +182,12 @@ namespace Guidewire.Core.Tests
         private static double Drag(SimulationParameters p)
         {
             double speed = p.Drive.DisplacementPerStep / p.Method.TimeStep;
-            return p.Method.Damping * p.Gains.TotalMass * FreeShare * speed / p.Method.TimeStep;
+            return p.Method.Damping * p.Pbd.TotalMass * FreeShare * speed / p.Method.TimeStep;
         }
 
         private static double Weight(SimulationParameters p)
         {
-            return p.Gains.TotalMass * -p.Scene.Gravity.Y;
+            return p.Pbd.TotalMass * -p.Scene.Gravity.Y;
         }
 
         private static SimulationParameters LyingWire(ElementContact rule, double gain)
@@ -204,7 +204,7 @@ namespace Guidewire.Core.Tests
                     Walls = new ContactShape[] { plane },
                 },
                 Contact = { SphereRadius = 1.0, CollisionStiffness = gain, ElementContact = rule },
-                Gains = { StretchStiffness = 1.0 },
+                Pbd = { StretchStiffness = 1.0 },
                 Method =
                 {
                     ConstraintSolverSteps = 50, DeltaThreshold = 0.0, MaxSimulationSteps = 100_000, Damping = 0.1,

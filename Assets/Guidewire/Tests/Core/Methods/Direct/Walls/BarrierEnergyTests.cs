@@ -108,24 +108,24 @@ namespace Guidewire.Core.Tests
                 Vector3d b = a + random.Point();
                 Vector3d da = random.Direction();
                 Vector3d db = random.Direction();
-                if (RidgesOf(wall, a, b).Count == 1 && RidgesOf(wall, a, b)[0].SlideAlongA != Vector3d.Zero
-                    && RidgesOf(wall, a, b)[0].Weight > 0.05)
+                if (EdgeContactsOf(wall, a, b).Count == 1 && EdgeContactsOf(wall, a, b)[0].SlideAlongA != Vector3d.Zero
+                    && EdgeContactsOf(wall, a, b)[0].Weight > 0.05)
                 {
-                    WallRidge ridge = RidgesOf(wall, a, b)[0];
-                    StructList<WallRidge> above = RidgesOf(wall, a + step * da, b + step * db);
-                    StructList<WallRidge> below = RidgesOf(wall, a - step * da, b - step * db);
+                    EdgeContact edge = EdgeContactsOf(wall, a, b)[0];
+                    StructList<EdgeContact> above = EdgeContactsOf(wall, a + step * da, b + step * db);
+                    StructList<EdgeContact> below = EdgeContactsOf(wall, a - step * da, b - step * db);
                     if (above.Count != 1 || below.Count != 1)
                     {
                         continue;
                     }
-                    double s = ridge.Position;
-                    Vector3d h = ridge.Curvature.Times(b - a);
+                    double s = edge.Position;
+                    Vector3d h = edge.Curvature.Times(b - a);
                     Vector3d move = (1.0 - s) * da + s * db;
-                    double slide = Vector3d.Dot(ridge.SlideAlongA, da) + Vector3d.Dot(ridge.SlideAlongB, db);
-                    double exact = Vector3d.Dot(move, ridge.Curvature.Times(move))
-                        + 2.0 * slide * (Vector3d.Dot(h, move) + Vector3d.Dot(ridge.Normal, db - da))
+                    double slide = Vector3d.Dot(edge.SlideAlongA, da) + Vector3d.Dot(edge.SlideAlongB, db);
+                    double exact = Vector3d.Dot(move, edge.Curvature.Times(move))
+                        + 2.0 * slide * (Vector3d.Dot(h, move) + Vector3d.Dot(edge.Normal, db - da))
                         + slide * slide * Vector3d.Dot(b - a, h);
-                    double difference = (above[0].Distance - 2.0 * ridge.Distance + below[0].Distance)
+                    double difference = (above[0].Distance - 2.0 * edge.Distance + below[0].Distance)
                         / (step * step);
                     Assert.That(exact, Is.EqualTo(difference).Within(0.02 * Math.Abs(exact) + 1e-3), "case " + i);
                     tried++;
@@ -159,10 +159,10 @@ namespace Guidewire.Core.Tests
                 {
                     continue;
                 }
-                var places = new StructList<WallPlace>(8);
-                var exact = new StructList<WallPlace>(8);
-                wall.FindPlaces(a, range, atA, places);
-                wall.FindPlaces(a, range, default, exact);
+                var places = new StructList<ContactPoint>(8);
+                var exact = new StructList<ContactPoint>(8);
+                wall.FindContactPoints(a, range, atA, places);
+                wall.FindContactPoints(a, range, default, exact);
                 Assert.That(places.Count, Is.EqualTo(exact.Count), "case " + i);
                 double sum = 0.0;
                 for (int k = 0; k < places.Count; k++)
@@ -171,13 +171,13 @@ namespace Guidewire.Core.Tests
                         - exact[k].Weight * exact[k].Contact.Distance;
                 }
                 Assert.That(sum, Is.EqualTo(0.0).Within(1e-12), "case " + i);
-                var ridges = new StructList<WallRidge>(8);
-                wall.FindRidges(a, b, range, all, ridges);
-                StructList<WallRidge> found = RidgesOf(wall, a, b);
+                var edges = new StructList<EdgeContact>(8);
+                wall.FindEdgeContacts(a, b, range, all, edges);
+                StructList<EdgeContact> found = EdgeContactsOf(wall, a, b);
                 sum = 0.0;
-                for (int k = 0; k < ridges.Count; k++)
+                for (int k = 0; k < edges.Count; k++)
                 {
-                    sum += ridges[k].Distance <= range && ridges[k].Distance > 0.0 ? ridges[k].Weight : 0.0;
+                    sum += edges[k].Distance <= range && edges[k].Distance > 0.0 ? edges[k].Weight : 0.0;
                 }
                 for (int k = 0; k < found.Count; k++)
                 {
@@ -187,11 +187,11 @@ namespace Guidewire.Core.Tests
             }
         }
 
-        private static StructList<WallRidge> RidgesOf(ContactShape wall, in Vector3d a, in Vector3d b)
+        private static StructList<EdgeContact> EdgeContactsOf(ContactShape wall, in Vector3d a, in Vector3d b)
         {
-            var ridges = new StructList<WallRidge>(8);
-            wall.FindRidges(a, b, 0.3, ridges);
-            return ridges;
+            var edges = new StructList<EdgeContact>(8);
+            wall.FindEdgeContacts(a, b, 0.3, edges);
+            return edges;
         }
 
         [Test]
@@ -213,12 +213,12 @@ namespace Guidewire.Core.Tests
                     Vector3d d = random.Number(0.0, 2.0) * random.Point();
                     direction[i] = new RodVector { X1 = d.X, X2 = d.Y, X3 = d.Z };
                 }
-                double share = energy.LargestShare(shape, direction, 1.0);
-                cut += share < 1.0 ? 1 : 0;
+                double fraction = energy.MaxStep(shape, direction, 1.0);
+                cut += fraction < 1.0 ? 1 : 0;
                 var moved = new RodShape(N);
                 for (int k = 0; k <= 50; k++)
                 {
-                    RodStep.ApplyStraight(shape, direction, share * k / 50.0, moved);
+                    RodStep.ApplyStraight(shape, direction, fraction * k / 50.0, moved);
                     Assert.That(GapOf(energy.Walls[0], moved), Is.GreaterThan(0.0), name + ", seed " + seed);
                 }
             }

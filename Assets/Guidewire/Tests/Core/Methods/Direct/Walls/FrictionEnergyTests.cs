@@ -109,7 +109,7 @@ namespace Guidewire.Core.Tests
             friction.EndStep(shape);
             double stored = friction.Anchors.StoredEnergy;
             double heat = friction.Anchors.Dissipated;
-            var start = new StepStart(friction.Anchors.Exchange);
+            var start = new StepStart(friction.Anchors.Serialize);
             start.Save();
             for (int i = 0; i <= N; i++)
             {
@@ -138,7 +138,7 @@ namespace Guidewire.Core.Tests
                 Assert.That(motion.Step(1e-3), Is.Null);
             }
             double stored = walls.Friction!.Anchors.StoredEnergy;
-            var start = new StepStart(motion.ExchangeStep);
+            var start = new StepStart(motion.SerializeStep);
             start.Save();
             Assert.That(motion.Step(1e-3), Is.Null);
             Assert.That(walls.Friction.Anchors.StoredEnergy, Is.Not.EqualTo(stored));

@@ -137,7 +137,7 @@ namespace Guidewire.Core.Tests
             Go(run, 40);
             hand.Push = ring;
             hand.Turn = turning * hand.Push / radius;
-            double share = Math.Sin(Math.Atan(turning));
+            double fraction = Math.Sin(Math.Atan(turning));
             int facets = 0;
             for (int k = 0; k < 180; k++)
             {
@@ -146,7 +146,7 @@ namespace Guidewire.Core.Tests
                 if (k >= 40)
                 {
                     facets += 2 * run.State.SphereCount;
-                    Assert.That(friction / (share * Limit(run, mu, 1e-3 * radius)), Is.EqualTo(1.0).Within(0.01),
+                    Assert.That(friction / (fraction * Limit(run, mu, 1e-3 * radius)), Is.EqualTo(1.0).Within(0.01),
                         "step " + k);
                 }
             }
@@ -273,7 +273,7 @@ namespace Guidewire.Core.Tests
 
         // A rope of 0.6 mm over half a drum of 100 mm, pulled with T1 at its end and with a share of the limit at node
         // 0; with share 0 node 0 is drawn.
-        private static Simulation OverDrum(double mu, double share, out double limit)
+        private static Simulation OverDrum(double mu, double fraction, out double limit)
         {
             const int n = 70;
             const double young = 1e7;
@@ -308,11 +308,11 @@ namespace Guidewire.Core.Tests
                 Drum);
             drum.FrictionCoefficient = mu;
             parameters.Scene.Walls = new ContactShape[] { drum };
-            parameters.Scene.ProximalEnd = share > 0.0 ? ProximalEnd.Free : ProximalEnd.Held;
-            parameters.Scene.TipForce = new Vector3d(0.0, 0.0, share > 0.0 ? -share * limit : -Pull);
-            parameters.Drive.Kind = share > 0.0 ? Drive.Force : Drive.Displace;
+            parameters.Scene.ProximalEnd = fraction > 0.0 ? ProximalEnd.Free : ProximalEnd.Held;
+            parameters.Scene.TipForce = new Vector3d(0.0, 0.0, fraction > 0.0 ? -fraction * limit : -Pull);
+            parameters.Drive.Kind = fraction > 0.0 ? Drive.Force : Drive.Displace;
             parameters.Drive.ExternalForce = new Vector3d(0.0, 0.0, -Pull);
-            parameters.Drive.DisplacementPerStep = share > 0.0 ? 0.0 : -5.0 * Step;
+            parameters.Drive.DisplacementPerStep = fraction > 0.0 ? 0.0 : -5.0 * Step;
             parameters.Method.TimeStep = Step;
             return Simulation.Create(parameters);
         }

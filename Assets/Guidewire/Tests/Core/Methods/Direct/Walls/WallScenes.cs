@@ -104,7 +104,7 @@ namespace Guidewire.Core.Tests
         /// <summary>The same scene for xpbd with one sweep a substep; a soft wire's substeps are long.</summary>
         /// <param name="young">E, Pa.</param>
         /// <param name="share">Of the time, l sqrt(rho/E), that sound takes along an element.</param>
-        public static SimulationParameters Compliant(SimulationParameters scene, double young, double share = 0.4)
+        public static SimulationParameters Compliant(SimulationParameters scene, double young, double fraction = 0.4)
         {
             SimulationParameters parameters = Soft(scene, young);
             double sound = Math.Sqrt(young / parameters.Material.Density);
@@ -114,7 +114,7 @@ namespace Guidewire.Core.Tests
             parameters.Method.Integrator = new MethodParameters().Integrator;
             parameters.Method.ConstraintSolverSteps = 1;
             parameters.Method.Substeps = (int)Math.Ceiling(
-                parameters.Method.TimeStep * sound / (share * length));
+                parameters.Method.TimeStep * sound / (fraction * length));
             return parameters;
         }
 

@@ -1,0 +1,69 @@
+using System.Globalization;
+
+namespace Guidewire.Core
+{
+    /// <summary>Sees when the tip of a wire leaves a vessel by an open rim or end, beyond which no wall is near: inside
+    /// before a step, outside after it, and no passage in it.</summary>
+    internal sealed class RimMonitor
+    {
+        private readonly ContactShape[] _walls;
+        private readonly bool[] _isInside;    // the tip, by wall
+        private long _passages;
+        private bool _hasLeft;
+        private Vector3d _place;              // of the tip where it first was outside, units
+        private double _time;                 // s
+
+        /// <summary>A watch on these walls; <see cref="Begin"/> says where the tip is.</summary>
+        public RimMonitor(ContactShape[] walls)
+        {
+            _walls = walls;
+            _isInside = new bool[walls.Length];
+        }
+
+        /// <summary>Where and when the tip left first, in one line, or null.</summary>
+        public string? Line => !_hasLeft ? null : string.Format(CultureInfo.InvariantCulture,
+            "the tip left the vessel by an open rim at ({0:G4}, {1:G4}, {2:G4}) at t = {3:G6} s", _place.X, _place.Y,
+            _place.Z, _time);
+
+        /// <summary>The wire is in this state.</summary>
+        public void Begin(RodState state)
+        {
+            Vector3d tip = state.Positions[state.ElementCount];
+            for (int w = 0; w < _walls.Length; w++)
+            {
+                _isInside[w] = _walls[w].IsWithin(tip);
+            }
+        }
+
+        /// <summary>A step has come to this state.</summary>
+        /// <param name="time">s.</param>
+        public void Look(RodState state, ContactRecord? contacts, double time)
+        {
+            Vector3d tip = state.Positions[state.ElementCount];
+            long passages = contacts?.Passages ?? 0;
+            for (int w = 0; w < _walls.Length && !_hasLeft; w++)
+            {
+                bool wasInside = _isInside[w];
+                _isInside[w] = _walls[w].IsWithin(tip);
+                if (wasInside && !_isInside[w] && passages == _passages && tip.IsFinite)
+                {
+                    _hasLeft = true;
+                    _place = tip;
+                    _time = time;
+                }
+            }
+            _passages = passages;
+        }
+
+        /// <summary>Writes or takes over what was seen.</summary>
+        /// <param name="state">Where the wire is.</param>
+        public void Serialize(Snapshot snapshot, RodState state)
+        {
+            snapshot.Serialize(ref _passages);
+            snapshot.Serialize(ref _hasLeft);
+            snapshot.Serialize(ref _place);
+            snapshot.Serialize(ref _time);
+            Begin(state);
+        }
+    }
+}

@@ -1,0 +1,114 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>What points of a wire are asked again and again: features of a wall about the points of a lattice, each
+    /// found once and kept. A wire that is pushed goes through the same places node after node.</summary>
+    /// <remarks>One place in the table for each hash: what was there before is forgotten; and all is where the lists
+    /// have grown long. Nothing is allocated once it stands, unless one wire needs longer lists.</remarks>
+    internal sealed class FeatureCache
+    {
+        private const int Places = 1 << 13;
+        private const int MostFeatures = 1 << 17;
+        private const int LongestList = 1 << 13;    // that is expected
+        private const int MostLists = 8;            // of all that a wire asks for at once
+        private const double HalfDiagonal = 0.8661;    // of a lattice's cell, rounded up
+        private readonly ContactShape _wall;
+        private readonly double _size;
+        private readonly double _reach;    // from a point of the lattice
+        private readonly Cell[] _cells = new Cell[Places];
+        private int _most = MostFeatures;
+        private int _before;    // features when they were looked through last
+
+        /// <summary>For a wall that stays where it is.</summary>
+        /// <param name="wall">It has features of points.</param>
+        /// <param name="reach">What is found holds at least this far about where it was asked for, units.</param>
+        public FeatureCache(ContactShape wall, double reach)
+        {
+            _wall = wall;
+            Reach = reach;
+            _size = 0.5 * reach;
+            _reach = reach + HalfDiagonal * _size;
+        }
+
+        /// <summary>What is found holds at least this far about where it was asked for, units.</summary>
+        public double Reach { get; }
+
+        /// <summary>How often all was forgotten; places that were found before then hold no longer.</summary>
+        public int Version { get; private set; }
+
+        /// <summary>The lists.</summary>
+        public StructList<WallFeature> Features { get; } =
+            new StructList<WallFeature>(MostFeatures + LongestList);
+
+        /// <summary>Forgets all where the lists have grown too long, but not before they hold several times what was
+        /// asked for since the last call: a wire of many elements in a fine mesh needs long ones.</summary>
+        public void Trim()
+        {
+            _most = Math.Max(_most, MostLists * (Features.Count - _before));
+            if (Features.Count > _most)
+            {
+                Features.Clear();
+                Array.Clear(_cells, 0, _cells.Length);
+                Version++;
+            }
+            _before = Features.Count;
+        }
+
+        /// <summary>Finds the wall about the lattice point next to a point.</summary>
+        /// <param name="x">Units.</param>
+        /// <param name="range">Of the features, beyond the reach, units.</param>
+        /// <param name="place">Receives it, with its features among <see cref="Features"/>.</param>
+        public void Find(in Vector3d x, double range, ref Neighbour place)
+        {
+            var centre = new Vector3d(
+                _size * Math.Round(x.X / _size), _size * Math.Round(x.Y / _size), _size * Math.Round(x.Z / _size));
+            double radius = _reach + range;
+            ref Cell cell = ref _cells[PlaceOf(centre, radius)];
+            if (!cell.Is(centre, radius))
+            {
+                int from = Features.Count;
+                double distance = _wall.FindFeatures(centre, radius, Features);
+                cell = new Cell(centre, radius, from, Features.Count, distance);
+            }
+            place.Begin(centre, centre, _reach, cell.From);
+            place.End(cell.Distance, radius, cell.To);
+        }
+
+        private static int PlaceOf(in Vector3d centre, double radius)
+        {
+            ulong hash = Mixed(Mixed(Mixed(Mixed(0UL, centre.X), centre.Y), centre.Z), radius);
+            return (int)(hash >> 40) & (Places - 1);
+        }
+
+        private static ulong Mixed(ulong hash, double value)
+        {
+            const ulong factor = 0x9E3779B97F4A7C15UL;    // 2^64 over the golden ratio
+            hash ^= unchecked((ulong)BitConverter.DoubleToInt64Bits(value));
+            return unchecked(factor * (hash ^ (hash >> 29)));
+        }
+
+        private readonly struct Cell
+        {
+            public readonly int From;
+            public readonly int To;
+            public readonly double Distance;
+            private readonly Vector3d _centre;
+            private readonly double _radius;    // 0: nothing was found here
+
+            public Cell(in Vector3d centre, double radius, int from, int to, double distance)
+            {
+                _centre = centre;
+                _radius = radius;
+                From = from;
+                To = to;
+                Distance = distance;
+            }
+
+            public bool Is(in Vector3d centre, double radius)
+            {
+                return _radius == radius && _centre == centre;
+            }
+        }
+    }
+}

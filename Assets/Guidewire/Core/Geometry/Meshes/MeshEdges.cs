@@ -1,0 +1,84 @@
+using System;
+using System.Collections.Generic;
+
+namespace Guidewire.Core
+{
+    /// <summary>The ridges of a mesh: edges at which its two faces turn towards the free side, and edges of open
+    /// rims.</summary>
+    /// <remarks>The weight of an edge goes with the angle between its faces, and is 1 at a rim.</remarks>
+    internal sealed class MeshEdges
+    {
+        private const double LeastAngle = 1e-6;   // radians
+        private const double RimWeight = 1.0;
+        private readonly MeshGeometry _mesh;
+        private readonly double[] _weight;        // of the edge that starts at a place, 0 for all but its own
+        private readonly StructList<int> _edges = new StructList<int>(64);
+
+        /// <summary>For this mesh where it stands.</summary>
+        public MeshEdges(MeshGeometry mesh)
+        {
+            _mesh = mesh;
+            _weight = new double[mesh.Corners.Length];
+            for (int place = 0; place < _weight.Length; place++)
+            {
+                int edge = mesh.EdgeOf(place);
+                if (mesh.IsRimEdge(edge))
+                {
+                    _weight[edge] = RimWeight;
+                }
+                else if (place != edge)
+                {
+                    _weight[edge] = ConvexEdge.Weight(Angle(edge, place));
+                }
+            }
+        }
+
+        /// <summary>Places of the edges that are ridges.</summary>
+        public int[] Edges()
+        {
+            var edges = new List<int>();
+            for (int place = 0; place < _weight.Length; place++)
+            {
+                if (_weight[place] > 0.0)
+                {
+                    edges.Add(place);
+                }
+            }
+            return edges.ToArray();
+        }
+
+        /// <summary>Adds the ridges within <paramref name="range"/> of segment a b, in the order of their
+        /// places.</summary>
+        public void Find(in Vector3d a, in Vector3d b, double range, MeshNearby nearby, FeatureRange among,
+            StructList<EdgeContact> edgeContacts)
+        {
+            _edges.Clear();
+            if (!among.IsKnown)
+            {
+                nearby.ChooseEdges(a, b, range, _edges);
+            }
+            for (int k = among.From; k < among.To && among.LeastDistance(k) <= range; k++)
+            {
+                _edges.Add(among[k]);
+            }
+            _edges.Sort(0);
+            for (int k = 0; k < _edges.Count; k++)
+            {
+                _mesh.EndsOf(_edges[k], out int from, out int to);
+                ConvexEdge.Add(
+                    a, b, _mesh.Corners[from], _mesh.Corners[to], 0.0, _weight[_edges[k]], range, edgeContacts);
+            }
+        }
+
+        // By which the faces on both sides of an edge turn towards the free side; 0 in a valley.
+        private double Angle(int edge, int twin)
+        {
+            Vector3d first = _mesh.FaceNormals[edge / 3];
+            Vector3d second = _mesh.FaceNormals[twin / 3];
+            int opposite = 3 * (twin / 3) + (twin % 3 + 2) % 3;
+            bool bulges = Vector3d.Dot(_mesh.Corners[opposite] - _mesh.Corners[edge], first) < 0.0;
+            double angle = Math.Atan2(Vector3d.Cross(first, second).Length, Vector3d.Dot(first, second));
+            return bulges && angle > LeastAngle ? angle : 0.0;
+        }
+    }
+}

@@ -1,0 +1,251 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>How far a segment may move in a tube so that it surely keeps a distance.</summary>
+    /// <remarks>A piece's lumen is convex, less the distance to keep as well, and its term of the distance concave. So
+    /// the segment is cut where it crosses the planes that halve the tube's bends, and the motion where an end does;
+    /// in between, a part of the segment sweeps a patch that its piece holds where it holds the four corners, and on
+    /// the straight way of a corner the term is no less than the line between its values. The cuts move along the
+    /// segment, which bends their way by up to a quarter of both changes. Where the pieces between the planes do not
+    /// hold their corners at the start, pieces are looked for: what a part of the segment sweeps in a part of the time
+    /// is kept where one piece holds its corners, the longer side of a part is halved where none does, and where that
+    /// does not tell after some halvings, the answer is no.</remarks>
+    internal sealed class TubeCcd
+    {
+        private const int MaxHalvings = 14;
+        private const int TimeHalvings = 6;
+        private const int MostParts = 32;         // of the time, between crossings of planes
+        private const int MostPieces = 64;        // of the segment
+        private const double LeastPart = 1e-6;    // of the time
+        private const double LeastFraction = 0.05;   // of what is proven, by which going on must promise to add to it
+        private const double LeastGrowth = 0.25;
+        private readonly TubePiece[] _pieces;
+        private readonly TubePlanes _planes;
+        private readonly int[] _near;
+        private int _count;
+        private int _last;    // the piece that last held all corners: asked first
+        private Vector3d _a;
+        private Vector3d _b;
+        private Vector3d _moveA;
+        private Vector3d _moveB;
+        private double _keep;
+
+        /// <summary>In these pieces.</summary>
+        public TubeCcd(TubePiece[] pieces, TubePlanes planes)
+        {
+            _pieces = pieces;
+            _planes = planes;
+            _near = new int[pieces.Length];
+        }
+
+        /// <summary>See <see cref="ContactShape.FreeShare"/>.</summary>
+        public double SafeFraction(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
+            int hint)
+        {
+            _a = a0;
+            _b = b0;
+            _moveA = a1 - a0;
+            _moveB = b1 - b0;
+            _keep = keep;
+            double fraction = BetweenPlanes(hint >= 0 && hint < _pieces.Length ? hint : _last, out bool isTold);
+            return isTold ? fraction : Math.Max(fraction, BySearch(a0, b0, a1, b1));
+        }
+
+        // The share of the motion that is free by the pieces between the planes, one part after another in time: up to
+        // the next plane that an end crosses, or shorter where that proves too little.
+        private double BetweenPlanes(int guess, out bool isTold)
+        {
+            int first = _planes.PieceAt(_a, guess);
+            int last = _planes.PieceAt(_b, first);
+            double time = 0.0;
+            double longest = 1.0;
+            isTold = true;
+            for (int k = 0; k < MostParts; k++)
+            {
+                double left = Math.Min(longest, 1.0 - time);
+                double untilA = _planes.Crossing(_a + time * _moveA, _moveA, first, left, out int firstAfter);
+                double untilB = _planes.Crossing(_b + time * _moveB, _moveB, last, left, out int lastAfter);
+                double until = Math.Min(untilA, untilB);
+                double fraction = PartFraction(first, last, time, time + until);
+                time += fraction * until;
+                if (fraction < 1.0)
+                {
+                    longest = until * Math.Max(LeastGrowth, Math.Min(fraction, 0.5));
+                    if (longest < LeastFraction * time || longest < LeastPart)
+                    {
+                        break;
+                    }
+                    continue;
+                }
+                if (time >= 1.0 - LeastPart)
+                {
+                    return ContactShape.NoImpact;
+                }
+                first = untilA <= untilB ? firstAfter : first;
+                last = untilB <= untilA ? lastAfter : last;
+                longest = 2.0 * longest;
+            }
+            isTold = time > 0.0;
+            return time;
+        }
+
+        // The share of a part of the motion in which the ends stay in the same pieces.
+        private double PartFraction(int first, int last, double from, double to)
+        {
+            if (last < first || last - first > MostPieces)
+            {
+                return 0.0;
+            }
+            Vector3d a0 = _a + from * _moveA;
+            Vector3d a1 = _a + to * _moveA;
+            Vector3d u0 = _b + from * _moveB - a0;
+            Vector3d u1 = _b + to * _moveB - a1;
+            double turn = (u1 - u0).Length;
+            double fraction = 1.0;
+            double begin0 = 0.0;
+            double begin1 = 0.0;
+            Vector3d x0 = a0;
+            Vector3d x1 = a1;
+            for (int i = first; i <= last; i++)
+            {
+                double end0 = i < last ? _planes.Cut(i + 1, a0, u0) : 1.0;
+                double end1 = i < last ? _planes.Cut(i + 1, a1, u1) : 1.0;
+                if (!(end0 >= begin0 && end1 >= begin1))
+                {
+                    return 0.0;
+                }
+                Vector3d y0 = a0 + end0 * u0;
+                Vector3d y1 = a1 + end1 * u1;
+                if (end0 > begin0 || end1 > begin1)
+                {
+                    double need = _keep + 0.25 * turn * Math.Max(Math.Abs(begin1 - begin0), Math.Abs(end1 - end0));
+                    fraction = Math.Min(fraction, CornerFraction(_pieces[i], x0, x1, need));
+                    fraction = fraction > 0.0 ? Math.Min(fraction, CornerFraction(_pieces[i], y0, y1, need)) : 0.0;
+                    if (fraction == 0.0)
+                    {
+                        return 0.0;
+                    }
+                }
+                begin0 = end0;
+                begin1 = end1;
+                x0 = y0;
+                x1 = y1;
+            }
+            return fraction;
+        }
+
+        private static double CornerFraction(in TubePiece piece, in Vector3d from, in Vector3d to, double need)
+        {
+            double before = piece.Distance(from);
+            if (!(before >= need))
+            {
+                return 0.0;
+            }
+            double after = piece.Distance(to);
+            return after >= need ? 1.0 : (before - need) / (before - after);
+        }
+
+        private double BySearch(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1)
+        {
+            if (HoldsAll(_pieces[_last], a0, b0, a1, b1))
+            {
+                return ContactShape.NoImpact;
+            }
+            FindNear(a1, b1);
+            if (IsSafe(0.0, 1.0, 0.0, 1.0, 0))
+            {
+                return ContactShape.NoImpact;
+            }
+            double safe = 0.0;
+            double unsafeFrom = 1.0;
+            for (int k = 0; k < TimeHalvings || (safe == 0.0 && k < 4 * TimeHalvings); k++)
+            {
+                double middle = 0.5 * (safe + unsafeFrom);
+                if (IsSafe(0.0, 1.0, safe, middle, 0))
+                {
+                    safe = middle;
+                }
+                else
+                {
+                    unsafeFrom = middle;
+                }
+            }
+            return safe;
+        }
+
+        // Pieces of which some point may hold a corner.
+        private void FindNear(in Vector3d a1, in Vector3d b1)
+        {
+            Vector3d middle = 0.25 * (_a + _b + a1 + b1);
+            double size = Math.Max(Math.Max(Vector3d.Distance(middle, _a), Vector3d.Distance(middle, _b)),
+                Math.Max(Vector3d.Distance(middle, a1), Vector3d.Distance(middle, b1)));
+            _count = 0;
+            for (int i = 0; i < _pieces.Length; i++)
+            {
+                if (!_pieces[i].IsBelow(middle, _keep - size))
+                {
+                    _near[_count++] = i;
+                }
+            }
+        }
+
+        // Whether the part from s0 to s1 keeps the distance from time t0 to t1.
+        private bool IsSafe(double s0, double s1, double t0, double t1, int depth)
+        {
+            Vector3d c00 = At(s0, t0);
+            Vector3d c10 = At(s1, t0);
+            Vector3d c01 = At(s0, t1);
+            Vector3d c11 = At(s1, t1);
+            for (int k = 0; k < _count; k++)
+            {
+                ref readonly TubePiece piece = ref _pieces[_near[k]];
+                if (HoldsAll(piece, c00, c10, c01, c11))
+                {
+                    _last = _near[k];
+                    return true;
+                }
+            }
+            if (depth == MaxHalvings || !IsHeld(c00) || !IsHeld(c10) || !IsHeld(c01) || !IsHeld(c11))
+            {
+                return false;
+            }
+            double along = Math.Max((c10 - c00).LengthSquared, (c11 - c01).LengthSquared);
+            double motion = Math.Max((c01 - c00).LengthSquared, (c11 - c10).LengthSquared);
+            if (along >= motion)
+            {
+                double s = 0.5 * (s0 + s1);
+                return IsSafe(s0, s, t0, t1, depth + 1) && IsSafe(s, s1, t0, t1, depth + 1);
+            }
+            double t = 0.5 * (t0 + t1);
+            return IsSafe(s0, s1, t0, t, depth + 1) && IsSafe(s0, s1, t, t1, depth + 1);
+        }
+
+        private bool IsHeld(in Vector3d x)
+        {
+            for (int k = 0; k < _count; k++)
+            {
+                if (Holds(_pieces[_near[k]], x))
+                {
+                    return true;
+                }
+            }
+            return false;
+        }
+
+        private bool HoldsAll(in TubePiece piece, in Vector3d a, in Vector3d b, in Vector3d c, in Vector3d d)
+        {
+            return Holds(piece, a) && Holds(piece, d) && Holds(piece, b) && Holds(piece, c);
+        }
+
+        private bool Holds(in TubePiece piece, in Vector3d x)
+        {
+            return !piece.IsBelow(x, _keep) && piece.Distance(x, out _, out _) >= _keep;
+        }
+
+        private Vector3d At(double s, double t)
+        {
+            return Vector3d.Lerp(_a + t * _moveA, _b + t * _moveB, s);
+        }
+    }
+}

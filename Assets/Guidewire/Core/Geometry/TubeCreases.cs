@@ -1,0 +1,244 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>The creases of a tube: at a knot where it bends, or where its wall turns towards the axis and away
+    /// again, the walls of two pieces meet in an edge that bulges into the lumen.</summary>
+    /// <remarks>With f1 and f2 the pieces' terms of the distance, n1 and n2 their normals and m = n1 - n2, a segment
+    /// crosses the crease at x(s) with f1 = f2: there is the least of max(f1, f2) along it. While the segment moves,
+    /// ds = -(m . dx)/(m . u) with u = b - a, so the distance there has the derivative
+    /// ((n1 . u) n2 - (n2 . u) n1)/(m . u), which is normal to u. The weight is |m|, the angle of the crease there: on
+    /// the outer side of a bend, where both terms are that of the knot's ball, it is 0. It fades over a tenth of the
+    /// segment at both ends.</remarks>
+    internal sealed class TubeCreases
+    {
+        private const double Fade = 0.1;          // of the segment
+        private const double LeastAngle = 1e-9;   // radians
+        private const int MostIterations = 60;
+        private readonly TubePiece[] _pieces;
+        private readonly Vector3d[] _knots;
+        private readonly double[] _radii;
+        private readonly bool[] _isCrease;        // by knot
+        private readonly TubePlanes _planes;
+        private readonly double[] _slack;         // by knot: the crease is no farther from that plane, units
+
+        /// <summary>For this tube.</summary>
+        public TubeCreases(TubeShape tube, TubePiece[] pieces, TubePlanes planes)
+        {
+            _planes = planes;
+            _pieces = pieces;
+            _knots = tube.Knots;
+            _radii = tube.Radii;
+            _isCrease = new bool[_knots.Length];
+            _slack = new double[_knots.Length];
+            for (int k = 1; k + 1 < _knots.Length; k++)
+            {
+                Vector3d before = _knots[k] - _knots[k - 1];
+                Vector3d after = _knots[k + 1] - _knots[k];
+                double turn = Math.Atan2(Vector3d.Cross(before, after).Length, Vector3d.Dot(before, after));
+                double narrows = (_radii[k] - _radii[k - 1]) / before.Length;
+                double widens = (_radii[k + 1] - _radii[k]) / after.Length;
+                _isCrease[k] = turn + Math.Asin(widens) - Math.Asin(narrows) > LeastAngle;
+                _slack[k] = 2.0 * _radii[k] * (Math.Abs(narrows) + Math.Abs(widens) + 1e-9);
+            }
+        }
+
+        /// <summary>Distance of segment a b from the wall where it crosses creases, from that at one knot to that at
+        /// another; infinite where it crosses none.</summary>
+        public double Nearest(in Vector3d a, in Vector3d b, int from, int to)
+        {
+            double nearest = double.PositiveInfinity;
+            double size = Vector3d.Distance(a, b);
+            for (int k = Math.Max(from, 1); k <= Math.Min(to, _knots.Length - 2); k++)
+            {
+                nearest = Math.Min(nearest, DistanceAt(k, a, b, size));
+            }
+            return nearest;
+        }
+
+        /// <summary>The same between pieces that are next to each other in a range.</summary>
+        public double Nearest(in Vector3d a, in Vector3d b, FeatureRange pieces)
+        {
+            double nearest = double.PositiveInfinity;
+            double size = Vector3d.Distance(a, b);
+            for (int i = pieces.From + 1; i < pieces.To; i++)
+            {
+                if (pieces[i] == pieces[i - 1] + 1)
+                {
+                    nearest = Math.Min(nearest, DistanceAt(pieces[i], a, b, size));
+                }
+            }
+            return nearest;
+        }
+
+        /// <summary>Adds the creases that segment a b crosses within <paramref name="range"/> of the wall.</summary>
+        public void Find(in Vector3d a, in Vector3d b, double range, StructList<EdgeContact> edgeContacts)
+        {
+            double size = Vector3d.Distance(a, b);
+            for (int k = 1; k + 1 < _knots.Length; k++)
+            {
+                if (MayCross(k, a, b, size))
+                {
+                    Add(k, a, b, range, edgeContacts);
+                }
+            }
+        }
+
+        /// <summary>The same between pieces that are next to each other in a range.</summary>
+        public void Find(in Vector3d a, in Vector3d b, double range, FeatureRange pieces,
+            StructList<EdgeContact> edgeContacts)
+        {
+            double size = Vector3d.Distance(a, b);
+            for (int i = pieces.From + 1; i < pieces.To; i++)
+            {
+                if (pieces[i] == pieces[i - 1] + 1 && MayCross(pieces[i], a, b, size))
+                {
+                    Add(pieces[i], a, b, range, edgeContacts);
+                }
+            }
+        }
+
+        private double DistanceAt(int k, in Vector3d a, in Vector3d b, double size)
+        {
+            return MayCross(k, a, b, size) && Cross(k, a, b, out Crossing crossing) ? crossing.Distance
+                : double.PositiveInfinity;
+        }
+
+        private void Add(int k, in Vector3d a, in Vector3d b, double range, StructList<EdgeContact> edgeContacts)
+        {
+            if (!Cross(k, a, b, out Crossing c) || c.Distance > range)
+            {
+                return;
+            }
+            Vector3d u = b - a;
+            Vector3d m = c.First - c.Second;
+            double along = Vector3d.Dot(m, u);
+            Vector3d normal = (1.0 / along) * (Vector3d.Dot(c.First, u) * c.Second
+                - Vector3d.Dot(c.Second, u) * c.First);
+            double s = c.Position;
+            double weight = m.Length;
+            Vector3d e = m / weight;
+            Symmetric3 first = c.Curvature(_knots, k - 1, c.First, c.FirstCentre, c.FirstIsRound);
+            Symmetric3 second = c.Curvature(_knots, k, c.Second, c.SecondCentre, c.SecondIsRound);
+            Vector3d turn = first.Times(e) - second.Times(e);
+            // Along the crossing's own motion dx + u ds.
+            Vector3d slope = turn - (Vector3d.Dot(turn, u) / along) * m;
+            double toEnd = Math.Min(s, 1.0 - s) / Fade;
+            if (toEnd < 1.0)
+            {
+                double sign = s < 0.5 ? 1.0 : -1.0;
+                double left = toEnd * toEnd * (3.0 - 2.0 * toEnd);
+                slope = left * slope
+                    + (-weight * sign * 6.0 * toEnd * (1.0 - toEnd) / (Fade * along)) * m;
+                weight *= left;
+            }
+            double fraction = Vector3d.Dot(c.First, u) / along;
+            Vector3d slide = (-1.0 / along) * m;
+            edgeContacts.Add(new EdgeContact(s, c.Distance, normal, weight, (1.0 - s) * slope, s * slope).Sliding(
+                (1.0 - s) * slide, s * slide, (1.0 - fraction) * first + fraction * second));
+        }
+
+        // No crossing is farther from the knot than the wall's radius there, nor from a than b is; and it goes from
+        // one side of the knot's plane to the other, but for the slack.
+        private bool MayCross(int k, in Vector3d a, in Vector3d b, double size)
+        {
+            double reach = 1.5 * _radii[k] + size;
+            Vector3d offset = a - _knots[k];
+            return _isCrease[k] && offset.LengthSquared <= reach * reach
+                && _planes.Past(k, a) <= _slack[k] && _planes.Past(k, b) >= -_slack[k];
+        }
+
+        // Where f1 - f2 goes from positive to negative along the segment, by Newton's method between bounds.
+        private bool Cross(int k, in Vector3d a, in Vector3d b, out Crossing at)
+        {
+            at = new Crossing(_pieces[k - 1], _pieces[k], a, 0.0);
+            if (!(at.Difference > 0.0))
+            {
+                return false;
+            }
+            at = new Crossing(_pieces[k - 1], _pieces[k], b, 1.0);
+            if (!(at.Difference < 0.0))
+            {
+                return false;
+            }
+            Vector3d u = b - a;
+            double low = 0.0;
+            double high = 1.0;
+            double s = PlaneCrossing(k, a, b);
+            double resolution = 1e-15 * (_radii[k] + a.Length);
+            for (int i = 0; i < MostIterations; i++)
+            {
+                at = new Crossing(_pieces[k - 1], _pieces[k], Vector3d.Lerp(a, b, s), s);
+                if (Math.Abs(at.Difference) <= resolution)
+                {
+                    break;
+                }
+                if (at.Difference > 0.0)
+                {
+                    low = s;
+                }
+                else
+                {
+                    high = s;
+                }
+                s -= at.Difference / Vector3d.Dot(at.First - at.Second, u);
+                s = s > low && s < high ? s : 0.5 * (low + high);
+            }
+            // In the ball of the knot there is no crease.
+            Vector3d m = at.First - at.Second;
+            return Vector3d.Dot(m, u) < 0.0 && m.Length > LeastAngle && at.Distance > -_radii[k];
+        }
+
+        // Near the crossing: in the plane that halves the bend.
+        private double PlaneCrossing(int k, in Vector3d a, in Vector3d b)
+        {
+            double atA = _planes.Past(k, a);
+            double atB = _planes.Past(k, b);
+            return atA < 0.0 && atB > 0.0 ? atA / (atA - atB) : 0.5;
+        }
+
+        // Both pieces' terms at a point of the segment.
+        private readonly struct Crossing
+        {
+            public readonly double Position;
+            public readonly double Distance;
+            public readonly double Difference;
+            public readonly Vector3d First;
+            public readonly Vector3d Second;
+            public readonly Vector3d FirstCentre;
+            public readonly Vector3d SecondCentre;
+            public readonly bool FirstIsRound;
+            public readonly bool SecondIsRound;
+            private readonly Vector3d _x;
+
+            public Crossing(in TubePiece first, in TubePiece second, in Vector3d x, double s)
+            {
+                Position = s;
+                _x = x;
+                double one = first.Distance(x, out FirstCentre, out double alongFirst);
+                double two = second.Distance(x, out SecondCentre, out double alongSecond);
+                Distance = Math.Max(one, two);
+                Difference = one - two;
+                First = Vector3d.Normalize(FirstCentre - x);
+                Second = Vector3d.Normalize(SecondCentre - x);
+                FirstIsRound = alongFirst <= 0.0 || alongFirst >= 1.0;
+                SecondIsRound = alongSecond <= 0.0 || alongSecond >= 1.0;
+            }
+
+            /// <summary>How a piece's normal changes: across it by -1/r, r the distance from its centre; along the wall
+            /// not at all, but where it is a ball.</summary>
+            public Symmetric3 Curvature(Vector3d[] knots, int piece, in Vector3d normal, in Vector3d centre,
+                bool isRound)
+            {
+                double curvature = -1.0 / Vector3d.Distance(_x, centre);
+                if (isRound)
+                {
+                    return new Symmetric3(curvature, 0.0, curvature, 0.0, 0.0, curvature)
+                        + Symmetric3.Outer(-curvature, normal);
+                }
+                Vector3d around = Vector3d.Normalize(Vector3d.Cross(knots[piece + 1] - knots[piece], normal));
+                return Symmetric3.Outer(curvature, around);
+            }
+        }
+    }
+}

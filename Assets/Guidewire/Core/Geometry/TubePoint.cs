@@ -1,0 +1,23 @@
+namespace Guidewire.Core
+{
+    /// <summary>A place of a segment in a tube.</summary>
+    internal readonly struct TubePoint
+    {
+        /// <summary>Where along the segment, 0 at its first end and 1 at its second.</summary>
+        public readonly double S;
+
+        /// <summary>d there, units.</summary>
+        public readonly double Distance;
+
+        /// <summary>The piece that gives it; at a handover, the one that follows.</summary>
+        public readonly int Piece;
+
+        /// <summary>A place with these values.</summary>
+        public TubePoint(double s, double distance, int piece)
+        {
+            S = s;
+            Distance = distance;
+            Piece = piece;
+        }
+    }
+}

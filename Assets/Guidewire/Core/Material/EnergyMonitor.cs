@@ -1,0 +1,131 @@
+using System;
+using System.Globalization;
+
+namespace Guidewire.Core
+{
+    /// <summary>Finds a motion that has blown up: the wire moves with more energy than was ever put into
+    /// it.</summary>
+    /// <remarks>With T of motion and V of the strains, T + V is at most what it was at the start plus the work W of
+    /// loads and held ends; damping and implicit steps only take from it. V is no less than 0, so T never exceeds the
+    /// largest sum that start and W have had. T alone is compared: strains that too few sweeps have not yet closed
+    /// hold energy on paper only, and such a wire is wrong but not lost. There is room for a factor of 4, and more for
+    /// explicit steps h near their limit, where T of a mode is too high by 1/(1 - (omega h/2)^2).</remarks>
+    internal sealed class EnergyMonitor
+    {
+        /// <summary>The least that T may be over the energy put in.</summary>
+        public const double LeastAllowance = 4.0;
+
+        private const double Rounding = 1e-9;   // of EI/L
+        private readonly RodShape _shape;
+        private readonly Vector3d[] _velocities;
+        private readonly Vector3d[] _spins;
+        private readonly RodTerms _terms;
+        private readonly IKineticEnergy _inertia;
+        private readonly HeldEnds _ends;
+        private readonly RodShape _before;
+        private double _start;                  // J, with what changes of the material have put in
+        private double _loadWork;               // J
+        private double _mostPutIn;              // J
+        private int _step;
+
+        /// <summary>A watch on a wire at its start.</summary>
+        /// <param name="terms">Its energies and loads.</param>
+        /// <param name="inertia">How its motion counts.</param>
+        /// <param name="shape">Where it is, now and after each step.</param>
+        /// <param name="velocities">Of its nodes, m/s, now and after each step.</param>
+        /// <param name="spins">Of its elements, rad/s.</param>
+        /// <param name="ends">The work of its supports.</param>
+        public EnergyMonitor(RodTerms terms, IKineticEnergy inertia, RodShape shape, Vector3d[] velocities,
+            Vector3d[] spins, HeldEnds ends)
+        {
+            _shape = shape;
+            _velocities = velocities;
+            _spins = spins;
+            _terms = terms;
+            _inertia = inertia;
+            _ends = ends;
+            _before = new RodShape(shape.ElementCount);
+            Start();
+            _mostPutIn = Rounding * terms.Rod.BendStiffness1[0] / terms.Rod.TotalLength;
+        }
+
+        /// <summary>What T may be over the energy put in.</summary>
+        public double Allowance { get; set; } = LeastAllowance;
+
+        /// <summary>Takes the wire after a step that the loads acted in as they are now; one line where it has blown
+        /// up, else null.</summary>
+        public string? Blowup()
+        {
+            _step++;
+            // What acts on a held node acts on its support.
+            _before.X[0] = _ends.HoldsFirst ? _shape.X[0] : _before.X[0];
+            int last = _shape.ElementCount;
+            _before.X[last] = _ends.HoldsLast ? _shape.X[last] : _before.X[last];
+            _loadWork += _terms.LoadWork(_before, _shape);
+            _before.CopyFrom(_shape);
+            double motion = Motion();
+            double putIn = _start + _loadWork + _ends.MostWork;
+            // A NaN fails every comparison, so the question is asked for the good case.
+            if (motion <= Allowance * Math.Max(_mostPutIn, putIn))
+            {
+                _mostPutIn = Math.Max(_mostPutIn, putIn);
+                return null;
+            }
+            if (!(motion <= double.MaxValue))
+            {
+                return string.Format(CultureInfo.InvariantCulture,
+                    "the wire has no finite positions or velocities at step {0}", _step);
+            }
+            return string.Format(CultureInfo.InvariantCulture,
+                "the wire moves with {0:G3} times the energy that was put into it (step {1})",
+                motion / Math.Max(_mostPutIn, putIn), _step);
+        }
+
+        /// <summary>The wire as it is now is the start.</summary>
+        public void Start()
+        {
+            _before.CopyFrom(_shape);
+            _start = Motion() + _terms.StoredEnergy(_shape);
+        }
+
+        /// <summary>Writes or takes over the energies so far. A reader's wire is in place; where it is heavier or
+        /// stiffer than the writer's was, the same motion in the same shape holds more, and that was put in.</summary>
+        public void Serialize(Snapshot snapshot)
+        {
+            double ownMotion = Motion();
+            double ownElastic = _terms.StoredEnergy(_shape);
+            double motion = ownMotion;
+            double elastic = ownElastic;
+            snapshot.Serialize(ref motion);
+            snapshot.Serialize(ref elastic);
+            SerializeSums(snapshot);
+            if (!snapshot.IsWritten)
+            {
+                _start += Math.Max(0.0, ownMotion - motion) + Math.Max(0.0, ownElastic - elastic);
+                _before.CopyFrom(_shape);
+            }
+        }
+
+        /// <summary>Writes or takes over all that <see cref="Blowup"/> may touch, for a <see cref="StepStart"/>.
+        /// </summary>
+        public void SerializeStep(Snapshot snapshot)
+        {
+            SerializeSums(snapshot);
+            _before.Serialize(snapshot);
+        }
+
+        private void SerializeSums(Snapshot snapshot)
+        {
+            snapshot.Serialize(ref _start);
+            snapshot.Serialize(ref _loadWork);
+            snapshot.Serialize(ref _mostPutIn);
+            snapshot.Serialize(ref _step);
+        }
+
+        // T, J.
+        private double Motion()
+        {
+            return _inertia.KineticEnergy(_velocities, _spins);
+        }
+    }
+}

@@ -1,0 +1,196 @@
+using System;
+using System.Globalization;
+
+namespace Guidewire.Core
+{
+    /// <summary>Decides whether a wire with a material is at rest, by how fast it moves and by the forces that are out
+    /// of balance, whatever the method and its time step.</summary>
+    /// <remarks>With K the second derivative of all terms at the shape at hand, g their gradient and M the mass, a wire
+    /// near its rest shape moves by M u'' + K u = 0 about it. Three lengths must be below the threshold:
+    /// 1. |K^-1 g|, the Newton step to the rest shape: how far the wire is from it, also at a turning point, where
+    ///    nothing moves. K must have no negative eigenvalue but those of neutral motions: an equilibrium that a
+    ///    disturbance leaves is no end.
+    /// 2. sqrt(|v| |K^-1 M v|), how far the wire goes on swinging: in a mode of angular frequency w it is v/w, however
+    ///    slow the mode is.
+    /// 3. |v| t with t = sqrt(m L^3/EI): in t the slowest bending mode of a straight cantilever turns by 3.5 rad, every
+    ///    other by more. It costs no factorisation and is asked in every step; the other two only where it holds, and
+    ///    then at most once in a tenth of t.
+    /// No hold is needed: position and speed together tell how far a wire will ever be from rest, a position or a speed
+    /// alone does not. Sizes are the larger of turns (times L) and shifts. A wire on which something prescribed is
+    /// still to change is not at rest.</remarks>
+    internal sealed class RestMonitor
+    {
+        private const double Interval = 0.1;           // of t
+        private const double Regularisation = 1e-6;    // of EI/L^2; a wire may turn about its own load for nothing
+        private const double MostRegularisation = 0.01;  // of the softest element's EI/L^2
+        private const double Neutral = 1.01e-4;        // of EI/L^2: eigenvalues above its negative may be 0
+
+        private readonly MaterialScene _scene;
+        private readonly RodTerms _terms;
+        private readonly EnergyTerm[] _all;
+        private readonly Vector3d[] _velocities;
+        private readonly Vector3d[] _spins;
+        private readonly double _threshold;            // m
+        private readonly double _end;                  // of the run, s
+        private readonly double _length;               // L, m
+        private readonly double _bendForce;            // N
+        private readonly double _regularisation;       // N
+        private readonly double _time;                 // t, s
+        private readonly BlockTridiagonal _system;
+        private readonly FollowerTangent? _tangent;    // where a load at the tip has no potential
+        private readonly EquilibriumStability? _stability;
+        private readonly RodVector[] _gradient;
+        private readonly RodVector[] _step;
+        private readonly RodVector[] _motion;
+        private readonly RodVector[] _swing;
+        private double _nextLook;                      // s
+
+        /// <summary>A watch on this scene's wire, which moves with these velocities.</summary>
+        /// <param name="other">What acts on it besides the terms, or null.</param>
+        public RestMonitor(MaterialScene scene, RodTerms terms, Vector3d[] velocities, Vector3d[] spins,
+            MethodParameters method, EnergyTerm? other = null)
+        {
+            _scene = scene;
+            _terms = terms;
+            _all = other == null ? terms.All : terms.With(other);
+            _velocities = velocities;
+            _spins = spins;
+            _threshold = scene.Metres * method.DeltaThreshold;
+            _end = method.MaxSimulationSteps * method.TimeStep;
+            _length = scene.Rod.TotalLength;
+            _bendForce = scene.Rod.BendForce;
+            double softest = scene.Rod.SoftestBendStiffness;
+            _regularisation = Math.Min(Regularisation * _bendForce, MostRegularisation * softest / (_length * _length));
+            _time = Math.Sqrt(terms.Mass.Total * _length * _length * _length / softest);
+            _tangent = terms.HavePotential ? null
+                : new FollowerTangent(scene.Rod, scene.Supports, _all, terms.Followers);
+            _system = _tangent == null ? new BlockTridiagonal(scene.Rod, scene.Supports) : _tangent.System;
+            _gradient = new RodVector[_system.VectorCount];
+            _step = new RodVector[_system.VectorCount];
+            _motion = new RodVector[_system.VectorCount];
+            _swing = new RodVector[_system.VectorCount];
+            if (_threshold > 0.0 && _tangent == null)
+            {
+                _stability = new EquilibriumStability(scene.Rod, scene.Supports, _all, _system, Neutral * _bendForce);
+            }
+        }
+
+        /// <summary>How the wire is at rest at this time, s, in one line; or null.</summary>
+        public string? FindRest(double time)
+        {
+            if (_threshold <= 0.0)
+            {
+                return null;
+            }
+            SetMotion();
+            double speed = Size(_motion);
+            if (!(speed * _time <= _threshold))
+            {
+                _nextLook = time;
+                return null;
+            }
+            if (time < _nextLook || !_scene.Schedule.IsOver(time, _end) || _terms.Followers.ChangeAfter(time))
+            {
+                return null;
+            }
+            _nextLook = time + Interval * _time;
+            _terms.SetTime(_scene.Schedule, time);
+            if (!Factorise())
+            {
+                return null;
+            }
+            double away = Size(_step);
+            if (!(away <= _threshold))
+            {
+                return null;
+            }
+            SetMomentum();
+            Solve(_swing);
+            double swing = Math.Sqrt(speed * Size(_swing));
+            if (!(swing <= _threshold) || (_stability != null && !_stability.IsStable(_scene.Shape)))
+            {
+                return null;
+            }
+            return string.Format(CultureInfo.InvariantCulture,
+                "the wire is at rest: {0:G3} units from its rest shape, swinging by {1:G3}; deltaThreshold = {2} units",
+                away / _scene.Metres, Math.Max(swing, speed * _time) / _scene.Metres, _threshold / _scene.Metres);
+        }
+
+        /// <summary>Writes or takes over when it looks next.</summary>
+        public void Serialize(Snapshot snapshot)
+        {
+            snapshot.Serialize(ref _nextLook);
+        }
+
+        // The Newton step; false where the equilibrium near by is none that a wire stays in.
+        private bool Factorise()
+        {
+            for (double shift = _regularisation; shift <= Neutral * _bendForce; shift *= 10.0)
+            {
+                if (_tangent != null)
+                {
+                    // A load without a potential says nothing of stability by the symmetric part alone.
+                    _tangent.Factorise(_scene.Shape, _step, shift);
+                    return true;
+                }
+                if (_system.Factorise(_all, _scene.Shape, _gradient, _step, shift) == 0)
+                {
+                    _system.Back(_step);
+                    return true;
+                }
+            }
+            return false;
+        }
+
+        private void Solve(RodVector[] y)
+        {
+            if (_tangent != null)
+            {
+                _tangent.Solve(y);
+                return;
+            }
+            _system.Solve(y);
+        }
+
+        private void SetMotion()
+        {
+            for (int i = 0; i < _velocities.Length; i++)
+            {
+                Vector3d v = _velocities[i];
+                Vector3d w = i < _spins.Length ? _spins[i] : Vector3d.Zero;
+                _motion[i] = new RodVector { X1 = v.X, X2 = v.Y, X3 = v.Z, T1 = w.X, T2 = w.Y, T3 = w.Z };
+            }
+        }
+
+        // M v, the fixed directions taken out.
+        private void SetMomentum()
+        {
+            RodMass mass = _terms.Mass;
+            int last = _velocities.Length - 1;
+            for (int i = 0; i <= last; i++)
+            {
+                Vector3d p = mass.Diagonal[i] * _velocities[i];
+                Vector3d spin = Vector3d.Zero;
+                if (i > 0)
+                {
+                    p += mass.Coupling[i - 1] * _velocities[i - 1];
+                }
+                if (i < last)
+                {
+                    p += mass.Coupling[i] * _velocities[i + 1];
+                    Vector3d w = _spins[i];
+                    spin = new Vector3d(mass.Rotary[i].X * w.X, mass.Rotary[i].Y * w.Y, mass.Rotary[i].Z * w.Z);
+                }
+                _swing[i] = new RodVector { X1 = p.X, X2 = p.Y, X3 = p.Z, T1 = spin.X, T2 = spin.Y, T3 = spin.Z };
+            }
+            _swing[last + 1] = default;
+            _system.Project(_swing);
+        }
+
+        // The largest shift, or turn times L.
+        private double Size(RodVector[] v)
+        {
+            return _length * RodStep.Size(v, _spins.Length, _length, out _);
+        }
+    }
+}

@@ -1,0 +1,89 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>The walls' pushes on a wire with compliance, as they were at the end of the last substep, for what
+    /// looks for a rest shape beside it: forces that stay, each on a stiff spring along its normal.</summary>
+    /// <remarks>The spring is the contact's own, or where that is rigid 10 EA/l of the stiffest element, as that on
+    /// which <see cref="SupportSpring"/> holds a node. What rubs is a force alone.</remarks>
+    internal sealed class ContactLoads : EnergyTerm
+    {
+        private const double OverAxialSpring = 10.0;
+
+        private readonly CompliantContacts _contacts;
+        private readonly double _stiffness;    // N/m
+        private readonly double _perSquare;    // 1/h^2
+
+        /// <summary>Pushes of these contacts.</summary>
+        /// <param name="stiffness">Of a contact, N/m; 0 for rigid ones.</param>
+        /// <param name="substep">h, s.</param>
+        public ContactLoads(CompliantContacts contacts, MaterialRod rod, double stiffness, double substep)
+        {
+            _contacts = contacts;
+            _perSquare = 1.0 / (substep * substep);
+            _stiffness = stiffness;
+            for (int j = 0; stiffness == 0.0 && j < rod.ElementCount; j++)
+            {
+                _stiffness = Math.Max(_stiffness, OverAxialSpring * rod.StretchStiffness[j] / rod.Length[j]);
+            }
+        }
+
+        /// <summary>Only slopes count.</summary>
+        public override bool StoresEnergy => false;
+
+        /// <inheritdoc/>
+        public override double Value(RodShape shape)
+        {
+            return 0.0;
+        }
+
+        /// <inheritdoc/>
+        public override void AddGradient(RodShape shape, RodVector[] gradient, int from, int to,
+            ref GradientMeasures measured)
+        {
+            for (int k = 0; k < _contacts.Count; k++)
+            {
+                CompliantContacts.Contact contact = _contacts[k];
+                if (contact.Push > 0.0 && contact.Element >= from && contact.Element < to)
+                {
+                    Add(contact, shape, gradient);
+                }
+            }
+        }
+
+        /// <inheritdoc/>
+        public override void AddBlocks(RodShape shape, RodBlock[] blocks, RodVector[] gradient, int from, int to)
+        {
+            for (int k = 0; k < _contacts.Count; k++)
+            {
+                CompliantContacts.Contact contact = _contacts[k];
+                int j = contact.Element;
+                if (contact.Push > 0.0 && j >= from && j < to)
+                {
+                    Add(contact, shape, gradient);
+                    RodBlock.AddAt(ref blocks[j], ref blocks[j + 1], contact.Position,
+                        Symmetric3.Outer(_stiffness, contact.Normal));
+                }
+            }
+        }
+
+        private void Add(in CompliantContacts.Contact contact, RodShape shape, RodVector[] gradient)
+        {
+            int j = contact.Element;
+            Vector3d force = _perSquare * (contact.Push * contact.Normal + contact.Rub);
+            Add(ref gradient[j], 1.0 - contact.Position, force);
+            Add(ref gradient[j + 1], contact.Position, force);
+            Vector3d couple = _perSquare * contact.Couple(shape.Q[j]);
+            gradient[j].T1 -= couple.X;
+            gradient[j].T2 -= couple.Y;
+            gradient[j].T3 -= couple.Z;
+        }
+
+        private static void Add(ref RodVector gradient, double weight, in Vector3d force)
+        {
+            gradient.X1 -= weight * force.X;
+            gradient.X2 -= weight * force.Y;
+            gradient.X3 -= weight * force.Z;
+        }
+    }
+}

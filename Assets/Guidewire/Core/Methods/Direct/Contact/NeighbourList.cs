@@ -1,0 +1,205 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>Which walls the nodes and elements of a wire may come near while each stays within a reach of where it
+    /// was looked for them, and the walls' features there. Lengths in units.</summary>
+    /// <remarks>What leaves its reach is looked for anew, alone: its features are added at the end of the list, which
+    /// is begun anew where it has grown too long.</remarks>
+    internal sealed class NeighbourList
+    {
+        private const double SureOfQuick = 0.9;   // of a quick distance there is surely room
+        private const int MostLists = 8;          // of the features of all, before the list is begun anew
+        private readonly ContactShape[] _walls;
+        private readonly double[] _range;         // by element: its radius and the barrier's distance
+        private readonly double _reach;
+        private readonly Neighbour[] _element;    // by wall and element
+        private readonly Neighbour[] _node;       // by wall and node, where the wall has features of points
+        private readonly int[] _hint;             // by wall and element
+        private readonly StructList<WallFeature> _features = new StructList<WallFeature>(1024);
+        private readonly FeatureCache?[] _cells;  // of nodes, by wall
+        private readonly int[] _version;          // of these when the nodes were found
+        private int _mostFeatures;
+
+        /// <summary>For a wire that has not been looked for.</summary>
+        /// <param name="walls">The walls.</param>
+        /// <param name="range">By element: what is farther does not count.</param>
+        /// <param name="reach">Nothing is looked for anew before it has gone this far.</param>
+        public NeighbourList(ContactShape[] walls, double[] range, double reach)
+        {
+            int n = range.Length;
+            _walls = walls;
+            _range = range;
+            _reach = reach;
+            _element = new Neighbour[walls.Length * n];
+            _node = new Neighbour[walls.Length * (n + 1)];
+            _cells = Array.ConvertAll(walls, wall => wall.CellsFor(reach));
+            _version = new int[walls.Length];
+            _hint = new int[walls.Length * n];
+            Array.Fill(_hint, -1);
+            Forget(_element);
+            Forget(_node);
+        }
+
+        /// <summary>Whether what was found still holds where it was: others may have made a wall forget it.</summary>
+        public bool IsCurrent
+        {
+            get
+            {
+                bool isCurrent = true;
+                for (int w = 0; w < _cells.Length; w++)
+                {
+                    isCurrent &= _cells[w] == null || _cells[w]!.Version == _version[w];
+                }
+                return isCurrent;
+            }
+        }
+
+        /// <summary>Looks for what has left its reach.</summary>
+        /// <param name="x">The wire's n + 1 nodes.</param>
+        public void Follow(Vector3d[] x)
+        {
+            if (_features.Count > _mostFeatures)
+            {
+                _features.Clear();
+                Forget(_element);
+            }
+            bool isNew = _features.Count == 0;
+            int n = _range.Length;
+            for (int w = 0; w < _walls.Length; w++)
+            {
+                FollowNodes(w, x);
+                for (int j = 0; j < n; j++)
+                {
+                    ref Neighbour element = ref _element[w * n + j];
+                    if (!element.Covers(x[j], x[j + 1]))
+                    {
+                        FindAtElement(w, j, x, ref element);
+                    }
+                }
+            }
+            if (isNew)
+            {
+                _mostFeatures = MostLists * Math.Max(_features.Count, _range.Length);
+            }
+        }
+
+        /// <summary>Whether element j may come near wall w within reach.</summary>
+        public bool IsNear(int w, int j)
+        {
+            return _element[w * _range.Length + j].IsNear
+                || (_cells[w] != null && (IsNodeNear(w, j) || IsNodeNear(w, j + 1)));
+        }
+
+        /// <summary>Whether node i may.</summary>
+        public bool IsNodeNear(int w, int i)
+        {
+            int n = _range.Length;
+            return _cells[w] != null ? _node[w * (n + 1) + i].IsNear
+                : (i < n && _element[w * n + i].IsNear) || (i > 0 && _element[w * n + i - 1].IsNear);
+        }
+
+        /// <summary>Features of wall w about element j, if they are known where its nodes are.</summary>
+        public FeatureRange FeaturesOf(int w, int j, in Vector3d a, in Vector3d b)
+        {
+            return _element[w * _range.Length + j].Features(_features, a, b);
+        }
+
+        /// <summary>The same about node i; where the wall has none of points, those of an element beside it that is
+        /// near.</summary>
+        public FeatureRange FeaturesOfNode(int w, int i, in Vector3d x)
+        {
+            int n = _range.Length;
+            if (_cells[w] != null)
+            {
+                return _node[w * (n + 1) + i].Features(_cells[w]!.Features, x, x);
+            }
+            int j = w * n + i;
+            return i < n && _element[j].IsNear ? _element[j].FeaturesAtA(_features, x)
+                : _element[j - 1].FeaturesAtB(_features, x);
+        }
+
+        /// <summary>Features about the way of element j, as far as they are known on all of it.</summary>
+        public ElementFeatures FeaturesAlong(int w, int j, Vector3d[] x, Vector3d[] to)
+        {
+            FeatureRange between = _element[w * _range.Length + j].Covers(to[j], to[j + 1])
+                ? FeaturesOf(w, j, x[j], x[j + 1]) : default;
+            return _cells[w] != null
+                ? new ElementFeatures(between, OnWay(w, j, x, to), OnWay(w, j + 1, x, to))
+                : new ElementFeatures(between, between, between);
+        }
+
+        /// <summary>Where element j was nearest to wall w, for <see cref="ContactShape.Nearest"/>.</summary>
+        public ref int HintOf(int w, int j)
+        {
+            return ref _hint[w * _range.Length + j];
+        }
+
+        /// <summary>By how much element j of a wire is farther from all walls than 0 at least.</summary>
+        /// <param name="x">Nodes of the wire.</param>
+        public double ClearanceOf(Vector3d[] x, int j)
+        {
+            double room = double.PositiveInfinity;
+            for (int w = 0; w < _walls.Length; w++)
+            {
+                room = Math.Min(room, ClearanceOf(w, x, j));
+            }
+            return room;
+        }
+
+        /// <summary>The same from wall w.</summary>
+        public double ClearanceOf(int w, Vector3d[] x, int j)
+        {
+            int n = _range.Length;
+            double room = _element[w * n + j].Clearance(x[j], x[j + 1]);
+            return _cells[w] == null ? room
+                : Math.Min(room, Math.Min(_node[w * (n + 1) + j].Clearance(x[j], x[j]),
+                    _node[w * (n + 1) + j + 1].Clearance(x[j + 1], x[j + 1])));
+        }
+
+        private FeatureRange OnWay(int w, int i, Vector3d[] x, Vector3d[] to)
+        {
+            ref Neighbour node = ref _node[w * (_range.Length + 1) + i];
+            return node.Covers(to[i], to[i]) ? node.Features(_cells[w]!.Features, x[i], x[i]) : default;
+        }
+
+        private void FollowNodes(int w, Vector3d[] x)
+        {
+            FeatureCache? cells = _cells[w];
+            if (cells == null)
+            {
+                return;
+            }
+            int n = _range.Length;
+            cells.Trim();
+            bool isForgotten = cells.Version != _version[w];
+            _version[w] = cells.Version;
+            for (int i = 0; i <= n; i++)
+            {
+                ref Neighbour node = ref _node[w * (n + 1) + i];
+                if (isForgotten || !node.Covers(x[i], x[i]))
+                {
+                    double range = Math.Max(_range[Math.Max(i - 1, 0)], _range[Math.Min(i, n - 1)]);
+                    cells.Find(x[i], range, ref node);
+                }
+            }
+        }
+
+        private static void Forget(Neighbour[] places)
+        {
+            for (int k = 0; k < places.Length; k++)
+            {
+                places[k].Forget();
+            }
+        }
+
+        private void FindAtElement(int w, int j, Vector3d[] x, ref Neighbour element)
+        {
+            element.Begin(x[j], x[j + 1], _reach, _features.Count);
+            double range = _reach + _range[j];
+            double distance = SureOfQuick * Math.Abs(_walls[w].FindFeatures(
+                x[j], x[j + 1], range / SureOfQuick, _reach, ref _hint[w * _range.Length + j], _features));
+            element.End(distance, range, _features.Count);
+        }
+    }
+}

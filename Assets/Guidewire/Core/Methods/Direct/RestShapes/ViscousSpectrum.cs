@@ -1,0 +1,132 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>How slowly a disturbance of a rod with drag dies out: the smallest real part among the eigenvalues
+    /// lambda of K v = lambda M v, where K, under a couple that turns with the tip, is not symmetric.</summary>
+    /// <remarks>With a shift s that makes K + s M positive definite all eigenvalues lie right of -s, and the largest of
+    /// theta = 1/(lambda + s), those of (K + s M)^-1 M, belong to the ones nearest to it. Arnoldi's method finds them
+    /// in a space of a few vectors, in which H = V^T M (K + s M)^-1 M V has them as its own, and H^-1 - s those of K.
+    /// A line is brought to the first of them by bisection.</remarks>
+    internal sealed class ViscousSpectrum
+    {
+        private const int MostVectors = 24;
+        private const int Halvings = 20;
+        private const double Negligible = 1e-12;
+
+        private readonly FollowerTangent _tangent;
+        private readonly double _bendForce;  // EI/L^2, N
+        private readonly double _totalLength;
+        private readonly RodVector[][] _basis = new RodVector[MostVectors + 1][];
+
+        /// <summary>The spectrum of this rod's tangent.</summary>
+        public ViscousSpectrum(FollowerTangent tangent, MaterialRod rod)
+        {
+            _tangent = tangent;
+            _bendForce = rod.BendForce;
+            _totalLength = rod.TotalLength;
+            for (int k = 0; k <= MostVectors; k++)
+            {
+                _basis[k] = new RodVector[tangent.System.VectorCount];
+            }
+        }
+
+        /// <summary>True if every disturbance of a shape in equilibrium dies out.</summary>
+        public bool IsStable(RodShape shape)
+        {
+            double[,] spectrum = Find(shape, out double shift);
+            return IsFinite(spectrum) && SquareMatrix.EigenvaluesLeftOf(spectrum, shift) == 0;
+        }
+
+        /// <summary>The smallest real part at a shape in equilibrium, N; not a number where it cannot be found. Only
+        /// above 0 is the shape stable.</summary>
+        public double SmallestRealPart(RodShape shape)
+        {
+            double[,] spectrum = Find(shape, out double shift);
+            if (!IsFinite(spectrum))
+            {
+                return double.NaN;
+            }
+            double low = 0.0;  // of lambda + s
+            double high = shift;
+            while (SquareMatrix.EigenvaluesLeftOf(spectrum, high) == 0)
+            {
+                low = high;
+                high *= 2.0;
+            }
+            for (int k = 0; k < Halvings; k++)
+            {
+                double middle = 0.5 * (low + high);
+                bool any = SquareMatrix.EigenvaluesLeftOf(spectrum, middle) > 0;
+                low = any ? low : middle;
+                high = any ? middle : high;
+            }
+            return 0.5 * (low + high) - shift;
+        }
+
+        /// <summary>A small matrix with the eigenvalues lambda + s.</summary>
+        private double[,] Find(RodShape shape, out double shift)
+        {
+            shift = _bendForce;
+            while (_tangent.Factorise(shape, _basis[0], shift) > 0)
+            {
+                shift *= 2.0;
+            }
+            return SquareMatrix.Inverse(Project(), out _);
+        }
+
+        private static bool IsFinite(double[,] matrix)
+        {
+            double sum = 0.0;
+            foreach (double entry in matrix)
+            {
+                sum += Math.Abs(entry);
+            }
+            return sum < double.PositiveInfinity;
+        }
+
+        /// <summary>Arnoldi's method: H.</summary>
+        private double[,] Project()
+        {
+            BlockTridiagonal system = _tangent.System;
+            RodVectors.SetWithoutSymmetry(_basis[0], _totalLength);
+            system.Project(_basis[0]);
+            RodVectors.Scale(_basis[0], 1.0 / Math.Sqrt(system.MetricDot(_basis[0], _basis[0])));
+            var h = new double[MostVectors, MostVectors];
+            int count = 0;
+            bool closed = false;  // the space holds all that its vectors lead to
+            while (!closed && count < MostVectors)
+            {
+                RodVector[] next = _basis[count + 1];
+                Array.Copy(_basis[count], next, next.Length);
+                system.ApplyMetric(next);
+                _tangent.Solve(next);
+                double before = Math.Sqrt(system.MetricDot(next, next));
+                // Twice, because once leaves the rounding of what was taken off.
+                for (int pass = 0; pass < 2; pass++)
+                {
+                    for (int i = 0; i <= count; i++)
+                    {
+                        double part = system.MetricDot(_basis[i], next);
+                        h[i, count] += part;
+                        RodVectors.AddScaled(next, -part, _basis[i]);
+                    }
+                }
+                double rest = Math.Sqrt(system.MetricDot(next, next));
+                closed = rest <= Negligible * before;
+                count++;
+                if (!closed && count < MostVectors)
+                {
+                    h[count, count - 1] = rest;
+                    RodVectors.Scale(next, 1.0 / rest);
+                }
+            }
+            var corner = new double[count, count];
+            for (int i = 0; i < count; i++)
+            {
+                Array.Copy(h, i * MostVectors, corner, i * count, count);
+            }
+            return corner;
+        }
+    }
+}

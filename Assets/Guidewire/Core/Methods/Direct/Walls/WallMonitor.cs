@@ -1,0 +1,136 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>Counts, from the positions alone and apart from what the solver knows, what of a wire passes walls, and
+    /// takes down the forces of contact.</summary>
+    internal sealed class WallMonitor : IWallClearance
+    {
+        private const double Near = 1.02;      // in radii, where a distance is asked for exactly
+
+        private readonly WallTerms _walls;
+        private readonly BarrierEnergy _barrier;
+        private readonly RodVector[] _gradient;
+        private readonly double _units;        // per metre
+        private readonly double[] _radius;     // of elements, units
+        private readonly int[] _hint;
+        private readonly PassageCount _passages;
+        private readonly Vector3d[] _start;    // of the step, units
+        private readonly Vector3d[] _from;     // of its part at hand
+        private readonly Vector3d[] _to;
+        private readonly double[] _clearance;  // of elements from all walls at least, where a part begins, units
+
+        /// <summary>A watch on a rod between walls.</summary>
+        public WallMonitor(MaterialRod rod, WallTerms walls, double metresPerUnit)
+        {
+            BarrierEnergy barrier = walls.Barrier;
+            _walls = walls;
+            int n = rod.ElementCount;
+            _barrier = barrier;
+            _units = 1.0 / metresPerUnit;
+            _radius = new double[n];
+            Radius = double.PositiveInfinity;
+            for (int j = 0; j < n; j++)
+            {
+                _radius[j] = _units * rod.Radius[j];
+                Radius = Math.Min(Radius, _radius[j]);
+            }
+            _hint = new int[n * barrier.Walls.Length];
+            Array.Fill(_hint, -1);
+            _start = new Vector3d[n + 1];
+            _from = new Vector3d[n + 1];
+            _to = new Vector3d[n + 1];
+            _clearance = new double[n];
+            _gradient = new RodVector[n + 2];
+            _passages = new PassageCount(this, n);
+        }
+
+        /// <inheritdoc/>
+        public ContactShape[] Walls => _barrier.Walls;
+
+        /// <inheritdoc/>
+        public double Radius { get; }
+
+        /// <inheritdoc/>
+        public double ClearanceOf(int w, int j)
+        {
+            return _clearance[j];
+        }
+
+        /// <summary>A step begins in this shape.</summary>
+        public void BeginStep(RodShape shape)
+        {
+            _passages.BeginStep();
+            SetUnits(shape, _start);
+            Array.Copy(_start, _from, _from.Length);
+            SetClearances(shape);
+        }
+
+        /// <summary>A part of the step has come to this shape.</summary>
+        public void AddPart(RodShape shape)
+        {
+            SetUnits(shape, _to);
+            _passages.AddPart(_from, _to);
+            Array.Copy(_to, _from, _from.Length);
+            SetClearances(shape);
+        }
+
+        private void SetClearances(RodShape shape)
+        {
+            _barrier.Value(shape);
+            for (int j = 0; j < _clearance.Length; j++)
+            {
+                _clearance[j] = _barrier.ClearanceOf(j);
+            }
+        }
+
+        /// <summary>The step ends in this shape.</summary>
+        public void EndStep(RodShape shape, ContactRecord record)
+        {
+            _passages.EndStep(_start, _from);
+            record.Passages = _passages.Total;
+            double deepest = record.MaxPenetration;
+            for (int w = 0; w < Walls.Length; w++)
+            {
+                for (int j = 0; j < _radius.Length; j++)
+                {
+                    ref int hint = ref _hint[w * _radius.Length + j];
+                    if (_clearance[j] < _radius[j]
+                        && Walls[w].QuickDistance(_from[j], _from[j + 1], _radius[j], ref hint) < Near * _radius[j]
+                        && Walls[w].Nearest(_from[j], _from[j + 1], _radius[j], ref hint, out SurfaceContact contact))
+                    {
+                        deepest = Math.Max(deepest, _radius[j] - contact.Distance);
+                    }
+                }
+            }
+            record.MaxPenetration = deepest;
+            TakeForces(shape, record);
+        }
+
+        /// <summary>Writes or takes over the passages so far.</summary>
+        public void Serialize(Snapshot snapshot)
+        {
+            _passages.Serialize(snapshot);
+        }
+
+        private void TakeForces(RodShape shape, ContactRecord record)
+        {
+            Vector3d total = Vector3d.Zero;
+            Array.Clear(_gradient, 0, _gradient.Length);
+            _walls.AddWallGradient(shape, _gradient);
+            for (int i = 0; i < _from.Length; i++)
+            {
+                RodVector g = _gradient[i];
+                record.Forces[i] = new Vector3d(-g.X1, -g.X2, -g.X3);
+                total += record.Forces[i];
+            }
+            record.SetTotal(total);
+            record.WallForces = _barrier.Resultants;
+        }
+
+        private void SetUnits(RodShape shape, Vector3d[] x)
+        {
+            _barrier.SetNodes(shape, x);
+        }
+    }
+}

@@ -1,0 +1,103 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>Moves nodes of a shape along the walls' normals, until those that touched a wall in the shape before
+    /// have the gap that they had, and no other gap is less than half of the barrier's distance, but for what one push
+    /// does to the next.</summary>
+    /// <remarks>A node that touched is pulled back too: where it would leave the wall in the first iteration of a step,
+    /// nothing would hold it there, and it is hit again in the next.</remarks>
+    internal sealed class WallProjection
+    {
+        private const double PushedTo = 0.5;      // of the barrier's distance
+        private const double LeastLever = 0.1;
+        private const double Pulled = 5.0;        // barrier's distances, from where a node is still pulled back
+        private readonly BarrierEnergy _barrier;
+        private readonly double _units;           // per metre
+        private readonly StructList<ContactPoint> _places = new StructList<ContactPoint>(16);
+        private readonly StructList<EdgeContact> _edgeContacts = new StructList<EdgeContact>(16);
+
+        /// <summary>Off the walls of a barrier.</summary>
+        public WallProjection(BarrierEnergy barrier)
+        {
+            _barrier = barrier;
+            _units = barrier.UnitsPerMetre;
+        }
+
+        /// <summary>Moves nodes of a shape.</summary>
+        /// <param name="before">The other shape.</param>
+        /// <param name="shape">Its nodes 1 to <paramref name="last"/> are moved.</param>
+        /// <param name="last">Up to n.</param>
+        public void Apply(RodShape before, RodShape shape, int last)
+        {
+            NeighbourList near = _barrier.Near(shape, before);
+            int n = shape.ElementCount;
+            int first = _barrier.NodesInside(shape);
+            for (int w = 0; w < _barrier.Walls.Length; w++)
+            {
+                for (int i = Math.Max(first, 1); i <= last; i++)
+                {
+                    if (near.IsNodeNear(w, i))
+                    {
+                        PushNode(w, i, near.FeaturesOfNode(w, i, _units * shape.X[i]), ref shape.X[i]);
+                    }
+                }
+                for (int j = first; j < n; j++)
+                {
+                    if (near.IsNear(w, j))
+                    {
+                        PushElement(w, j, near, shape, last);
+                    }
+                }
+            }
+        }
+
+        private void PushNode(int w, int i, FeatureRange features, ref Vector3d x)
+        {
+            double radius = _barrier.RadiusOfNode(i);
+            double distance = _barrier.Barrier.Distance;
+            double before = _barrier.NodeGap(w, i);
+            bool touched = before < distance;
+            double asked = touched ? before : PushedTo * distance;
+            double nearest = touched ? Pulled * distance : asked;
+            _places.Clear();
+            _barrier.Walls[w].FindContactPoints(_units * x, _units * (radius + nearest), features, _places);
+            Vector3d normal = Vector3d.Zero;
+            for (int k = 0; k < _places.Count; k++)
+            {
+                double gap = _places[k].Contact.Distance / _units - radius;
+                if (gap < nearest && _places[k].Weight > 0)
+                {
+                    nearest = gap;
+                    normal = _places[k].Contact.Normal;
+                }
+            }
+            x += (asked - nearest) * normal;
+        }
+
+        private void PushElement(int w, int j, NeighbourList near, RodShape shape, int last)
+        {
+            double radius = _barrier.RadiusOf(j);
+            double asked = Math.Min(_barrier.EdgeGap(w, j), PushedTo * _barrier.Barrier.Distance);
+            _edgeContacts.Clear();
+            Vector3d start = _units * shape.X[j];
+            Vector3d end = _units * shape.X[j + 1];
+            _barrier.Walls[w].FindEdgeContacts(
+                start, end, _units * (radius + asked), near.FeaturesOf(w, j, start, end), _edgeContacts);
+            for (int k = 0; k < _edgeContacts.Count; k++)
+            {
+                ref EdgeContact edgeContact = ref _edgeContacts[k];
+                double gap = edgeContact.Distance / _units - radius;
+                if (gap < asked)
+                {
+                    double a = j > 0 ? 1.0 - edgeContact.Position : 0.0;
+                    double b = j < last ? edgeContact.Position : 0.0;
+                    double fraction = (asked - gap) / Math.Max(a * a + b * b, LeastLever);
+                    shape.X[j] += fraction * a * edgeContact.Normal;
+                    shape.X[j + 1] += fraction * b * edgeContact.Normal;
+                    return;
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,115 @@
+using System;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>A wire with a material ends at rest where it is at rest, whatever the time step.</summary>
+    public sealed class RestMonitorTests
+    {
+        private const double Threshold = 0.001;   // units: 1 um
+
+        [TestCase(1e-4, ProximalEnd.Clamped, 0.02)]
+        [TestCase(0.5e-3, ProximalEnd.Held, 0.5)]
+        public void SwingingWire_IsNotAtRest_InSmallSteps(double radius, ProximalEnd end, double force)
+        {
+            // A tip force, let go at 3 ms: in steps of 10 us the tip's prediction error is below 1 um all the time.
+            SimulationParameters parameters = Swinging(Solver.Direct, 1e-5, 6000);
+            parameters.Material.WireRadius = radius;
+            parameters.Scene.ProximalEnd = end;
+            parameters.Scene.TipForce = new Vector3d(0.0, force, 0.0);
+            parameters.Scene.TipForceReleaseTime = 0.003;
+            Assert.That(Wires.Run(parameters).Outcome, Is.EqualTo(Outcome.Finished));
+        }
+
+        [TestCase(Solver.Direct, 1e-7, 300)]
+        [TestCase(Solver.Direct, 1e-4, 3000)]
+        [TestCase(Solver.Xpbd, 1e-6, 300)]
+        [TestCase(Solver.Explicit, 1e-7, 3000)]
+        public void WireAtItsTurningPoint_IsNotAtRest(Solver solver, double step, int steps)
+        {
+            // Bent by its tip force, let go, at a turning point to begin with: at 1e-7 s slower than 1e-4 m/s in all
+            // steps.
+            SimulationParameters parameters = Swinging(solver, step, steps);
+            parameters.Scene.InitialState = InitialState.Equilibrium;
+            parameters.Scene.TipForce = new Vector3d(0.0, Rods.BendForce, 0.0);
+            parameters.Scene.TipForceReleaseTime = 0.0;
+            Assert.That(Wires.Run(parameters).Outcome, Is.EqualTo(Outcome.Finished));
+        }
+
+        [TestCase(Solver.Direct, 1e-3, 1, 50.0)]
+        [TestCase(Solver.Direct, 1e-2, 1, 30.0)]
+        [TestCase(Solver.Direct, 1.0, 1, 0.0)]
+        [TestCase(Solver.Explicit, 1e-3, 5000, 50.0)]
+        [Category("Long")]
+        public void DampedWire_ComesToRest_WhereItsRestShapeIs(Solver solver, double step, int substeps,
+            double massDamping)
+        {
+            SimulationParameters parameters = Swinging(solver, step, 4000);
+            parameters.Scene.NumberRodElements = 10;
+            parameters.Material.MassDamping = massDamping;
+            parameters.Method.Substeps = substeps;
+            Simulation run = Wires.Run(parameters);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Converged), run.Reason);
+            Assert.That(run.SteadyStateStep, Is.EqualTo(run.StepCount));
+            Assert.That(run.Reason, Does.Contain("from its rest shape").And.Contain("deltaThreshold = 0.001 units"));
+            SimulationParameters atRest = Swinging(Solver.Direct, 1e-3, 0);
+            atRest.Scene.NumberRodElements = 10;
+            atRest.Scene.InitialState = InitialState.Equilibrium;
+            Simulation rest = Simulation.Create(atRest);
+            Assert.That(rest.Outcome, Is.EqualTo(Outcome.Converged), rest.Reason);
+            // Away from rest by what the threshold allows, and by as much in its swing.
+            Assert.That(Wires.Distance(run.State, rest.State), Is.LessThan(2.0 * Threshold));
+        }
+
+        [Test]
+        public void HeavilyDampedWire_IsNotAtRest_WhileItCreeps()
+        {
+            // Its speed would be lost in 10 us: a free piece of it would creep at g/a = 0.1 mm/s, 1 nm a step.
+            SimulationParameters parameters = Swinging(Solver.Direct, 1e-5, 200);
+            parameters.Material.MassDamping = 1e5;
+            Assert.That(Wires.Run(parameters).Outcome, Is.EqualTo(Outcome.Finished));
+        }
+
+        [Test]
+        public void WireBeforeALoadIsReleased_IsNotAtRest()
+        {
+            SimulationParameters parameters = Swinging(Solver.Direct, 1e-3, 30);
+            parameters.Scene.InitialState = InitialState.Equilibrium;
+            parameters.Scene.TipForce = new Vector3d(0.0, Rods.BendForce, 0.0);
+            parameters.Scene.TipForceReleaseTime = 0.02;
+            Assert.That(Wires.Run(parameters).Outcome, Is.EqualTo(Outcome.Finished));
+            parameters.Scene.TipForceReleaseTime = 1.0;
+            Assert.That(Wires.Run(parameters).Outcome, Is.EqualTo(Outcome.Converged));
+        }
+
+        [TestCase(0.9, Outcome.Converged)]
+        [TestCase(1.1, Outcome.Finished)]
+        public void StraightWireUnderAThrust_IsAtRest_BelowItsCriticalLoadOnly(double fraction, Outcome outcome)
+        {
+            // Clamped at one end, guided at the other: 4 pi^2 EI/L^2; nothing disturbs it.
+            SimulationParameters parameters = Swinging(Solver.Direct, 1e-3, 300);
+            parameters.Scene.Gravity = Vector3d.Zero;
+            parameters.Scene.DistalEnd = DistalEnd.Sliding;
+            parameters.Scene.AxialForce = -fraction * 4.0 * Math.PI * Math.PI * Rods.BendForce;
+            Assert.That(Wires.Run(parameters).Outcome, Is.EqualTo(outcome));
+        }
+
+        [Test]
+        public void DrivenWire_IsNotAtRest_HoweverSlow()
+        {
+            SimulationParameters parameters = Swinging(Solver.Direct, 1e-3, 200);
+            parameters.Scene.Gravity = Vector3d.Zero;
+            parameters.Drive.Kind = Drive.Push;
+            parameters.Drive.DisplacementPerStep = 1e-9;
+            Assert.That(Wires.Run(parameters).Outcome, Is.EqualTo(Outcome.Finished));
+        }
+
+        private static SimulationParameters Swinging(Solver solver, double step, int steps)
+        {
+            SimulationParameters parameters = Rods.Clamped(30, solver, step, steps);
+            parameters.Method.DeltaThreshold = Threshold;
+            parameters.Scene.Gravity = new Vector3d(0.0, -9.81, 0.0);
+            return parameters;
+        }
+    }
+}
