@@ -119,7 +119,7 @@ def _bring_up_to_date(
         sources = _sources()
         if _all_hold(projects, sdks, sources):    # built by whom we waited for
             return
-        anew = not all(_may_build_upon(_read_stamp(project), sdks, sources) for project in projects)
+        anew = not all(_may_build_upon(project, sdks, sources) for project in projects)
         for project in projects:
             _stamp_path(project).unlink(missing_ok=True)
         tell(f"building {target.stem}")
@@ -139,8 +139,12 @@ def _all_hold(projects: Sequence[str], sdks: str, sources: dict[str, str]) -> bo
     return True
 
 
-def _may_build_upon(stamp: Stamp | None, sdks: str, sources: dict[str, str]) -> bool:
-    """Whether MSBuild, which goes by times, can see all that changed since the stamp."""
+def _may_build_upon(project: str, sdks: str, sources: dict[str, str]) -> bool:
+    """Whether MSBuild, which goes by times, can see all that changed since the project's stamp; so it can where nothing
+    of the project was ever built. (To compile all would replace programs of an earlier part that run already.)"""
+    if not (HEADLESS / project / "obj").exists():
+        return True
+    stamp = _read_stamp(project)
     if stamp is None or stamp.sdks != sdks or not stamp.sources.keys() <= sources.keys():
         return False
     changed = [path for path, content in sources.items() if stamp.sources.get(path) != content]

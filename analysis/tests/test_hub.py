@@ -39,7 +39,7 @@ def test_every_entry_is_read_and_drawn(tmp_path):
     turned = figure.axes[1].lines
     assert turned[0].get_ydata()[-1] == pytest.approx(np.degrees(0.8))
     assert turned[1].get_ydata()[-1] == pytest.approx(np.degrees(0.4))
-    assert "force of the hub (N)" in {axes.get_ylabel() for axes in figure.axes}
+    assert "force at the hub (N)" in {axes.get_ylabel() for axes in figure.axes}
 
 
 def test_a_log_that_says_nothing_of_the_hub_is_refused(tmp_path):

@@ -111,10 +111,10 @@ namespace Guidewire.Core
             return _direction == null ? 0.0 : Limited(SpeedAt(time) * _timeStep);
         }
 
-        /// <summary>The hub gives way, after a step, to the spring between it and node 0.</summary>
-        public void GiveWay(SupportSpring spring, RodShape shape)
+        /// <summary>The hub slips, after a step, along its axis.</summary>
+        /// <param name="slip">m, back where it is positive.</param>
+        public void GiveWay(double slip)
         {
-            double slip = spring.TakeSlip(shape);
             if (slip != 0.0)
             {
                 _schedule.ProximalPosition -= slip * Axis;

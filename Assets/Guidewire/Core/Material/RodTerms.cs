@@ -28,8 +28,8 @@ namespace Guidewire.Core
         }
 
         /// <summary>The terms of a rod in a scene with walls.</summary>
-        /// <param name="walls">What they add, or null.</param>
-        public RodTerms(MaterialRod rod, RodSupports supports, SceneParameters scene, WallTerms? walls,
+        /// <param name="contact">What they add, or null.</param>
+        public RodTerms(MaterialRod rod, RodSupports supports, SceneParameters scene, ContactTerms? contact,
             EnergyTerm[] others)
         {
             Rod = rod;
@@ -55,9 +55,9 @@ namespace Guidewire.Core
                 Followers.Moment,
                 Followers.Force,
             }, others);
-            Walls = walls;
+            Contact = contact;
             All = Joined(_elastic, _loads);
-            All = walls == null ? All : Joined(All, walls.All);
+            All = contact == null ? All : Joined(All, contact.All);
             _endGradient = new RodVector[rod.ElementCount + 2];
         }
 
@@ -86,7 +86,7 @@ namespace Guidewire.Core
         public TipFollowers Followers { get; }
 
         /// <summary>Contact with walls; null in a scene without.</summary>
-        public WallTerms? Walls { get; }
+        public ContactTerms? Contact { get; }
 
         /// <summary>Every term.</summary>
         public EnergyTerm[] All { get; }
@@ -109,7 +109,7 @@ namespace Guidewire.Core
         /// <summary>Sets all that is prescribed at this time.</summary>
         public void SetTime(RodSchedule schedule, double time)
         {
-            schedule.SetLoads(Loads, time);
+            Loads.Set(schedule, time);
             Followers.SetTime(time);
             if (Sheath != null)
             {
@@ -148,7 +148,7 @@ namespace Guidewire.Core
         /// <summary>Energy stored in the wire and in its contacts with walls, J.</summary>
         public double StoredEnergy(RodShape shape)
         {
-            return ElasticEnergy(shape) + (Walls == null ? 0.0 : Walls.Barrier.Value(shape)) + FrictionStored;
+            return ElasticEnergy(shape) + (Contact == null ? 0.0 : Contact.StoredEnergy(shape)) + FrictionStored;
         }
 
         /// <summary>Energy stored in the wire less the work of the loads that have a potential, J.</summary>
@@ -178,7 +178,7 @@ namespace Guidewire.Core
         /// place.</summary>
         public double HubForce(RodShape shape)
         {
-            double held = Walls == null ? 0.0 : Vector3d.Dot(Walls.SupportForce(shape), HubAxis(shape));
+            double held = Contact == null ? 0.0 : Vector3d.Dot(Contact.SupportForce(shape), HubAxis(shape));
             return Sheath == null ? held : held + Sheath.HubForce(shape);
         }
 
@@ -210,10 +210,10 @@ namespace Guidewire.Core
             {
                 term.Serialize(snapshot);
             }
-            Walls?.SerializeFriction(snapshot);
+            Contact?.SerializeFriction(snapshot);
         }
 
-        private double FrictionStored => Walls?.Friction == null ? 0.0 : Walls.Friction.Anchors.StoredEnergy;
+        private double FrictionStored => Contact == null ? 0.0 : Contact.FrictionStored;
 
         private static void AddGradient(EnergyTerm[] terms, RodShape shape, RodVector[] gradient)
         {

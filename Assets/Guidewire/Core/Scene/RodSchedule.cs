@@ -83,17 +83,24 @@ namespace Guidewire.Core
         /// <summary>Time over which displacement and rotation of the distal end grow evenly, s; 0: at once.</summary>
         public double DistalRampTime { get; set; }
 
-        /// <summary>Sets the forces of this time.</summary>
-        public void SetLoads(DeadLoads loads, double time)
+        /// <summary>Acceleration of gravity at this time, m/s^2.</summary>
+        public Vector3d GravityAt(double time)
+        {
+            return Factor(GravityTable, time) * Gravity;
+        }
+
+        /// <summary>Force on the last node at this time, N.</summary>
+        public Vector3d DistalForceAt(double time)
         {
             Vector3d axial = (Factor(AxialForceTable, time) * AxialForce) * DistalFrame.Director3;
             Vector3d tip = Factor(TipForceTable, time) * TipForce;
-            loads.Set(Factor(GravityTable, time) * Gravity, time <= TipForceReleaseTime ? tip + axial : axial);
-            if (DistributedForce != Vector3d.Zero)
-            {
-                loads.AddPerLength(Factor(DistributedForceTable, time) * DistributedForce);
-            }
-            loads.Force[0] += ProximalForce;
+            return time <= TipForceReleaseTime ? tip + axial : axial;
+        }
+
+        /// <summary>Force per length at this time, N/m.</summary>
+        public Vector3d DistributedForceAt(double time)
+        {
+            return Factor(DistributedForceTable, time) * DistributedForce;
         }
 
         /// <summary>Sum of the loads' magnitudes at this time, N, on a rod of this mass, kg.</summary>

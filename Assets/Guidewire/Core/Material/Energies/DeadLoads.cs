@@ -18,6 +18,17 @@ namespace Guidewire.Core
         /// <summary>Force on each node, N.</summary>
         public Vector3d[] Force { get; }
 
+        /// <summary>Sets all that is prescribed at this time, s.</summary>
+        public void Set(RodSchedule schedule, double time)
+        {
+            Set(schedule.GravityAt(time), schedule.DistalForceAt(time));
+            if (schedule.DistributedForce != Vector3d.Zero)
+            {
+                AddPerLength(schedule.DistributedForceAt(time));
+            }
+            Force[0] += schedule.ProximalForce;
+        }
+
         /// <summary>Sets the weight of the rod under gravity g (m/s^2), by the mass of each node, and adds the force
         /// at the tip (N).</summary>
         public void Set(in Vector3d gravity, in Vector3d tipForce)

@@ -53,7 +53,7 @@ namespace Guidewire.Core
             Contacts = record;
             dynamics.TracksReactions = record != null;
             _halved = new HalvedSteps(dynamics);
-            WallTerms? walls = dynamics.Terms.Walls;
+            WallTerms? walls = dynamics.Terms.Walls();
             if (walls != null)
             {
                 walls.Spring.Place = scene.Schedule.ProximalPositionAt(dynamics.Time);
@@ -98,7 +98,7 @@ namespace Guidewire.Core
             int last = _dynamics.Shape.ElementCount;
             (double insertion, double turn) = (_drive.Insertion, _drive.Turn);
             _drive.Prepare(_dynamics.Shape, _dynamics.Time);
-            SupportSpring? spring = _dynamics.Terms.Walls?.Spring;
+            SupportSpring? spring = _dynamics.Terms.Walls()?.Spring;
             if (spring != null && _drive.Axis != Vector3d.Zero)
             {
                 spring.Axis = _drive.Axis;
@@ -143,7 +143,7 @@ namespace Guidewire.Core
                 _hubWork += Vector3d.Dot(mean.Proximal, _dynamics.Terms.HubAxis(_dynamics.Shape))
                     * (_drive.Insertion - insertion) + mean.HubTorque * (_drive.Turn - turn) + 0.5 * SheathWork(exit);
                 _monitor?.EndStep(_dynamics.Shape, Contacts);
-                if (spring != null && _dynamics.Terms.Walls!.HoldsStart)
+                if (spring != null && _dynamics.Terms.Walls()!.HoldsStart)
                 {
                     GiveWay(spring);
                     CountDrive(held, spring.HeldPlace(_dynamics.Shape));
@@ -165,7 +165,7 @@ namespace Guidewire.Core
             {
                 before = _drive.Insertion;
                 spring.Besides = terms.Sheath == null ? 0.0 : terms.Sheath.HubForce(_dynamics.Shape);
-                _drive.GiveWay(spring, _dynamics.Shape);
+                _drive.GiveWay(spring.TakeSlip(_dynamics.Shape));
                 if (_drive.Insertion != before)
                 {
                     terms.SetTime(_scene.Schedule, _dynamics.Time);
@@ -187,7 +187,7 @@ namespace Guidewire.Core
                 : sheath.WorkTo(_dynamics.Shape, _scene.Schedule.ProximalPositionAt(_drive.StepEnd), exit);
         }
 
-        private double Dissipated => _dynamics.Terms.Walls?.Friction?.Anchors.Dissipated ?? 0.0;
+        private double Dissipated => _dynamics.Terms.Walls()?.Friction?.Anchors.Dissipated ?? 0.0;
 
         // Since friction had turned so much into heat, J.
         private void TakeExtremes(double dissipated)
@@ -209,11 +209,11 @@ namespace Guidewire.Core
             _pushes.Take(shape, Contacts!.ElementForces);
             Contacts.Pressure = _pushes.LargestPressure;
             _extremes.TakeWalls(_pushes.LargestForce, _pushes.LargestPressure);
-            if (terms.Walls!.HoldsStart)
+            if (terms.Walls()!.HoldsStart)
             {
                 _extremes.TakeHub(terms.HubForce(shape), _dynamics.HubTorque);
             }
-            if (terms.Walls.Friction != null)
+            if (terms.Walls()!.Friction != null)
             {
                 _extremes.TakeFriction(Dissipated - dissipated, _timeStep);
             }
@@ -226,12 +226,12 @@ namespace Guidewire.Core
         {
             get
             {
-                string? advice = _dynamics.Terms.Walls?.Advice;
+                string? advice = _dynamics.Terms.Walls()?.Advice;
                 if (advice != null || _jam == null || !_jam.IsJammed(_dynamics.Shape))
                 {
                     return advice == null ? Shorter : "; " + advice;
                 }
-                return _dynamics.Terms.Walls!.Spring.HasLimit ? "" : Limit;
+                return _dynamics.Terms.Walls()!.Spring.HasLimit ? "" : Limit;
             }
         }
 
@@ -284,7 +284,7 @@ namespace Guidewire.Core
             }
             if (_walls != null)
             {
-                Barrier barrier = _dynamics.Terms.Walls!.Barrier.Barrier;
+                Barrier barrier = _dynamics.Terms.Walls()!.Barrier.Barrier;
                 _report.WallIterations = _dynamics.WallSolver!.Iterations;
                 _report.ContactDistance = barrier.Distance;
                 _report.ContactStiffness = barrier.Stiffness;
@@ -346,7 +346,7 @@ namespace Guidewire.Core
         {
             get
             {
-                WallTerms? walls = _dynamics.Terms.Walls;
+                WallTerms? walls = _dynamics.Terms.Walls();
                 return walls == null ? "direct" : walls.HoldsStart ? "direct, walls" : "direct, walls, free";
             }
         }
@@ -385,11 +385,11 @@ namespace Guidewire.Core
         // would have no length left: then what the drive asks and what walls allow do not go together.
         private string? FindOverdriven()
         {
-            if (_walls == null || !_dynamics.Terms.Walls!.HoldsStart || !(Contacts!.DriveAsked > 0.0))
+            if (_walls == null || !_dynamics.Terms.Walls()!.HoldsStart || !(Contacts!.DriveAsked > 0.0))
             {
                 return null;
             }
-            double force = _dynamics.Terms.Walls.SupportForce(_dynamics.Shape).Length;
+            double force = _dynamics.Terms.Walls()!.SupportForce(_dynamics.Shape).Length;
             double most = _scene.Rod.StretchStiffness[0];
             return force <= most ? null : string.Format(CultureInfo.InvariantCulture,
                 "the walls do not let sphere 0 to where the drive has it at t = {0:G6} s, {1:G3} units on: the hub"

@@ -125,7 +125,7 @@ namespace Guidewire.Core.Tests
         public void CommandLine_TakesPartsAsJsonAndElseAsTexts(string argument, string value)
         {
             CommandLine line = CommandLineHandler.Read(new[] { argument, value }, logFileIsOurs: true);
-            Assert.That(line.Overrides[0].Key, Is.EqualTo(argument.TrimStart('-')));
+            Assert.That(line.Overrides[0].Key, Is.EqualTo(argument.TrimStart(new[] { '-' })));
             Assert.That(line.Overrides[0].Value.Type,
                 Is.EqualTo(value.EndsWith("obj") ? JTokenType.String : JTokenType.Float));
         }

@@ -5,7 +5,7 @@ namespace Guidewire.Core
 {
     /// <summary>What walls add to a wire's energy: their barriers, their friction, and the spring on which node 0 then
     /// follows its support.</summary>
-    internal sealed class WallTerms
+    internal sealed class WallTerms : ContactTerms
     {
         private readonly Func<string?>? _advice;
 
@@ -48,18 +48,27 @@ namespace Guidewire.Core
         /// <summary>Whether a support holds node 0.</summary>
         public bool HoldsStart { get; }
 
-        /// <summary>The terms that act.</summary>
-        public EnergyTerm[] All { get; }
+        /// <inheritdoc/>
+        public override EnergyTerm[] All { get; }
 
-        /// <summary>Force of the support on node 0, N.</summary>
-        public Vector3d SupportForce(RodShape shape)
+        /// <inheritdoc/>
+        public override double FrictionStored => Friction == null ? 0.0 : Friction.Anchors.StoredEnergy;
+
+        /// <inheritdoc/>
+        public override double StoredEnergy(RodShape shape)
+        {
+            return Barrier.Value(shape);
+        }
+
+        /// <inheritdoc/>
+        public override Vector3d SupportForce(RodShape shape)
         {
             return HoldsStart ? Spring.Force(shape) : Vector3d.Zero;
         }
 
-        /// <summary>Writes or takes over what friction keeps from step to step; a reader between as many walls of which
-        /// one rubs takes over what such a writer has.</summary>
-        public void SerializeFriction(Snapshot snapshot)
+        /// <summary>A reader between as many walls, of which one has friction, takes over what such a writer
+        /// has.</summary>
+        public override void SerializeFriction(Snapshot snapshot)
         {
             snapshot.Section(Friction == null ? "no friction" : "friction at " + Friction.Anchors.Count,
                 snapshot => Friction?.Anchors.Serialize(snapshot));

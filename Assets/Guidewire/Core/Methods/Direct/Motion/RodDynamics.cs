@@ -173,7 +173,7 @@ namespace Guidewire.Core
         {
             _terms.SetTime(_schedule, Time);
             RodVector g = _hasStepped ? Solver.Reactions(Shape)[node] : Solver.StaticReactions(Shape)[node];
-            Vector3d held = node == 0 && _terms.Walls != null ? _terms.Walls.SupportForce(Shape) : Vector3d.Zero;
+            Vector3d held = node == 0 && _terms.Walls() != null ? _terms.Walls()!.SupportForce(Shape) : Vector3d.Zero;
             return held + new Vector3d(g.X1, g.X2, g.X3);
         }
 
@@ -273,7 +273,7 @@ namespace Guidewire.Core
             {
                 term.Serialize(snapshot);
             }
-            _terms.Walls?.Friction?.Anchors.Serialize(snapshot);
+            _terms.Walls()?.Friction?.Anchors.Serialize(snapshot);
             SerializePast(snapshot);
             _damping?.Serialize(snapshot);
             _meanForces.Serialize(snapshot);

@@ -39,13 +39,13 @@ namespace Guidewire.Core
             _mass = terms.Mass.Total;
             int stages = scheme == null ? 1 : scheme.StageCount;
             double massDamping = terms.Rod.MassDamping;
-            _isLoose = terms.Walls == null && massDamping == 0.0 && scheme != null && scheme.IsFirstExplicit
+            _isLoose = terms.Walls() == null && massDamping == 0.0 && scheme != null && scheme.IsFirstExplicit
                 && _supports.Proximal == ProximalEnd.Free && _supports.Distal == DistalEnd.Free;
             VelocityHistory = new Vector3d[n + 1];
             Inertia = new InertiaEnergy(terms.Mass)
             {
                 TurnDamping = massDamping,
-                RemembersCouples = terms.Walls != null,
+                RemembersCouples = terms.Walls() != null,
             };
             if (massDamping > 0.0 || terms.Rod.MaterialDamping > 0.0)
             {
@@ -59,7 +59,7 @@ namespace Guidewire.Core
                 Balance = tolerance / (2.0 * (scheme == null ? 1.0 : scheme.WeightSum)),
                 MostIterations = mostIterations,
             };
-            if (terms.Walls != null)
+            if (terms.Walls() != null)
             {
                 _walls = new WallStage(terms, Inertia, moving);
                 _walls.Newton.Tolerance = tolerance;
@@ -168,11 +168,11 @@ namespace Guidewire.Core
         public StageForces WithWalls(StageForces forces)
         {
             forces.Load = LoadSum();
-            if (_terms.Walls != null)
+            if (_terms.Walls() != null)
             {
-                forces.Proximal = _terms.Walls.SupportForce(_shape) + forces.Proximal;
+                forces.Proximal = _terms.Walls()!.SupportForce(_shape) + forces.Proximal;
                 Array.Clear(_loads, 0, _loads.Length);
-                _terms.Walls.AddWallGradient(_shape, _loads);
+                _terms.Walls()!.AddWallGradient(_shape, _loads);
                 forces.Walls = -Sum(_loads);
                 forces.HubTorque = HubTorque();
             }

@@ -102,10 +102,10 @@ namespace Guidewire.Core
         /// <summary>The motion of a window's elements.</summary>
         public RodDynamics Dynamics(MaterialScene scene, SheathWindow window)
         {
-            WallTerms walls = MaterialSetup.WallTermsOf(_parameters, scene, _barrier,
+            WallTerms walls = DirectSetup.WallTermsOf(_parameters, scene, _barrier,
                 _support.InSeries(window.AxialCompliance));
             var terms = new RodTerms(scene.Rod, scene.Supports, _parameters.Scene, walls, Array.Empty<EnergyTerm>());
-            return MaterialSetup.DynamicsOf(_parameters, scene, terms);
+            return DirectSetup.DynamicsOf(_parameters, scene, terms);
         }
 
         private static Vector3d[] Tail(Vector3d[] all, int first)

@@ -195,11 +195,11 @@ namespace Guidewire.Core
             _dynamics = _setup.Dynamics(scene, _window);
             _dynamics.GoOn(time, _frameTurn);
             _dynamics.Terms.SetTime(_whole.Schedule, time);
-            _dynamics.Terms.Walls!.Spring.Axis = _setup.Axis;
+            _dynamics.Terms.Walls()!.Spring.Axis = _setup.Axis;
             _inner = new DirectStep(scene, _dynamics, _whole.Drive, _parameters.Method, _report,
                 new ContactRecord(scene.Shape.X.Length));
             _inner.Contacts!.Take(Contacts!, -_window.First);
-            _dynamics.Terms.Walls!.Friction?.Anchors.Take(_anchors, _window.First);
+            _dynamics.Terms.Walls()!.Friction?.Anchors.Take(_anchors, _window.First);
             if (old != null)
             {
                 var counts = new Snapshot();
@@ -210,7 +210,7 @@ namespace Guidewire.Core
 
         private void TakeAnchors()
         {
-            FrictionEnergy? friction = _dynamics.Terms.Walls!.Friction;
+            FrictionEnergy? friction = _dynamics.Terms.Walls()!.Friction;
             if (friction != null)
             {
                 _anchors.Take(friction.Anchors, -_window.First);
@@ -255,7 +255,7 @@ namespace Guidewire.Core
         // Of the hub on the wire along the axis, N.
         private double AxialForce()
         {
-            return Vector3d.Dot(_dynamics.Terms.Walls!.Spring.Force(_dynamics.Shape), _setup.Axis);
+            return Vector3d.Dot(_dynamics.Terms.Walls()!.Spring.Force(_dynamics.Shape), _setup.Axis);
         }
 
         // Of the wire on the sheathed part about the axis, N m, positive where it is ahead of the hub.

@@ -44,7 +44,7 @@ namespace Guidewire.Core
         {
             _rod = terms.Rod;
             _terms = terms.With(moving);
-            _barrier = terms.Walls!.Barrier;
+            _barrier = terms.Walls()!.Barrier;
             _system = new BlockTridiagonal(_rod, terms.Supports);
             _gradient = new RodVector[_system.VectorCount];
             _direction = new RodVector[_system.VectorCount];

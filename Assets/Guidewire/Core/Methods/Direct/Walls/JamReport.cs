@@ -46,8 +46,8 @@ namespace Guidewire.Core
         /// <summary>The hub's force and the largest contact force with its place, in one phrase.</summary>
         public string Text(RodShape shape)
         {
-            StructList<WallContact> contacts = _terms.Walls!.Barrier.ContactsOf(shape);
-            string hub = _terms.Walls.HoldsStart ? string.Format(CultureInfo.InvariantCulture,
+            StructList<WallContact> contacts = _terms.Walls()!.Barrier.ContactsOf(shape);
+            string hub = _terms.Walls()!.HoldsStart ? string.Format(CultureInfo.InvariantCulture,
                 "the hub {0} with {1:G3} N", HubForce(shape) < 0.0 ? "pulls" : "pushes", Math.Abs(HubForce(shape)))
                 : "no hub holds the wire";
             if (contacts.Count == 0)
@@ -71,7 +71,7 @@ namespace Guidewire.Core
 
         private double HubForce(RodShape shape)
         {
-            return Vector3d.Dot(_terms.Walls!.SupportForce(shape), _terms.HubAxis(shape));
+            return Vector3d.Dot(_terms.Walls()!.SupportForce(shape), _terms.HubAxis(shape));
         }
     }
 }

@@ -31,7 +31,7 @@ namespace Guidewire.Core
         public WallPrediction(RodTerms terms, InertiaEnergy inertia)
         {
             _supports = terms.Supports;
-            _push = new WallProjection(terms.Walls!.Barrier);
+            _push = new WallProjection(terms.Walls()!.Barrier);
             _inertia = inertia;
             _past = new Vector3d[terms.Rod.ElementCount + 1];
             _before = new Vector3d[_past.Length];

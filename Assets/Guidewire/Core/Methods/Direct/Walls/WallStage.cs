@@ -41,11 +41,11 @@ namespace Guidewire.Core
         public string? Solve(RodShape shape, Quaterniond[] orientations, in Vector3d start, in Vector3d end,
             double stageLength, double loads)
         {
-            SupportSpring spring = _terms.Walls!.Spring;
+            SupportSpring spring = _terms.Walls()!.Spring;
             Vector3d lag = spring.LagOf(shape);
             spring.Place = start;
             spring.Besides = _terms.Sheath == null ? 0.0 : _terms.Sheath.StartForce;
-            _terms.Walls.Friction?.Lag(shape);
+            _terms.Walls()!.Friction?.Lag(shape);
             PlaceEnd(shape, end);
             int parts = _prediction.Begin(shape, start - lag);
             bool isFar = false;
@@ -67,9 +67,9 @@ namespace Guidewire.Core
                 }
             }
             string? failure = Newton.Solve(shape, stageLength, loads, isFar);
-            for (int k = 0; k < FrictionLagIterations && failure == null && _terms.Walls.Friction != null; k++)
+            for (int k = 0; k < FrictionLagIterations && failure == null && _terms.Walls()!.Friction != null; k++)
             {
-                _terms.Walls.Friction.Lag(shape);
+                _terms.Walls()!.Friction!.Lag(shape);
                 failure = Newton.Solve(shape, stageLength, loads, isFar: false);
             }
             return failure;

@@ -25,7 +25,7 @@ namespace Guidewire.Core
             _monitor = watch;
             _halved = halved;
             halved.PieceDone = () => watch.AddPart(dynamics.Shape);
-            _longestMove = BarrierDefaults.MostMove * dynamics.Terms.Walls!.Barrier.Barrier.Distance;
+            _longestMove = BarrierDefaults.MostMove * dynamics.Terms.Walls()!.Barrier.Barrier.Distance;
         }
 
         /// <summary>The forces from outside, the means over the last step, where reactions are tracked.</summary>
@@ -54,7 +54,7 @@ namespace Guidewire.Core
         private int Parts(double dt)
         {
             double move = Vector3d.Distance(_schedule.ProximalPositionAt(_dynamics.Time + dt)
-                - _dynamics.Terms.Walls!.Spring.LagOf(_dynamics.Shape), _dynamics.Shape.X[0]);
+                - _dynamics.Terms.Walls()!.Spring.LagOf(_dynamics.Shape), _dynamics.Shape.X[0]);
             double turn = Math.Abs(_schedule.FrameTurnAt(_dynamics.Time + dt) - _dynamics.ProximalTurn)
                 + Math.Abs(_schedule.DistalTurnAt(_dynamics.Time + dt) - _dynamics.DistalTurn);
             // Rounding, and the little that node 0 is off its support, must not make a part more.

@@ -90,7 +90,7 @@ namespace Guidewire.Core.Tests
                 DistalRotation = Turn,
                 DistalRampTime = Ramp,
             };
-            var motion = new RodDynamics(terms, schedule, shape, MaterialSetup.Scheme(integrator), 1e-10, 50);
+            var motion = new RodDynamics(terms, schedule, shape, DirectSetup.Scheme(integrator), 1e-10, 50);
             motion.Control.Tolerance = tellsError ? stepError : 0.0;
             motion.Begin(new Vector3d[9], new Vector3d[8], true);
             for (int k = 1; k <= 200; k++)
@@ -202,7 +202,7 @@ namespace Guidewire.Core.Tests
             rod.MassDamping = Damping;
             var terms = new RodTerms(rod, new RodSupports { Proximal = ProximalEnd.Free });
             var motion = new RodDynamics(terms, new RodSchedule(), Rods.Straight(rod),
-                MaterialSetup.Scheme(integrator), 1e-10, 50);
+                DirectSetup.Scheme(integrator), 1e-10, 50);
             var spins = new Vector3d[4];
             for (int j = 0; j < 4; j++)
             {
@@ -286,7 +286,7 @@ namespace Guidewire.Core.Tests
                 }
             }
             var motion = new RodDynamics(new RodTerms(rod, supports), new RodSchedule(), Rods.Straight(rod),
-                MaterialSetup.Scheme(integrator), 1e-11, 50);
+                DirectSetup.Scheme(integrator), 1e-11, 50);
             motion.Begin(velocities, spins, false);
             return motion;
         }
@@ -307,7 +307,7 @@ namespace Guidewire.Core.Tests
             }
             var terms = new RodTerms(rod, supports);
             var motion = new RodDynamics(terms, new RodSchedule(), shape,
-                MaterialSetup.Scheme(Integrator.Bdf2), 1e-10, 50);
+                DirectSetup.Scheme(Integrator.Bdf2), 1e-10, 50);
             motion.Begin(velocities, spins, false);
             for (int k = 0; k < 200; k++)
             {

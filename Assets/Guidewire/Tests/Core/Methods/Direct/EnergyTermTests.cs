@@ -172,7 +172,7 @@ namespace Guidewire.Core.Tests
             {
                 case Solver.Direct:
                     var dynamics = new RodDynamics(terms, scene.Schedule, scene.Shape,
-                        MaterialSetup.Scheme(parameters.Method.Integrator), 1e-9, 50);
+                        DirectSetup.Scheme(parameters.Method.Integrator), 1e-9, 50);
                     return new DirectStep(scene, dynamics, scene.Drive, parameters.Method, report, null);
                 case Solver.Explicit:
                     return new ExplicitStep(scene, terms, scene.Drive, parameters.Method, report, null);
@@ -184,7 +184,7 @@ namespace Guidewire.Core.Tests
         private static RodDynamics Start(RodTerms terms, Integrator scheme, Vector3d velocity)
         {
             var motion = new RodDynamics(terms, new RodSchedule(), Rods.Straight(terms.Rod),
-                MaterialSetup.Scheme(scheme), 1e-8, 100);
+                DirectSetup.Scheme(scheme), 1e-8, 100);
             var velocities = new Vector3d[N + 1];
             for (int i = 0; i <= N; i++)
             {

@@ -19,8 +19,8 @@ namespace Guidewire.Core.Tests
             [Values("0 15", "8 22", "15 30")] string piece,
             [Values(0.9, 1.1, 1.5)] double load)
         {
-            int from = int.Parse(piece.Split(' ')[0]);
-            int to = int.Parse(piece.Split(' ')[1]);
+            int from = int.Parse(piece.Split(new[] { ' ' })[0]);
+            int to = int.Parse(piece.Split(new[] { ' ' })[1]);
             MaterialRod rod = SoftBetween(from, to, ratio);
             double soft = (to - from) * Rods.Length / N;
             double above = (N - to) * Rods.Length / N;

@@ -171,7 +171,7 @@ namespace Guidewire.Core.Tests
         internal static RodDynamics Start(MaterialRod rod, RodSupports supports, RodSchedule schedule, RodShape shape,
             Integrator scheme, double tolerance)
         {
-            return new RodDynamics(new RodTerms(rod, supports), schedule, shape, MaterialSetup.Scheme(scheme),
+            return new RodDynamics(new RodTerms(rod, supports), schedule, shape, DirectSetup.Scheme(scheme),
                 tolerance, 100);
         }
 

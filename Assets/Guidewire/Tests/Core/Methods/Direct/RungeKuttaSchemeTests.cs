@@ -15,7 +15,7 @@ namespace Guidewire.Core.Tests
         [TestCase(Integrator.Esdirk4, 4, 3)]
         public void Weights_MeetTheConditionsOfTheirOrders(Integrator integrator, int order, int embedded)
         {
-            RungeKuttaScheme scheme = MaterialSetup.Scheme(integrator)!;
+            RungeKuttaScheme scheme = DirectSetup.Scheme(integrator)!;
             double[,] a = Matrix(scheme);
             double[] weights = Weights(scheme);
             double[] lower = new double[weights.Length];
@@ -35,7 +35,7 @@ namespace Guidewire.Core.Tests
         [TestCase(Integrator.Esdirk4)]
         public void Stages_AreOfOrderTwo_TheFirstExplicit_TheLastTheEnd(Integrator integrator)
         {
-            RungeKuttaScheme scheme = MaterialSetup.Scheme(integrator)!;
+            RungeKuttaScheme scheme = DirectSetup.Scheme(integrator)!;
             double[,] a = Matrix(scheme);
             double[] c = Times(a);
             Assert.That(scheme.IsFirstExplicit, Is.True);
@@ -60,7 +60,7 @@ namespace Guidewire.Core.Tests
         public void Scheme_IsLStable(Integrator integrator)
         {
             // R has its only pole at 1/gamma > 0, so |R| <= 1 in the left half-plane where it is so on its border.
-            AssertLStable(MaterialSetup.Scheme(integrator)!);
+            AssertLStable(DirectSetup.Scheme(integrator)!);
         }
 
         [Test]

@@ -191,7 +191,7 @@ namespace Guidewire.Core.Tests
         {
             double ahead = run.Hub()!.Turn - run.Dynamics.ProximalTurn;
             RodTerms terms = run.Dynamics.Terms;
-            SupportSpring spring = terms.Walls!.Spring;
+            SupportSpring spring = terms.Walls()!.Spring;
             Vector3d place = spring.Place;
             spring.Place = place + on * spring.Axis;
             terms.Sheath!.SetHub(spring.Place);

@@ -11,7 +11,7 @@ namespace Guidewire.Core.Tests
         [TestCase(Integrator.Esdirk4)]
         public void AnAccelerationThatGrowsEvenly_IsPredictedExactly(Integrator integrator)
         {
-            RungeKuttaScheme scheme = MaterialSetup.Scheme(integrator)!;
+            RungeKuttaScheme scheme = DirectSetup.Scheme(integrator)!;
             for (int stage = 0; stage < scheme.StageCount; stage++)
             {
                 StagePredictor predictor = scheme.Predictors[stage];

@@ -15,7 +15,7 @@ namespace Guidewire.Core.Tests
         {
             // A quarter of a period of the first mode, 211 ms: the two solutions of a step differ by dt^(p+1), p the
             // lower of their orders.
-            RungeKuttaScheme own = MaterialSetup.Scheme(scheme)!;
+            RungeKuttaScheme own = DirectSetup.Scheme(scheme)!;
             double order = Math.Min(scheme == Integrator.Trbdf2 ? 2 : 3, own.EmbeddedOrder);
             double coarse = LargestError(scheme, 12);
             double fine = LargestError(scheme, 24);

@@ -129,9 +129,9 @@ namespace Guidewire.Core.Tests
         {
             SimulationParameters parameters = OnAnIncline(0.3, 0.25);
             var scene = new MaterialScene(parameters, new Scene(parameters));
-            WallTerms walls = MaterialSetup.WallTermsOf(parameters, scene, new Barrier(5e-5, 1e3),
+            WallTerms walls = DirectSetup.WallTermsOf(parameters, scene, new Barrier(5e-5, 1e3),
                 new SupportSpring(scene.Rod, 0.0));
-            RodDynamics motion = MaterialSetup.DynamicsOf(parameters, scene,
+            RodDynamics motion = DirectSetup.DynamicsOf(parameters, scene,
                 new RodTerms(scene.Rod, scene.Supports, parameters.Scene, walls, Array.Empty<EnergyTerm>()));
             for (int k = 0; k < 5; k++)
             {

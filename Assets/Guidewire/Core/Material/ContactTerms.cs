@@ -1,0 +1,21 @@
+namespace Guidewire.Core
+{
+    /// <summary>What contact adds to the energy of a rod, by a method whose walls are part of it.</summary>
+    internal abstract class ContactTerms
+    {
+        /// <summary>The terms that act.</summary>
+        public abstract EnergyTerm[] All { get; }
+
+        /// <summary>Energy stored in the contacts' normal forces, J.</summary>
+        public abstract double StoredEnergy(RodShape shape);
+
+        /// <summary>Energy stored in the elastic displacements of sticking contacts, J.</summary>
+        public abstract double FrictionStored { get; }
+
+        /// <summary>Force of the support on node 0, N.</summary>
+        public abstract Vector3d SupportForce(RodShape shape);
+
+        /// <summary>Writes or takes over what friction keeps from step to step.</summary>
+        public abstract void SerializeFriction(Snapshot snapshot);
+    }
+}

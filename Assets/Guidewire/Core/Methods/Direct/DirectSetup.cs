@@ -1,0 +1,59 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>Builds the parts of the direct solver from a run's parameters.</summary>
+    internal static class DirectSetup
+    {
+        /// <summary>The motion of a scene's rod by the direct solver.</summary>
+        public static RodDynamics DynamicsOf(SimulationParameters parameters, MaterialScene scene, RodTerms terms)
+        {
+            var dynamics = new RodDynamics(terms, scene.Schedule, scene.Shape, Scheme(parameters.Method.Integrator),
+                parameters.Method.SolverTolerance, parameters.Method.MaxNewtonIterations);
+            dynamics.Control.Tolerance = parameters.Method.TimeStepError;
+            dynamics.Begin(scene.Velocities, scene.Spins,
+                parameters.Scene.InitialState == InitialState.Equilibrium);
+            return dynamics;
+        }
+
+        /// <summary>What walls add to a wire's energy.</summary>
+        public static WallTerms WallTermsOf(SimulationParameters parameters, MaterialScene scene, Barrier barrier,
+            SupportSpring spring)
+        {
+            double move = parameters.Drive.LargestMove(parameters.Method.TimeStep, scene.Metres);
+            var contact = new BarrierEnergy(scene.Rod, scene.Walls, scene.Metres, barrier, scene.Supports.Sheath);
+            FrictionEnergy? friction = Array.Exists(scene.Walls, wall => wall.FrictionCoefficient > 0.0)
+                ? new FrictionEnergy(contact, scene.Rod.ElementCount, parameters.Contact.ElasticSlip > 0.0
+                    ? parameters.Contact.ElasticSlip : FrictionEnergy.ElasticSlipOf(scene.Rod)) : null;
+            // Looked for where it is asked for: the rule measures how narrow a vessel is, all of it.
+            ContactParameters given = parameters.Contact;
+            Func<string?>? advice = null;
+            if (given.ContactDistance != 0.0 || given.ContactStiffness != 0.0)
+            {
+                advice = () => BarrierDefaults.Advice(barrier, BarrierDefaults.Of(scene.Rod, new ContactParameters(),
+                    scene.Walls, scene.Metres, move));
+            }
+            return new WallTerms(contact, friction, spring, scene.Supports.HasSpring, advice);
+        }
+
+        /// <summary>The scheme of an integrator of the direct solver; null for BDF2.</summary>
+        public static RungeKuttaScheme? Scheme(Integrator integrator)
+        {
+            switch (integrator)
+            {
+                case Integrator.ImplicitEuler:
+                    return RungeKuttaScheme.ImplicitEuler();
+                case Integrator.Bdf2:
+                    return null;
+                case Integrator.Trbdf2:
+                    return RungeKuttaScheme.TrBdf2();
+                case Integrator.Esdirk3:
+                    return RungeKuttaScheme.Esdirk3();
+                case Integrator.Esdirk4:
+                    return RungeKuttaScheme.Esdirk4();
+                default:
+                    throw new ArgumentException("the direct solver has no integrator " + integrator);
+            }
+        }
+    }
+}
