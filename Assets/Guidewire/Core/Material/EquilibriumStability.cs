@@ -60,9 +60,14 @@ namespace Guidewire.Core
             _moved = new RodShape(rod.ElementCount);
         }
 
+        /// <summary>The eigenvector with a negative eigenvalue that was no neutral motion, where the last answer was no;
+        /// null where there were too many, or one beyond all doubt.</summary>
+        public RodVector[]? Doubtful { get; private set; }
+
         /// <summary>Whether no eigenvalue of K is negative in this shape but those of neutral motions.</summary>
         public bool IsStable(RodShape shape)
         {
+            Doubtful = null;
             int negative = Factorise(shape, 0.0);
             if (negative == 0)
             {
@@ -79,6 +84,7 @@ namespace Guidewire.Core
                 double eigenvalue = FindMode(k) - shift;
                 if (eigenvalue < 0.0 && !IsNeutral(shape, _modes[k]))
                 {
+                    Doubtful = _modes[k];
                     return false;
                 }
             }

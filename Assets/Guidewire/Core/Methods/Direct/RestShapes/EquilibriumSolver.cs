@@ -123,7 +123,18 @@ namespace Guidewire.Core
                     {
                         return Finish(shape, result);
                     }
-                    if (!LeaveSaddle(shape, _neutral))
+                    // A negative eigenvalue within rounding of 0 along which the energy falls neither way is 0: such as
+                    // that of a localised helix that moves along the rod.
+                    RodVector[]? doubtful = _stability!.Doubtful;
+                    if (doubtful != null)
+                    {
+                        Array.Copy(doubtful, _direction, _direction.Length);
+                        if (!DescendAlong(shape, 1.0) && !DescendAlong(shape, -1.0))
+                        {
+                            return Finish(shape, result);
+                        }
+                    }
+                    else if (!LeaveSaddle(shape, _neutral))
                     {
                         result.Reason = Saddle;
                         return result;
@@ -201,8 +212,14 @@ namespace Guidewire.Core
             _system.Factorise(_terms, shape, _gradient, _direction, high);
             InverseIteration(out _);
             Array.Copy(_work, _direction, _work.Length);
+            return DescendAlong(shape, RodVectors.Dot(_gradient, _direction) > 0.0 ? -1.0 : 1.0);
+        }
+
+        /// <summary>Goes along the direction, or against it, to where the energy is lower; false where it falls
+        /// nowhere.</summary>
+        private bool DescendAlong(RodShape shape, double sign)
+        {
             double size = RodStep.Size(_direction, _rod.ElementCount, _totalLength, out _);
-            double sign = RodVectors.Dot(_gradient, _direction) > 0.0 ? -1.0 : 1.0;
             double start = EnergySum.Value(_terms, shape, out double magnitude);
             double largest = 0.3 * EnergySum.MaxStep(_terms, shape, _direction, sign * 0.3 / size);
             for (double turn = largest; turn > 1e-6; turn *= 0.5)
