@@ -22,7 +22,7 @@ SUMMARY_KEYS = {
     "medianStepTime", "predictionError", "steadyStateStep", "stiffness", "passages", "maxPenetration", "driveAsked",
     "driveShortfall", "hub", "largestContactForce", "largestWallForce",
     "wallForces", "extremes", "timed", "repeat", "warnings", "ignored", "notes", "log", "versions", "parameterHash",
-    "complete",
+    "complete", "reliable",
 }
 # What need not apply: null there is no number that got lost.
 MAY_BE_NULL = {
