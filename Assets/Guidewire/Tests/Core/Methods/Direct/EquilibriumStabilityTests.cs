@@ -112,7 +112,8 @@ namespace Guidewire.Core.Tests
         [Test]
         public void BentBetweenClamps_TurnsForNothing([Values(1.0, 1e2, 1e3)] double ratio)
         {
-            // Softer in every way: a piece that bends far more easily than it shortens is hard to push together.
+            // Softer in every way: a piece that bends far more easily than it shortens is hard to push together. From a
+            // wire shortened by a tenth the search takes 52, 88 and 411 iterations.
             MaterialRod rod = SoftBetween(N / 3, N, ratio);
             for (int j = N / 3; j < N; j++)
             {
@@ -125,7 +126,7 @@ namespace Guidewire.Core.Tests
             {
                 shape.X[i] = 0.9 * shape.X[i];
             }
-            EquilibriumResult result = new RodStatics(new RodTerms(rod, supports)).Solve(shape, 1e-6, 200);
+            EquilibriumResult result = new RodStatics(new RodTerms(rod, supports)).Solve(shape, 1e-6, 500);
             Assert.That(result.Converged, Is.True, result.Reason);
             double aside = 0.0;
             foreach (Vector3d x in shape.X)
