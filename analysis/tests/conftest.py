@@ -7,8 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 
-from analysis.figures import stability
+from analysis.figures import FIGURES, stability
 from analysis.stability import closed_form_along, limit_explicit
 from analysis.tests.chain import Chain, small, write_study
 from analysis.tests.outcomes import write_outcomes
@@ -155,3 +156,9 @@ WAVES: dict[str, tuple[str, list[Wave]]] = {
     "transversal-total-mass": ("totalMass", [Wave(total_mass=mass) for mass in (1e-3, 1e-2, 1e-1)]),
     "transversal-displacement": ("displacement", [Wave(displacement=size) for size in (1.0, 10.0, 100.0)]),
 }
+
+
+@pytest.fixture(scope="session")
+def drawn(studies: dict[str, Path]) -> dict[str, tuple[Figure, str]]:
+    """Every figure and its caption, drawn once: for reading only."""
+    return {name: spec.draw(studies) for name, spec in FIGURES.items()}

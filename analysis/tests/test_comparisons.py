@@ -98,9 +98,9 @@ def test_the_reference_is_drawn_with_the_other_runs_and_with_a_doubled_time_step
 
 @pytest.mark.parametrize("name", TRANSVERSAL)
 def test_every_run_is_in_the_lower_panels_and_at_most_ten_wires_in_the_upper_ones(
-    studies: dict[str, Path], tables: dict[str, ComparisonTable], name: str
+    drawn: dict[str, tuple[Figure, str]], tables: dict[str, ComparisonTable], name: str
 ) -> None:
-    figure, _ = FIGURES[name].draw(studies)
+    figure, _ = drawn[name]
     shape, along, by_time, by_step = figure.axes[:4]
     table = tables[name]
     wires = min(10, len(table.rows))
@@ -149,7 +149,7 @@ def test_equal_positions_at_equal_steps_are_told_only_where_they_are(tables: dic
     assert "one and the same" not in perturbation_caption("4.12", changed(table, step_distance=steps))
 
 
-def test_the_figure_of_a_study_draws_on_its_reference(studies: dict[str, Path]) -> None:
-    figure, _ = FIGURES["4.11"].draw(studies)
+def test_the_figure_of_a_study_draws_on_its_reference(drawn: dict[str, tuple[Figure, str]]) -> None:
+    figure, _ = drawn["4.11"]
     assert isinstance(figure, Figure)
     np.testing.assert_allclose(figure.axes[0].lines[-1].get_ydata(), REFERENCE.positions[-1, :, 1])

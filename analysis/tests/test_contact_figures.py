@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 
-from analysis.figures import FIGURES
 from analysis.figures.contact_rule import Rest, contact_rule_caption, read_rests
 from analysis.figures.control import along_line, draw_drives, drives_caption, read_drives, read_twists
 from analysis.figures.gain import draw_gain, gain_caption
@@ -138,13 +138,15 @@ def test_twist_and_bend_of_a_joint_are_those_it_was_made_of() -> None:
         np.testing.assert_allclose(np.ravel(found), [twist, bend], atol=1e-12)
 
 
-def test_the_tip_angle_is_the_base_angle_and_all_twists(studies: dict[str, Path]) -> None:
+def test_the_tip_angle_is_the_base_angle_and_all_twists(
+    studies: dict[str, Path], drawn: dict[str, tuple[Figure, str]]
+) -> None:
     for row in read_twists(studies["twist"]):
         steps = row.twist.steps
         np.testing.assert_allclose(row.twist.base, 0.01 * steps)
         np.testing.assert_allclose(row.twist.tip, 0.1 * steps, atol=1e-9)  # element 9 turns ten times as fast
         np.testing.assert_allclose(row.twist.bend, 0.0, atol=1e-12)
-    figure, _ = FIGURES["twist"].draw(studies)
+    figure, _ = drawn["twist"]
     np.testing.assert_allclose(figure.axes[0].lines[0].get_ydata(), 0.1 * np.arange(61), atol=1e-9)
 
 

@@ -28,11 +28,6 @@ SWEEPS = {name: FIGURES[name].studies[0] for name in ("4.5", "4.6", "4.7", "4.8"
 
 
 @pytest.fixture(scope="module")
-def drawn(studies: dict[str, Path]) -> dict[str, tuple[Figure, str]]:
-    return {name: spec.draw(studies) for name, spec in FIGURES.items()}
-
-
-@pytest.fixture(scope="module")
 def tables(studies: dict[str, Path]) -> dict[str, StudyTable]:
     return {name: read_table(studies[study], VIEWS[name].key) for name, study in SWEEPS.items()}
 

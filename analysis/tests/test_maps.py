@@ -7,8 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 
-from analysis.figures import FIGURES, maps, wire_maps
+from analysis.figures import maps, wire_maps
 from analysis.figures.maps import VIEWS, drag_error, kind_of, read_map
 from analysis.runs import Run
 from analysis.tests.outcomes import SUMMARY
@@ -29,8 +30,8 @@ def test_a_run_is_of_the_worst_class_that_it_can_be(changed: dict, error: float,
     assert kind_of(Run(Path(), {"sphereRadius": 5.0}, {**SUMMARY, **changed}), error) == kind
 
 
-def test_the_figure_draws_every_run_and_says_what_holds(studies: dict[str, Path]) -> None:
-    figure, caption = FIGURES["maps"].draw(studies)
+def test_the_figure_draws_every_run_and_says_what_holds(drawn: dict[str, tuple[Figure, str]]) -> None:
+    figure, caption = drawn["maps"]
     for axes, study in zip(figure.axes, MAPS):
         assert len([line for line in axes.lines if line.get_linestyle() == "None"]) == study.grid.count, study.name
     assert "xpbd holds from 50 substeps with m = 1" in caption
@@ -65,8 +66,10 @@ def test_every_map_has_the_runs_that_others_are_measured_against(short: bool) ->
             assert view.reference(run) in {other.key for other in cases}, study.name
 
 
-def test_the_figure_of_a_wire_draws_every_run_and_says_what_holds(studies: dict[str, Path]) -> None:
-    figure, caption = FIGURES["maps-wire"].draw(studies)
+def test_the_figure_of_a_wire_draws_every_run_and_says_what_holds(
+    drawn: dict[str, tuple[Figure, str]]
+) -> None:
+    figure, caption = drawn["maps-wire"]
     for axes, study in zip(figure.axes, wire_maps.STUDIES[:-1]):
         count = next(one.grid.count for one in WIRE_MAPS if one.name == study)
         assert len([line for line in axes.lines if line.get_linestyle() == "None"]) == count, study

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 
 from analysis.figures import FIGURES
 from analysis.logs import LogError
@@ -47,8 +48,10 @@ def test_an_explicit_step_of_a_short_wire_is_that_of_its_shear() -> None:
     assert limit_explicit(wire, 1) == pytest.approx(2.0 / omega, rel=1e-9)
 
 
-def test_caption_says_how_far_frontiers_are_from_their_limits_and_what_is_lost(studies: dict[str, Path]) -> None:
-    figure, caption = FIGURES["stability"].draw(studies)
+def test_caption_says_how_far_frontiers_are_from_their_limits_and_what_is_lost(
+    drawn: dict[str, tuple[Figure, str]]
+) -> None:
+    figure, caption = drawn["stability"]
     assert len([axes for axes in figure.axes if axes.axison]) == 5
     assert "from m = 100 on the frontier lies at 2.010 to 2.010" in caption
     assert "within 0.50 % of the closed form" in caption and "within 0.10 % of 2/ω_max" in caption

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using Guidewire.Core;
 using NUnit.Framework;
 
@@ -11,6 +12,7 @@ namespace Guidewire.Core.Tests
         private const int Around = 32;
         private const int Rows = 100;
         private const double Length = 20.0;
+        private const int OneOf = 4;    // parts of the length that a rough tube has where campaigns do not run in full
 
         /// <summary>A throat of radius 0.3 in a tube of radius 1, seen by balls in the middle of triangles.</summary>
         [Test]
@@ -31,7 +33,9 @@ namespace Guidewire.Core.Tests
         [Test]
         public void RoughTube_IsNoNarrowerThanItsLumen()
         {
-            TestMeshes even = Tube(_ => 1.0);
+            int rows = RandomGeometry.Cases(Rows, OneOf);
+            double length = Length * rows / Rows;
+            TestMeshes even = TestMeshes.Tube(Around, rows, length, _ => 1.0);
             var random = new RandomGeometry(5);
             var rough = new TestMeshes();
             foreach (Vector3d corner in even.Vertices)
@@ -44,11 +48,12 @@ namespace Guidewire.Core.Tests
             {
                 rough.Triangle(triangles[t], triangles[t + 1], triangles[t + 2]);
             }
-            Assert.That(Width(rough, 0.05), Is.InRange(0.85, 1.0));
+            Assert.That(Width(rough, 0.05, length), Is.InRange(0.85, 1.0));
         }
 
         /// <summary>The clearance of a wire of radius 0.25, whose half is what a barrier may reach, is that of the same
-        /// surface however it is cut: by 4, by 16, at points and edges by chance with slivers of 1 in 200.</summary>
+        /// surface however it is cut: by 4, by 16, at points and edges by chance with slivers of 1 in 200. Where campaigns do
+        /// not run in full: as it is, and by 4 with slivers.</summary>
         [TestCase("throat", 0.3)]
         [TestCase("two throats, the first too narrow", 0.3)]
         [TestCase("taper", double.PositiveInfinity)]
@@ -57,11 +62,13 @@ namespace Guidewire.Core.Tests
         public void SameSurface_IsAsNarrow_HoweverItIsCut(string surface, double expected)
         {
             TestMeshes tube = TestMeshes.Tube(16, 40, Length, RadiusOf(surface));
-            var widths = new[]
+            var widths = new List<double> { Width(tube, 0.25), Width(Shattered(Halved(tube), 2), 0.25) };
+            if (Rods.InFull)
             {
-                Width(tube, 0.25), Width(Halved(tube), 0.25), Width(Halved(Halved(tube)), 0.25),
-                Width(Shattered(tube, 1), 0.25), Width(Shattered(Halved(tube), 2), 0.25),
-            };
+                widths.Add(Width(Halved(tube), 0.25));
+                widths.Add(Width(Halved(Halved(tube)), 0.25));
+                widths.Add(Width(Shattered(tube, 1), 0.25));
+            }
             // Of a polygon of 16 sides the inscribed radius counts.
             double radius = expected * Math.Cos(Math.PI / 16);
             foreach (double width in widths)
@@ -100,7 +107,7 @@ namespace Guidewire.Core.Tests
             int[] old = mesh.Triangles;
             var cut = new TestMeshes();
             Array.ForEach(x, vertex => cut.Vertex(vertex));
-            var middles = new System.Collections.Generic.Dictionary<(int, int), int>();
+            var middles = new Dictionary<(int, int), int>();
             int count = x.Length;
             int Middle(int a, int b)
             {
@@ -151,9 +158,9 @@ namespace Guidewire.Core.Tests
             return TestMeshes.Tube(Around, Rows, Length, radius);
         }
 
-        private static double Width(TestMeshes tube, double above)
+        private static double Width(TestMeshes tube, double above, double length = Length)
         {
-            var mesh = new MeshShape(tube.Build(Vector3d.Zero, Length * Vector3d.UnitZ), Placement.Identity);
+            var mesh = new MeshShape(tube.Build(Vector3d.Zero, length * Vector3d.UnitZ), Placement.Identity);
             return mesh.NarrowestRadius(above);
         }
     }

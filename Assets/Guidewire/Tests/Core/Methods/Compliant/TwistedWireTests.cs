@@ -18,8 +18,8 @@ namespace Guidewire.Core.Tests
             // Closed, straight when free, EI = GJ: 2 pi sqrt(3) EI/GJ.
             const int N = 32;
             double critical = 2.0 * Math.PI * Math.Sqrt(3.0);
-            Assert.That(Ring(N, sweeps, (1.0 - Share) * critical), Is.LessThan(1e-3));
-            Assert.That(Ring(N, sweeps, (1.0 + Share) * critical), Is.GreaterThan(1e-2));
+            Assert.That(Ring(N, sweeps, (1.0 - Share) * critical, 1e-3), Is.LessThan(1e-3));
+            Assert.That(Ring(N, sweeps, (1.0 + Share) * critical, 1e-2), Is.GreaterThan(1e-2));
         }
 
         [Test]
@@ -30,11 +30,11 @@ namespace Guidewire.Core.Tests
             // only leans on its own tension: (a/L)^2 EA is of the order of what the couple is above its limit.
             const int N = 24;
             double critical = 8.9868 * Rods.Young / (2.0 * Rods.Shear);
-            Assert.That(Straight(N, (1.0 - Share) * critical), Is.LessThan(1e-4));
-            Assert.That(Straight(N, (1.0 + Share) * critical), Is.GreaterThan(1e-3));
+            Assert.That(Straight(N, (1.0 - Share) * critical, 1e-4), Is.LessThan(1e-4));
+            Assert.That(Straight(N, (1.0 + Share) * critical, 1e-3), Is.GreaterThan(1e-3));
         }
 
-        private static double Ring(int n, int sweeps, double twist)
+        private static double Ring(int n, int sweeps, double twist, double enough)
         {
             SimulationParameters parameters = Damped(n, sweeps, twist);
             parameters.Material.ShearModulus = 0.5 * Rods.Young;
@@ -46,10 +46,10 @@ namespace Guidewire.Core.Tests
                 double push = 0.03 * Math.Sin(around) * Math.Sin(around) * Math.Sin(2.0 * around);
                 ring.Positions[i] += new Vector3d(push, 0.0, 0.0);
             }
-            return Farthest(parameters, ring, FromPlane);
+            return Farthest(parameters, ring, FromPlane, enough);
         }
 
-        private static double Straight(int n, double twist)
+        private static double Straight(int n, double twist, double enough)
         {
             SimulationParameters parameters = Damped(n, 2, twist);
             RodState wire = Simulation.Create(parameters).State;
@@ -57,11 +57,13 @@ namespace Guidewire.Core.Tests
             {
                 wire.Positions[i] += new Vector3d(0.003 * Math.Pow(Math.Sin(Math.PI * i / n), 2), 0.0, 0.0);
             }
-            return Farthest(parameters, wire, FromAxis);
+            return Farthest(parameters, wire, FromAxis, enough);
         }
 
-        // Over the whole run: a ring that has left its plane passes through itself and comes back with fewer turns.
-        private static double Farthest(SimulationParameters parameters, RodState start, Func<RodState, double> away)
+        // Over the whole run, or until it is farther than enough: a ring that has left its plane passes through itself
+        // and comes back with fewer turns.
+        private static double Farthest(SimulationParameters parameters, RodState start, Func<RodState, double> away,
+            double enough)
         {
             parameters.Scene.Start = new RodStart(start.Positions, start.Orientations, start.Velocities,
                 start.AngularVelocities)
@@ -71,12 +73,12 @@ namespace Guidewire.Core.Tests
             };
             Simulation run = Simulation.Create(parameters);
             double farthest = 0.0;
-            while (run.Outcome == Outcome.Running)
+            while (run.Outcome == Outcome.Running && farthest <= enough)
             {
                 run.Step();
                 farthest = Math.Max(farthest, away(run.State));
             }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Assert.That(run.Outcome, Is.AnyOf(Outcome.Finished, Outcome.Running), run.Reason);
             return farthest;
         }
 

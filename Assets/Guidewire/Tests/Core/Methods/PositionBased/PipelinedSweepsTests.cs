@@ -9,7 +9,8 @@ namespace Guidewire.Core.Tests
     {
         private const int AllWires = 200;
         private const int DefaultWires = 6;
-        private const int Steps = 100;
+        private const int AllSteps = 100;
+        private const int DefaultSteps = 20;
         private const double TimeStep = 0.01;    // s
 
         [TestCase(4)]
@@ -17,13 +18,14 @@ namespace Guidewire.Core.Tests
         public void RandomWires_MoveAsTheyDoOneSweepAfterTheOther(int lanes)
         {
             int wires = Rods.InFull ? AllWires : DefaultWires;
+            int steps = Rods.InFull ? AllSteps : DefaultSteps;
             for (int seed = 0; seed < wires; seed++)
             {
                 RodState expected = RandomWire(seed, out ScalarSweeps scalar, out int iterations);
                 RodState state = RandomWire(seed, out ScalarSweeps twin, out _);
                 PositionBasedStep reference = StepWith(scalar, scalar, iterations);
                 PositionBasedStep step = StepWith(twin, InLanes(twin, lanes), iterations);
-                for (int k = 0; k < Steps; k++)
+                for (int k = 0; k < steps; k++)
                 {
                     reference.Advance(expected);
                     step.Advance(state);

@@ -22,7 +22,7 @@ namespace Guidewire.Core.Tests
             string[] asked = (Environment.GetEnvironmentVariable(Asked) ?? "0:0").Split(new[] { ':' });
             int first = int.Parse(asked[0], CultureInfo.InvariantCulture);
             int runs = int.Parse(asked[1], CultureInfo.InvariantCulture);
-            runs = runs > 0 ? runs : RandomGeometry.Cases(80);
+            runs = runs > 0 ? runs : RandomGeometry.Cases(80, 20);
             var worst = new List<string>();
             var delivered = new List<double>();
             int failed = 0;

@@ -274,7 +274,8 @@ namespace Guidewire.Core.Tests
         public void BarrierThatCannotWork_IsNamedWhereAStepHasNoSolution(double stiffness, double distance,
             string named)
         {
-            SimulationParameters parameters = WallScenes.Arch(30, 0.01, 50.0, 100.0);
+            // Steps of 5 mm: a step is made in 64 parts at most, and the tip is soon at the bend.
+            SimulationParameters parameters = WallScenes.Arch(30, 0.01, 500.0, 100.0);
             parameters.Contact.ContactStiffness = stiffness;
             parameters.Contact.ContactDistance = distance;
             Simulation run = Wires.Run(parameters);
