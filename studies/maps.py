@@ -59,12 +59,12 @@ MAPS: tuple[Study, ...] = (
     _study("map-push", "how far may a push go in one step?", "default", Grid(
         (Rows("push", ("displacementPerStep", "maxSimulationSteps"), tuple(
             (d, round(_WAY / d)) for d in (0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0))),),
-        _PUSH, {rule: {"elementContact": rule} for rule in ("barycentric", "seed", "none")},
+        _PUSH, {rule: {"elementContact": rule} for rule in ("barycentric", "thesis", "none")},
     )),
     _study("map-slender", "how long may elements be, over the radius?", "default", Grid(
         (Axis("numberRodElements", (4, 5, 7, 10, 20, 40)),),
         {**_PUSH, "displacementPerStep": 1.0, "maxSimulationSteps": 100},
-        {rule: {"elementContact": rule} for rule in ("barycentric", "seed", "none")},
+        {rule: {"elementContact": rule} for rule in ("barycentric", "thesis", "none")},
     )),
     _study("map-gap", "which contact distance at which step?", "cantilever", Grid(
         (Rows("step", ("timeStep", "maxSimulationSteps"), ((1e-3, 200), (5e-3, 40), (2e-2, 10), (5e-2, 4))),

@@ -12,8 +12,8 @@ from analysis.figures.style import add_caption, letter, new_figure, styled
 from analysis.figures.wording import beside, number, percent, span
 from analysis.gain import RULES, GainRow, GainTable
 
-_COLOURS = {"none": "C1", "barycentric": "C0", "seed": "C3"}
-_MARKERS = {"none": "s", "barycentric": "o", "seed": "^"}
+_COLOURS = {"none": "C1", "barycentric": "C0", "thesis": "C3"}
+_MARKERS = {"none": "s", "barycentric": "o", "thesis": "^"}
 
 
 @styled
@@ -95,7 +95,7 @@ def _worst_entry(row: GainRow) -> int:
 
 def gain_caption(name: str, scene: str, table: GainTable) -> str:
     """What the rows show, in numbers."""
-    spheres, elements, seed = (table.of(rule) for rule in ("none", "barycentric", "seed"))
+    spheres, elements, seed = (table.of(rule) for rule in ("none", "barycentric", "thesis"))
     radius = table.reference.wire.run.number("sphereRadius")
     sentences = [
         f"Figure {name}. {scene}, n = {elements[0].elements} to {elements[-1].elements} (dashed: l = 2r). (a, b) The "

@@ -1,3 +1,4 @@
+using System.Collections.Generic;
 using Guidewire.Core;
 
 namespace Guidewire.Io
@@ -63,6 +64,7 @@ namespace Guidewire.Io
                 + " lever rule, nothing, or rod elements by the rule as published",
                 p => p.Simulation.Contact.ElementContact, (p, v) => p.Simulation.Contact.ElementContact = v)
             {
+                OlderWords = new Dictionary<string, ElementContact> { ["seed"] = ElementContact.Thesis },
                 Methods = Takers.Pbd,
             },
         });
