@@ -69,7 +69,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
     asked.add_argument("--budget", type=above_zero, metavar="MS_PER_STEP",
                        help="largest wall time of a step, ms: find the most accurate settings within it")
     advise.add_argument("--of", metavar="QUANTITY", default="position",
-                        help="quantity whose error counts: position, tip, hubForce, hubTorque, twist, largestCurvature, "
+                        help="quantity of the error: position, tip, hubForce, hubTorque, twist, largestCurvature, "
                              "contactForce, or a number of summary.json such as extremes.axialForce (position)")
     advise.add_argument("--at", choices=("run", "end"), default="run",
                         help="over the whole run, or at the end only (run)")

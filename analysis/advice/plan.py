@@ -179,7 +179,7 @@ def _lasting(run: Run) -> dict[str, Any]:
         raise LogError("the scene makes no step: nothing moves, and nothing costs")
     places = read_log(run.folder, spheres="all").positions
     if np.max(np.abs(places - places[0])) <= _STILL * run.number("guidewireLength"):
-        raise LogError("nothing moves in the scene: there is no way that an error could be a part of")
+        raise LogError("nothing moves in the scene: there is no displacement to which an error could be related")
     asked = int(run.number("maxSimulationSteps"))
     return {**run.parameters, "maxSimulationSteps": asked if steps == asked else min(asked, -(-steps // 16) * 16)}
 

@@ -142,7 +142,7 @@ def _published(found: Sequence[Charted]) -> str:
     names = [charted.problem.name for charted in found]
     told = [f"({'abcdefgh'[names.index(one.problem)]}) {one.label}: {one.says} [{one.source}]"
             for one in PUBLISHED if one.problem in names]
-    return f" Grey bars: what others state, a wall time without an error. {'; '.join(told)}." if told else ""
+    return f" Grey bars: published by others, a wall time without an error. {'; '.join(told)}." if told else ""
 
 
 def _draw_front(axes: Axes, charted: Charted, cost: Cost) -> None:

@@ -89,7 +89,7 @@ def draw_contact_rule(rests: list[Rest]) -> tuple[Figure, str]:
         axes, (colour, marker) = panels[rule], _STYLE[rule]
         rows = [rest for rest in rests if rest.rule == rule]
         s = [rest.position for rest in rows]
-        letter(axes, name, f"push in the first step: {_NAMES[rule]}")
+        letter(axes, name, f"correction in the first step: {_NAMES[rule]}")
         axes.plot(s, [rest.pushed[0] for rest in rows], marker=marker, color=colour, label="first end")
         axes.plot(s, [rest.pushed[1] for rest in rows], marker=marker, color=colour, linestyle="--",
                   markerfacecolor="white", label="second end")

@@ -101,12 +101,12 @@ def gain_caption(name: str, scene: str, table: GainTable) -> str:
         f"Figure {name}. {scene}, n = {elements[0].elements} to {elements[-1].elements} (dashed: l = 2r). (a, b) The "
         f"coarsest wire at the end of its run.",
         f"(c) Over the run the wires with element contact are {_distances(elements)} units from the one with n = "
-        f"{table.reference.elements}, those with sphere contact only {_distances(spheres)}; in gain mode another n is "
+        f"{table.reference.elements}, those with sphere contact only {_distances(spheres)}; with pbd another n is "
         f"another stiffness, so this is no error that goes to 0.",
         _cost(elements, spheres),
         "(e) " + _passed("With sphere contact only", spheres, radius),
         _passed("With element contact", elements, radius),
-        _passed("With the rule as published", seed, radius) if seed else "",
+        _passed("With the thesis's rule", seed, radius) if seed else "",
         _again(table),
         _flat(table),
         _length(table),

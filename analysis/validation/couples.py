@@ -148,7 +148,7 @@ def _darboux_couple() -> Plan:
         + _methods([runs[case.key] for case in (*cases.values(), *explicit.values())])
     )
     draw = pictures.orders("number of elements n", "error of the tip (L)", series, [(-2.0, "order 2")],
-                           (ARC_GATE, "gate from n = 90 on"))
+                           (ARC_GATE, "limit from n = 90 on"))
     return Finding(tuple(results), draw, caption)
 
 

@@ -60,7 +60,7 @@ def _incline() -> Plan:
 
     return Finding(tuple(results), draw, (
         f"A short wire on an inclined plane, friction {_MU:g}, for tangents of its angle below and above that. Below, "
-        "it stays where it is (its speed, over what it would gain without friction), above it accelerates by "
+        "it stays at rest (its speed, over what it would gain without friction), above it accelerates by "
         f"g (sin - mu cos). Worst: {percent(max(r.error for r in results))}."))
 
 

@@ -157,7 +157,7 @@ def _caption(results: list[Result], costs: Mapping[tuple[str, str], float], load
     sentences.append(f"Median time of a step, {problem}, of runs made one at a time, {load}: " + ", ".join(
         f"{method} {number(1e3 * costs[problem, method], 3)} ms" for method in _METHODS) + ".")
     sentences.append(
-        "With gains there is no limit in the time step that one of them could be nearer to; the choice of m changes "
+        "With pbd there is no limit in the time step that one of them could be nearer to; the choice of m changes "
         "the "
         "motion far more."
     )

@@ -64,7 +64,7 @@ def _ring(pushing: Sequence[str] = tuple(MOVING)) -> Plan:
         + f" rad. explicit and xpbd are pushed by {PUSH:g} L, twisted, and move, damped, for "
         f"{1e3 * _DURATION:g} ms."
     )
-    draw = branches("twist (rad)", "distance from the plane (L), or share of twist lost", drawn)
+    draw = branches("twist (rad)", "distance from the plane (L), or fraction of twist lost", drawn)
     return Finding(tuple(results), draw, caption)
 
 

@@ -223,7 +223,7 @@ def _held(loads: Sequence[float]) -> Plan:
         if f > EVEN_HELIX or f < _FAR_BELOW * EVEN_HELIX:
             holds = f > EVEN_HELIX
             results.append(Result(
-                f"prepared helix of {turns[0]:.0f} turns at {f:g} sqrt(EI w/c), after 3 s: share of its turns",
+                f"prepared helix of {turns[0]:.0f} turns at {f:g} sqrt(EI w/c), after 3 s: fraction of its turns",
                 "direct", left[f], 1.0 if holds else 0.0, abs(left[f] - holds), 0.05, "", wall_time_per_second(run),
                 "of its turns"))
     holding, losing = [f for f in left if left[f] > 0.95], [f for f in left if left[f] <= 0.95]

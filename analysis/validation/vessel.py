@@ -49,7 +49,7 @@ def _stenosis() -> Plan:
         axes = figure.add_subplot()
         for name, (way, force) in curves.items():
             axes.plot(way[way > 16.0], 100.0 * force[way > 16.0], label=f"off axis by {name}")
-        axes.set_xlabel("way of the tip (mm)")
+        axes.set_xlabel("displacement of the tip (mm)")
         axes.set_ylabel("force of the hub (% of the buckling load)")
         pictures.outside_legend(axes)
 
@@ -132,7 +132,7 @@ def _containment(speeds: Sequence[float]) -> Plan:
         for name, (way, gap) in curves.items():
             axes.plot(way, gap, label=name)
         axes.set_yscale("log")
-        axes.set_xlabel("way of the hub (mm)")
+        axes.set_xlabel("displacement of the hub (mm)")
         axes.set_ylabel("least gap between wire and wall (mm)")
         pictures.outside_legend(axes)
 
