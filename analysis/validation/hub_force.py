@@ -73,7 +73,7 @@ def _plan() -> Plan:
         f"{span(spread['corners'], 3)} N over n = {_ELEMENTS[0]} to {finest[0]} and dt = {1e3 * _STEPS[-1]:g} to "
         f"{1e3 * _STEPS[0]:g} ms. With "
         f"rounded corners (smooth) it converges: {span(spread['smooth'], 3)} N, with friction 0.2 "
-        f"{span(spread['smooth, friction 0.2'], 4)} N. Without friction the work of the hub is the energy of bending: "
+        f"{span(spread['smooth, friction 0.2'], 4)} N. Without friction the work of the hub is the bending energy: "
         f"in a bend of 180° the force, averaged from 60° to 120° of the tip's path, is EI/(2 R²) to "
         f"{percent(max(r.error for r in plateaus))}, R that of the centreline: it is above it, as the wire lies at the "
         "inner wall."), width=10.0)

@@ -137,9 +137,9 @@ def _caption(results: list[Result], costs: Mapping[tuple[str, str], float], load
     of = {(r.what.split(":")[0], r.solver[5:]): r.error for r in results}
     same = [problem for problem in _PROBLEMS if of[problem, "Euler, Euler"] < _ROUNDING]
     sentences = [
-        "Four ways to predict, \"positions, orientations\" each by Euler or Verlet, in the thesis's transversal run "
+        "Four predictors, \"positions, orientations\" each by Euler or Verlet, in the thesis's transversal run "
         "and for "
-        f"a wire whose elements start turned by 0 to 90°; {_STEPS} steps. Below: difference from {_REFERENCE}."
+        f"a wire whose elements start rotated by 0 to 90°; {_STEPS} steps. Below: difference from {_REFERENCE}."
     ]
     if same:
         sentences.append(

@@ -56,8 +56,8 @@ def _stenosis() -> Plan:
     worst = max(results, key=lambda r: r.error)
     return Finding(tuple(results), draw, (
         f"A straight wire of {2e3 * tubes.WIRE.radius:g} mm is pushed through a frictionless stenosis of "
-        f"{_STENOSIS_RADIUS:g} of its radii, its axis off that of the throat by up to {_OFF_AXIS[-1]:g} mm: what it "
-        f"takes at the hub, at most {percent(worst.error)} of the load at which the wire buckles, pi^2 EI/(4 L^2) = "
+        f"{_STENOSIS_RADIUS:g} of its radii, its axis off that of the throat by up to {_OFF_AXIS[-1]:g} mm: force at the "
+        f"hub, at most {percent(worst.error)} of the load at which the wire buckles, pi^2 EI/(4 L^2) = "
         f"{number(buckling, 3)} N. The throat begins 40 mm ahead of the tip."))
 
 
@@ -138,7 +138,7 @@ def _containment(speeds: Sequence[float]) -> Plan:
 
     count = sum(int(r.value) for r in results[::2])
     return Finding(tuple(results), draw, (
-        f"A wire of {2e3 * tubes.WIRE.radius:g} mm is pushed by 120 mm and turned in a bend of half a circle with a "
+        f"A wire of {2e3 * tubes.WIRE.radius:g} mm is pushed by 120 mm and rotated in a bend of half a circle with a "
         f"lumen of {_ARCH_LUMEN:g} mm radius and in a coil with one of {_COIL_LUMEN:g} mm, at up to 1 m/s: least gap, "
         f"from the log alone, over {_SAMPLES} points of each element after every step. Points outside: {count}."))
 
