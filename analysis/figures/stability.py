@@ -93,8 +93,8 @@ def _sweeps(one: Frontier) -> int:
 def failed_gates(folders: Mapping[str, Path]) -> list[str]:
     """One line for each frontier that is not where theory has it: stretch stiffness 2.00 within 0.03 across, its closed
     form within 1 % along, bend stiffness l within 2 %, explicit steps within 5 % of 2/omega_max. Stiffness with many
-    iterations only, and not for wires of few elements, where the chain's limit is elsewhere; and for each long step that
-    direct loses."""
+    iterations only, and not for wires of few elements, where the chain's limit is elsewhere; and for each long step
+    that direct loses."""
     (across, along, bend, explicit), rows = read_maps(folders)
     most = max(_sweeps(one) for one in along.points)
     gated = [

@@ -236,7 +236,8 @@ def _held(loads: Sequence[float]) -> Plan:
     caption = (
         "A helix prepared in the same tube, under a steady thrust: its turns. At "
         + ", ".join(f"{f:g}" for f in holding) + " sqrt(EI w/c) it is stable, at "
-        + ", ".join(f"{f:g}" for f in losing) + " it loses turns. A uniform helix has the energy of the straight wire at "
+        + ", ".join(f"{f:g}" for f in losing) + " it loses turns. A uniform helix has the energy of the straight "
+          "wire at "
         f"{number(EVEN_HELIX, 3)}; below, it is no longer the state of least energy, but it leaves the wall at the top "
         f"only at {number(helix_lifts_off(), 3)}, by the boundary value problem."
     )

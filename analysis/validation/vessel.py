@@ -56,8 +56,8 @@ def _stenosis() -> Plan:
     worst = max(results, key=lambda r: r.error)
     return Finding(tuple(results), draw, (
         f"A straight wire of {2e3 * tubes.WIRE.radius:g} mm is pushed through a frictionless stenosis of "
-        f"{_STENOSIS_RADIUS:g} of its radii, its axis off that of the throat by up to {_OFF_AXIS[-1]:g} mm: force at the "
-        f"hub, at most {percent(worst.error)} of the load at which the wire buckles, pi^2 EI/(4 L^2) = "
+        f"{_STENOSIS_RADIUS:g} of its radii, its axis off that of the throat by up to {_OFF_AXIS[-1]:g} mm: force at "
+        f"the hub, at most {percent(worst.error)} of the load at which the wire buckles, pi^2 EI/(4 L^2) = "
         f"{number(buckling, 3)} N. The throat begins 40 mm ahead of the tip."))
 
 
