@@ -15,7 +15,7 @@ from analysis.runs import read_study
 from analysis.surfaces import read_obj
 from analysis.tables import Spread
 
-RULES = {"none": "spheres only", "barycentric": "spheres and elements", "seed": "as published"}
+RULES = {"none": "spheres only", "barycentric": "spheres and elements", "thesis": "as published"}
 
 
 @dataclass(frozen=True)

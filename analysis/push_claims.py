@@ -62,7 +62,7 @@ def _passages(rule: str, summary: dict[str, Any], positions: np.ndarray, walls: 
     count = int(np.count_nonzero(~samples[:, :-1] & samples[:, 1:]))
     if summary["passages"] != count:
         claims.append(f"passages = {summary['passages']}, true are {count}")
-    if rule != "seed" and spheres.any():
+    if rule != "thesis" and spheres.any():
         step, sphere = np.argwhere(spheres.any(axis=0))[0]
         claims.append(f"sphere {sphere} is beyond a wall after step {step}")
     if rule == "barycentric":
@@ -135,7 +135,7 @@ def _penetration(scene: dict[str, Any], summary: dict[str, Any], positions: np.n
 def _least_other(wall: ClosedForm, a: np.ndarray, b: np.ndarray, known: float, rule: str) -> float:
     """Least distance of a core line. With the published rule it may lie beyond the wall, at negative distances; with
     the others one that crosses the wall has 0."""
-    if rule == "seed":
+    if rule == "thesis":
         return wall.least_along(a, b, known)
     clear = (wall.distance(a) > 0.0) | (wall.distance(b) > 0.0)
     return min(known, max(0.0, wall.least_along(a[clear], b[clear], known)) if clear.any() else known)
@@ -143,7 +143,7 @@ def _least_other(wall: ClosedForm, a: np.ndarray, b: np.ndarray, known: float, r
 
 def _least_mesh(mesh: MeshSearch, positions: np.ndarray, known: float, rule: str) -> float:
     a, b = _elements(positions)
-    if rule == "seed":
+    if rule == "thesis":
         spheres = np.unique(positions.reshape(-1, 3), axis=0)
         outside = spheres[~mesh.inside(spheres)]
         if len(outside):

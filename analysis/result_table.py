@@ -16,7 +16,7 @@ from studies.keys import RESULTS, TABLE
 # Summary quantities: what they are, and their unit; of a wire with a material.
 QUANTITIES: Mapping[str, tuple[str, str]] = {
     "hub.force": ("force of the hub at the end", "N"), "hub.torque": ("torque of the hub at the end", "N m"),
-    "hub.insertion": ("insertion", "m"), "hub.turn": ("turn of the hub", "rad"),
+    "hub.insertion": ("insertion", "m"), "hub.turn": ("rotation of the hub", "rad"),
     "hub.twist": ("twist from hub to tip", "rad"), "hub.lengthInBody": ("length in the body", "m"),
     "hub.largestCurvature": ("largest curvature at the end", "1/m"),
     "extremes.axialForce": ("largest force of the hub", "N"), "extremes.axialTorque": ("largest torque of the hub", "N m"),
@@ -25,7 +25,7 @@ QUANTITIES: Mapping[str, tuple[str, str]] = {
     "extremes.wallPressure": ("largest pressure of a wall", "Pa"),
     "extremes.frictionWork": ("work of friction", "J"), "extremes.frictionPower": ("largest power of friction", "W"),
     "largestContactForce": ("largest contact force", "N"), "largestWallForce": ("largest force of all walls", "N"),
-    "maxPenetration": ("largest penetration", "units"), "driveShortfall": ("way that the drive lost", "units"),
+    "maxPenetration": ("largest penetration", "units"), "driveShortfall": ("shortfall of the drive", "units"),
     "inGameTime": ("in-game time", "s"), "computationTime": ("computation time", "s"), "wallTime": ("wall time", "s"),
     "averageStepTime": ("average wall time of a step", "ms"), "medianStepTime": ("median wall time of a step", "ms"),
     "steps": ("steps", ""), "passages": ("passages of walls", ""), "predictionError": ("prediction error", "units"),

@@ -210,7 +210,7 @@ def _lock(tell: Callable[[str], None]) -> Iterator[int]:
             try:
                 fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except BlockingIOError:
-                tell("waiting for a build that is under way")
+                tell("waiting for another build to finish")
                 fcntl.flock(file, fcntl.LOCK_EX)
         yield file.fileno()
 

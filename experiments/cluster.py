@@ -233,7 +233,7 @@ def _major_minor(version: str) -> str:
 
 
 _HERE = {"python": _major_minor(platform.python_version()), "distributed": distributed.__version__}
-_KEPT = "what has ended is kept, the same command goes on from here"
+_KEPT = "completed runs are kept, the same command continues from here"
 
 
 class _Queue:

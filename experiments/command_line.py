@@ -33,49 +33,49 @@ def parse(argv: list[str]) -> argparse.Namespace:
     run = commands.add_parser("run", help="one run of one parameter file")
     run.add_argument("file", metavar="FILE", type=Path, help="parameter file, such as params/default.json")
     run.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], type=assignment, dest="overrides",
-                     help="a parameter laid over the file; may be given several times")
-    run.add_argument("--out", type=path, help="folder of the run (results/<name of FILE>); the same run is not made "
-                                               "again, and one of other parameters is not replaced")
+                     help="override a parameter of the file; may be given several times")
+    run.add_argument("--out", type=path, help="folder of the run (results/<name of FILE>); a complete run there is not "
+                                               "repeated, nor replaced by one with other parameters")
     run.add_argument("--force", action="store_true",
                      help="replace a complete run that the folder holds, once this one is complete")
     _add_runner(run)
     run.set_defaults(packages=())
 
-    sweep = commands.add_parser("sweep", help="a study's runs; what is done already is not run again")
+    sweep = commands.add_parser("sweep", help="the runs of a study; completed runs are not repeated")
     sweep.add_argument("study", metavar="STUDY", help=f"{', '.join(STUDIES)}; or a study of your own, a JSON file")
-    sweep.add_argument("--out", type=path, default=Path("results"), help="folder above the study's (results)")
-    sweep.add_argument("--logs", action="store_true", help="every run leaves its log, whatever the study's file says")
-    sweep.add_argument("--yes", action="store_true", help="make the runs, however many the study's file asks for")
+    sweep.add_argument("--out", type=path, default=Path("results"), help="parent of the study's folder (results)")
+    sweep.add_argument("--logs", action="store_true", help="write the log of every run, whatever the study's file says")
+    sweep.add_argument("--yes", action="store_true", help="make the runs even if there are more than 100,000")
     _add_workers(sweep)
     _add_runner(sweep)
     sweep.set_defaults(packages=SWEEPING)
 
-    figures = commands.add_parser("figures", help="the thesis's figures and ours, running what is missing; ends with "
-                                                  "1 where a check is beyond its gate")
-    figures.add_argument("ids", metavar="ID", nargs="*", help="such as 4.5; all where none is given")
+    figures = commands.add_parser("figures", help="draw the thesis's figures and ours, running what is missing; exit "
+                                                  "code 1 if a check exceeds its limit")
+    figures.add_argument("ids", metavar="ID", nargs="*", help="such as 4.5; default: all")
     figures.add_argument("--out", type=path, default=Path("results"),
-                         help="folder above the studies' (results); the pictures stand in its 'figures'")
+                         help="parent of the studies' folders (results); pictures are written to its 'figures'")
     figures.add_argument("--quick", action="store_true",
-                         help="few values of each study and few checks, in 'quick' below the folder: does all work?")
+                         help="few values of each study and few checks, into its subfolder 'quick', as a smoke test")
     _add_workers(figures)
     figures.set_defaults(packages=DRAWING + SWEEPING)
 
-    advise = commands.add_parser("advise", help="the cheapest settings of a scene that meet an error, found by running")
+    advise = commands.add_parser("advise", help="find the cheapest settings of a scene for a given error")
     advise.add_argument("file", metavar="SCENE", type=Path, help="parameter file, such as params/insertion.json")
     asked = advise.add_mutually_exclusive_group(required=True)
     asked.add_argument("--error", type=error_part, metavar="E",
-                       help="from a finer run, such as 1%% or 0.01: RMS distance over the displacement of the wire, or "
-                            "what --of names, over its own size")
+                       help="largest error against a finer run, such as 1%% or 0.01: RMS distance over the wire's "
+                            "displacement, or relative error of the quantity given by --of")
     asked.add_argument("--budget", type=above_zero, metavar="MS_PER_STEP",
-                       help="wall time that a step may take, ms: the most accurate settings within it")
+                       help="largest wall time of a step, ms: find the most accurate settings within it")
     advise.add_argument("--of", metavar="QUANTITY", default="position",
-                        help="what the error is of: position, tip, hubForce, hubTorque, twist, largestCurvature, "
+                        help="quantity of the error: position, tip, hubForce, hubTorque, twist, largestCurvature, "
                              "contactForce, or a number of summary.json such as extremes.axialForce (position)")
     advise.add_argument("--at", choices=("run", "end"), default="run",
-                        help="from start to end, or at the end alone (run)")
+                        help="over the whole run, or at the end only (run)")
     advise.add_argument("--chart", action="store_true", help="draw error against cost of the settings: chart.png")
     advise.add_argument("--out", type=path, default=Path("results"),
-                        help="folder above that of the runs (results); the file and advice.md stand in advice/SCENE")
+                        help="parent of the runs' folders (results); the file and advice.md go to advice/SCENE")
     _add_workers(advise)
     advise.set_defaults(packages=DRAWING + SWEEPING)
 
@@ -83,87 +83,88 @@ def parse(argv: list[str]) -> argparse.Namespace:
     render.add_argument("folder", type=Path, metavar="RUN", help="folder of a run")
     render.add_argument("--out", type=path, metavar="FILE", help="FILE.png or FILE.gif (RUN/render.png)")
     render.add_argument("--times", type=finite, nargs="+", metavar="T", default=[],
-                        help="of a .png: these moments, in s, in one picture, a colour each (the last moment, coloured "
+                        help="of a .png: times in s, drawn in one picture, one colour each (default: the end, coloured "
                              "by curvature)")
-    render.add_argument("--frames", type=positive, default=40, metavar="K", help="of a .gif: pictures at most (40)")
+    render.add_argument("--frames", type=positive, default=40, metavar="K", help="of a .gif: most frames (40)")
     middle = render.add_mutually_exclusive_group()
-    middle.add_argument("--target", type=finite, nargs=3, metavar=("X", "Y", "Z"), help="point in the middle, units")
-    middle.add_argument("--follow", choices=("tip",), help="the tip stays in the middle, four times as near")
-    render.add_argument("--zoom", type=above_zero, metavar="F", help="so many times as near")
+    middle.add_argument("--target", type=finite, nargs=3, metavar=("X", "Y", "Z"), help="point at the centre, units")
+    middle.add_argument("--follow", choices=("tip",), help="keep the tip at the centre, at four times the zoom")
+    render.add_argument("--zoom", type=above_zero, metavar="F", help="zoom factor")
     render.add_argument("--view", choices=("side", "front", "top", "back"),
-                        help="in place of --yaw and --pitch: against x, along z, down against y, or along x")
-    render.add_argument("--distance", type=above_zero, metavar="D", help="of the camera from it, units")
-    render.add_argument("--yaw", type=finite, metavar="DEGREES", help="0 looks along z, -90 against x (-90)")
-    render.add_argument("--pitch", type=finite, metavar="DEGREES", help="90 looks down, against y (15)")
+                        help="instead of --yaw and --pitch: along -x, along z, along -y, or along x")
+    render.add_argument("--distance", type=above_zero, metavar="D", help="of the camera from the target, units")
+    render.add_argument("--yaw", type=finite, metavar="DEGREES", help="0 looks along z, -90 along -x (-90)")
+    render.add_argument("--pitch", type=finite, metavar="DEGREES", help="90 looks down, along -y (15)")
     render.add_argument("--radius", type=above_zero, metavar="R",
-                        help="of the wire in the picture, units (its own, or so much that it is seen)")
+                        help="radius of the drawn wire, units (the true one, or larger where it would not be visible)")
     render.set_defaults(packages=DRAWING)
 
-    view = commands.add_parser("view", help="a page in the browser: a scene under your hand, or what runs left")
+    view = commands.add_parser("view", help="in the browser: open a scene interactively, or replay one or two runs")
     view.add_argument("what", metavar="FILE|RUN", nargs="+", type=Path,
-                      help="parameter file: live; folder of a run: a replay; of two: side by side, or one over the "
-                           "other")
-    view.add_argument("--html", type=path, metavar="FILE", help="write the replay into one file that needs no server")
-    view.add_argument("--frames", type=positive, metavar="K", help="of a run at most (5000; 300 with --html)")
+                      help="a parameter file: interactive; folder of a run: replay; two folders: side by side or "
+                           "superimposed")
+    view.add_argument("--html", type=path, metavar="FILE", help="write the replay into a self-contained file")
+    view.add_argument("--frames", type=positive, metavar="K", help="most frames of a run (5000; 300 with --html)")
     view.add_argument("--open", action="store_true", help="open the page in a browser")
     view.set_defaults(packages=("numpy", *VIEWING))
 
-    plot = commands.add_parser("plot", help="draw a quantity of a study's runs over one of its parameters")
+    plot = commands.add_parser("plot", help="plot a quantity of a study's runs against one of its parameters")
     plot.add_argument("table", metavar="TABLE", type=Path, help="runs.csv of a study, or the study's folder")
     plot.add_argument("--x", required=True, metavar="KEY", help="parameter, or any column of the table")
     plot.add_argument("--y", required=True, metavar="QUANTITY",
-                      help="any column, such as hub.force, extremes.axialForce (the largest of the run), "
-                           "largestContactForce, hub.tipPosition[2]; the last part is enough where it is the only one")
-    plot.add_argument("--by", metavar="KEY", help="parameter, a colour for each of its values")
-    plot.add_argument("--log", choices=("x", "y", "xy"), default="", help="axes that are logarithmic")
+                      help="any column, such as hub.force, extremes.axialForce (the peak of the run), "
+                           "largestContactForce, hub.tipPosition[2]; the last part of the name will do if unique")
+    plot.add_argument("--by", metavar="KEY", help="parameter shown by colour")
+    plot.add_argument("--log", choices=("x", "y", "xy"), default="", help="logarithmic axes")
     plot.add_argument("--out", type=path, metavar="FILE", help="FILE.png (QUANTITY-over-KEY.png beside the table)")
     plot.set_defaults(packages=DRAWING)
 
-    keys = commands.add_parser("keys", help="what a parameter file, --set and an axis of a study may hold")
+    keys = commands.add_parser("keys", help="list the keys of parameter files, --set and axes of studies")
     keys.add_argument("word", metavar="WORD", nargs="?", default="",
-                      help="such as friction: keys that have to do with it")
-    keys.add_argument("--solver", choices=("pbd", "xpbd", "direct", "explicit"), default="", help="that takes them")
+                      help="only keys related to it, such as friction")
+    keys.add_argument("--solver", choices=("pbd", "xpbd", "direct", "explicit"), default="",
+                      help="only keys that this solver takes")
     keys.set_defaults(packages=())
 
-    stress = commands.add_parser("stress", help="draw what a run's material feels along the wire (logStrains)")
-    stress.add_argument("folder", type=Path, metavar="DIR", help="folder of a run with logStrains; takes stress.png")
+    stress = commands.add_parser("stress", help="plot stresses and strains along the wire of a run (logStrains)")
+    stress.add_argument("folder", type=Path, metavar="DIR", help="folder of a run with logStrains, for stress.png too")
     stress.set_defaults(packages=DRAWING)
 
-    hub = commands.add_parser("hub", help="draw a run's push, turn, force and torque at the hub over time (logHub)")
-    hub.add_argument("folder", type=Path, metavar="DIR", help="folder of a run with logHub; takes hub.png")
+    hub = commands.add_parser("hub", help="plot insertion, rotation, force and torque at the hub over time (logHub)")
+    hub.add_argument("folder", type=Path, metavar="DIR", help="folder of a run with logHub, for hub.png too")
     hub.set_defaults(packages=DRAWING)
 
-    modes = commands.add_parser("modes", help="lowest frequencies and shapes of a wire with a material")
+    modes = commands.add_parser("modes", help="lowest natural frequencies and mode shapes of a wire with a material")
     modes.add_argument("file", type=Path, metavar="FILE",
-                       help="parameter file; the modes are those about its rest shape")
-    modes.add_argument("--count", type=positive, default=6, metavar="K", help="how many (6)")
+                       help="parameter file; the modes are about its rest shape")
+    modes.add_argument("--count", type=positive, default=6, metavar="K", help="number of modes (6)")
     modes.add_argument("--out", type=path, default=Path("results"), metavar="DIR",
-                       help="takes NAME-modes.png (results)")
+                       help="folder for NAME-modes.png (results)")
     modes.set_defaults(packages=DRAWING)
 
-    python = commands.add_parser("python", help="start a script that imports guidewire, with a Python that has what "
-                                                "it needs")
+    python = commands.add_parser("python", help="run a script that imports guidewire, with a Python that has the "
+                                                "packages it needs")
     python.add_argument("script", metavar="SCRIPT", type=Path, help="Python file: 'from guidewire import Session'")
     python.add_argument("words", metavar="...", nargs=argparse.REMAINDER, help="the script's own arguments")
     python.set_defaults(packages=DRAWING)
 
-    bench = commands.add_parser("bench", help="what a step costs, part by part, or short runs beside their steps")
+    bench = commands.add_parser("bench", help="cost of a step, part by part, or overhead of short runs")
     bench.add_argument("--runs", type=positive, metavar="N",
-                       help="what N short runs of a sweep cost beside their steps")
-    bench.add_argument("--jobs", type=positive, default=os.cpu_count() or 1, metavar="N", help="runs at once")
+                       help="overhead of N short runs of a sweep, beyond their steps")
+    bench.add_argument("--jobs", type=positive, default=os.cpu_count() or 1, metavar="N", help="simultaneous runs")
     bench.set_defaults(packages=SWEEPING)
 
     check = commands.add_parser("unity-check", help="check the Unity project's files without Unity")
-    check.add_argument("--write-metas", action="store_true", help="make the .meta files that are missing")
+    check.add_argument("--write-metas", action="store_true", help="create missing .meta files")
     check.set_defaults(packages=())
     return parser.parse_args(argv)
 
 
 def _add_workers(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--jobs", type=positive, default=os.cpu_count() or 1, metavar="N",
-                        help="untimed runs at once (one per processor); timed ones are made one at a time")
+                        help="simultaneous untimed runs (one per processor); timed runs are made one at a time")
     parser.add_argument("--cluster", metavar="ADDRESS",
-                        help="scheduler of dask, such as tcp://host:8786, whose workers make the runs")
+                        help="dask scheduler, such as tcp://host:8786, whose workers make the runs")
 
 
 def _add_runner(parser: argparse.ArgumentParser) -> None:

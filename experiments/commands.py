@@ -62,7 +62,8 @@ def run(arguments: argparse.Namespace) -> int:
     except Exception as error:
         if isinstance(error, OSError) and error.errno in FULL:
             place = f"{error.filename}: " if error.filename else ""
-            print(f"guidewire: {place}{error.strerror}: make room, the same command goes on from here", file=sys.stderr)
+            print(f"guidewire: {place}{error.strerror}: free some space, the same command continues from here",
+                  file=sys.stderr)
             return FAILED
         if isinstance(error, OSError) and error.filename is not None:
             raise PreparationError(f"{error.filename}: {error.strerror}") from error
@@ -194,7 +195,7 @@ def _tell(drawn: Gallery) -> int:
         print(f"guidewire: {problem}", file=sys.stderr)
     print(f"pictures and captions: {os.path.relpath(drawn.index)}")
     for line in drawn.failed_gates:
-        print(f"guidewire: beyond its gate: {line}", file=sys.stderr)
+        print(f"guidewire: beyond its limit: {line}", file=sys.stderr)
     if drawn.problems:
         return FAILED
     return BEYOND_A_GATE if drawn.failed_gates else 0
@@ -272,7 +273,7 @@ def _keys(arguments: argparse.Namespace) -> int:
 
     for key in find_keys(checking.read_table(), arguments.word, arguments.solver):
         print(describe(key))
-    print("A part of a key stands wherever a key does: vessel.radius, obstacles[0].radius, "
+    print("Parts of a key may be used wherever a key is: vessel.radius, obstacles[0].radius, "
           "wireSections[-1].youngsModulus (-1: the last).", file=sys.stderr)
     return 0
 
@@ -427,6 +428,6 @@ _ACTIONS = {
 }
 _LEFT = {  # of a command that was interrupted
     **dict.fromkeys(("demo", "run", "sweep", "figures", "advise"),
-                    "; what has ended is kept, the same command goes on from here"),
+                    "; completed runs are kept, the same command continues from here"),
     **dict.fromkeys(("render", "plot", "stress", "hub", "modes"), "; nothing was written"),
 }

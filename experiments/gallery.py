@@ -228,7 +228,7 @@ def _draw_copied(name: str) -> _Drawn:
 
 def failed_gates(results: Sequence[tuple[Check, Result]]) -> list[str]:
     """One line for each result that is beyond its gate."""
-    return [f"{check.title}: {r.solver}, {r.what}: error {number(r.error, 2)} is above its gate {number(r.gate, 2)}"
+    return [f"{check.title}: {r.solver}, {r.what}: error {number(r.error, 2)} is above its limit {number(r.gate, 2)}"
             for check, r in results if r.passed is False]
 
 

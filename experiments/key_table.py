@@ -71,7 +71,7 @@ def parse_key_table(text: str) -> dict[str, Key]:
     """
     rows = [_ROW.match(line) for line in text.splitlines() if line.startswith("| `")]
     if not rows or not all(rows):
-        raise ValueError("a row of the table of keys is written in another way")
+        raise ValueError("a row of the table of keys cannot be read")
     solver = next(row for row in rows if row["name"] == "solver")
     methods = _words(solver["allowed"])
     keys = [_key(row, methods) for row in rows]

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-CONTACT_RULES = ("barycentric", "none", "seed")
+CONTACT_RULES = ("barycentric", "none", "thesis")
 ROOM = 1.07  # least width of a lumen on the way, over the wire's radius
 
 
@@ -240,7 +240,7 @@ def draw(seed: int, folder: Path) -> tuple[str, dict[str, Any]]:
         scene["obstacles"] = [obstacle(random, vessel, radius) for _ in range(random.integers(1, 4))]
     if len(vessel.faces):
         write_mesh(random, scene, vessel, folder / f"push-{seed}.obj")
-    if rule != "seed" and random.uniform() < 0.3:
+    if rule != "thesis" and random.uniform() < 0.3:
         for wall in (scene["vessel"], *scene.get("obstacles", [])):
             wall["frictionCoefficient"] = random.uniform(0.05, 0.8)
     return kind, scene

@@ -213,7 +213,7 @@ def main(arguments: list[str] | None = None) -> int:
     """The command line of the module."""
     parser = argparse.ArgumentParser(prog="experiments.unity_runner", allow_abbrev=False)
     parser.add_argument("--unity", help=f"path of a Unity editor or player (or {VARIABLE})")
-    parser.add_argument("--seconds", type=float, default=_SECONDS, help="what a run may take")
+    parser.add_argument("--seconds", type=float, default=_SECONDS, help="the time limit of a run")
     options, own = parser.parse_known_args(arguments)
     try:
         unity = find(options.unity, options.seconds)

@@ -76,7 +76,7 @@ def _perturbations(scene: str) -> tuple[Study, ...]:
     )
 
 
-_ELEMENT_CONTACTS = {rule: {"elementContact": rule} for rule in ("none", "barycentric", "seed")}
+_ELEMENT_CONTACTS = {rule: {"elementContact": rule} for rule in ("none", "barycentric", "thesis")}
 _GAIN_ELEMENTS = Axis("numberRodElements", (*range(5, 61, 5), 120))  # the others are measured against the last
 
 
@@ -90,7 +90,7 @@ _RESTS = {
         "elementContact": rule,
         "obstacles": [{"shape": "sphere", "centre": [0, -4.6, 6.0 * k], "radius": 0.6}],  # radius l/100; r = 5
     }
-    for rule in ("barycentric", "seed") for k in range(11)
+    for rule in ("barycentric", "thesis") for k in range(11)
 }
 
 # A lumen that is straight up to z = 0 and then half a circle of radius 60, for a wire of a third of the usual length.
@@ -140,7 +140,7 @@ STUDIES: dict[str, Study] = {
         Study("drives", "what moves the first sphere in a bent lumen", _TABLE_4_1, Grid(
             common={**_SHORT_WIRE, "vessel": _lumen(_BEND), "maxSimulationSteps": 300},
             variants={
-                "axis-published": {"drive": "displace", "elementContact": "seed"},
+                "axis-published": {"drive": "displace", "elementContact": "thesis"},
                 "axis": {"drive": "displace"},
                 "push": {"drive": "push"},
                 "force": {"drive": "force", "externalForce": [0, 0, 5]},

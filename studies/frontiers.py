@@ -41,12 +41,12 @@ def _gain(name: str, title: str, grid: Grid, range_: Range, width: float) -> Stu
 
 
 FRONTIERS: tuple[Study, ...] = (
-    _gain("limit-stretch-across", "up to which stretch gain does a wire hold that is moved across itself?",
+    _gain("limit-stretch-across", "up to which stretch stiffness is a wire stable that is displaced across itself?",
           Grid((_SWEEPS, _ELEMENTS), _ACROSS, _METHODS), Range("stretchStiffness", 1.0, 4.0), 0.01),
-    _gain("limit-stretch-along", "up to which stretch gain does a wire hold that is moved along itself?",
+    _gain("limit-stretch-along", "up to which stretch stiffness is a wire stable that is displaced along itself?",
           Grid((_SWEEPS, Axis("numberRodElements", (5, 10, 20, 30, 60))), ALONG),
           Range("stretchStiffness", 1.0, 60.0, logarithmic=True), 0.002),
-    _gain("limit-bend", "up to which bend gain does a wire hold that is moved across itself?",
+    _gain("limit-bend", "up to which bend stiffness is a wire stable that is displaced across itself?",
           Grid((_SWEEPS, _ELEMENTS), _ACROSS, _METHODS), Range("bendStiffness", 0.5, 100.0, logarithmic=True), 0.01),
     Study(
         "limit-explicit", "up to which step does the explicit solver hold?", "params/cantilever.json",

@@ -56,21 +56,21 @@ def _twisted(angle: float) -> dict[str, Any]:
 
 
 MAPS: tuple[Study, ...] = (
-    _study("map-push", "how far may a push go in one step?", "default", Grid(
+    _study("map-push", "how large a displacement is allowed in one step?", "default", Grid(
         (Rows("push", ("displacementPerStep", "maxSimulationSteps"), tuple(
             (d, round(_WAY / d)) for d in (0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0))),),
-        _PUSH, {rule: {"elementContact": rule} for rule in ("barycentric", "seed", "none")},
+        _PUSH, {rule: {"elementContact": rule} for rule in ("barycentric", "thesis", "none")},
     )),
     _study("map-slender", "how long may elements be, over the radius?", "default", Grid(
         (Axis("numberRodElements", (4, 5, 7, 10, 20, 40)),),
         {**_PUSH, "displacementPerStep": 1.0, "maxSimulationSteps": 100},
-        {rule: {"elementContact": rule} for rule in ("barycentric", "seed", "none")},
+        {rule: {"elementContact": rule} for rule in ("barycentric", "thesis", "none")},
     )),
     _study("map-gap", "which contact distance at which step?", "cantilever", Grid(
         (Rows("step", ("timeStep", "maxSimulationSteps"), ((1e-3, 200), (5e-3, 40), (2e-2, 10), (5e-2, 4))),
          Axis("contactDistance", (1e-7, 1e-6, 1e-5, 1e-4, 1e-3))), _FALL,
     )),
-    _study("map-joints", "by how much may a joint be turned?", "cantilever", Grid(
+    _study("map-joints", "by how much may a joint be rotated?", "cantilever", Grid(
         common={"numberRodElements": JOINT_ELEMENTS, **_ENDS}, variants={
             **{f"{law},{angle}": _bent(angle, law) for law in ("rotationVector", "darboux") for angle in ANGLES},
             **{f"twist,{angle}": _twisted(angle) for angle in ANGLES},
@@ -84,7 +84,7 @@ MAPS: tuple[Study, ...] = (
                 "explicit": {"solver": "explicit", "substeps": 6000}}.items()
         },
     )),
-    _study("map-xpbd", "how many substeps, and how many sweeps?", "cantilever", Grid(
+    _study("map-xpbd", "how many substeps, and how many iterations?", "cantilever", Grid(
         (Axis("substeps", (25, 50, 100, 200, 400, 800)), Axis("constraintSolverSteps", (1, 3, 10, 30))),
         {**_SWAYING, "solver": "xpbd"}, {"xpbd": {}},
     )),

@@ -63,7 +63,7 @@ WIRE_MAPS: tuple[Study, ...] = (
         {**_TWISTED, "numberRodElements": MOVED_ELEMENTS, "distalRampTime": 0.08, "massDamping": 100.0,
          "maxSimulationSteps": 100, **_ENDS}, _METHODS,
     )),
-    _study("map-turning", "by how much may a wire with gains be turned in one step?", "default", Grid(
+    _study("map-turning", "by how much may a wire with pbd be rotated in one step?", "default", Grid(
         (Axis("constraintSolverSteps", (10, 30, 100, 300)),
          Axis("twistPerStep", (0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0))),
         {"guidewireLength": TURNED_LENGTH, "numberRodElements": TURNED_ELEMENTS, "bendStiffness": BEND_GAIN,
@@ -87,7 +87,7 @@ WIRE_MAPS: tuple[Study, ...] = (
         },
     )),
     Study(
-        "limit-damped", "up to which stretch gain does a wire hold whose spheres lose a share of their speed?",
+        "limit-damped", "up to which stretch stiffness is a wire stable whose spheres lose a fraction of their speed?",
         "params/default.json", Bisection(
             Grid((Axis("constraintSolverSteps", (1, 2, 3, 20)), Axis("damping", (0.0, 0.25, 0.5, 0.75, 1.0))),
                  {**ALONG, "numberRodElements": 10}),

@@ -197,7 +197,7 @@ class LiveRun:
     async def _do_hand(self, message: Mapping[str, Any]) -> None:
         push, turn, mark = float(message["push"]), float(message["turn"]), int(message["mark"])
         if not (abs(push) <= 1.0 and abs(turn) <= 1.0):
-            raise ValueError("a hand pushes and turns with -1 to 1")
+            raise ValueError("steering takes push and turn from -1 to 1")
         self._push, self._turn, self._mark = push, turn, mark
 
     async def _do_pause(self, message: Mapping[str, Any]) -> None:

@@ -25,7 +25,7 @@ _ENERGIES = {"kineticEnergy": "energy of motion", "elasticEnergy": "elastic ener
 # What is read off at the hub, by its key in a log: label, unit, whether it may be negative.
 _HUB = {
     "force": ("force at the hub", "N", True), "torque": ("torque at the hub", "N m", True),
-    "insertion": ("insertion", "m", True), "turn": ("turn of the hub", "rad", True),
+    "insertion": ("insertion", "m", True), "turn": ("rotation of the hub", "rad", True),
     "twist": ("twist from hub to tip", "rad", True), "largestCurvature": ("largest curvature", "rad/m", False),
     "lengthInBody": ("length in the body", "m", False),
 }

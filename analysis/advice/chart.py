@@ -37,7 +37,8 @@ def draw_advice(name: str, wish: Wish, advice: Advice) -> Figure:
     if wish.error is not None:
         axes.axhline(wish.error, color="0.3", linestyle="--", linewidth=1.0, label="asked")
     if advice.reference_error > 0.0 and math.isfinite(advice.reference_error):
-        axes.axhspan(0.0, advice.reference_error, color="C1", alpha=0.15, label="below what the reference is known to")
+        axes.axhspan(0.0, advice.reference_error, color="C1", alpha=0.15,
+                     label="below the uncertainty of the reference")
     levels = [one.error for one in shown] + [level for level in (wish.error, advice.reference_error)
                                              if level and math.isfinite(level)]
     if levels:

@@ -179,7 +179,7 @@ def _lasting(run: Run) -> dict[str, Any]:
         raise LogError("the scene makes no step: nothing moves, and nothing costs")
     places = read_log(run.folder, spheres="all").positions
     if np.max(np.abs(places - places[0])) <= _STILL * run.number("guidewireLength"):
-        raise LogError("nothing moves in the scene: there is no way that an error could be a part of")
+        raise LogError("nothing moves in the scene: a relative error is not defined")
     asked = int(run.number("maxSimulationSteps"))
     return {**run.parameters, "maxSimulationSteps": asked if steps == asked else min(asked, -(-steps // 16) * 16)}
 
@@ -203,7 +203,7 @@ class _Measure:
         self._file = quantity.read(file, self._times)
         self._size = quantity.scale(self._exact)
         if not self._size > 0.0:
-            raise LogError(f"{quantity.said} is 0 in the reference: there is nothing that an error could be a part of")
+            raise LogError(f"{quantity.said} is 0 in the reference: a relative error is not defined")
 
     def errors(self, run: Run) -> tuple[float, float]:
         """Of a run from the reference and from the file as it is; not numbers where it was lost or passed a wall."""

@@ -24,7 +24,7 @@ _OF_HUB = {"hubForce": "force", "hubTorque": "torque", "twist": "twist", "larges
 NAMED = (POSITION, TIP, *_OF_HUB, CONTACT_FORCE)
 RUN, END = "run", "end"
 _POINTS = 21  # along the wire
-_SAID = {POSITION: "the wire's place", TIP: "the tip's place", "hubForce": "the hub's force",
+_SAID = {POSITION: "the wire's position", TIP: "the tip's position", "hubForce": "the hub's force",
          "hubTorque": "the hub's torque", "twist": "the twist from hub to tip", "largestCurvature":
          "the largest curvature", CONTACT_FORCE: "the walls' total force"}
 
@@ -72,8 +72,8 @@ class Quantity:
         """What an error of it is, in a sentence."""
         if self == Quantity():
             return ("An error is the RMS distance of the wire from the reference, over points along it and times from "
-                    "start to end, over the RMS way that the reference went.")
-        base = "way that the reference went" if self.is_place else "value of the reference"
+                    "start to end, relative to the RMS displacement of the reference.")
+        base = "displacement of the reference" if self.is_place else "value of the reference"
         kind = "" if self.is_one_number and self.of != POSITION else "RMS "
         return f"An error is the {kind}difference of {self.said} from the reference's, over the {kind}{base}."
 

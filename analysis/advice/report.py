@@ -27,18 +27,18 @@ def as_markdown(name: str, wish: Wish, advice: Advice) -> str:
         f"{_known(advice)} apart. The file as it is: "
         f"{_error(advice.scene)} at {_step(advice.scene)} ms a step. {_timed(advice)}", "",
         "## Parts of the model", "",
-        "Each part that the scene has, left out or halved: how far the answer moves from the file's, and its cost. "
-        "Work is counted, over that of the file, and does not depend on the machine.", "",
-        "| part | answer moves by | error | ms a step | work |", "|---|---|---|---|---|",
+        "Each part of the scene's model, left out or halved: how much the result changes from the file's, and its "
+        "cost. Work is counted, relative to that of the file, and does not depend on the machine.", "",
+        "| part | change of the result | error | ms a step | work |", "|---|---|---|---|---|",
         f"| the file as it is | - | {_error(advice.scene)} | {_step(advice.scene)} | 1 |",
         *(f"| {one.trial.name} | {_moved(one)} | {_error(one)} | {_step(one)} | "
           f"{number(one.work / advice.scene.work, 2)} |" for one in advice.parts),
-        "", f"Writing the log of this comparison took {_log(advice.scene)} ms a step more; a run that nobody reads "
-        "back does without (`logSpheres`, `logEvery`).", "",
-        "## Settings that were searched", "",
-        "From the least work on; settings without a time were not timed, because they miss the error or others that "
+        "", f"Writing the log of this comparison took {_log(advice.scene)} ms per step more; it can be "
+        "reduced or left out (`logSpheres`, `logEvery`).", "",
+        "## Settings that were tried", "",
+        "In order of work; settings without a time were not timed, because they miss the error or because others that "
         "meet it need less work." if wish.budget is None else
-        "From the least work on; those that no other setting beats in both error and work a step were timed.", "",
+        "In order of work; those that no other setting beats in both error and work per step were timed.", "",
         "| settings | error | work | ms a step | s in all |", "|---|---|---|---|---|",
         *(_row(one, advice) for one in sorted(advice.searched, key=lambda one: one.work)),
     ]
@@ -52,16 +52,16 @@ def verdict(wish: Wish, advice: Advice) -> str:
         return (f"Not advised: {wish.quantity.said} has not converged. The finest run made "
                 f"({advice.reference.trial.name.removeprefix('reference, ')}) and {_coarser(wish)} {_known(advice)} "
                 f"apart, more than the {percent(wish.error)} asked for: a finer file, or a mean over longer times, is "
-                "needed to say what meets it.")
+                "needed to find settings that meet it.")
     if taken is None:
         finite = [one for one in advice.searched if math.isfinite(one.error)]
         best = min(finite, key=lambda one: one.error, default=None)
-        least = "every setting is lost" if best is None else f"the best has {percent(best.error)} ({best.trial.name})"
-        missed = "has so small an error" if wish.budget is None else "keeps within the budget"
-        return f"None of the {len(advice.searched)} settings searched {missed}; {least}."
+        least = "every setting fails" if best is None else f"the best has {percent(best.error)} ({best.trial.name})"
+        missed = "has so small an error" if wish.budget is None else "is within the budget"
+        return f"None of the {len(advice.searched)} settings tried {missed}; {least}."
     told = f"Take: {taken.trial.name}. Error {percent(taken.error)}, {_step(taken)} ms a step, {_all(taken)} s in all"
     doubt = "" if advice.reference_error <= 0.5 * max(taken.error, wish.error or 0.0) else \
-        f" The reference itself is only known to {percent(advice.reference_error)}."
+        f" The uncertainty of the reference itself is {percent(advice.reference_error)}."
     return f"{told}; the file as it is: {_error(advice.scene)}, {_step(advice.scene)} ms a step, " \
            f"{_all(advice.scene)} s in all.{doubt}"
 
@@ -85,8 +85,8 @@ def parameters(advice: Advice, scene: Mapping[str, Any], folder: Path) -> str:
 def _timed(advice: Advice) -> str:
     if advice.scene.total is None:
         return "No run was timed."
-    return (f"Times are medians of three runs; other programs kept {span(_busy(advice), 2)} processors busy beside "
-            "them.")
+    return (f"Times are medians of three runs; other programs used {span(_busy(advice), 2)} processors "
+            "meanwhile.")
 
 
 def _coarser(wish: Wish) -> str:

@@ -37,11 +37,11 @@ def draw_costs(found: Sequence[Charted]) -> tuple[Figure, str]:
         f"simulated second, one thread, median of timed runs made one at a time ({repeats_in_words()}), {_load(found)}. Markers: "
         "pbd diamonds, xpbd triangles, explicit squares, direct circles. Thick grey line: the Pareto front, which no "
         "other setting beats in both error and cost; its settings stand beside it where they fit (n elements, time "
-        "step or substep, m sweeps), and all of them in the table and on the page beside this picture. Vertical line: "
-        "real time, 1 s per s. Crosses at the "
-        f"upper edge: settings without an answer, at what they cost. {_lost(found)}{_references(found)} pbd has no "
-        f"material: {_gains(found)} On the bar its stretch gain is that of the springs; in the arch neither stiffness "
-        f"nor mass decides the shape. {_absent(found)}"
+        "step or substep, m iterations), and all of them in the table and on the page beside this picture. Vertical "
+        "line: real time, 1 s per s. Crosses at the "
+        f"upper edge: settings that gave no result, at their cost. {_lost(found)}{_references(found)} pbd has no "
+        f"material: {_gains(found)} On the bar its stretch stiffness is that of the springs; in the arch neither "
+        f"stiffness nor mass affects the shape. {_absent(found)}"
     )
     add_caption(figure, caption)
     return figure, caption
@@ -55,9 +55,10 @@ def draw_steps(found: Sequence[Charted]) -> tuple[Figure, str]:
     for axes, charted in zip(figure.axes, found):
         _draw_published(axes, charted)
     caption = (
-        "Figure chart, against what a loop has to wait for: wall time of one time step, of the same runs. A display of "
+        "Figure chart, error against latency: wall time of one time step, of the same runs. A display of "
         f"90 Hz has {number(1e3 * FRAME, 3)} ms for a step, a haptic loop of 1 kHz one ms (vertical lines). A step "
-        "that fits keeps its loop on time; whether simulated time then passes as fast as real time, the chart of cost says."
+        "below the line keeps up with its loop; whether the simulation then runs in real time is seen in the chart of "
+        "cost."
         f"{_published(found)}"
     )
     add_caption(figure, caption)
@@ -142,7 +143,7 @@ def _published(found: Sequence[Charted]) -> str:
     names = [charted.problem.name for charted in found]
     told = [f"({'abcdefgh'[names.index(one.problem)]}) {one.label}: {one.says} [{one.source}]"
             for one in PUBLISHED if one.problem in names]
-    return f" Grey bars: what others state, a wall time without an error. {'; '.join(told)}." if told else ""
+    return f" Grey bars: published by others, a wall time without an error. {'; '.join(told)}." if told else ""
 
 
 def _draw_front(axes: Axes, charted: Charted, cost: Cost) -> None:
@@ -190,7 +191,7 @@ def _gains(found: Sequence[Charted]) -> str:
     gains = sorted({charted.gain for charted in found if charted.gain is not None})
     told = ", ".join(number(gain, 4) for gain in gains)
     return (f"its bendStiffness ({told}) is tuned so that each wire sags as the "
-            "material does at m = 500, n = 30, dt = 1 ms; other pbd points have the same gains.")
+            "material does at m = 500, n = 30, dt = 1 ms; other pbd points have the same stiffness.")
 
 
 def _absent(found: Sequence[Charted]) -> str:

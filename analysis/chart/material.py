@@ -217,7 +217,7 @@ def _bar() -> scenes.Asking[Asked]:
         for dt, m in ((2.5e-7, 1), (2.5e-7, 10), (1e-6, 10))
     ]
     for step in (1e-6, 2.5e-7, 5e-8):
-        made.append(Setting("pbd", f"m = 1, gain of the springs, dt = {settings.time_text(step)}",
+        made.append(Setting("pbd", f"m = 1, stiffness of the springs, dt = {settings.time_text(step)}",
                             f"m1 {settings.time_text(step)}", case(f"pbd-{step}", "pbd", motion(step, {
                                 "solver": "pbd", "constraintSolverSteps": 1, "stretchStiffness": bar_gain(step),
                                 "bendStiffness": 0.0, "totalMass": (BAR_ELEMENTS + 1) * BAR_MASS}))))

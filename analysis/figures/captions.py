@@ -32,8 +32,9 @@ def _solver_steps(table: StudyTable) -> list[str]:
     sweeps = m * tau / dt
     if relative_spread(sweeps) < _NEARLY:
         sentences.append(
-            f"m τ/Δt is nearly constant, {span(sweeps)} sweeps: the wire relaxes by sweeps, a fixed part of the way in "
-            f"each. The thesis speaks of growing stiffness parameters; the gains stay, there are more sweeps."
+            f"m τ/Δt is nearly constant, {span(sweeps)} iterations: the wire relaxes by iterations, a fixed "
+            f"fraction of the distance in each. The thesis speaks of growing stiffness parameters; they stay, there "
+            f"are more iterations."
         )
     sentences.append(_straight(table, "(b) The step time", "solver step"))
     sentences.append(_steady(table, "m"))
@@ -43,13 +44,14 @@ def _solver_steps(table: StudyTable) -> list[str]:
     wall = table.column("computation_time.median")
     seconds = f"takes {span(wall, 2)} s and " if np.any(np.isfinite(wall)) else ""
     sentences.append(
-        f"(d) Getting there {seconds}goes, counted in sweeps and so free of the machine, {_ends(m, work, 'm', '')}."
+        f"(d) The cost up to there {seconds}goes, counted in iterations and so independent of the machine, "
+        f"{_ends(m, work, 'm', '')}."
     )
     waited = table.column("steady_state_time") / tau
     if relative_spread(work) > _NEARLY and _rises(m, waited):
         sentences.append(
-            f"The thesis calls the computation time relatively constant. It rises because more sweeps leave a larger "
-            f"prediction error at the same distance from rest, so that the same threshold takes "
+            f"The thesis calls the computation time relatively constant. It rises because more iterations leave a "
+            f"larger prediction error at the same distance from rest, so that the same threshold takes "
             f"{_ends(m, waited, 'm', ' τ')}."
         )
     return sentences
@@ -70,8 +72,8 @@ def _rod_elements(table: StudyTable) -> list[str]:
     fine = n >= 30
     if np.count_nonzero(fine) > 2:
         sentences.append(
-            f"From n = 30 on τ grows with the power {number(_exponent(n[fine], tau[fine]), 2)} of n: a sweep hands a "
-            f"displacement on as diffusion does, in steps of one element."
+            f"From n = 30 on τ grows with the power {number(_exponent(n[fine], tau[fine]), 2)} of n: an "
+            f"iteration passes a displacement on by diffusion, in steps of one element."
         )
     if best > 0 and _rises(n, gains):
         sentences.append(
@@ -118,8 +120,9 @@ def _time_step(table: StudyTable) -> list[str]:
     same_motion = np.all(steps == steps[0]) and (np.all(np.isnan(errors)) or relative_spread(errors) < 1e-6)
     if relative_spread(in_steps) < _SAME and same_motion:
         sentences.append(
-            "It is perfectly linear, as in the thesis. The thesis's reason, more sweeps in the same in-game time, is a "
-            "part of the whole one: without forces the method, step by step, does not contain Δt at all. All these "
+            "It is perfectly linear, as in the thesis. The thesis's reason, more iterations in the same in-game time, "
+            "is only part of the answer: without forces the method, step by step, does not contain Δt at all. All "
+            "these "
             f"runs are one and the same sequence of positions (same Δx at the end, steady from step {steps[0]:g} on) "
             "with another time written beside each step."
         )
@@ -141,8 +144,8 @@ def _total_mass(table: StudyTable) -> list[str]:
             f"The thesis explains this by inertia. But the spheres' masses cancel between spheres; M acts only against "
             f"the orientations, whose weight stays 1: heavy spheres leave most of each correction to the orientations, "
             f"where normalising removes it. {number(gains[0], 2)} of a stretch is taken out per iteration at M = "
-            f"{number(mass[0], 1)}, {number(gains[-1], 2)} at M = {number(mass[-1], 1)}, and τ times this share varies "
-            f"by {percent(relative_spread(tau * gains))} only. The two weights are equal at M = (n+1)/(2 l²) = "
+            f"{number(mass[0], 1)}, {number(gains[-1], 2)} at M = {number(mass[-1], 1)}, and τ times this fraction "
+            f"varies by {percent(relative_spread(tau * gains))} only. The two weights are equal at M = (n+1)/(2 l²) = "
             f"{number(knee, 2)}; far below, τ no longer depends on M."
         )
     sentences.append(_constant(table, "(b) The step time"))

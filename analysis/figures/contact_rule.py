@@ -15,7 +15,7 @@ from analysis.gain import RULES
 from analysis.logs import LogError
 from analysis.runs import read_study
 
-_STYLE = {"barycentric": ("C0", "o"), "seed": ("C3", "^")}
+_STYLE = {"barycentric": ("C0", "o"), "thesis": ("C3", "^")}
 _ROUNDING = 1e-9  # units
 _SAME = 1e-6  # of the largest push: two ends that are pushed alike
 
@@ -84,12 +84,12 @@ def _distance(point: np.ndarray, first: np.ndarray, second: np.ndarray) -> float
 def draw_contact_rule(rests: list[Rest]) -> tuple[Figure, str]:
     """Push on both ends in the first step, for both rules, and how deep the element rests."""
     figure = new_figure(10.0, 3.1)
-    panels = dict(zip(("barycentric", "seed", "depth"), figure.subplots(1, 3)))
-    for name, rule in (("a", "barycentric"), ("b", "seed")):
+    panels = dict(zip(("barycentric", "thesis", "depth"), figure.subplots(1, 3)))
+    for name, rule in (("a", "barycentric"), ("b", "thesis")):
         axes, (colour, marker) = panels[rule], _STYLE[rule]
         rows = [rest for rest in rests if rest.rule == rule]
         s = [rest.position for rest in rows]
-        letter(axes, name, f"push in the first step: {_NAMES[rule]}")
+        letter(axes, name, f"correction in the first step: {_NAMES[rule]}")
         axes.plot(s, [rest.pushed[0] for rest in rows], marker=marker, color=colour, label="first end")
         axes.plot(s, [rest.pushed[1] for rest in rows], marker=marker, color=colour, linestyle="--",
                   markerfacecolor="white", label="second end")
@@ -106,12 +106,12 @@ def draw_contact_rule(rests: list[Rest]) -> tuple[Figure, str]:
     return figure, caption
 
 
-_NAMES = {"barycentric": "lever rule", "seed": RULES["seed"]}
+_NAMES = {"barycentric": "lever rule", "thesis": RULES["thesis"]}
 
 
 def contact_rule_caption(rests: list[Rest]) -> str:
     """What the rests show, in numbers."""
-    lever, seed = ([rest for rest in rests if rest.rule == rule] for rule in ("barycentric", "seed"))
+    lever, seed = ([rest for rest in rests if rest.rule == rule] for rule in ("barycentric", "thesis"))
     return " ".join((
         "Figure contact-rule. One rod element that reaches 1 unit too deep onto a small fixed sphere at position s; no "
         "inertia, both ends free.",

@@ -89,7 +89,7 @@ def draw_drives(rows: list[DriveRow]) -> tuple[Figure, str]:
         letter(panels[name], name, label)
         _draw_wire(panels[name], by_key[key].wire, colour)
     letter(panels["e"], "e", "first sphere's distance from the middle line")
-    letter(panels["f"], "f", "tip's way along the middle line")
+    letter(panels["f"], "f", "tip's displacement along the centreline")
     for key, (label, colour) in _DRIVES.items():
         row = by_key[key]
         steps = row.wire.motion.steps
@@ -101,7 +101,7 @@ def draw_drives(rows: list[DriveRow]) -> tuple[Figure, str]:
     panels["f"].plot(steps, steps * run.number("displacementPerStep"), color="0.3", linestyle="--", linewidth=1.0,
                      label="motion asked for")
     panels["e"].set(xlabel="number of steps", ylabel="distance (units)")
-    panels["f"].set(xlabel="number of steps", ylabel="way (units)")
+    panels["f"].set(xlabel="number of steps", ylabel="displacement (units)")
     for name in "ef":
         panels[name].legend(loc="upper left", fontsize=7)
     caption = drives_caption(by_key)
@@ -213,7 +213,7 @@ def twist_caption(rows: list[TwistRow]) -> str:
     """What arrives at the tip, in numbers."""
     parts = [
         "Figure twist. A wire that is pushed and turned at its base, in a straight and in a bent lumen; the bend-twist "
-        "constraint carries the turn to the tip."
+        "constraint carries the rotation to the tip."
     ]
     for lumen in ("straight", "bent"):
         own = [row for row in rows if row.lumen == lumen]
@@ -229,7 +229,7 @@ def twist_caption(rows: list[TwistRow]) -> str:
         )
     fewest = rows[0]
     parts.append(
-        f"With few solver steps the turn runs to and fro along the wire as a wave (m = {fewest.solver_steps}: "
+        f"With few solver steps the rotation runs back and forth along the wire as a wave (m = {fewest.solver_steps}: "
         "difference "
         f"{span(fewest.twist.tip - fewest.twist.base, 2)} rad); there is no friction, so nothing holds the tip back."
     )

@@ -12,8 +12,8 @@ from analysis.figures.style import add_caption, letter, new_figure, styled
 from analysis.figures.wording import beside, number, percent, span
 from analysis.gain import RULES, GainRow, GainTable
 
-_COLOURS = {"none": "C1", "barycentric": "C0", "seed": "C3"}
-_MARKERS = {"none": "s", "barycentric": "o", "seed": "^"}
+_COLOURS = {"none": "C1", "barycentric": "C0", "thesis": "C3"}
+_MARKERS = {"none": "s", "barycentric": "o", "thesis": "^"}
 
 
 @styled
@@ -95,18 +95,18 @@ def _worst_entry(row: GainRow) -> int:
 
 def gain_caption(name: str, scene: str, table: GainTable) -> str:
     """What the rows show, in numbers."""
-    spheres, elements, seed = (table.of(rule) for rule in ("none", "barycentric", "seed"))
+    spheres, elements, seed = (table.of(rule) for rule in ("none", "barycentric", "thesis"))
     radius = table.reference.wire.run.number("sphereRadius")
     sentences = [
         f"Figure {name}. {scene}, n = {elements[0].elements} to {elements[-1].elements} (dashed: l = 2r). (a, b) The "
         f"coarsest wire at the end of its run.",
         f"(c) Over the run the wires with element contact are {_distances(elements)} units from the one with n = "
-        f"{table.reference.elements}, those with sphere contact only {_distances(spheres)}; in gain mode another n is "
+        f"{table.reference.elements}, those with sphere contact only {_distances(spheres)}; with pbd another n is "
         f"another stiffness, so this is no error that goes to 0.",
         _cost(elements, spheres),
         "(e) " + _passed("With sphere contact only", spheres, radius),
         _passed("With element contact", elements, radius),
-        _passed("With the rule as published", seed, radius) if seed else "",
+        _passed("With the thesis's rule", seed, radius) if seed else "",
         _again(table),
         _flat(table),
         _length(table),

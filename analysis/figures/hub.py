@@ -18,7 +18,7 @@ def draw_hub(log: HubLog) -> Figure:
     insertion.set(ylabel="insertion (mm)")
     turn.plot(log.time, np.degrees(log.turn), label="hub")
     turn.plot(log.time, np.degrees(log.turn + log.twist), "--", label="tip (hub plus twist of the wire)")
-    turn.set(ylabel="turn (degrees)")
+    turn.set(ylabel="rotation (degrees)")
     turn.legend()
     for values, axis in zip((log.tip - log.tip[0]).T, "xyz", strict=True):
         tip.plot(log.time, values, label=f"${axis}$")

@@ -18,7 +18,7 @@ from analysis.runs import Run, read_runs
 from studies.maps import MAPS, RADIUS
 
 STUDIES = tuple(study.name for study in MAPS)
-INACCURATE = 0.1  # of the way that the reference's tip goes
+INACCURATE = 0.1  # of the displacement of the reference's tip
 _PENETRATING = 0.2  # of the radius
 _FEW = 8  # values of an axis that are named one by one
 _DOUBTFUL = "not converged"
@@ -113,7 +113,7 @@ def _variant(part: int) -> Callable[[Run], str]:
 
 VIEWS = (
     View("map-push", "pbd: push in a bend", lambda run: run.number("displacementPerStep") / RADIUS,
-          lambda run: run.variant, ("way a step over the radius (1)", "what touches a wall (-)"),
+          lambda run: run.variant, ("displacement per step over the radius (1)", "what touches a wall (-)"),
           lambda _: "barycentric,push-1", ((1.0, "radius"),)),
     View("map-slender", "pbd: long elements in a bend",
           lambda run: run.number("guidewireLength") / run.number("numberRodElements") / RADIUS, lambda run: run.variant,
@@ -122,14 +122,14 @@ VIEWS = (
     View("map-gap", "direct: fall onto a plane", lambda run: 1e3 * run.number("timeStep"),
           lambda run: 1e6 * run.number("contactDistance"), ("time step (ms)", "contact distance (µm)"),
           lambda _: "step-1,contactDistance=1e-07"),
-    View("map-joints", "direct: turn of a joint", lambda run: float(run.variant.split(",")[1]), _variant(0),
-          ("turn of an inner joint (rad)", "law, and what turns (-)"), None,
+    View("map-joints", "direct: rotation of a joint", lambda run: float(run.variant.split(",")[1]), _variant(0),
+          ("rotation of an inner joint (rad)", "law, and what rotates (-)"), None,
           ((JOINT_LIMIT / LARGEST_JOINT, "joint's limit"), (1.0 / LARGEST_JOINT, "darboux")), log_x=False),
     View("map-heavy-tip", "heavy tip", lambda run: float(run.variant.split("ratio-")[1]), _variant(0),
           ("density of the tip over the wire's (1)", "method (-)"),
           lambda run: f"direct,ratio-{run.variant.split('ratio-')[1]}"),
     View("map-xpbd", "xpbd under its own weight", lambda run: run.number("substeps"),
-          lambda run: run.number("constraintSolverSteps"), ("substeps of 1 ms (1)", "sweeps m (1)"),
+          lambda run: run.number("constraintSolverSteps"), ("substeps of 1 ms (1)", "iterations m (1)"),
           lambda _: "xpbd,substeps=800,constraintSolverSteps=30"),
     View("map-drag", "strong drag", lambda run: drag_of_a_step(run), lambda run: run.variant,
           ("drag times the step, or substep (1)", "method (-)"),
@@ -255,16 +255,21 @@ def _caption(found: Mapping[str, Sequence[Cell]]) -> str:
               if cell.y != "direct" and cell.x > _DRAG_LIMIT)
     return (
         "Figure maps. Where methods hold and where they fail. Inaccurate: the tip is off by more than "
-        f"{percent(INACCURATE)} of the way that the reference's tip goes; penetrating: deeper than "
+        f"{percent(INACCURATE)} of the displacement of the reference's tip; penetrating: deeper than "
         f"{percent(_PENETRATING)} of the radius. (a) The same push of 100 units in a bent lumen in fewer, longer "
-        f"steps, against the shortest: barycentric {kinds_of(push, 'barycentric')}; seed {kinds_of(push, 'seed')}; none "
-        f"{kinds_of(push, 'none')}. No step is too long for the walls, because its way is gone in parts of at most a "
-        "radius, each swept; beyond a radius the wire has too few steps in which to follow. The published rule lets "
-        "the wire in at any step. (b) Elements of up to five radii in the same bend, against the shortest: barycentric "
-        f"{kinds_of(slender, 'barycentric')}; seed {kinds_of(slender, 'seed')}; none {kinds_of(slender, 'none')}. No length "
-        "passes the wall but with the published rule; all are off, because the stiffness of gains goes with n. (c) A "
-        f"wire that falls onto a plane, by contact distance and step: {kinds_of(gap)}; no limit is found, barriers keep "
-        "the wire inside whatever the step. (d) Rest shapes of six elements under a couple at the tip (rotationVector: "
+        f"steps, against the shortest: barycentric {kinds_of(push, 'barycentric')}; thesis {kinds_of(push, 'thesis')}; "
+        f"none {kinds_of(push, 'none')}. No step is too long for the walls, because its displacement is made in parts "
+        f"of "
+        "at most a radius, each with continuous collision detection; beyond a radius the wire has too few steps in "
+        "which "
+        "to follow. The thesis's rule lets the wire in at any step. (b) Elements of up to five radii in the same "
+        "bend, against the shortest: barycentric "
+        f"{kinds_of(slender, 'barycentric')}; thesis {kinds_of(slender, 'thesis')}; "
+        f"none {kinds_of(slender, 'none')}. No length passes the wall except with the thesis's rule; all are off, "
+        f"because "
+        "the stiffness of pbd depends on n. (c) A wire that falls onto a plane, by contact distance and step: "
+        f"{kinds_of(gap)}; no limit is found, barriers keep the wire inside whatever the step. (d) Rest shapes of six "
+        f"elements under a couple at the tip (rotationVector: "
         f"{_held(joints, 'rotationVector')}; darboux: {_held(joints, 'darboux')}) and twisted between clamps (twist: "
         f"{_held(joints, 'twist')}). Dashed: the softest joint, beside the clamp, turns by 7/6 of an inner one; it "
         f"reaches its limit of {JOINT_LIMIT:g} rad when those are at {number(JOINT_LIMIT / LARGEST_JOINT, 3)}, and "
@@ -273,8 +278,9 @@ def _caption(found: Mapping[str, Sequence[Cell]]) -> str:
         + ", ".join(f"{name} {percent(error)}" for name, error in worst.items() if name != "direct")
         + f"; {kinds_of(heavy)}. (f) xpbd holds from "
         + ", ".join(f"{k:g} substeps with m = {m:g}" for m, k in substeps.items())
-        + f"; {kinds_of(swept)}. There is no limit in closed form: what sweeps leave of an error the next substep takes "
-          "for motion, and more sweeps leave less. (g) A drag a over steps, or substeps, of h, against direct: "
+        + f"; {kinds_of(swept)}. There is no limit in closed form: the error that iterations leave is taken by the "
+          "next substep as motion, and more iterations leave less. (g) A drag a over steps, or substeps, of h, "
+          "against direct: "
         f"{kinds_of(drag)}. xpbd and explicit damp the speed between substeps: a wire that falls is too fast by "
         f"a h/(1 - exp(-a h)) - 1, within {percent(off)} of what is found, which is 10 % at a h = "
         f"{number(_DRAG_LIMIT, 2)} (dashed). direct takes the drag with the step and has no limit."

@@ -43,7 +43,7 @@ def reference_caption(runs: tuple[WireRun, ...]) -> str:
     sentences.append(
         f"The reference is large, not a limit: at the same moment y is {told}; and since without forces the positions "
         f"at step k are the same for every Δt, twice the Δt shows the first half of this very run at half the pace "
-        f"(dashed) and ends at {number(twice)}. More sweeps in a second of in-game time, or more elements, make "
+        f"(dashed) and ends at {number(twice)}. More iterations in a second of in-game time, or more elements, make "
         "another, "
         f"stiffer wire. Distances to such a reference in the next figures are distances between two wires of different "
         f"stiffness, not errors that go to 0."

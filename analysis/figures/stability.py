@@ -73,10 +73,10 @@ def read_maps(folders: Mapping[str, Path]) -> tuple[list[Map], list[dict[str, st
             raise LogError(f"{folders[name]}: a frontier lies outside the range in which it was sought")
     sweeps = "constraintSolverSteps", "m = {:g}"
     maps = [
-        Map("stretch gain, across", found[STUDIES[0]], lambda one: 2.0, _Chain("stretchStiffness"), *sweeps),
-        Map("stretch gain, along", found[STUDIES[1]], lambda one: closed_form_along(_elements(one)), _chain_along,
+        Map("stretch stiffness, across", found[STUDIES[0]], lambda one: 2.0, _Chain("stretchStiffness"), *sweeps),
+        Map("stretch stiffness, along", found[STUDIES[1]], lambda one: closed_form_along(_elements(one)), _chain_along,
             *sweeps),
-        Map("bend gain", found[STUDIES[2]], lambda one: LENGTH / _elements(one), _Chain("bendStiffness"), *sweeps),
+        Map("bend stiffness", found[STUDIES[2]], lambda one: LENGTH / _elements(one), _Chain("bendStiffness"), *sweeps),
         Map("explicit step", found[STUDIES[3]], _explicit, _explicit, "wireRadius", "radius {:g} m"),
     ]
     return maps, read_results(folders[STUDIES[4]])
@@ -91,9 +91,10 @@ def _sweeps(one: Frontier) -> int:
 
 
 def failed_gates(folders: Mapping[str, Path]) -> list[str]:
-    """One line for each frontier that is not where theory has it: stretch gain 2.00 within 0.03 across, its closed form
-    within 1 % along, bend gain l within 2 %, explicit steps within 5 % of 2/omega_max. Gains with many sweeps only, and
-    not for wires of few elements, where the chain's limit is elsewhere; and for each long step that direct loses."""
+    """One line for each frontier that is not where theory has it: stretch stiffness 2.00 within 0.03 across, its closed
+    form within 1 % along, bend stiffness l within 2 %, explicit steps within 5 % of 2/omega_max. Stiffness with many
+    iterations only, and not for wires of few elements, where the chain's limit is elsewhere; and for each long step
+    that direct loses."""
     (across, along, bend, explicit), rows = read_maps(folders)
     most = max(_sweeps(one) for one in along.points)
     gated = [
@@ -107,7 +108,7 @@ def failed_gates(folders: Mapping[str, Path]) -> list[str]:
         error = abs(one.middle / drawn.closed_form(one) - 1.0)
         if not error <= gate:
             found.append(f"{drawn.title}, {', '.join(f'{key} = {value:g}' for key, value in one.values.items())}: "
-                         f"{percent(error)} from its limit, above its gate {percent(gate)}")
+                         f"{percent(error)} from its limit, above its limit {percent(gate)}")
     return found + [
         f"direct, {row['integrator']}, {row['variant']}, {number(1e3 * float(row['timeStep']), 2)} ms: {row['outcome']}"
         for row in rows if row["outcome"] not in ("converged", "finished") and row["integrator"] not in _LOSES_TURNS
@@ -204,15 +205,16 @@ def _caption(maps: Sequence[Map], rows: Sequence[Mapping[str, str]]) -> str:
     return (
         f"Figure stability. Where methods fail. Markers: between the largest value that holds and the smallest that does not, found by "
         f"bisection, over the limit in closed form of a wire without ends (dashed, 1); dotted: the limit of the whole "
-        f"chain, from the eigenvalues of its sweeps and its prediction. Beyond the frontier runs end as "
-        f"{' or '.join(words)}. (a) Displaced across itself, {', '.join(variants)}: from m = 100 on the frontier lies "
+        f"chain, from the eigenvalues of its iteration and prediction. Beyond the limit runs end as "
+        f"{' or '.join(words)}. (a) Displaced across itself, {', '.join(variants)}: from m = 100 on the limit lies "
         f"at {number(min(ends), 4)} to {number(max(ends), 4)}, within {percent(max(across.from_chain()))} of the chain. "
-        f"With few sweeps a step itself is unstable before a sweep is. (b) Displaced along itself, where the part "
+        f"With few iterations a step is unstable before an iteration is. (b) Displaced along itself, where the part "
         f"4 wq l² of the correction is lost: within {percent(max(along.from_chain()))} of the chain everywhere, and at "
         f"m = {most} within {percent(along.from_closed_form(20, most))} of the closed form from n = 20 on. Few long "
-        f"elements hold longer, because the one at the held sphere moves one sphere only. (c) Within "
-        f"{percent(max(bend.from_chain()))} of the chain. Few long elements hold longer, because the stretch sweeps "
-        f"between the bend sweeps turn elements back. (d) A free wire of 0.3 m, pulled at its tip: within "
+        f"elements are stable longer, because the one at the held sphere moves one sphere only. (c) Within "
+        f"{percent(max(bend.from_chain()))} of the chain. Few long elements are stable longer, because the stretch "
+        f"iterations "
+        f"between the bend iterations rotate elements back. (d) A free wire of 0.3 m, pulled at its tip: within "
         f"{percent(max(explicit.from_chain()))} of 2/ω_max. (e) 200 steps of up to {largest} ms, each integrator from below: {', '.join(scenes)}; "
         + (f"crosses are lost: {'; '.join(lost)}. All others hold. esdirk4 gains energy where a stiff direction turns "
            "far in a step: a mass on one stiff spring, without elements or joints, is lost as the wire is, and not on "

@@ -30,7 +30,7 @@ def draw_stress(log: StressLog) -> Figure:
     titles = ("last shape", "energies", "force along the wire", "couple along the wire")
     for axes, name, title in zip((shape, energy, force, couple), "abcd", titles, strict=True):
         letter(axes, name, title)
-    add_caption(figure, f"What the material feels in {log.time.size} entries up to t = {log.time[-1]:g} s: (a) the last"
+    add_caption(figure, f"Stresses and strains in {log.time.size} entries up to t = {log.time[-1]:g} s: (a) the last"
                 " shape in the two directions in which it reaches farthest, coloured by the size of its curvature; (b)"
                 " energies, the potential one that of the loads; (c, d) size of the force in each element and of the"
                 " couple at each joint over the arc length at the start.")

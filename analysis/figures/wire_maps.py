@@ -79,8 +79,8 @@ VIEWS = (
          ("twist (rad/m)", "elements n (1)"), lines=((CRITICAL_RATE, "Greenhill"),), kind=_is_bent),
     View("map-twisting", f"twisted in 80 ms (n = {MOVED_ELEMENTS})", _rate, lambda run: run.variant,
          ("twist (rad/m)", "method (-)"), lines=((_joint_limit(MOVED_ELEMENTS), "joint's limit"),), log_x=False),
-    View("map-turning", "pbd: turned at the base", lambda run: run.number("twistPerStep"),
-         lambda run: run.number("constraintSolverSteps"), ("turn a step (rad)", "iterations m (1)"), error=_lag,
+    View("map-turning", "pbd: rotated at the base", lambda run: run.number("twistPerStep"),
+         lambda run: run.number("constraintSolverSteps"), ("rotation per step (rad)", "iterations m (1)"), error=_lag,
          kind=_is_lost),
     View("map-speed", "direct: pushed into a vessel", lambda run: pushes()[run.variant][0],
          lambda run: 1e3 * pushes()[run.variant][1], ("speed (m/s)", "time step (ms)"),
@@ -131,7 +131,7 @@ def draw_wire_maps(folders: Mapping[str, Path]) -> tuple[Figure, str]:
         letter(axes, name, view.title)
         draw_map(axes, view, found[view.study])
     _draw_limits(panels)
-    letter(panels[6], "g", "pbd: stretch gain with damping (n = 10)")
+    letter(panels[6], "g", "pbd: stretch stiffness with damping (n = 10)")
     _draw_damped(panels[6], damped)
     draw_classes(panels[7], (BENT, LOST_TURN))
     caption = _caption(found, damped)
@@ -161,7 +161,7 @@ def _draw_damped(axes: Axes, found: Sequence[Frontier]) -> None:
         own = [one for one in found if one.values["constraintSolverSteps"] == m]
         axes.plot([one.values["damping"] for one in own], [one.middle for one in own], "o", color=colour,
                   fillstyle="none", label=f"m = {m}")
-    axes.set(xlabel="damping: share of speed lost a step (1)", ylabel="largest stretch gain that holds (1)")
+    axes.set(xlabel="damping: fraction of speed lost per step (1)", ylabel="largest stable stretch stiffness (1)")
     axes.legend(fontsize=6)
 
 
@@ -195,27 +195,28 @@ def _caption(found: Mapping[str, Sequence[Cell]], damped: Sequence[Frontier]) ->
         + ", ".join(f"{name} {_bounds(twisting, name, straight, gone)}"
                     for name in dict.fromkeys(cell.y for cell in twisting))
         + f" rad/m; the joints' limit is {number(_joint_limit(MOVED_ELEMENTS), 3)} (dashed), the same for all, and "
-        f"bending takes longer than 80 ms. (c) A wire with gains whose base is turned for {TURNED_STEPS} steps; inaccurate: its "
-        f"tip is behind by more than {percent(INACCURATE)} of the turn. A joint loses a turn between "
+        f"bending takes longer than 80 ms. (c) A wire with pbd whose base is rotated for {TURNED_STEPS} steps; "
+        f"inaccurate: its tip lags by more than {percent(INACCURATE)} of the rotation. A joint loses a turn between "
         + ", ".join(f"{_bounds(turning, m, (*straight, 'inaccurate'), (LOST_TURN,))} rad a step with m = {m:g}"
                     for m in sorted({cell.y for cell in turning}))
-        + "; elements on a line, whose joints give back the sine of their angle, from "
+        + "; elements on a line, whose joints correct the sine of their angle, from "
         + ", ".join(f"{number(turn, 2)} with m = {m}" for m, turn in turn_limits().items())
         + " (dashed). Such a run ends as finished, with the joint and the step in its reason. (d) The same 130 mm into "
-        f"a vessel: {kinds_of(speed)}; nothing is lost on the way at any step, steps of many elements (dotted: one) are "
-        "gone in parts. Against the shortest step of the same speed the tip is off by at most "
+        f"a vessel: {kinds_of(speed)}; no wire is lost at any step, steps of many elements (dotted: one) are "
+        "divided into parts. Against the shortest step of the same speed the tip is off by at most "
         + ", ".join(f"{percent(error)} at {v:g} m/s" for v, error in by_speed.items())
-        + " of its way; a wire that comes in at 100 m/s is thrown about, and one step for all of that is too long. "
+        + " of its displacement; a wire that enters at 100 m/s whips, and one step for all of that is too long. "
         f"(e) Barriers of any stiffness and distance, at 0.2 m/s: {kinds_of(barrier)}, off by at most "
-        f"{percent(max(cell.error for cell in barrier))} of the way; no limit is found, also below EI/10 l³ (dashed), "
-        "where a barrier is softer than an element: it is met closer to the wall, where it is stiff. (f) "
+        f"{percent(max(cell.error for cell in barrier))} of the displacement; no limit is found, also below EI/10 l³ "
+        "(dashed), where a barrier is softer than an element: it is met closer to the wall, where it is stiff. (f) "
         f"A fall with a damped material, after {FALL:g} s, against esdirk4 with steps of 0.2 ms: "
         + "; ".join(f"{name} {kinds_of(strain, name)}" for name in dict.fromkeys(cell.y for cell in strain)
                     if name != "reference")
         + ". No damping is too strong for a step. The schemes that damp by themselves are off where the lowest mode "
         "swings (left of the dashed line, where it is damped critically): by implicit Euler one mode alone is off by "
         + ", ".join(f"{percent(mode[cell.x])} ({percent(cell.error)} found)" for cell in (euler[0], euler[len(euler) // 2]))
-        + f" at {number(euler[0].x, 2)} and {number(euler[len(euler) // 2].x, 2)}. (g) Largest stretch gain of spheres that "
-        f"lose a share of their speed a step: bisections (circles) are within {percent(off)} of the chain's limit "
-        "(dashed). With many iterations damping changes nothing: what a step's sweeps make of an error grows by itself."
+        + f" at {number(euler[0].x, 2)} and {number(euler[len(euler) // 2].x, 2)}. (g) Largest stretch "
+        f"stiffness of spheres that lose a fraction of their speed per step: bisections (circles) are within "
+        f"{percent(off)} of the chain's limit (dashed). With many iterations damping changes nothing: an error grows "
+        "within the iterations of a step."
     )

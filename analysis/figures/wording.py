@@ -47,7 +47,7 @@ def beside(loads: Sequence[float | None]) -> str:
     """What was measured of the machine beside timed runs, each with the processors that others kept busy."""
     known = [load for load in loads if load is not None]
     if not known:
-        return "and nobody looked what other programs did beside them"
+        return "and the load of other programs was not measured"
     busiest = max(known)
     load = f"at most {number(busiest, 2)} processors" if busiest >= 0.01 else "less than 0.01 of a processor"
     return f"while other programs kept {load} busy"

@@ -57,7 +57,7 @@ def studies(tmp_path_factory: pytest.TempPathFactory, default_study: Path) -> di
         "vessel-gain": {"shape": "mesh", "file": str(mesh)},
     }
     for name, vessel in made_of.items():
-        waves = [gain_wave(rule, n, vessel) for rule in ("none", "barycentric", "seed") for n in (4, 8, 16)]
+        waves = [gain_wave(rule, n, vessel) for rule in ("none", "barycentric", "thesis") for n in (4, 8, 16)]
         rules = [wave.more["elementContact"] for wave in waves]
         folders[name] = write_study(tmp_path_factory.mktemp(name), name, "numberRodElements", waves, variants=rules)
     for name, named in NAMED_WAVES.items():
@@ -132,7 +132,7 @@ def _rest(rule: str, position: float) -> Wave:
 
 NAMED_WAVES: dict[str, dict[str, Wave]] = {
     "contact-rule": {
-        f"{rule},s={s:g}": _rest(rule, s) for rule in ("barycentric", "seed") for s in (0.0, 0.25, 0.5, 0.75, 1.0)
+        f"{rule},s={s:g}": _rest(rule, s) for rule in ("barycentric", "thesis") for s in (0.0, 0.25, 0.5, 0.75, 1.0)
     },
     "drives": {
         key: Wave(length=100.0, more={"vessel": LUMEN}, displacement=size)

@@ -34,7 +34,7 @@ def test_the_finest_run_with_element_contact_is_the_reference(vessel: GainTable)
 def test_passages_are_counted_again_where_asked(vessel: GainTable) -> None:
     counted = {(row.rule, row.elements): row.counted_again for row in vessel.rows if row.counted_again is not None}
     there = box_passages(Wave(elements=4))
-    assert counted == {(rule, 4): there for rule in ("none", "barycentric", "seed")}
+    assert counted == {(rule, 4): there for rule in ("none", "barycentric", "thesis")}
     caption = gain_caption("x", "Scene", vessel)
     assert f"{there} instead of 0 with spheres and elements at n = 4" in caption
     right = dataclasses.replace(vessel, rows=tuple(row for row in vessel.rows if row.rule == "none"))
@@ -47,7 +47,7 @@ def test_the_chart_shows_every_run_of_every_rule(vessel: GainTable) -> None:
     figure, _ = draw_gain("gain-vessel", "Scene", vessel)
     error, time, passages = figure.axes[2:5]
     for axes, column in ((error, "mean_distance"), (passages, "passages")):
-        for line, rule in zip(axes.lines, ("none", "barycentric", "seed")):
+        for line, rule in zip(axes.lines, ("none", "barycentric", "thesis")):
             np.testing.assert_array_equal(line.get_xdata(), [4, 8])
             np.testing.assert_array_equal(line.get_ydata(), [getattr(row, column) for row in vessel.of(rule)])
     assert len(time.containers) == 3
@@ -78,7 +78,7 @@ def test_rests_are_measured_from_the_first_step_and_the_end(studies: dict[str, P
         slope = np.diff(wave.positions[-1, :, 1])[0]
         assert rest.shrunk == pytest.approx(60.0 - np.hypot(60.0, slope))
     middle = next(rest for rest in rests if rest.position == 0.5)
-    (y0, y1), foot = NAMED_WAVES["contact-rule"]["seed,s=0.5"].positions[-1, :, 1], 60.0 / np.hypot(60.0, 1.0)
+    (y0, y1), foot = NAMED_WAVES["contact-rule"]["thesis,s=0.5"].positions[-1, :, 1], 60.0 / np.hypot(60.0, 1.0)
     assert middle.depth == pytest.approx(5.0 - (0.5 * (y0 + y1) + 4.6) * foot + 0.6, abs=0.05)
 
 
@@ -88,7 +88,7 @@ def rest(rule: str, position: float, first: float, second: float, depth: float) 
 
 def test_the_caption_tells_which_end_moves() -> None:
     lever = [rest("barycentric", s, 1.0 - s, s, 0.0) for s in (0.0, 0.3, 0.5, 0.8, 1.0)]
-    swapped = [rest("seed", s, s, 1.0 - s, 2.0) for s in (0.0, 0.3, 0.5, 0.8, 1.0)]
+    swapped = [rest("thesis", s, s, 1.0 - s, 2.0) for s in (0.0, 0.3, 0.5, 0.8, 1.0)]
     caption = contact_rule_caption(lever + swapped)
     assert "at 4 of 4 positions, as it must be. (b)" in caption and "more than the farther one at 0 of 4" in caption
     assert "at its surface under the lever rule and 2.0 units deep" in caption

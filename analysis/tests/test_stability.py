@@ -53,7 +53,7 @@ def test_caption_says_how_far_frontiers_are_from_their_limits_and_what_is_lost(
 ) -> None:
     figure, caption = drawn["stability"]
     assert len([axes for axes in figure.axes if axes.axison]) == 5
-    assert "from m = 100 on the frontier lies at 2.010 to 2.010" in caption
+    assert "from m = 100 on the limit lies at 2.010 to 2.010" in caption
     assert "within 0.50 % of the closed form" in caption and "within 0.10 % of 2/ω_max" in caption
     assert "crosses are lost: esdirk4 (sags, 100 ms): diverged. All others hold." in caption
     crosses = [line for line in figure.axes[4].lines if line.get_marker() == "x"]
@@ -89,7 +89,7 @@ def test_gates_name_frontiers_that_are_elsewhere(studies: dict[str, Path], tmp_p
         "verlet,100,30,gain,2.09,2.1,diverged,holds below\n"
         "verlet,20,30,gain,1.5,1.6,diverged,holds below\n")
     (line,) = gates({**studies, "limit-stretch-across": tmp_path})
-    assert "stretch gain, across" in line and "numberRodElements = 30" in line and "above its gate 1.5 %" in line
+    assert "stretch stiffness, across" in line and "numberRodElements = 30" in line and "above its limit 1.5 %" in line
 
 
 @pytest.mark.parametrize("damping", [0.0, 0.5, 1.0])

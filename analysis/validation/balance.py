@@ -67,9 +67,9 @@ def _energy() -> Plan:
     shape = beam.mode_shape(first, np.linspace(0.0, 1.0, n + 1))
     period = _period(*_modal(runs[short.key], shape))
     steps = round(period / step)
-    cases["pbd, with gains"] = Case("pbd", {**gains, "maxSimulationSteps": _PERIODS * steps, "logEvery": steps},
+    cases["pbd"] = Case("pbd", {**gains, "maxSimulationSteps": _PERIODS * steps, "logEvery": steps},
                                     start=along)
-    runs = {**runs, **(yield [cases["pbd, with gains"]])}
+    runs = {**runs, **(yield [cases["pbd"]])}
     results, series = [], {}
     for name, case in cases.items():
         _, place, speed = _modal(runs[case.key], shape)

@@ -98,7 +98,7 @@ def _end_moment() -> Plan:
         "End couples M L/EI = π/2, π and 2π, n = 30, rotation vector: nodes (points, half-element clamp) on circular "
         "arcs (lines). The direct solver's angles are exact; the nodes are joined by straight elements, which are "
         "shorter than their arcs by (κ l)²/24. With the fourth-order weights at the clamp, made for forces, the first "
-        "two elements stand off by design and the tip with them, by l² κ/12. "
+        "two elements are offset by design and the tip with them, by l² κ/12. "
         + _methods([runs[case.key] for *_, case in asked])
     )
     return Finding(tuple(results), pictures.shapes(references, drawn), caption)
@@ -148,7 +148,7 @@ def _darboux_couple() -> Plan:
         + _methods([runs[case.key] for case in (*cases.values(), *explicit.values())])
     )
     draw = pictures.orders("number of elements n", "error of the tip (L)", series, [(-2.0, "order 2")],
-                           (ARC_GATE, "gate from n = 90 on"))
+                           (ARC_GATE, "limit from n = 90 on"))
     return Finding(tuple(results), draw, caption)
 
 

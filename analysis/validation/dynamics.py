@@ -183,8 +183,8 @@ _BAR_METHODS = {
     "direct, implicitEuler, 0.25 µs": ({"solver": "direct", "integrator": "implicitEuler", "timeStep": 2.5e-7}, None),
     "explicit, 0.05 µs": ({"solver": "explicit", "timeStep": 2.5e-7, "substeps": 5}, 1e-3),
     "explicit, 0.25 µs": ({"solver": "explicit", "timeStep": 2.5e-7}, None),
-    "xpbd, 10 sweeps, 0.25 µs": ({"solver": "xpbd", "timeStep": 2.5e-7, "constraintSolverSteps": 10}, None),
-    "pbd, one sweep with the springs' gain, 0.25 µs": ({
+    "xpbd, 10 iterations, 0.25 µs": ({"solver": "xpbd", "timeStep": 2.5e-7, "constraintSolverSteps": 10}, None),
+    "pbd, one iteration with the springs' stiffness, 0.25 µs": ({
         "solver": "pbd", "timeStep": 2.5e-7, "constraintSolverSteps": 1, "stretchStiffness": bar_gain(2.5e-7),
         "bendStiffness": 0.0, "totalMass": (BAR_ELEMENTS + 1) * BAR_MASS}, None),
 }

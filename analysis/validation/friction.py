@@ -60,7 +60,7 @@ def _incline() -> Plan:
 
     return Finding(tuple(results), draw, (
         f"A short wire on an inclined plane, friction {_MU:g}, for tangents of its angle below and above that. Below, "
-        "it stays where it is (its speed, over what it would gain without friction), above it accelerates by "
+        "it stays at rest (its speed, over what it would gain without friction), above it accelerates by "
         f"g (sin - mu cos). Worst: {percent(max(r.error for r in results))}."))
 
 
@@ -93,15 +93,15 @@ def _turned() -> Plan:
         axes = figure.add_subplot()
         axes.plot(_TURNING, expected, "-", color="0.6", linewidth=2.5, label="by the direction of slip")
         axes.plot(_TURNING, measured, "o", fillstyle="none", label="direct")
-        axes.set_xlabel("surface's speed around over along (1)")
+        axes.set_xlabel("circumferential over axial speed of the surface (1)")
         axes.set_ylabel("force of the hub (N)")
         axes.set_ylim(bottom=0.0)
         pictures.outside_legend(axes)
 
     return Finding(tuple(results), draw, (
-        f"A wire is pushed through a level tube (friction {_MU:g}) and turned: friction acts against the slip of its "
-        "surface, so that turning takes from the axial force, mu N cos(beta) with tan(beta) the ratio of the speeds; "
-        "the wire climbs the wall until N and friction carry it. Worst: "
+        f"A wire is pushed through a level tube (friction {_MU:g}) and rotated: friction opposes the slip of its "
+        "surface, so that rotation reduces the axial force to mu N cos(beta), tan(beta) the ratio of the speeds; "
+        "the wire climbs the wall until normal force and friction carry it. Worst: "
         f"{percent(max(r.error for r in results))}."))
 
 

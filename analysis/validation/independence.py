@@ -78,7 +78,7 @@ def _elements() -> Plan:
             errors.append(float(np.linalg.norm(tip - static.tip)) / size)
             results.append(Result(f"{static.title}, n = {n}: distance of the tip from the root", "direct",
                                   float(np.linalg.norm(tip)), size, errors[-1], GATE, "m", wall_time(run),
-                                  "of it, place of the tip"))
+                                  "of it, position of the tip"))
         series[static.title] = (_COUNTS, errors)
     caption = (
         "Place of the tip in nine rest shapes over the number of elements, n = 20 to 160, against the elastica (and "
@@ -86,7 +86,7 @@ def _elements() -> Plan:
         f"{percent(max(r.error for r in results))}. What many elements leave over is the stretch and shear that the "
         "elastica does not have."
     )
-    draw = pictures.orders("number of elements n", "error of the tip's place (of its distance)", series,
+    draw = pictures.orders("number of elements n", "error of the tip's position (of its distance)", series,
                            [(-2.0, "order 2")], (GATE, "gate"))
     return Finding(tuple(results), draw, caption)
 
@@ -132,7 +132,7 @@ def _tolerance() -> Plan:
         f"{min(_TOLERANCES):g}. The largest change is {number(max(r.error for r in results), 1)}. A rest shape is "
         "searched to 1e-9 or better whatever the tolerance, so its change is rounding."
     )
-    draw = pictures.orders("solverTolerance (1)", "change of the tip's place (relative)", series, (), (GATE, "gate"))
+    draw = pictures.orders("solverTolerance (1)", "change of the tip's position (relative)", series, (), (GATE, "gate"))
     return Finding(tuple(results), draw, caption)
 
 
@@ -206,7 +206,7 @@ def _sweeps() -> Plan:
             errors.append(error)
             doubtful = solver_report(run, "stepsNotConverged") / run.measured("steps")
             says = "diverged" if lost else (
-                "says converged" if doubtful == 0.0 else f"says not converged in {percent(doubtful)} of steps")
+                "reports convergence" if doubtful == 0.0 else f"reports no convergence in {percent(doubtful)} of steps")
             results.append(Result(
                 f"tip load F L²/EI = {_LOAD:g}, r = 5 mm, {factor} times the default substep, m = {m}; {says}", "xpbd",
                 tip, exact, error, GATE if doubtful == 0.0 and not lost else None, "L", wall_time(run),
@@ -216,7 +216,7 @@ def _sweeps() -> Plan:
         "xpbd: error of the tip's deflection after a damped motion against the number of sweeps m, at two lengths of "
         "the substep. The gate holds where the run says that it has converged; runs that diverged are not drawn."
     )
-    draw = pictures.orders("sweeps m of a substep", "relative error of the deflection", series, (), (GATE, "gate"))
+    draw = pictures.orders("iterations m of a substep", "relative error of the deflection", series, (), (GATE, "gate"))
     return Finding(tuple(results), draw, caption)
 
 
@@ -265,7 +265,7 @@ def _gains() -> Plan:
         pictures.outside_legend(axes)
 
     caption = (
-        "With gains there is no such independence: the tip of the thesis's transversal run after 0.5 s for other m, n "
+        "With pbd there is no such independence: the tip of the thesis's transversal run after 0.5 s for other m, n "
         "and dt than its own (500, 30, 0.01 s). More sweeps, more elements or smaller steps make another wire."
     )
     return Finding(tuple(results), draw, caption)
@@ -275,6 +275,6 @@ CHECKS = (
     Check("elements", SECTION, "direct: number of elements", _elements),
     Check("tolerance", SECTION, "direct: solverTolerance", _tolerance),
     Check("time-step", SECTION, "direct: time step", _time_step),
-    Check("sweeps", SECTION, "xpbd: sweeps", _sweeps),
-    Check("gains", SECTION, "pbd: gains", _gains),
+    Check("sweeps", SECTION, "xpbd: iterations", _sweeps),
+    Check("gains", SECTION, "pbd: stiffness per iteration", _gains),
 )

@@ -213,7 +213,7 @@ def _rotated() -> Plan:
         results.append(Result(
             f"everything turned by {number(_WHOLE_TURN.magnitude(), 3)} rad: free flight of a bent wire for 2 ms, its "
             "way", name, float(np.max(np.linalg.norm(b - _WHOLE_TURN.apply(nodes), axis=1))), moved, error / moved,
-            EXACT, "m", wall_time_per_second(runs[second.key]), "of the way, worst node"))
+            EXACT, "m", wall_time_per_second(runs[second.key]), "of the displacement, worst node"))
         if name.startswith("direct"):
             before, after = (solver_report(runs[case.key], "energy") for case in (first, second))
             results.append(Result("everything turned: energy after the flight", name, after, before,

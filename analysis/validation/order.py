@@ -91,7 +91,7 @@ def _axial() -> Plan:
     period = 2.0 * math.pi / omega
     methods: dict[str, tuple[dict[str, Any], float]] = {
         "explicit": ({"solver": "explicit"}, 2.0),
-        "xpbd, 100 sweeps": ({"solver": "xpbd", "constraintSolverSteps": 100}, 1.0),
+        "xpbd, 100 iterations": ({"solver": "xpbd", "constraintSolverSteps": 100}, 1.0),
     }
     cases = {
         (name, steps): Case(f"{name.split(',')[0]}-{steps}", {

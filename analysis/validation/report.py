@@ -108,7 +108,7 @@ def as_markdown(report: Report) -> str:
             lines += [f"## {section}", ""]
         lines += [f"### {check.title[0].upper()}{check.title[1:]}", "", f"![{check.title}]({picture_name(check)})", "",
                   finding.caption, "",
-                  "| what | solver | value | reference | error | gate | | cost |", "|---|---|---|---|---|---|---|---|"]
+                  "| what | solver | value | reference | error | limit | | cost |", "|---|---|---|---|---|---|---|---|"]
         lines += [_line(r) for r in finding.results]
         lines.append("")
     return "\n".join(lines)
@@ -171,7 +171,7 @@ def draw_overview(report: Report) -> tuple[Figure, str]:
     axes.set_xlim(0.5 * low, 2.0 * high)
     axes.set_yticks(range(len(checks)), [check.title for check in checks])
     axes.invert_yaxis()
-    axes.set_xlabel("error over gate (1); filled: failed; at the ends: beyond")
+    axes.set_xlabel("error over limit (1); filled: failed; at the ends: beyond")
     gated = {r.solver.split(",")[0] for _, r in report.results if r.gate is not None}
     for kind, marker in SOLVER_MARKERS.items():
         if kind in gated:
@@ -180,7 +180,7 @@ def draw_overview(report: Report) -> tuple[Figure, str]:
     wrong = [(check, [r for r in finding.results if r.passed is False]) for check, finding in report.findings.items()]
     told = "; ".join(f"{check.title}: {_worst(lines)}" for check, lines in wrong if lines)
     caption = (
-        f"Error over gate of every line of the validation that has a gate. {_counted(report)}. "
+        f"Error over limit of every line of the validation that has one. {_counted(report)}. "
         + (f"Failed: {told}. " if told else "")
         + (f"Not made: {', '.join(check.title for check in report.missing)}." if report.missing else "")
     )

@@ -273,16 +273,16 @@ def _couple(tension: float, pushing: Sequence[str] = tuple(MOVING)) -> Plan:
         results.append(pushed_line(
             f"straight rod between clamps that do not slide, T L²/EI = {tension:g}, r = {1e3 * wire.radius:g} mm, "
             f"n = {count}: critical couple", solver, exact, bracket, GATE, "EI/L"))
-        drawn[solver, "after a push"] = bracket
+        drawn[solver, "after a disturbance"] = bracket
     caption = (
-        f"A straight rod between clamps, one turned, under the tension T L²/EI = {tension:g}: how far it is off the "
+        f"A straight rod between clamps, one rotated, under the tension T L²/EI = {tension:g}: its distance from the "
         f"axis. The direct solver's rest shapes stay straight up to M L/EI = {number(found.load, 5)} (dashed; "
-        f"Greenhill: {number(exact, 5)}); below it they are off by rounding. "
-        f"explicit and xpbd, whose clamps cannot slide, are pushed by {PUSH:g} L, turned, and move, damped: the push "
-        "dies out or grows. With clamps held apart the rod leaves its axis at the same couple, since it shortens by "
-        "the square of the distance only."
+        f"Greenhill: {number(exact, 5)}); below it the distance is rounding. "
+        f"explicit and xpbd, whose clamps cannot slide, are displaced by {PUSH:g} L, rotated, and move, damped: the "
+        "disturbance decays or grows. With clamps held apart the rod leaves its axis at the same couple, since it "
+        "shortens by the square of the distance only."
     )
-    draw = branches("couple of the straight rod M L/EI (1)", "distance from the axis (L), or share of turns lost",
+    draw = branches("couple of the straight rod M L/EI (1)", "distance from the axis (L), or fraction of turns lost",
                     drawn)
     return Finding(tuple(results), draw, caption)
 
@@ -326,11 +326,11 @@ def _column(pushing: Sequence[str] = tuple(MOVING)) -> Plan:
         bracket = yield from pushed(f"{solver}-", exact, moving, partial(_off_axis, wire), shares=_COLUMN_SHARES)
         results.append(pushed_line(f"column, r = {1e3 * wire.radius:g} mm, n = {n}: critical load", solver, exact,
                                    bracket, _COLUMN_GATE, "EI/L²"))
-        drawn[solver, "after a push"] = bracket
+        drawn[solver, "after a disturbance"] = bracket
     caption = (
-        "A column under a thrust: how far it is off the axis. The direct solver's rest shapes stay straight up to "
-        f"P L²/EI = {number(found.load, 5)} (dashed; Euler: {number(exact, 5)}); below it they are off by rounding. "
-        f"explicit and xpbd are pushed by {PUSH:g} L and move, damped: the push dies out or grows."
+        "A column under a thrust: its distance from the axis. The direct solver's rest shapes stay straight up to "
+        f"P L²/EI = {number(found.load, 5)} (dashed; Euler: {number(exact, 5)}); below it the distance is rounding. "
+        f"explicit and xpbd are displaced by {PUSH:g} L and move, damped: the disturbance decays or grows."
     )
     draw = branches("thrust P L²/EI (1)", "largest distance from the axis (L)", drawn)
     return Finding(tuple(results), draw, caption)

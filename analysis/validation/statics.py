@@ -154,7 +154,7 @@ def _spatial_bend(solvers: Sequence[str] = ALL) -> Plan:
         error = float(np.linalg.norm(nodes[-1] - exact) / np.linalg.norm(exact))
         results.append(Result(
             f"45° bend, load 600 across its plane, n = {len(nodes) - 1}: tip across", case.key, nodes[-1, 0], exact[0],
-            error, 1e-2, "units", wall_time(run, case.repeats), "of the tip's place",
+            error, 1e-2, "units", wall_time(run, case.repeats), "of the tip's position",
         ))
         drawn[case.key] = nodes[:, [2, 0]]
     start = bend.rod.curvature * bend.rod.length * _POINTS
@@ -207,7 +207,7 @@ def _plane_contact(solvers: Sequence[str]) -> Plan:
             "at the tip")
     reasons = {
         "explicit": "meets no walls",
-        "pbd": "meets walls, but its bending stiffness is a gain and not this material's",
+        "pbd": "supports walls, but its bending stiffness is per iteration and not this material's",
     }
     forces = {solver: float(runs[solver].measured("wallForces")[0][1]) for solver in solvers}
     results = (

@@ -159,7 +159,7 @@ def _loading(share: float) -> Plan:
         ]
         caption += (
             f", is a helix from {number(comes, 3)} on, and on the way back down to {number(goes, 3)}; it is straight "
-            f"again below {number(down, 4)}. An even helix has the energy of the straight wire at "
+            f"again below {number(down, 4)}. A uniform helix has the energy of the straight wire at "
             f"{number(EVEN_HELIX, 3)}, one whose pitch is uneven, as the weight makes it, at "
             f"{number(helix_has_the_straight_energy(), 3)}; that one leaves the wall at the top at "
             f"{number(helix_lifts_off(), 3)}")
@@ -223,7 +223,7 @@ def _held(loads: Sequence[float]) -> Plan:
         if f > EVEN_HELIX or f < _FAR_BELOW * EVEN_HELIX:
             holds = f > EVEN_HELIX
             results.append(Result(
-                f"prepared helix of {turns[0]:.0f} turns at {f:g} sqrt(EI w/c), after 3 s: share of its turns",
+                f"prepared helix of {turns[0]:.0f} turns at {f:g} sqrt(EI w/c), after 3 s: fraction of its turns",
                 "direct", left[f], 1.0 if holds else 0.0, abs(left[f] - holds), 0.05, "", wall_time_per_second(run),
                 "of its turns"))
     holding, losing = [f for f in left if left[f] > 0.95], [f for f in left if left[f] <= 0.95]
@@ -235,10 +235,11 @@ def _held(loads: Sequence[float]) -> Plan:
             "sqrt(EI w/c)"))
     caption = (
         "A helix prepared in the same tube, under a steady thrust: its turns. At "
-        + ", ".join(f"{f:g}" for f in holding) + " sqrt(EI w/c) it holds, at "
-        + ", ".join(f"{f:g}" for f in losing) + " it loses turns. An even helix has the energy of the straight wire at "
-        f"{number(EVEN_HELIX, 3)}; below, it is no longer the lowest shape, but leaves the wall at the top at "
-        f"{number(helix_lifts_off(), 3)} only, by the boundary value problem."
+        + ", ".join(f"{f:g}" for f in holding) + " sqrt(EI w/c) it is stable, at "
+        + ", ".join(f"{f:g}" for f in losing) + " it loses turns. A uniform helix has the energy of the straight "
+          "wire at "
+        f"{number(EVEN_HELIX, 3)}; below, it is no longer the state of least energy, but it leaves the wall at the top "
+        f"only at {number(helix_lifts_off(), 3)}, by the boundary value problem."
     )
 
     def draw(figure: Any) -> None:

@@ -216,7 +216,7 @@ def _turning_order() -> Plan:
         "has its order. At nitinol's EA no step resolves them; orders from "
         + " to ".join(str(k) for k in _STIFF_STEPS) + f" steps: {'; '.join(left)}."
     )
-    draw = pictures.orders("steps in 0.3 s", "error of the places (L)", series,
+    draw = pictures.orders("steps in 0.3 s", "error of the positions (L)", series,
                            [(-2.0, "order 2"), (-3.0, "order 3"), (-4.0, "order 4")])
     return Finding(tuple(results), draw, caption)
 

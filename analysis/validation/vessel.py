@@ -49,15 +49,15 @@ def _stenosis() -> Plan:
         axes = figure.add_subplot()
         for name, (way, force) in curves.items():
             axes.plot(way[way > 16.0], 100.0 * force[way > 16.0], label=f"off axis by {name}")
-        axes.set_xlabel("way of the tip (mm)")
+        axes.set_xlabel("displacement of the tip (mm)")
         axes.set_ylabel("force of the hub (% of the buckling load)")
         pictures.outside_legend(axes)
 
     worst = max(results, key=lambda r: r.error)
     return Finding(tuple(results), draw, (
         f"A straight wire of {2e3 * tubes.WIRE.radius:g} mm is pushed through a frictionless stenosis of "
-        f"{_STENOSIS_RADIUS:g} of its radii, its axis off that of the throat by up to {_OFF_AXIS[-1]:g} mm: what it "
-        f"takes at the hub, at most {percent(worst.error)} of the load at which the wire buckles, pi^2 EI/(4 L^2) = "
+        f"{_STENOSIS_RADIUS:g} of its radii, its axis off that of the throat by up to {_OFF_AXIS[-1]:g} mm: force at "
+        f"the hub, at most {percent(worst.error)} of the load at which the wire buckles, pi^2 EI/(4 L^2) = "
         f"{number(buckling, 3)} N. The throat begins 40 mm ahead of the tip."))
 
 
@@ -132,13 +132,13 @@ def _containment(speeds: Sequence[float]) -> Plan:
         for name, (way, gap) in curves.items():
             axes.plot(way, gap, label=name)
         axes.set_yscale("log")
-        axes.set_xlabel("way of the hub (mm)")
+        axes.set_xlabel("displacement of the hub (mm)")
         axes.set_ylabel("least gap between wire and wall (mm)")
         pictures.outside_legend(axes)
 
     count = sum(int(r.value) for r in results[::2])
     return Finding(tuple(results), draw, (
-        f"A wire of {2e3 * tubes.WIRE.radius:g} mm is pushed by 120 mm and turned in a bend of half a circle with a "
+        f"A wire of {2e3 * tubes.WIRE.radius:g} mm is pushed by 120 mm and rotated in a bend of half a circle with a "
         f"lumen of {_ARCH_LUMEN:g} mm radius and in a coil with one of {_COIL_LUMEN:g} mm, at up to 1 m/s: least gap, "
         f"from the log alone, over {_SAMPLES} points of each element after every step. Points outside: {count}."))
 

@@ -103,16 +103,16 @@ def _whip(settings: Sequence[tuple[float, int]]) -> Plan:
     if len(found) > 2:
         at_none = float(np.polyfit(np.sqrt(list(found)), list(found.values()), 1)[1])
         results.append(Result(
-            "snap without clearance, by a straight line over the clearance's root", "direct", math.degrees(at_none),
+            "snap without clearance, by a line in the square root of the clearance", "direct", math.degrees(at_none),
             math.degrees(exact), abs(at_none / exact - 1.0), _GATE_WITHOUT_PLAY, "°"))
-        said = f"; none, by a line over the root: {math.degrees(at_none):.1f}°, {percent(results[-1].error)} off"
+        said = f"; none, by a line in its square root: {math.degrees(at_none):.1f}°, {percent(results[-1].error)} off"
     caption = (
         f"A wire of rest curvature {_OWN:g}/m in a frictionless bend of radius {_BEND:g} mm, lambda = "
         f"L sqrt(B k_0 k_t/C) = {_LAMBDA:g}, turned at its hub by {_RATE:g} rad/s: angle of the tip over that of the "
-        "hub, with the solution for a tube without play (line; its part that goes back is not stable). The tip "
+        "hub, with the solution for a tube without clearance (line; its part that goes back is not stable). The tip "
         f"snaps at {number(math.degrees(exact), 4)}° there; with a clearance of "
         + ", ".join(f"{c:g} mm at {math.degrees(angle):.1f}°" for c, angle in found.items())
-        + said + ". With play the ends bend as they like over a length that goes with its root."
+        + said + ". With clearance the ends bend freely over a length proportional to its square root."
     )
 
     def draw(figure: Any) -> None:

@@ -266,7 +266,7 @@ def test_of_two_at_once_one_builds_and_the_other_waits_and_uses_it(shop: Worksho
     (shop.bench / "hold").touch()
     both = [shop.start(), shop.start()]
     said = [process.stdout.readline() for process in both]
-    assert sorted(said) == [f"building {PROJECT}\n", "waiting for a build that is under way\n"]
+    assert sorted(said) == [f"building {PROJECT}\n", "waiting for another build to finish\n"]
     (shop.bench / "hold").unlink()
     rest = [process.communicate(timeout=PATIENCE)[0] for process in both]
     assert [process.returncode for process in both] == [0, 0]

@@ -83,8 +83,8 @@ def finds(*errors):
 
 
 @pytest.mark.parametrize("errors, code, lines", [
-    ((0.001, 0.01), 0, []), ((0.02, 0.001), 1, ["bars: direct 0, tip: error 0.020 is above its gate 0.010"]),
-    ((float("nan"),), 1, ["bars: direct 0, tip: error not finite is above its gate 0.010"]),
+    ((0.001, 0.01), 0, []), ((0.02, 0.001), 1, ["bars: direct 0, tip: error 0.020 is above its limit 0.010"]),
+    ((float("nan"),), 1, ["bars: direct 0, tip: error not finite is above its limit 0.010"]),
 ])
 def test_a_gate_that_fails_is_printed_at_the_end_with_exit_code_1(tmp_path, capsys, errors, code, lines):
     check = finds(*errors)
@@ -92,7 +92,7 @@ def test_a_gate_that_fails_is_printed_at_the_end_with_exit_code_1(tmp_path, caps
     drawn = gallery.draw(["bars"], {"bars": tmp_path}, tmp_path / "out", bars)
     assert drawn.problems == () and list(drawn.failed_gates) == lines
     assert commands._tell(drawn) == code
-    assert capsys.readouterr().err.splitlines() == [f"guidewire: beyond its gate: {line}" for line in lines]
+    assert capsys.readouterr().err.splitlines() == [f"guidewire: beyond its limit: {line}" for line in lines]
 
 
 def test_the_index_links_what_stands_beside_a_picture_and_the_tables_of_its_runs(tmp_path):

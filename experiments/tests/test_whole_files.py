@@ -124,7 +124,7 @@ def test_a_request_to_terminate_ends_the_runner_too(runner_command, tmp_path):
 
 
 @pytest.mark.parametrize("command, said", [
-    ("sweep", "interrupted; what has ended is kept, the same command goes on from here"),
+    ("sweep", "interrupted; completed runs are kept, the same command continues from here"),
     ("render", "interrupted; nothing was written"), ("test", "interrupted"),
 ])
 def test_an_interrupted_command_says_what_is_true_of_it(capsys, command, said):

@@ -155,7 +155,7 @@ export class Live {
 
   _mood() {
     if (!this.status) return "";
-    if (!this.status.hand) return this.status.isFree ? "nobody has the hand" : "looking on: another page has the hand";
+    if (!this.status.hand) return this.status.isFree ? "nobody is steering" : "watching: another page is steering";
     if (this.status.isPaused) return "paused";
     return this.status.isSteered ? "" : "moved by its file's drive";
   }
@@ -178,9 +178,9 @@ export class Live {
         ? [held("push", "w"), held("pull", "s"), held("turn left", "a"), held("turn right", "d")] : []),
       button(status.isPaused ? "go on" : "pause", { do: "pause", value: !status.isPaused }),
       button("step", { do: "step" }), button("start anew", { do: "reset" }),
-      button(status.isSteered ? "file's drive" : "by hand",
+      button(status.isSteered ? "file's drive" : "interactive",
         { do: "open", scene: status.scene, hand: !status.isSteered }), paces, scenes,
-    ] : [button("take the hand", { do: "take" })]));
+    ] : [button("take control", { do: "take" })]));
     const typed = byId("controls").contains(document.activeElement) ? document.activeElement : null;
     if (typed && !this._isSent) return; // a value that is being typed
     this._isSent = false;

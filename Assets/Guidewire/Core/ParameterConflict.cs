@@ -74,7 +74,7 @@ namespace Guidewire.Core
             {
                 return new ParameterConflict("integrator", "implicitEuler where a wall has a frictionCoefficient");
             }
-            if (rubs && !method.TakesMaterial && parameters.Contact.ElementContact == ElementContact.Seed)
+            if (rubs && !method.TakesMaterial && parameters.Contact.ElementContact == ElementContact.Thesis)
             {
                 return new ParameterConflict("elementContact",
                     "\"barycentric\" or \"none\" where a wall has a frictionCoefficient");

@@ -3,13 +3,13 @@ namespace Guidewire.Core
     /// <summary>What touches a wall besides the spheres.</summary>
     public enum ElementContact
     {
-        /// <summary>Rod elements; their spheres share the push by the lever rule.</summary>
+        /// <summary>Rod elements; the correction is split between their two spheres by the lever rule.</summary>
         Barycentric,
 
         /// <summary>Nothing.</summary>
         None,
 
         /// <summary>Rod elements, by the rule as published (thesis 3.1.2).</summary>
-        Seed,
+        Thesis,
     }
 }

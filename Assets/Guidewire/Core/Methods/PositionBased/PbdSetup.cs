@@ -52,7 +52,7 @@ namespace Guidewire.Core
             int walls = scene.Walls.Length;
             double radius = contact.SphereRadius;
             double reach = radius + contact.CollisionMargin;
-            bool asPublished = contact.ElementContact == ElementContact.Seed;
+            bool asPublished = contact.ElementContact == ElementContact.Thesis;
             IContactSearch search = asPublished
                 ? (IContactSearch)new ThesisContactSearch(scene.Walls, state.ElementCount, radius)
                 : new ContactSearch(scene.Walls, state.ElementCount, state.ElementLength, radius, reach,

@@ -1,3 +1,4 @@
+using System.Collections.Generic;
 using Guidewire.Core;
 
 namespace Guidewire.Io
@@ -18,51 +19,53 @@ namespace Guidewire.Io
                 Methods = Takers.Pbd,
             },
             new NumberEntry("contactDistance", "m", NumberRange.NotNegative,
-                "gap between the wire's surface and a wall below which the wall pushes; 0: by rule, a tenth of the"
-                + " wire's radius or a twentieth of the drive's motion a step, at most half of the narrowest clearance,"
-                + " in a mesh 0.3 radii",
+                "gap between the wire's surface and a wall below which the contact force acts; 0: chosen as the larger"
+                + " of a tenth of the wire's radius and a twentieth of the drive's motion per step, at most half of the"
+                + " narrowest clearance, and in a mesh 0.3 radii",
                 p => p.Simulation.Contact.ContactDistance, (p, v) => p.Simulation.Contact.ContactDistance = v)
             {
                 Methods = Takers.Only(Solver.Direct),
             },
             new NumberEntry("contactStiffness", "N/m", NumberRange.NotNegative,
-                "stiffness k of a contact: direct pushes by 1.19 k contactDistance at half of that gap, 0: by rule,"
-                + " EI/(90 r)^2 over contactDistance, or more where walls straighten it; xpbd pushes by k times the"
-                + " depth, 0: contacts are rigid",
+                "stiffness k of a contact; direct: the normal force is 1.19 k contactDistance at half that gap, 0:"
+                + " chosen as EI/(90 r)^2 over contactDistance, or more where the walls straighten the wire; xpbd: the"
+                + " normal force is k times the penetration depth, 0: rigid contacts",
                 p => p.Simulation.Contact.ContactStiffness, (p, v) => p.Simulation.Contact.ContactStiffness = v)
             {
                 Methods = Takers.Only(Solver.Xpbd, Solver.Direct),
             },
             new NumberEntry("elasticSlip", "m", NumberRange.NotNegative,
-                "elastic displacement along a wall up to which a contact sticks, with frictionCoefficient times the"
-                + " push over elasticSlip as its stiffness; 0: by rule, a hundredth of the wire's radius",
+                "elastic tangential displacement up to which a contact sticks; its tangential stiffness is"
+                + " frictionCoefficient times the normal force over elasticSlip; 0: a hundredth of the wire's"
+                + " radius",
                 p => p.Simulation.Contact.ElasticSlip, (p, v) => p.Simulation.Contact.ElasticSlip = v)
             {
                 Methods = Takers.Only(Solver.Direct),
             },
             new NumberEntry("frictionSpeed", "m/s", NumberRange.Positive,
-                "in older files, the speed of slip below which contact crept; it sticks now at any, elasticSlip"
-                + " counts, and a warning says so",
+                "in older files, the slip speed below which a contact crept; no longer used, as contacts now stick"
+                + " at any speed (see elasticSlip); a warning says so",
                 p => DefaultFrictionSpeed, (p, v) => { })
             {
                 Methods = Takers.Only(Solver.Direct),
             },
-            new NumberEntry("collisionMargin", "units", NumberRange.NotNegative, "distance kept beyond the radius",
+            new NumberEntry("collisionMargin", "units", NumberRange.NotNegative, "gap kept beyond the radius",
                 p => p.Simulation.Contact.CollisionMargin, (p, v) => p.Simulation.Contact.CollisionMargin = v)
             {
                 Methods = Takers.Pbd,
             },
             new NumberEntry("collisionStiffness", "", NumberRange.Between(0.0, 1.0),
-                "k_C, gain of a contact an iteration",
+                "k_C, stiffness of the contact constraint per iteration",
                 p => p.Simulation.Contact.CollisionStiffness, (p, v) => p.Simulation.Contact.CollisionStiffness = v)
             {
                 Methods = Takers.Pbd,
             },
             new ChoiceEntry<ElementContact>("elementContact",
-                "what touches a wall besides the spheres: rod elements by the"
-                + " lever rule, nothing, or rod elements by the rule as published",
+                "what touches a wall besides the spheres: rod elements by the lever rule, nothing, or rod elements by"
+                + " the thesis's rule",
                 p => p.Simulation.Contact.ElementContact, (p, v) => p.Simulation.Contact.ElementContact = v)
             {
+                OlderWords = new Dictionary<string, ElementContact> { ["seed"] = ElementContact.Thesis },
                 Methods = Takers.Pbd,
             },
         });

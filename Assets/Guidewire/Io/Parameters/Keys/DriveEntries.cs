@@ -10,47 +10,49 @@ namespace Guidewire.Io
             "drive", "what moves the proximal end", new ParameterEntry[]
         {
             new ChoiceEntry<Drive>("drive",
-                "what moves sphere 0: one displacement, then held; a fixed axis each step; the first element's"
-                + " direction each step; externalForce on a free sphere 0, with a material proximalEnd \"free\"",
+                "what moves sphere 0: hold: one displacement at the start, then held; displace: each step along a"
+                + " fixed axis; push: each step along the first element; force: externalForce on a free sphere 0"
+                + " (with a material, proximalEnd \"free\")",
                 p => p.Simulation.Drive.Kind, (p, v) => p.Simulation.Drive.Kind = v),
-            new SwitchEntry("SteadyState", "older word for drive: true is \"hold\", false \"displace\", each step by"
-                + " displacement where displacementPerStep is not given",
+            new SwitchEntry("SteadyState", "older word for drive: true is \"hold\", false is \"displace\", by"
+                + " displacement each step where displacementPerStep is not given",
                 p => p.Simulation.Drive.Kind == Drive.Hold,
                 (p, v) => p.Simulation.Drive.Kind = v ? Drive.Hold : Drive.Displace),
             new NumberEntry("displacement", "units", NumberRange.Any,
-                "displacement of sphere 0 at the start, drive \"hold\"",
+                "displacement of sphere 0 at the start with drive \"hold\"",
                 p => p.Simulation.Drive.Displacement, (p, v) => p.Simulation.Drive.Displacement = v),
-            new VectorEntry("displacementDirection", "", false, "its direction, and that of drive \"displace\"",
+            new VectorEntry("displacementDirection", "", false, "direction of displacement, and of drive \"displace\"",
                 p => p.Simulation.Drive.DisplacementDirection, (p, v) => p.Simulation.Drive.DisplacementDirection = v),
-            new NumberEntry("displacementPerStep", "units a step", NumberRange.Any,
+            new NumberEntry("displacementPerStep", "units per step", NumberRange.Any,
                 "motion of sphere 0 with drive \"displace\" or \"push\"",
                 p => p.Simulation.Drive.DisplacementPerStep, (p, v) => p.Simulation.Drive.DisplacementPerStep = v),
-            new NumberEntry("twistPerStep", "radians a step", NumberRange.Any,
-                "turn of element 0 about its own axis, with a material of its clamp; with gains, where it is not 0 the"
-                + " element's frame is held",
+            new NumberEntry("twistPerStep", "radians per step", NumberRange.Any,
+                "rotation of element 0 about its own axis, with a material that of its clamp; with pbd, a value other"
+                + " than 0 also holds the element's frame",
                 p => p.Simulation.Drive.TwistPerStep, (p, v) => p.Simulation.Drive.TwistPerStep = v),
             new NumberEntry("insertionSpeed", "m/s", NumberRange.Any,
-                "speed of sphere 0 with drive \"displace\" or \"push\", in place of displacementPerStep;"
+                "speed of sphere 0 with drive \"displace\" or \"push\", instead of displacementPerStep;"
                 + " negative values pull", p => p.Simulation.Drive.InsertionSpeed,
                 (p, v) => p.Simulation.Drive.InsertionSpeed = v)
             {
                 Methods = Takers.Material,
             },
             new NumberEntry("rotationSpeed", "rad/s", NumberRange.Any,
-                "turning of the proximal clamp about its axis, in place of twistPerStep",
+                "rotation speed of the proximal clamp about its axis, instead of twistPerStep",
                 p => p.Simulation.Drive.RotationSpeed, (p, v) => p.Simulation.Drive.RotationSpeed = v)
             {
                 Methods = Takers.Material,
             },
             new TextEntry("driveFile", "CSV file of time (s), insertion (m) and rotation (rad) of the proximal clamp,"
-                + " in place of the speeds: linear between the rows, at rest before and after; only differences count;"
-                + " a name counts from the parameter file's folder", p => p.DriveFile, (p, v) => p.DriveFile = v)
+                + " instead of the speeds: linear between rows, at rest before the first and after the last;"
+                + " only differences count; the path is relative to the parameter file's folder",
+                p => p.DriveFile, (p, v) => p.DriveFile = v)
             {
                 Methods = Takers.Material,
             },
             new NumberEntry("hubForceLimit", "N", NumberRange.NotNegative,
-                "between walls: axial force at which the hub gives way, so that it pushes and pulls no harder; what is"
-                + " lost of its way is driveShortfall; 0: it never gives way",
+                "between walls: axial force at which the hub slips, so that it pushes and pulls no harder; the lost"
+                + " displacement is driveShortfall; 0: it never slips",
                 p => p.Simulation.Drive.HubForceLimit, (p, v) => p.Simulation.Drive.HubForceLimit = v)
             {
                 Methods = Takers.Only(Solver.Direct),

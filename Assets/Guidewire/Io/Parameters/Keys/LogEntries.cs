@@ -14,36 +14,36 @@ namespace Guidewire.Io
             new ChoiceEntry<LoggedSpheres>("logSpheres", "which spheres are logged",
                 p => p.LogSpheres, (p, v) => p.LogSpheres = v),
             new ChoiceEntry<LogFormat>("logFormat",
-                "how the log is written: positions.json, or positions.npz with arrays of 64 or 32 bits a number",
+                "format of the log: positions.json, or positions.npz with arrays of 64-bit or 32-bit numbers",
                 p => p.LogFormat, (p, v) => p.LogFormat = v),
             new SwitchEntry("logOrientations", "whether orientations are logged too",
                 p => p.LogOrientations, (p, v) => p.LogOrientations = v),
             new SwitchEntry("logStrains",
-                "whether each entry of the log also has \"stress\": curvature and twist (rad/m) and couple (N m) at the"
-                + " n + 1 joints, strain (shear, shear, stretch) and force (N) of the n elements, their angular"
-                + " velocities (rad/s, own axes), and kinetic, elastic and potential energy (J); forces and couples of"
-                + " the piece towards the tip on the other, along the world's axes, by strains alone (not their rates)",
+                "whether each log entry also has \"stress\": curvature and twist (rad/m) and couple (N m) at the n + 1"
+                + " joints, strain (shear, shear, stretch) and force (N) of the n elements, their angular velocities"
+                + " (rad/s, own axes), and kinetic, elastic and potential energy (J); forces and couples are those of"
+                + " the distal part on the proximal one, in world axes, from strains alone (not strain rates)",
                 p => p.LogStrains, (p, v) => p.LogStrains = v)
             {
                 Methods = Takers.Material,
             },
             new SwitchEntry("logHub",
-                "whether each entry of the log also has \"hub\": insertion (m), turn (rad), force (N) and torque (N m)"
+                "whether each log entry also has \"hub\": insertion (m), turn (rad), force (N) and torque (N m)"
                 + " of the hub, direction of the tip, twist from hub to tip (rad), largest curvature (1/m)",
                 p => p.LogHub, (p, v) => p.LogHub = v)
             {
                 Methods = Takers.Only(Solver.Direct),
             },
             new SwitchEntry("logContacts",
-                "whether each entry of the log also has \"contact\": the walls' force on each sphere"
-                + " they touch, their total, and the first sphere's reaction (mass unit * unit/s^2; with a material N,"
-                + " its mean over the step), with direct also on each element and of each wall along their normals, and"
-                + " the largest pressure (Pa); xpbd states it between walls alone",
+                "whether each log entry also has \"contact\": the walls' force on each sphere they touch, their"
+                + " total, and the first sphere's reaction (mass unit * unit/s^2; with a material N, averaged over the"
+                + " step); with direct also the normal force on each element and of each wall, and the largest pressure"
+                + " (Pa); xpbd reports it only between walls",
                 p => p.LogContacts, (p, v) => p.LogContacts = p.Simulation.Method.StatesReactions = v)
             {
                 Methods = Takers.All,
             },
-            new TextEntry("logFilePath", "folder of the results, where -out does not name one",
+            new TextEntry("logFilePath", "folder of the results, unless -out names one",
                 p => p.LogFilePath, (p, v) => p.LogFilePath = v)
             {
                 IsOutputPath = true,

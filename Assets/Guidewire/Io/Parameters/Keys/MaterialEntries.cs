@@ -30,38 +30,38 @@ namespace Guidewire.Io
                 Methods = Takers.Material,
             },
             new NumberEntry("innerRadius", "m", NumberRange.NotNegative,
-                "radius of a tube's hollow, less than wireRadius; 0 for a wire that is not hollow",
+                "inner radius of a hollow wire, less than wireRadius; 0 for a solid wire",
                 p => p.Simulation.Material.InnerRadius, (p, v) => p.Simulation.Material.InnerRadius = v)
             {
                 Methods = Takers.Material,
             },
             new NumberEntry("shearFactor", "", NumberRange.Positive,
-                "what of GA resists shear: 0.9 for a round wire, about 0.5 for a thin tube",
+                "shear correction factor of GA: 0.9 for a round wire, about 0.5 for a thin-walled tube",
                 p => p.Simulation.Material.ShearFactor, (p, v) => p.Simulation.Material.ShearFactor = v)
             {
                 Methods = Takers.Material,
             },
             new OptionalNumberEntry("bendingStiffness", "N m^2", NumberRange.Positive,
-                "EI of the whole wire, which says E in place of youngsModulus; a section of another material or radius"
+                "EI of the whole wire, which sets E instead of youngsModulus; a section of another material or radius"
                 + " has its own",
                 p => p.BendingStiffness, (p, v) => p.BendingStiffness = v)
             {
                 Methods = Takers.Material,
             },
             new OptionalNumberEntry("torsionalStiffness", "N m^2", NumberRange.Positive,
-                "GJ of the whole wire, which says G in place of shearModulus",
+                "GJ of the whole wire, which sets G instead of shearModulus",
                 p => p.TorsionalStiffness, (p, v) => p.TorsionalStiffness = v)
             {
                 Methods = Takers.Material,
             },
             new OptionalNumberEntry("axialStiffness", "N", NumberRange.Positive,
-                "EA of the whole wire, in place of that of E and radius: of a coiled wire; EI stays what it is",
+                "EA of the whole wire instead of that from E and the radius, as for a coiled wire; EI is unchanged",
                 p => p.Simulation.Material.AxialStiffness, (p, v) => p.Simulation.Material.AxialStiffness = v)
             {
                 Methods = Takers.Material,
             },
             new OptionalNumberEntry("massPerLength", "kg/m", NumberRange.Positive,
-                "rho A of the whole wire, which says rho in place of density",
+                "rho A of the whole wire, which sets rho instead of density",
                 p => p.MassPerLength, (p, v) => p.MassPerLength = v)
             {
                 Methods = Takers.Material,
@@ -72,30 +72,30 @@ namespace Guidewire.Io
                 Methods = Takers.Material,
             },
             new SectionsEntry("wireSections",
-                "pieces of the wire with a material, a rest curvature or elements of their own, such as a soft, bent"
-                + " tip; an element across a border has the mean compliance, mass and rest curvature by length;"
-                + " stiffness and mass given directly count in place of those of material and radius, and rotary"
-                + " inertia about each axis is then massPerLength EI/EA",
+                "sections of the wire with their own material, rest curvature or elements, such as a soft, bent tip;"
+                + " an element across a boundary has the length-weighted mean of compliance, mass and rest curvature;"
+                + " stiffness and mass given directly replace those from material and radius, and the rotary inertia"
+                + " about each axis is then massPerLength EI/EA",
                 p => p.Simulation.Material.Sections, (p, v) => p.Simulation.Material.Sections = v)
             {
                 Methods = Takers.Material,
             },
             new NumberEntry("massDamping", "1/s", NumberRange.NotNegative,
-                "a of the force -a M v: a mode of circular frequency w has the damping ratio a/(2 w), at any timeStep",
+                "a in the force -a M v: a mode of angular frequency w has the damping ratio a/(2 w) at any timeStep",
                 p => p.Simulation.Material.MassDamping, (p, v) => p.Simulation.Material.MassDamping = v)
             {
                 Methods = Takers.Material,
             },
             new NumberEntry("materialDamping", "s", NumberRange.NotNegative,
-                "b of the stress b K times the rate of strain (Kelvin-Voigt): damping ratio b w/2, at any timeStep",
+                "b in the stress b K times the strain rate (Kelvin-Voigt): damping ratio b w/2 at any timeStep",
                 p => p.Simulation.Material.MaterialDamping, (p, v) => p.Simulation.Material.MaterialDamping = v)
             {
                 Methods = Takers.Only(Solver.Direct),
                 IsRefusedElsewhere = true,
             },
             new ChoiceEntry<ClampRule>("clampRule",
-                "weights of the joints at a clamp: order 4 under loads across the wire, order 2 (exact for an arc),"
-                + " order 1; a thrust comes out low by (k l)^2/12 with any, k the wave number of the buckled shape"
+                "weights of the joints at a clamp: order 4 under transverse loads, order 2 (exact for an arc), order"
+                + " 1; with any of them a buckling load is low by (k l)^2/12, k the wave number of the buckled shape"
                 + " (clamped at both ends: 0.8 % at 20 elements)",
                 p => p.Simulation.Material.ClampRule, (p, v) => p.Simulation.Material.ClampRule = v)
             {
@@ -107,7 +107,7 @@ namespace Guidewire.Io
             {
                 Methods = Takers.Material,
             },
-            new ChoiceEntry<BendLaw>("bendLaw", "couple of a joint: K angle, or K sin(angle)",
+            new ChoiceEntry<BendLaw>("bendLaw", "couple of a joint: K times the angle, or K sin(angle)",
                 p => p.Simulation.Material.BendLaw, (p, v) => p.Simulation.Material.BendLaw = v)
             {
                 Methods = Takers.Material,

@@ -11,23 +11,23 @@ namespace Guidewire.Io
             "method", "how it is simulated, and what ends the run", new ParameterEntry[]
         {
             new ChoiceEntry<Solver>("solver",
-                "the method: pbd takes gains; xpbd, direct and explicit take a material",
+                "the method: pbd (stiffness per iteration), or xpbd, direct and explicit (a material)",
                 p => p.Simulation.Method.Solver, (p, v) => p.Simulation.Method.Solver = v),
             new NumberEntry("timeStep", "s", NumberRange.Positive, "dt",
                 p => p.Simulation.Method.TimeStep, (p, v) => p.Simulation.Method.TimeStep = v),
-            new IntegerEntry("maxSimulationSteps", "steps", 0, 1_000_000_000, "where the run ends at the latest",
+            new IntegerEntry("maxSimulationSteps", "steps", 0, 1_000_000_000, "largest number of steps of the run",
                 p => p.Simulation.Method.MaxSimulationSteps, (p, v) => p.Simulation.Method.MaxSimulationSteps = v),
-            new IntegerEntry("constraintSolverSteps", "iterations a step", 0, 1_000_000,
-                "m, Gauss-Seidel iterations, of each substep with xpbd; with gains, more of them make a stiffer wire",
+            new IntegerEntry("constraintSolverSteps", "iterations per step", 0, 1_000_000,
+                "m, Gauss-Seidel iterations, with xpbd of each substep; with pbd, more of them make a stiffer wire",
                 p => p.Simulation.Method.ConstraintSolverSteps,
                 (p, v) => p.Simulation.Method.ConstraintSolverSteps = v)
             {
                 Methods = Takers.Only(Solver.Pbd, Solver.Xpbd),
             },
             new ChoiceEntry<Integrator>("integrator",
-                "how positions are predicted; direct: esdirk3 for most motions, esdirk4 for smooth ones, trbdf2 where "
-                + "steps are short anyway; bdf2 loses 0.2 % of a release and 0.1 % of a spin, implicitEuler damps all "
-                + "that is not slow; at a stiff EA all turn with order 2 to 2.5",
+                "pbd: how positions are predicted; direct: esdirk3 for most motions, esdirk4 for smooth ones, trbdf2 "
+                + "where steps are short anyway; bdf2 loses 0.2 % of a release and 0.1 % of a spin, implicitEuler "
+                + "damps all but slow motions; with a stiff EA, rotations converge with order 2 to 2.5 in all of them",
                 p => p.Simulation.Method.Integrator, (p, v) => p.Simulation.Method.Integrator = v)
             {
                 OlderWords = new Dictionary<string, Integrator>
@@ -44,7 +44,7 @@ namespace Guidewire.Io
             {
                 Methods = Takers.Pbd,
             },
-            new ChoiceEntry<SweepOrder>("sweepOrder", "order of one sweep over the elements",
+            new ChoiceEntry<SweepOrder>("sweepOrder", "order of the elements within an iteration",
                 p => p.Simulation.Method.SweepOrder, (p, v) => p.Simulation.Method.SweepOrder = v)
             {
                 Methods = Takers.Pbd,
@@ -55,27 +55,27 @@ namespace Guidewire.Io
                 Methods = Takers.Only(Solver.Xpbd, Solver.Explicit),
             },
             new NumberEntry("solverTolerance", "rad, or displacement over L", NumberRange.PositiveUpTo(1e-2),
-                "error that the direct solver may leave in a stage; also of the balance of forces in a step, "
-                + "over the largest",
+                "residual error allowed in a stage of the direct solver; also that of the force balance in a step, "
+                + "relative to the largest force",
                 p => p.Simulation.Method.SolverTolerance, (p, v) => p.Simulation.Method.SolverTolerance = v)
             {
                 Methods = Takers.Material,
             },
             new NumberEntry("timeStepError", "rad, or displacement over L", NumberRange.NotNegative,
-                "error that a step may make, by the estimate of trbdf2, esdirk3 and esdirk4: steps are cut and grown "
-                + "within timeStep, to 1/1024 of it at the least; 0: steps stay whole",
+                "tolerance of the step size control, for the error estimate of trbdf2, esdirk3 and esdirk4: steps are "
+                + "subdivided within timeStep, down to 1/1024 of it; 0: no step size control",
                 p => p.Simulation.Method.TimeStepError, (p, v) => p.Simulation.Method.TimeStepError = v)
             {
                 Methods = Takers.Only(Solver.Direct),
             },
             new IntegerEntry("maxNewtonIterations", "", 1, 1_000_000,
-                "after which the direct solver gives up a stage; ten times as many for a rest shape",
+                "iterations after which the direct solver gives up a stage; ten times as many for a rest shape",
                 p => p.Simulation.Method.MaxNewtonIterations, (p, v) => p.Simulation.Method.MaxNewtonIterations = v)
             {
                 Methods = Takers.Material,
             },
             new NumberEntry("damping", "", NumberRange.Between(0.0, 1.0),
-                "share of its velocity that a sphere loses a step; a material has massDamping and materialDamping",
+                "fraction of its velocity that a sphere loses per step; a material has massDamping and materialDamping",
                 p => p.Simulation.Method.Damping, (p, v) => p.Simulation.Method.Damping = v)
             {
                 Methods = Takers.Pbd,
@@ -83,8 +83,8 @@ namespace Guidewire.Io
                 Instead = "massDamping (1/s), which is damping over timeStep, or materialDamping (s)",
             },
             new NumberEntry("deltaThreshold", "units", NumberRange.NotNegative,
-                "ends the run in a steady state: with gains, prediction errors below it; with a material, a wire that"
-                + " is no farther from its rest shape and swings no farther, whatever timeStep is; 0: never",
+                "ends the run in a steady state: with pbd, prediction errors below it; with a material, distance from"
+                + " the rest shape and amplitude of any swing below it, whatever the timeStep; 0: never",
                 p => p.Simulation.Method.DeltaThreshold, (p, v) => p.Simulation.Method.DeltaThreshold = v),
             new IntegerEntry("steadyStateHold", "steps", 1, 1_000_000_000,
                 "how long the prediction errors must stay below deltaThreshold",

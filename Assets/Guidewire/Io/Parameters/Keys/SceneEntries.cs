@@ -13,13 +13,14 @@ namespace Guidewire.Io
             new NumberEntry("guidewireLength", "units", NumberRange.Positive, "L",
                 p => p.Simulation.Scene.GuidewireLength, (p, v) => p.Simulation.Scene.GuidewireLength = v),
             new IntegerEntry("numberRodElements", "", 1, 1_000_000,
-                "n; the wire has n + 1 spheres and elements of L/n; where wireSections have a number of their own, that"
-                + " of the rest of the wire, shared out by length",
+                "n; the wire has n + 1 spheres and elements of length L/n; where wireSections state a number of"
+                + " their own, n is that of the rest of the wire, distributed by length",
                 p => p.Simulation.Scene.NumberRodElements, (p, v) => p.Simulation.Scene.NumberRodElements = v),
             new NumberEntry("guidewireOffset", "units", NumberRange.Any, "z of sphere 0 before its displacement",
                 p => p.Simulation.Scene.GuidewireOffset, (p, v) => p.Simulation.Scene.GuidewireOffset = v),
             new NumberEntry("rodElementLength", "units", NumberRange.Positive,
-                "in older files; guidewireLength / numberRodElements counts, and a warning says where they differ",
+                "no effect, from older files: elements have guidewireLength / numberRodElements; a warning if it"
+                + " differs",
                 p => p.Simulation.Scene.GuidewireLength / p.Simulation.Scene.NumberRodElements, (p, v) => { }),
             new NumberEntry("metresPerUnit", "m", NumberRange.Positive, "length of one unit",
                 p => p.Simulation.Scene.MetresPerUnit, (p, v) => p.Simulation.Scene.MetresPerUnit = v)
@@ -27,10 +28,10 @@ namespace Guidewire.Io
                 Methods = Takers.Material,
             },
             new TextEntry("startFile",
-                "JSON file with positions, orientations, velocities and angularVelocities to start from; its name"
-                + " counts from the parameter file's folder",
+                "JSON file with positions, orientations, velocities and angularVelocities to start from; the"
+                + " path is relative to the parameter file's folder",
                 p => p.StartFile, (p, v) => p.StartFile = v),
-            new ChoiceEntry<StartShape>("startShape", "the shape to set out from; a ring has both ends in one place",
+            new ChoiceEntry<StartShape>("startShape", "shape of the wire at the start; the two ends of a ring coincide",
                 p => p.Simulation.Scene.StartShape, (p, v) => p.Simulation.Scene.StartShape = v)
             {
                 Methods = Takers.Material,
@@ -46,21 +47,21 @@ namespace Guidewire.Io
                 Methods = Takers.Material,
             },
             new ChoiceEntry<InitialState>("initialState",
-                "start in the start shape, or in the rest shape under gravity, tip loads and supports; with"
-                + " maxSimulationSteps 0 the rest shape is all that is computed",
+                "start from the start shape, or from the rest shape under gravity, tip loads and supports; with"
+                + " maxSimulationSteps 0 only the rest shape is computed",
                 p => p.Simulation.Scene.InitialState, (p, v) => p.Simulation.Scene.InitialState = v)
             {
                 Methods = Takers.Material,
             },
-            new ChoiceEntry<ProximalEnd>("proximalEnd", "sphere 0 held, also its frame clamped, or"
-                + " nothing held; with gains \"held\" or \"clamped\"",
+            new ChoiceEntry<ProximalEnd>("proximalEnd", "held: position of sphere 0; clamped: its frame"
+                + " too; free: neither; pbd takes \"held\" and \"clamped\"",
                 p => p.Simulation.Scene.ProximalEnd, (p, v) => p.Simulation.Scene.ProximalEnd = v),
             new ChoiceEntry<DistalEnd>("distalEnd",
-                "nothing held; place and frame held; frame held and free to slide along the frame's axis (direct"
-                + " only)",
+                "free: nothing held; clamped: position and frame held; sliding: frame held, free to slide along its"
+                + " axis (direct only)",
                 p => p.Simulation.Scene.DistalEnd, (p, v) => p.Simulation.Scene.DistalEnd = v),
             new NumberEntry("distalRotation", "rad", NumberRange.Any,
-                "turn of the distal clamp about its own axis; more than one turn counts",
+                "rotation of the distal clamp about its own axis, also by more than one turn",
                 p => p.Simulation.Scene.DistalRotation, (p, v) => p.Simulation.Scene.DistalRotation = v),
             new NumberEntry("distalDisplacement", "units", NumberRange.Any,
                 "displacement of the distal clamp along its own axis",
@@ -91,30 +92,30 @@ namespace Guidewire.Io
             new JsonEntry("loadTables", JTokenType.Object,
                 "null or {\"tipForce\": FILE, ..}, with any of gravity, tipForce, distributedForce, axialForce,"
                 + " tipMoment, tipFollowerForce",
-                "CSV files of time (s) and a factor (without unit) on that load, linear between the rows, the first and"
-                + " last value before and after them; two rows of one time are a jump; steps of direct end at each row;"
-                + " a name counts from the parameter file's folder",
+                "CSV files of time (s) and a factor (without unit) on that load, linear between rows, constant"
+                + " before the first and after the last; two rows with the same time are a jump; time steps of direct"
+                + " end at each row; paths are relative to the parameter file's folder",
                 p => p.LoadTables, (p, v) => p.LoadTables = v)
             {
                 Methods = Takers.Material,
                 IsRefusedElsewhere = true,
             },
-            new NumberEntry("tipForceReleaseTime", "s", NumberRange.NotNegative, "when the tip force ends",
+            new NumberEntry("tipForceReleaseTime", "s", NumberRange.NotNegative, "time at which the tip force ends",
                 p => p.Simulation.Scene.TipForceReleaseTime, (p, v) => p.Simulation.Scene.TipForceReleaseTime = v)
             {
                 Methods = Takers.Material,
             },
             new VectorEntry("tipFollowerForce", "N", true,
-                "force on the last sphere along the axes of the wire's end, with which it turns: [0, 0, -1] is a thrust"
-                + " of 1 N along the tip's tangent; it has no potential, so a rest shape is where a wire with drag"
-                + " comes to rest",
+                "follower force on the last sphere, in the axes of the tip, with which it rotates: [0, 0, -1] is a"
+                + " thrust of 1 N along the tip's tangent; it has no potential, so the rest shape is where a wire with"
+                + " drag comes to rest",
                 p => p.Simulation.Scene.TipFollowerForce, (p, v) => p.Simulation.Scene.TipFollowerForce = v)
             {
                 Methods = Takers.Material,
                 IsRefusedElsewhere = true,
             },
             new VectorEntry("tipMoment", "N m", true,
-                "couple at the wire's end along the axes there, with which it turns",
+                "follower couple at the tip, in the axes of the tip, with which it rotates",
                 p => p.Simulation.Scene.TipMoment, (p, v) => p.Simulation.Scene.TipMoment = v)
             {
                 Methods = Takers.Only(Solver.Direct, Solver.Explicit),
@@ -124,9 +125,9 @@ namespace Guidewire.Io
                 "null, {\"shape\": \"plane\", \"point\", \"normal\"}, {\"shape\":"
                 + " \"tube\", \"knots\", \"radius\", \"openStart\", \"openEnd\", \"smooth\"} or {\"shape\": \"mesh\","
                 + " \"file\", \"metresPerUnit\", \"openRims\"}",
-                "the wall around the wire; smooth (false) rounds a tube's corners: forces of a wire that slides"
-                + " along them do not ripple with its knots; a mesh file's name counts from the parameter"
-                + " file's folder, openRims names a point near the middle of each open rim; any may have a"
+                "the wall around the wire; smooth (false) rounds a tube's corners, so that contact forces of a"
+                + " sliding wire do not ripple from knot to knot; the path of a mesh is relative to the parameter"
+                + " file's folder, openRims names a point near the middle of each open rim; each shape may have a"
                 + " \"frictionCoefficient\" (0)",
                 p => p.Vessel, (p, v) => p.Vessel = v)
             {
@@ -134,10 +135,10 @@ namespace Guidewire.Io
                 IsRefusedElsewhere = true,
             },
             new JsonEntry("sheath", JTokenType.Object, "null or {\"exit\", \"direction\"}, each [x, y, z]",
-                "a straight guide without friction around the wire's proximal part, on the axis on which it starts:"
-                + " only what is beyond its exit (units) is simulated, the rest is a spring along and about the axis;"
-                + " without an exit it ends one element inside the vessel's inlet, without a direction it leads along"
-                + " the wire; needs a vessel, proximalEnd \"clamped\" and drive \"displace\"",
+                "a straight, frictionless guide around the proximal part of the wire, on the wire's initial axis:"
+                + " only what is beyond its exit (units) is simulated, the rest is an axial and a torsional spring; the"
+                + " default exit is one element inside the vessel's inlet, the default direction that of the wire;"
+                + " needs a vessel, proximalEnd \"clamped\" and drive \"displace\"",
                 p => p.Sheath, (p, v) => p.Sheath = v)
             {
                 Methods = Takers.Only(Solver.Direct),
@@ -146,23 +147,23 @@ namespace Guidewire.Io
             new JsonEntry("obstacles", JTokenType.Array, "null or a list of {\"shape\": \"sphere\", \"centre\","
                 + " \"radius\"}, {\"shape\": \"capsule\", \"from\", \"to\", \"radius\"}, {\"shape\": \"box\","
                 + " \"centre\", \"halfSize\", \"rotation\"}, {\"shape\": \"hull\", \"points\", \"radius\"}",
-                "convex bodies in the wire's way (units, degrees); each may have a \"frictionCoefficient\" (0)",
+                "convex bodies in the wire's path (units, degrees); each may have a \"frictionCoefficient\" (0)",
                 p => p.Obstacles, (p, v) => p.Obstacles = v)
             {
                 Methods = Takers.Walls,
                 IsRefusedElsewhere = true,
             },
-            new VectorEntry("position", "units", true, "where the vessel lies",
+            new VectorEntry("position", "units", true, "position of the vessel",
                 p => p.Position, (p, v) => p.Position = v)
             {
                 Methods = Takers.Walls,
             },
-            new VectorEntry("scale", "", false, "factors on the vessel's size",
+            new VectorEntry("scale", "", false, "scale factors of the vessel",
                 p => p.Scale, (p, v) => p.Scale = v)
             {
                 Methods = Takers.Walls,
             },
-            new VectorEntry("rotation", "degrees", true, "the vessel's Euler angles, about z, then x, then y",
+            new VectorEntry("rotation", "degrees", true, "Euler angles of the vessel, about z, then x, then y",
                 p => p.Rotation, (p, v) => p.Rotation = v)
             {
                 Methods = Takers.Walls,

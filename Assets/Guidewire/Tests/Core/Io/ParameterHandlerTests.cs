@@ -60,6 +60,15 @@ namespace Guidewire.Core.Tests
             Assert.That(Load(text).Values.Simulation.Method.Integrator, Is.EqualTo(expected));
         }
 
+        [TestCase("seed")]
+        [TestCase("thesis")]
+        public void ElementContact_TakesTheThesissRuleByItsOlderWordToo(string word)
+        {
+            ParameterHandler handler = Load("{\"elementContact\": \"" + word + "\"}");
+            Assert.That(handler.Values.Simulation.Contact.ElementContact, Is.EqualTo(ElementContact.Thesis));
+            Assert.That(handler.Warnings, Has.Count.EqualTo(word == "seed" ? 1 : 0));
+        }
+
         [Test]
         public void SteadyStateFalse_MovesTheFirstSphereEachStepByTheDisplacement()
         {

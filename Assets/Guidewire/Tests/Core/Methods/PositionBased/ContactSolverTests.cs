@@ -96,7 +96,7 @@ namespace Guidewire.Core.Tests
 
         [Test]
         public void MaxPenetration_IsThatOfTheDeepestSphereOrElement_TheDrivenOneToo(
-            [Values(ElementContact.Barycentric, ElementContact.None, ElementContact.Seed)] ElementContact rule)
+            [Values(ElementContact.Barycentric, ElementContact.None, ElementContact.Thesis)] ElementContact rule)
         {
             Simulation simulation = Simulation.Create(new SimulationParameters
             {

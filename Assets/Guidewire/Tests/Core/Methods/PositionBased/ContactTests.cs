@@ -42,7 +42,7 @@ namespace Guidewire.Core.Tests
         {
             // Loaded and touching at s = 0.8: the published rule exchanges the weights there, so the load's nearer
             // sphere gets the smaller push.
-            Simulation simulation = OnASphere(0.8, ElementContact.Seed);
+            Simulation simulation = OnASphere(0.8, ElementContact.Thesis);
             simulation.State.Forces[0] = new Vector3d(0.0, -0.2, 0.0);
             simulation.State.Forces[1] = new Vector3d(0.0, -0.8, 0.0);
             for (int k = 0; k < 900; k++)

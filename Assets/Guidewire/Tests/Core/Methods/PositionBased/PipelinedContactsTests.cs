@@ -41,7 +41,7 @@ namespace Guidewire.Core.Tests
         private static SimulationParameters Scene(ElementContact rule, string walls)
         {
             var slope = new PlaneShape(new Vector3d(0.0, -0.7, 0.0), new Vector3d(0.0, 1.0, 0.01));
-            slope.FrictionCoefficient = rule == ElementContact.Seed ? 0.0 : 0.2;
+            slope.FrictionCoefficient = rule == ElementContact.Thesis ? 0.0 : 0.2;
             var side = new PlaneShape(new Vector3d(-7.1, 0.0, 0.0), new Vector3d(1.0, 0.1, -0.02));
             ContactShape[] shapes =
                 walls == "plane" ? new ContactShape[] { slope }
@@ -71,7 +71,7 @@ namespace Guidewire.Core.Tests
             ContactShape[] walls = parameters.Scene.Walls;
             double radius = contact.SphereRadius;
             double reach = radius + contact.CollisionMargin;
-            bool asPublished = contact.ElementContact == ElementContact.Seed;
+            bool asPublished = contact.ElementContact == ElementContact.Thesis;
             IContactResponse response = asPublished
                 ? (IContactResponse)new ThesisContactResponse(state, walls.Length, reach, contact.CollisionStiffness)
                 : new ContactResponse(state, walls, radius, reach, contact.CollisionStiffness, Iterations);

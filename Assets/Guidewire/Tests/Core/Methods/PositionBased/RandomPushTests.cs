@@ -84,7 +84,7 @@ namespace Guidewire.Core.Tests
             int outside = 0;
             for (int seed = 0; seed < 10; seed++)
             {
-                var push = new RandomPush(seed, ElementContact.Seed);
+                var push = new RandomPush(seed, ElementContact.Thesis);
                 passages += push.Contacts.Passages;
                 outside += push.PointsOutside;
             }

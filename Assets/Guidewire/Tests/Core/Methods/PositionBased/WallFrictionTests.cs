@@ -124,7 +124,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void PublishedRule_HasNoFriction_AndSaysSo()
         {
-            SimulationParameters p = LyingWire(ElementContact.Seed, 0.3);
+            SimulationParameters p = LyingWire(ElementContact.Thesis, 0.3);
             Assert.That(() => Simulation.Create(p),
                 Throws.ArgumentException.With.Message.Contains("elementContact").And.Message.Contains("frictionC"));
         }
