@@ -52,9 +52,9 @@ namespace Guidewire.Core
 
         /// <summary>A step has come to this state.</summary>
         /// <param name="time">s.</param>
-        public void Look(RodState state, ContactRecord? contacts, double time)
+        public void Update(RodState state, ContactRecord? contacts, double time)
         {
-            _rims.Look(state, contacts, time);
+            _rims.Update(state, contacts, time);
         }
 
         /// <summary>Writes or takes over what was seen.</summary>

@@ -156,7 +156,7 @@ namespace Guidewire.Core
             _stepper.Advance(State);
             _isWritten = State.Positions != before;    // a state that is written takes the place of the one before
             _clock.Advance();
-            _warnings.Look(State, Contacts, Time);
+            _warnings.Update(State, Contacts, Time);
             Outcome = _stopRule.Check(State, _stepper, StepCount);
             if (Outcome == Outcome.Finished || Outcome == Outcome.Converged)
             {

@@ -25,9 +25,9 @@ namespace Guidewire.Core
         /// <param name="elementCount">n.</param>
         /// <param name="elementLength">l in units.</param>
         /// <param name="radius">r in units.</param>
-        /// <param name="reach">r + margin in units: the distance that contacts keep.</param>
+        /// <param name="clearance">r + margin in units: the distance that contacts keep.</param>
         /// <param name="findsElements">Whether rod elements touch, or spheres alone.</param>
-        public ContactSearch(ContactShape[] walls, int elementCount, double elementLength, double radius, double reach,
+        public ContactSearch(ContactShape[] walls, int elementCount, double elementLength, double radius, double clearance,
             bool findsElements)
         {
             Walls = walls;
@@ -35,7 +35,7 @@ namespace Guidewire.Core
             GuardsElements = findsElements;
 
             // What comes within half a radius more may be pushed into reach by the other constraints.
-            _range = reach + 0.5 * radius;
+            _range = clearance + 0.5 * radius;
             _clearance = SweptSearch.ClearanceFor(radius);
             _elementHint = new int[walls.Length * elementCount];
             _sphereHint = new int[walls.Length * (elementCount + 1)];
@@ -123,7 +123,7 @@ namespace Guidewire.Core
             {
                 return near || mayHaveMet;
             }
-            if (mayHaveMet && wall.Sweep(
+            if (mayHaveMet && wall.TimeOfImpact(
                 from[j], from[j + 1], to[j], to[j + 1], _clearance, out SurfaceContact impact) < ContactShape.NoImpact)
             {
                 AddImpact(new WireContact(w, j, true, impact));
@@ -168,7 +168,7 @@ namespace Guidewire.Core
             double motion = Vector3d.Distance(from[i], to[i]);
             bool near = wall.Nearest(to[i], to[i], _range, ref hint, out SurfaceContact contact);
             bool mayHaveMet = (near ? Math.Abs(contact.Distance) : _range) <= motion + _clearance;
-            if (mayHaveMet && wall.Sweep(
+            if (mayHaveMet && wall.TimeOfImpact(
                 from[i], from[i], to[i], to[i], _clearance, out SurfaceContact impact) < ContactShape.NoImpact)
             {
                 AddImpact(new WireContact(w, i, false, impact));

@@ -13,7 +13,7 @@ namespace Guidewire.Core
         private const int CutRounds = 2;
         private const double SafePart = 0.9;
         private readonly SweptSearch _swept;
-        private readonly double[] _share;
+        private readonly double[] _fraction;
         private readonly Vector3d[] _whole;
         private readonly bool[] _changed;    // since it was last asked
         private readonly bool[] _isCut;
@@ -23,7 +23,7 @@ namespace Guidewire.Core
         public ShortenedMotion(SweptSearch swept, int sphereCount)
         {
             _swept = swept;
-            _share = new double[sphereCount];
+            _fraction = new double[sphereCount];
             _whole = new Vector3d[sphereCount];
             _changed = new bool[sphereCount];
             _isCut = new bool[sphereCount];
@@ -49,14 +49,14 @@ namespace Guidewire.Core
         public void Shorten(Vector3d[] from, Vector3d[] to)
         {
             Array.Copy(to, _whole, to.Length);
-            Array.Fill(_share, 1.0);
+            Array.Fill(_fraction, 1.0);
             Array.Fill(_changed, true);
             for (int round = 0; Cut(from, to, round < CutRounds ? SafePart : 0.0); round++)
             {
                 for (int i = 0; i < to.Length; i++)
                 {
                     _changed[i] = _isCut[i];
-                    to[i] = _isCut[i] ? Vector3d.Lerp(from[i], _whole[i], _share[i]) : to[i];
+                    to[i] = _isCut[i] ? Vector3d.Lerp(from[i], _whole[i], _fraction[i]) : to[i];
                 }
             }
         }
@@ -87,7 +87,7 @@ namespace Guidewire.Core
             }
             for (int i = first; i <= last; i++)
             {
-                _share[i] *= part * free;
+                _fraction[i] *= part * free;
                 _isCut[i] = true;
             }
             return true;

@@ -96,7 +96,7 @@ namespace Guidewire.Core
                 {
                     continue;
                 }
-                double time = _walls[w].Sweep(from[i], from[k], to[i], to[k], _clearance, out SurfaceContact at);
+                double time = _walls[w].TimeOfImpact(from[i], from[k], to[i], to[k], _clearance, out SurfaceContact at);
                 if (time < first)
                 {
                     first = time;

@@ -74,8 +74,8 @@ namespace Guidewire.Core
                 {
                     return string.Format(CultureInfo.InvariantCulture,
                         "sphereRadius = {0} is larger than the lumen on the wire's way: {1:G4} units at ({2:G4},"
-                        + " {3:G4}, {4:G4})", parameters.Contact.SphereRadius, lumen.Width, lumen.Place.X,
-                        lumen.Place.Y, lumen.Place.Z);
+                        + " {3:G4}, {4:G4})", parameters.Contact.SphereRadius, lumen.Width, lumen.Centre.X,
+                        lumen.Centre.Y, lumen.Centre.Z);
                 }
             }
             return null;

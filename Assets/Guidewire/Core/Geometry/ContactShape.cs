@@ -7,7 +7,7 @@ namespace Guidewire.Core
     /// <remarks>One virtual call per element and step: some 2 ns beside the 100 to 1000 ns of a distance.</remarks>
     public abstract class ContactShape
     {
-        /// <summary>Value of <see cref="Sweep"/> for a motion that meets no wall.</summary>
+        /// <summary>Value of <see cref="TimeOfImpact"/> for a motion that meets no wall.</summary>
         public const double NoImpact = 2.0;
 
         private const double SlidingLoss = 1e-7;
@@ -28,14 +28,14 @@ namespace Guidewire.Core
         public abstract bool Nearest(
             in Vector3d a, in Vector3d b, double range, ref int hint, out SurfaceContact contact);
 
-        /// <summary>Adds to <paramref name="places"/> the places of the wall within <paramref name="range"/> of a
+        /// <summary>Adds to <paramref name="contactPoints"/> the places of the wall within <paramref name="range"/> of a
         /// point, each once. Beyond a plane, tube or obstacle negative distances always count; of a mesh, places whose
         /// distance is no larger than the range by its size.</summary>
         /// <param name="x">The point, units.</param>
         /// <param name="range">Units.</param>
         /// <param name="features">The wall's features near the point, where they are known: they make the query
         /// quicker.</param>
-        /// <param name="places">Receives the places.</param>
+        /// <param name="contactPoints">Receives the places.</param>
         /// <remarks>Which places those are, each shape says; the nearest, as <see cref="Nearest"/> finds it, is among
         /// them. Their weights make sums over them continuous: for any function f that is 0 from the range on, the sum
         /// of Weight f(Distance) has no jump when the point moves, though places come and go. A place of weight -1
@@ -43,7 +43,7 @@ namespace Guidewire.Core
         /// Nothing is allocated once the list, and the shape's own scratch memory, have been as long before; one object
         /// serves one thread.</remarks>
         internal abstract void FindContactPoints(in Vector3d x, double range, FeatureRange features,
-            StructList<ContactPoint> places);
+            StructList<ContactPoint> contactPoints);
 
         /// <summary>True where the wire may be: in a vessel's lumen, outside an obstacle.</summary>
         public abstract bool Contains(in Vector3d point);
@@ -65,7 +65,7 @@ namespace Guidewire.Core
         /// <param name="b1">Second end after the motion.</param>
         /// <param name="clearance">Distance to keep, units.</param>
         /// <param name="contact">The nearest place at that moment, when there is an impact.</param>
-        public double Sweep(
+        public double TimeOfImpact(
             in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance,
             out SurfaceContact contact)
         {
@@ -123,11 +123,11 @@ namespace Guidewire.Core
         }
 
         /// <summary>Largest fraction of the motion for which it is proven that every point of the segment keeps a
-        /// distance of at least <paramref name="keep"/>, <see cref="NoImpact"/> for all of it. An approach of less than
+        /// distance of at least <paramref name="clearance"/>, <see cref="NoImpact"/> for all of it. An approach of less than
         /// the resolution, units, is none. The hint, where the nearest place was at the start or -1, changes the time
         /// that it takes.</summary>
         private protected abstract double TimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
-            double keep, double resolution, int hint);
+            double clearance, double resolution, int hint);
 
         // The time itself where the distance is kept then, or 0.
         private double LastKept(
@@ -147,11 +147,11 @@ namespace Guidewire.Core
         }
 
         /// <summary>The same, and features of the wall (whatever a shape takes for them) that queries of points and
-        /// parts of the segment may come to while nothing of it goes farther than <paramref name="reach"/>, units: they
+        /// parts of the segment may come to while nothing of it goes farther than <paramref name="skin"/>, units: they
         /// are added to a list, by which such queries are quicker. None where a shape has none. The distance may be too
         /// small, never too large beyond what a quick one is; where a shape <see cref="HasPointFeatures"/>, it is that
         /// of the segment's inside, and counts only where it is less than those of its ends.</summary>
-        internal virtual double FindFeatures(in Vector3d a, in Vector3d b, double range, double reach, ref int hint,
+        internal virtual double FindFeatures(in Vector3d a, in Vector3d b, double range, double skin, ref int hint,
             StructList<WallFeature> features)
         {
             return QuickDistance(a, b, range, ref hint);
@@ -171,7 +171,7 @@ namespace Guidewire.Core
 
         /// <summary>These features, kept for all that asks for them with this reach, units; null where there are
         /// none.</summary>
-        internal virtual FeatureCache? CellsFor(double reach)
+        internal virtual FeatureCache? FeatureCacheFor(double skin)
         {
             return null;
         }
@@ -201,10 +201,10 @@ namespace Guidewire.Core
         /// distance, in units, or more: <see cref="NoImpact"/> for all of it, 0 where the start is nearer. An approach
         /// of less than <paramref name="resolution"/>, units, is none. The hint is that of a query of the start, or
         /// -1; the features, where they are known, those of the start, for a reach that the motion keeps to.</summary>
-        internal virtual double FreeShare(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
+        internal virtual double ConservativeTimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance,
             double resolution, int hint, in ElementFeatures features)
         {
-            return TimeOfImpact(a0, b0, a1, b1, keep, resolution, hint);
+            return TimeOfImpact(a0, b0, a1, b1, clearance, resolution, hint);
         }
 
         /// <summary>Adds the ridges of the wall within <paramref name="range"/> of segment a b: where the wall bulges

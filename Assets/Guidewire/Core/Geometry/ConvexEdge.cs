@@ -31,8 +31,8 @@ namespace Guidewire.Core
             double weight, double range, StructList<EdgeContact> contacts)
         {
             double squared = ClosestPoints.SegmentSegment(a, b, start, end, out double s, out double t);
-            double reach = range + radius;
-            if (squared > reach * reach || squared == 0.0)
+            double limit = range + radius;
+            if (squared > limit * limit || squared == 0.0)
             {
                 return;
             }

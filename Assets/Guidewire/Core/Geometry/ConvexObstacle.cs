@@ -81,7 +81,7 @@ namespace Guidewire.Core
         /// <remarks>The points that lie highest along the normal are the corner, the edge or the face of the hull on
         /// which the place lies; the curvature is that about them.</remarks>
         internal override void FindContactPoints(in Vector3d x, double range, FeatureRange features,
-            StructList<ContactPoint> places)
+            StructList<ContactPoint> contactPoints)
         {
             int hint = -1;
             if (!Nearest(x, x, range, ref hint, out SurfaceContact contact))
@@ -101,7 +101,7 @@ namespace Guidewire.Core
                     along = along == Vector3d.Zero ? Vector3d.Normalize(offset) : along;
                 }
             }
-            places.Add(isFlat ? ContactPoint.Flat(contact, 1)
+            contactPoints.Add(isFlat ? ContactPoint.Flat(contact, 1)
                 : along == Vector3d.Zero ? ContactPoint.Corner(contact, 1, core)
                 : ContactPoint.Edge(contact, 1, along, core));
         }
@@ -123,9 +123,9 @@ namespace Guidewire.Core
         }
 
         private protected override double TimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
-            double keep, double resolution, int hint)
+            double clearance, double resolution, int hint)
         {
-            return SweptTest.Impact(new Body(this), a0, b0, a1, b1, keep, resolution);
+            return SweptTest.Impact(new Body(this), a0, b0, a1, b1, clearance, resolution);
         }
 
         /// <summary>That of the deepest point; the distance of a segment that cuts the body is the shortest way out of

@@ -8,31 +8,31 @@ namespace Guidewire.Core
     /// have grown long. Nothing is allocated once it stands, unless one wire needs longer lists.</remarks>
     internal sealed class FeatureCache
     {
-        private const int Places = 1 << 13;
+        private const int Slots = 1 << 13;
         private const int MostFeatures = 1 << 17;
         private const int LongestList = 1 << 13;    // that is expected
         private const int MostLists = 8;            // of all that a wire asks for at once
         private const double HalfDiagonal = 0.8661;    // of a lattice's cell, rounded up
         private readonly ContactShape _wall;
         private readonly double _size;
-        private readonly double _reach;    // from a point of the lattice
-        private readonly Cell[] _cells = new Cell[Places];
+        private readonly double _skin;    // from a point of the lattice
+        private readonly Cell[] _cells = new Cell[Slots];
         private int _most = MostFeatures;
         private int _before;    // features when they were looked through last
 
         /// <summary>For a wall that stays where it is.</summary>
         /// <param name="wall">It has features of points.</param>
-        /// <param name="reach">What is found holds at least this far about where it was asked for, units.</param>
-        public FeatureCache(ContactShape wall, double reach)
+        /// <param name="skin">What is found holds at least this far about where it was asked for, units.</param>
+        public FeatureCache(ContactShape wall, double skin)
         {
             _wall = wall;
-            Reach = reach;
-            _size = 0.5 * reach;
-            _reach = reach + HalfDiagonal * _size;
+            Skin = skin;
+            _size = 0.5 * skin;
+            _skin = skin + HalfDiagonal * _size;
         }
 
         /// <summary>What is found holds at least this far about where it was asked for, units.</summary>
-        public double Reach { get; }
+        public double Skin { get; }
 
         /// <summary>How often all was forgotten; places that were found before then hold no longer.</summary>
         public int Version { get; private set; }
@@ -58,27 +58,27 @@ namespace Guidewire.Core
         /// <summary>Finds the wall about the lattice point next to a point.</summary>
         /// <param name="x">Units.</param>
         /// <param name="range">Of the features, beyond the reach, units.</param>
-        /// <param name="place">Receives it, with its features among <see cref="Features"/>.</param>
-        public void Find(in Vector3d x, double range, ref Neighbour place)
+        /// <param name="neighbour">Receives it, with its features among <see cref="Features"/>.</param>
+        public void Find(in Vector3d x, double range, ref Neighbour neighbour)
         {
             var centre = new Vector3d(
                 _size * Math.Round(x.X / _size), _size * Math.Round(x.Y / _size), _size * Math.Round(x.Z / _size));
-            double radius = _reach + range;
-            ref Cell cell = ref _cells[PlaceOf(centre, radius)];
+            double radius = _skin + range;
+            ref Cell cell = ref _cells[SlotOf(centre, radius)];
             if (!cell.Is(centre, radius))
             {
                 int from = Features.Count;
                 double distance = _wall.FindFeatures(centre, radius, Features);
                 cell = new Cell(centre, radius, from, Features.Count, distance);
             }
-            place.Begin(centre, centre, _reach, cell.From);
-            place.End(cell.Distance, radius, cell.To);
+            neighbour.Begin(centre, centre, _skin, cell.From);
+            neighbour.End(cell.Distance, radius, cell.To);
         }
 
-        private static int PlaceOf(in Vector3d centre, double radius)
+        private static int SlotOf(in Vector3d centre, double radius)
         {
             ulong hash = Mixed(Mixed(Mixed(Mixed(0UL, centre.X), centre.Y), centre.Z), radius);
-            return (int)(hash >> 40) & (Places - 1);
+            return (int)(hash >> 40) & (Slots - 1);
         }
 
         private static ulong Mixed(ulong hash, double value)

@@ -59,12 +59,12 @@ namespace Guidewire.Core
         public double Moved { get; }
 
         /// <summary>The feature at a place.</summary>
-        public int this[int place] => _features![place].Index;
+        public int this[int index] => _features![index].Index;
 
         /// <summary>A distance, units, than which the feature at a place is no nearer now.</summary>
-        public double LeastDistance(int place)
+        public double LeastDistance(int index)
         {
-            return _features![place].Distance - Moved;
+            return _features![index].Distance - Moved;
         }
     }
 

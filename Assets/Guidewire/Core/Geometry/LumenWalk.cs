@@ -26,9 +26,9 @@ namespace Guidewire.Core
         private const int Thirds = 16;               // of the last bracket
         private readonly LumenBall _ball;
         private readonly double _above;
-        private readonly List<(Vector3d Place, double Width)> _walked = new List<(Vector3d, double)>();
+        private readonly List<(Vector3d Centre, double Width)> _walked = new List<(Vector3d, double)>();
         private double _narrowest;
-        private Vector3d _place;
+        private Vector3d _position;
         private Vector3d _along;
 
         /// <summary>Of a wall, to places that are wider than a radius.</summary>
@@ -49,11 +49,11 @@ namespace Guidewire.Core
             }
             Vector3d along = Turned(start, width, FirstDirection(start, width));
             _ball.Climb(start, along, Fineness * width, enough);
-            if (_ball.Width >= enough || IsWalked(_ball.Place, _ball.Width))
+            if (_ball.Width >= enough || IsWalked(_ball.Centre, _ball.Width))
             {
                 return double.PositiveInfinity;
             }
-            Vector3d centre = _ball.Place;
+            Vector3d centre = _ball.Centre;
             double first = _ball.Width;
             along = Turned(centre, first, along);
             _walked.Add((centre, first));
@@ -65,10 +65,10 @@ namespace Guidewire.Core
 
         private bool IsWalked(in Vector3d x, double width)
         {
-            foreach ((Vector3d place, double other) in _walked)
+            foreach ((Vector3d position, double other) in _walked)
             {
                 double near = Same * Math.Min(width, other);
-                if ((place - x).LengthSquared < near * near)
+                if ((position - x).LengthSquared < near * near)
                 {
                     return true;
                 }
@@ -83,18 +83,18 @@ namespace Guidewire.Core
             for (int k = 0; k < MostSteps && fraction > ShortestStep && width <= WideAgain * _narrowest; k++)
             {
                 _ball.Climb(centre + fraction * width * along, along, Fineness * width, 2.0 * WideAgain * width);
-                double way = Vector3d.Distance(centre, _ball.Place);
+                double way = Vector3d.Distance(centre, _ball.Centre);
                 if (width - _ball.Width > EndSlope * way || !(_ball.Width > 0.0))
                 {
                     fraction *= 0.5;
                     continue;
                 }
-                Vector3d chord = Vector3d.Normalize(_ball.Place - centre);
+                Vector3d chord = Vector3d.Normalize(_ball.Centre - centre);
                 if (Vector3d.Dot(chord, along) < 0.5)
                 {
                     return true;    // the climb has left for a wider lumen beside
                 }
-                centre = _ball.Place;
+                centre = _ball.Centre;
                 width = _ball.Width;
                 if (width <= _above)
                 {
@@ -112,7 +112,7 @@ namespace Guidewire.Core
             if (width < _narrowest)
             {
                 _narrowest = width;
-                _place = centre;
+                _position = centre;
                 _along = along;
             }
         }
@@ -146,7 +146,7 @@ namespace Guidewire.Core
 
         private double Across(double way)
         {
-            _ball.Climb(_place + way * _along, _along, LastFineness * _narrowest, 2.0 * WideAgain * _narrowest);
+            _ball.Climb(_position + way * _along, _along, LastFineness * _narrowest, 2.0 * WideAgain * _narrowest);
             return _ball.Width;
         }
 

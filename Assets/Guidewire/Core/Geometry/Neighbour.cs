@@ -7,8 +7,8 @@ namespace Guidewire.Core
     {
         private Vector3d _a;
         private Vector3d _b;
-        private double _reach;        // below 0: it was not looked for
-        private double _room;
+        private double _skin;        // below 0: it was not looked for
+        private double _clearance;
         private int _from;
         private int _to;
 
@@ -18,16 +18,16 @@ namespace Guidewire.Core
         /// <summary>It was not looked for.</summary>
         public void Forget()
         {
-            _reach = -1.0;
+            _skin = -1.0;
             IsNear = false;
         }
 
         /// <summary>It is looked for between a and b; features are added from a place of the list on.</summary>
-        public void Begin(in Vector3d a, in Vector3d b, double reach, int from)
+        public void Begin(in Vector3d a, in Vector3d b, double skin, int from)
         {
             _a = a;
             _b = b;
-            _reach = reach;
+            _skin = skin;
             _from = from;
         }
 
@@ -36,22 +36,22 @@ namespace Guidewire.Core
         public void End(double distance, double range, int to)
         {
             IsNear = distance <= range;
-            _room = Math.Min(distance, range);
+            _clearance = Math.Min(distance, range);
             _to = to;
         }
 
         /// <summary>Whether what was found holds between a and b.</summary>
         public readonly bool Covers(in Vector3d a, in Vector3d b)
         {
-            return _reach >= 0.0 && (a - _a).LengthSquared <= _reach * _reach
-                && (b - _b).LengthSquared <= _reach * _reach;
+            return _skin >= 0.0 && (a - _a).LengthSquared <= _skin * _skin
+                && (b - _b).LengthSquared <= _skin * _skin;
         }
 
         /// <summary>A distance than which the wall is no nearer to what is between a and b; minus infinity where it was
         /// not looked for.</summary>
         public readonly double Clearance(in Vector3d a, in Vector3d b)
         {
-            return _reach >= 0.0 ? _room - Moved(a, b) : double.NegativeInfinity;
+            return _skin >= 0.0 ? _clearance - Moved(a, b) : double.NegativeInfinity;
         }
 
         /// <summary>Its features, if they are known between a and b.</summary>

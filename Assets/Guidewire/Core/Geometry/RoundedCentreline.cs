@@ -48,12 +48,12 @@ namespace Guidewire.Core
                 Add(knots[k], radii[k], 0.0, line, widths);
                 return;
             }
-            double reach = 0.5 * Math.Min(before, after);
-            double radius = reach / Math.Tan(0.5 * turn);
-            Vector3d start = knots[k] - reach * along;
+            double limit = 0.5 * Math.Min(before, after);
+            double radius = limit / Math.Tan(0.5 * turn);
+            Vector3d start = knots[k] - limit * along;
             Vector3d inwards = Vector3d.Normalize(next - Math.Cos(turn) * along);
-            double atStart = radii[k] + reach / before * (radii[k - 1] - radii[k]);
-            double atEnd = radii[k] + reach / after * (radii[k + 1] - radii[k]);
+            double atStart = radii[k] + limit / before * (radii[k - 1] - radii[k]);
+            double atEnd = radii[k] + limit / after * (radii[k + 1] - radii[k]);
             int parts = 2 * (int)Math.Ceiling(0.5 * turn / LargestTurn);
             for (int i = 0; i <= parts; i++)
             {
@@ -61,7 +61,7 @@ namespace Guidewire.Core
                 double fromKnot = Math.Abs(2.0 * i / parts - 1.0);
                 double width = radii[k] + fromKnot * ((2 * i < parts ? atStart : atEnd) - radii[k]);
                 Add(start + radius * (Math.Sin(angle) * along + (1.0 - Math.Cos(angle)) * inwards), width,
-                    Resolution * reach, line, widths);
+                    Resolution * limit, line, widths);
             }
         }
 

@@ -12,12 +12,12 @@ namespace Guidewire.Core
     {
         private const int MaxAdvances = 20;
 
-        /// <summary>Fraction of the motion during which the distance stays at least <paramref name="keep"/>,
+        /// <summary>Fraction of the motion during which the distance stays at least <paramref name="clearance"/>,
         /// <see cref="ContactShape.NoImpact"/> for all of it. It must be more at the start. Where the advances run out
         /// before the answer is known, the time that is proven safe is returned. An approach of less than
         /// <paramref name="resolution"/> is none, and nobody asks what comes after <paramref name="limit"/>.</summary>
         public static double Impact<TBody>(
-            in TBody body, in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
+            in TBody body, in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance,
             double resolution, double limit = 1.0)
             where TBody : struct, IConvexBody
         {
@@ -37,7 +37,7 @@ namespace Guidewire.Core
                 proven = time;
                 Vector3d n = (Vector3d.Lerp(a, b, s) - c) / distance;
                 double advance = Math.Min(
-                    TimeToPlane(a - c, va, n, keep, time), TimeToPlane(b - c, vb, n, keep, time));
+                    TimeToPlane(a - c, va, n, clearance, time), TimeToPlane(b - c, vb, n, clearance, time));
                 if (advance >= limit - time)
                 {
                     return ContactShape.NoImpact;
@@ -45,7 +45,7 @@ namespace Guidewire.Core
 
                 // Both ends may keep their distance and still be on their way: then the plane has turned only a
                 // little and the remaining approach is below what the clearance resolves.
-                if (advance * Math.Max(va.Length, vb.Length) <= resolution && distance <= 1.01 * keep)
+                if (advance * Math.Max(va.Length, vb.Length) <= resolution && distance <= 1.01 * clearance)
                 {
                     return time;
                 }
@@ -55,14 +55,14 @@ namespace Guidewire.Core
         }
 
         private static double TimeToPlane(
-            in Vector3d offset, in Vector3d velocity, in Vector3d n, double keep, double time)
+            in Vector3d offset, in Vector3d velocity, in Vector3d n, double clearance, double time)
         {
             double approach = -Vector3d.Dot(velocity, n);
             if (!(approach > 0.0))
             {
                 return 1.0 - time;
             }
-            return (Vector3d.Dot(offset, n) - keep) / approach;
+            return (Vector3d.Dot(offset, n) - clearance) / approach;
         }
     }
 }

@@ -29,7 +29,7 @@ namespace Guidewire.Core
         private Vector3d _b;
         private Vector3d _moveA;
         private Vector3d _moveB;
-        private double _keep;
+        private double _clearance;
 
         /// <summary>In these pieces.</summary>
         public TubeCcd(TubePiece[] pieces, TubePlanes planes)
@@ -39,15 +39,15 @@ namespace Guidewire.Core
             _near = new int[pieces.Length];
         }
 
-        /// <summary>See <see cref="ContactShape.FreeShare"/>.</summary>
-        public double SafeFraction(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
+        /// <summary>See <see cref="ContactShape.ConservativeTimeOfImpact"/>.</summary>
+        public double SafeFraction(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance,
             int hint)
         {
             _a = a0;
             _b = b0;
             _moveA = a1 - a0;
             _moveB = b1 - b0;
-            _keep = keep;
+            _clearance = clearance;
             double fraction = BetweenPlanes(hint >= 0 && hint < _pieces.Length ? hint : _last, out bool isTold);
             return isTold ? fraction : Math.Max(fraction, BySearch(a0, b0, a1, b1));
         }
@@ -119,7 +119,7 @@ namespace Guidewire.Core
                 Vector3d y1 = a1 + end1 * u1;
                 if (end0 > begin0 || end1 > begin1)
                 {
-                    double need = _keep + 0.25 * turn * Math.Max(Math.Abs(begin1 - begin0), Math.Abs(end1 - end0));
+                    double need = _clearance + 0.25 * turn * Math.Max(Math.Abs(begin1 - begin0), Math.Abs(end1 - end0));
                     fraction = Math.Min(fraction, CornerFraction(_pieces[i], x0, x1, need));
                     fraction = fraction > 0.0 ? Math.Min(fraction, CornerFraction(_pieces[i], y0, y1, need)) : 0.0;
                     if (fraction == 0.0)
@@ -183,7 +183,7 @@ namespace Guidewire.Core
             _count = 0;
             for (int i = 0; i < _pieces.Length; i++)
             {
-                if (!_pieces[i].IsBelow(middle, _keep - size))
+                if (!_pieces[i].IsBelow(middle, _clearance - size))
                 {
                     _near[_count++] = i;
                 }
@@ -240,7 +240,7 @@ namespace Guidewire.Core
 
         private bool Holds(in TubePiece piece, in Vector3d x)
         {
-            return !piece.IsBelow(x, _keep) && piece.Distance(x, out _, out _) >= _keep;
+            return !piece.IsBelow(x, _clearance) && piece.Distance(x, out _, out _) >= _clearance;
         }
 
         private Vector3d At(double s, double t)

@@ -50,7 +50,7 @@ namespace Guidewire.Core
         /// keep a distance, units.</summary>
         /// <remarks>A handover's place on the segment changes linearly with time, and so does the segment: their
         /// product bends the handover's way by up to a quarter of both changes.</remarks>
-        public bool LeadTo(TubeHandovers after, double keep)
+        public bool LeadTo(TubeHandovers after, double clearance)
         {
             if (_places.Count != after._places.Count)
             {
@@ -66,7 +66,7 @@ namespace Guidewire.Core
                 double slide = Math.Max(Math.Abs(leftAfter.S - left.S), Math.Abs(rightAfter.S - right.S));
                 double least = Math.Min(
                     Math.Min(left.Distance, right.Distance), Math.Min(leftAfter.Distance, rightAfter.Distance));
-                if (left.Piece != leftAfter.Piece || least < keep + 0.25 * slide * turn)
+                if (left.Piece != leftAfter.Piece || least < clearance + 0.25 * slide * turn)
                 {
                     return false;
                 }

@@ -98,13 +98,13 @@ namespace Guidewire.Core
         }
 
         /// <summary>Adds the pieces that hold something within a reach of segment a b, in their order.</summary>
-        public void Collect(in Vector3d a, in Vector3d b, double reach, StructList<WallFeature> pieces)
+        public void Collect(in Vector3d a, in Vector3d b, double limit, StructList<WallFeature> pieces)
         {
             Vector3d middle = 0.5 * (a + b);
-            Collect(0, 0, _pieces.Length, a, b, reach, middle, -reach - 0.5 * Vector3d.Distance(a, b), pieces);
+            Collect(0, 0, _pieces.Length, a, b, limit, middle, -limit - 0.5 * Vector3d.Distance(a, b), pieces);
         }
 
-        private void Collect(int node, int first, int end, in Vector3d a, in Vector3d b, double reach,
+        private void Collect(int node, int first, int end, in Vector3d a, in Vector3d b, double limit,
             in Vector3d middle, double least, StructList<WallFeature> pieces)
         {
             if (Bound(node, middle) < least)
@@ -113,15 +113,15 @@ namespace Guidewire.Core
             }
             if (end - first == 1)
             {
-                if (_pieces[first].MayHold(a, b, reach))
+                if (_pieces[first].MayHold(a, b, limit))
                 {
                     pieces.Add(new WallFeature(first, 0.0));
                 }
                 return;
             }
             int half = (first + end) / 2;
-            Collect(2 * node + 1, first, half, a, b, reach, middle, least, pieces);
-            Collect(2 * node + 2, half, end, a, b, reach, middle, least, pieces);
+            Collect(2 * node + 1, first, half, a, b, limit, middle, least, pieces);
+            Collect(2 * node + 2, half, end, a, b, limit, middle, least, pieces);
         }
 
         private void Descend(int node, int first, int end, in Vector3d x, ref int piece, ref double distance)

@@ -74,12 +74,12 @@ namespace Guidewire.Core
 
         /// <summary>The wire of these parameters at a place, units from the proximal end: of the sections there the
         /// last one that says something counts.</summary>
-        public static CrossSection At(MaterialParameters material, double place)
+        public static CrossSection At(MaterialParameters material, double position)
         {
             var wire = new WireSection { AxialStiffness = material.AxialStiffness };
             foreach (WireSection section in material.Sections)
             {
-                if (place >= section.From && place < section.To)
+                if (position >= section.From && position < section.To)
                 {
                     wire.TakeOver(section);
                 }

@@ -148,9 +148,9 @@ namespace Guidewire.Core
         private double OfTip(RodVector[] y, int k)
         {
             RodVector turn = y[_tip];
-            RodVector place = y[_tip + 1];
-            return k == 0 ? turn.T1 : k == 1 ? turn.T2 : k == 2 ? turn.T3 : k == 3 ? place.X1
-                : k == 4 ? place.X2 : place.X3;
+            RodVector position = y[_tip + 1];
+            return k == 0 ? turn.T1 : k == 1 ? turn.T2 : k == 2 ? turn.T3 : k == 3 ? position.X1
+                : k == 4 ? position.X2 : position.X3;
         }
 
         // Gaussian elimination with exchange of rows, in place.

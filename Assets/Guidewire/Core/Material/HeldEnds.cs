@@ -12,8 +12,8 @@ namespace Guidewire.Core
         private readonly bool _holdsLast;
         private double _proximalTurn;  // that the frames have made, radians
         private double _distalTurn;
-        private Vector3d _firstPlace;  // of ends that are followed, m
-        private Vector3d _lastPlace;
+        private Vector3d _firstPosition;  // of ends that are followed, m
+        private Vector3d _lastPosition;
         private double _carried;       // J
         private readonly double _stretch;  // the largest EA, N
         private readonly double _twist;    // the largest GJ, N m^2
@@ -70,8 +70,8 @@ namespace Guidewire.Core
         /// radians.</summary>
         public void Follow(RodShape shape, double proximalTurn, double distalTurn)
         {
-            _firstPlace = shape.X[0];
-            _lastPlace = shape.X[shape.ElementCount];
+            _firstPosition = shape.X[0];
+            _lastPosition = shape.X[shape.ElementCount];
             _proximalTurn = proximalTurn;
             _distalTurn = distalTurn;
         }
@@ -99,8 +99,8 @@ namespace Guidewire.Core
         public void Count(RodShape shape, double proximalTurn, double distalTurn, double dt)
         {
             int last = shape.ElementCount;
-            Vector3d firstMove = _holdsFirst ? shape.X[0] - _firstPlace : Vector3d.Zero;
-            Vector3d lastMove = _holdsLast ? shape.X[last] - _lastPlace : Vector3d.Zero;
+            Vector3d firstMove = _holdsFirst ? shape.X[0] - _firstPosition : Vector3d.Zero;
+            Vector3d lastMove = _holdsLast ? shape.X[last] - _lastPosition : Vector3d.Zero;
             double firstTurn = proximalTurn - _proximalTurn;
             double lastTurn = distalTurn - _distalTurn;
             Follow(shape, proximalTurn, distalTurn);
@@ -142,8 +142,8 @@ namespace Guidewire.Core
         {
             SerializeTurns(snapshot);
             SerializeWork(snapshot);
-            snapshot.Serialize(ref _firstPlace);
-            snapshot.Serialize(ref _lastPlace);
+            snapshot.Serialize(ref _firstPosition);
+            snapshot.Serialize(ref _lastPosition);
         }
 
         private void Shift(RodShape shape, int node, in Vector3d to)

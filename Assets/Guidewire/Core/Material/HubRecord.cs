@@ -77,7 +77,7 @@ namespace Guidewire.Core
                 Vector3d turn = _turns[k];
                 Twist += turn.Z;
                 double bend = Math.Sqrt(turn.X * turn.X + turn.Y * turn.Y);
-                double fraction = terms.Sheath == null ? 1.0 : terms.Sheath.Share(k);
+                double fraction = terms.Sheath == null ? 1.0 : terms.Sheath.FractionOutside(k);
                 LargestCurvature = fraction == 0.0 ? LargestCurvature
                     : Math.Max(LargestCurvature, bend / (fraction * _jointLength[k]));
             }

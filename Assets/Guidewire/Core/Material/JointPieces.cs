@@ -21,7 +21,7 @@ namespace Guidewire.Core
         /// <param name="stations">Of its n + 1 nodes, m from node 0.</param>
         public JointPieces(WireProfile profile, double metres, double[] stations)
         {
-            _border = Array.ConvertAll(profile.Borders, place => metres * place);
+            _border = Array.ConvertAll(profile.Borders, position => metres * position);
             _piece = profile.Pieces;
             _station = stations;
         }
@@ -76,16 +76,16 @@ namespace Guidewire.Core
 
         /// <summary>The next place after one, m from node 0, up to which releases are linear: a node or a border.
         /// </summary>
-        public double NextBreak(double place)
+        public double NextBreak(double position)
         {
-            return Math.Min(Next(_station, place), Next(_border, place));
+            return Math.Min(Next(_station, position), Next(_border, position));
         }
 
-        private static double Next(double[] places, double place)
+        private static double Next(double[] positions, double position)
         {
-            int at = Array.BinarySearch(places, place);
+            int at = Array.BinarySearch(positions, position);
             at = at < 0 ? ~at : at + 1;
-            return at < places.Length ? places[at] : double.PositiveInfinity;
+            return at < positions.Length ? positions[at] : double.PositiveInfinity;
         }
 
         // Of the element between the joint's node and another; the hat function falls from 1 to 0 between them.

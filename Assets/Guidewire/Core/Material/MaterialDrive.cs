@@ -13,7 +13,7 @@ namespace Guidewire.Core
         private readonly double _speed;      // m/s
         private readonly double _timeStep;   // s
         private readonly double _metres;     // per unit
-        private readonly Steering? _hand;
+        private readonly Steering? _steering;
         private readonly DriveTable? _table;
         private readonly bool _followsSpring;
         private double _sense = 1.0;         // 1 where it was last asked to push, -1 to pull
@@ -29,10 +29,10 @@ namespace Guidewire.Core
             _metres = scene.UnitLength;
             _speed = drive.InsertionSpeed != 0.0 ? drive.InsertionSpeed
                 : scene.UnitLength * drive.DisplacementPerStep / parameters.Method.TimeStep;
-            _hand = scene.Steering;
-            _table = _hand == null ? drive.Table : null;
-            _direction = _hand == null ? scene.Drive : scene.Drive ?? new AlongFirstElement();
-            if (_hand != null || _table != null)
+            _steering = scene.Steering;
+            _table = _steering == null ? drive.Table : null;
+            _direction = _steering == null ? scene.Drive : scene.Drive ?? new AlongFirstElement();
+            if (_steering != null || _table != null)
             {
                 _schedule.ProximalTwistRate = 0.0;
                 _schedule.DriveEnd = _table?.End ?? double.PositiveInfinity;
@@ -74,9 +74,9 @@ namespace Guidewire.Core
         /// <summary>Sets where node 0 is and how fast it goes and turns, from this time on.</summary>
         public void Prepare(RodShape shape, double time)
         {
-            if (_hand != null)
+            if (_steering != null)
             {
-                _schedule.TurnOn(time, _hand.Turn / _timeStep);
+                _schedule.TurnOn(time, _steering.Turn / _timeStep);
             }
             else if (_table != null)
             {
@@ -112,7 +112,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>The hub gives way, after a step, to the spring between it and node 0.</summary>
-        public void GiveWay(SupportSpring spring, RodShape shape)
+        public void SlipHub(SupportSpring spring, RodShape shape)
         {
             double slip = spring.TakeSlip(shape);
             if (slip != 0.0)
@@ -153,7 +153,7 @@ namespace Guidewire.Core
         // What is asked for from this time on, m/s.
         private double SpeedAt(double time)
         {
-            return _hand != null ? _metres * _hand.Push / _timeStep
+            return _steering != null ? _metres * _steering.Push / _timeStep
                 : _table != null ? Rate(_table.Insertion, time) : _speed;
         }
 

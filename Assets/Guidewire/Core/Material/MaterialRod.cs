@@ -271,16 +271,16 @@ namespace Guidewire.Core
             return supports.Clamp == ClampRule.FourthOrder ? ClampRule.HalfElement : supports.Clamp;
         }
 
-        /// <summary>Weight of the joint that stands <paramref name="place"/> places from a clamp (0: the clamp's
+        /// <summary>Weight of the joint that stands <paramref name="index"/> places from a clamp (0: the clamp's
         /// own).</summary>
-        private static double Weight(ClampRule rule, int place)
+        private static double Weight(ClampRule rule, int index)
         {
             switch (rule)
             {
                 case ClampRule.FourthOrder:
-                    return place < GregoryWeights.Length ? GregoryWeights[place] : 1.0;
+                    return index < GregoryWeights.Length ? GregoryWeights[index] : 1.0;
                 case ClampRule.HalfElement:
-                    return place == 0 ? 0.5 : 1.0;
+                    return index == 0 ? 0.5 : 1.0;
                 default:
                     return 1.0;
             }

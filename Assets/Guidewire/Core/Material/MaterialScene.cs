@@ -134,7 +134,7 @@ namespace Guidewire.Core
         private static MaterialRod CreateRod(SimulationParameters parameters, double[] lengths)
         {
             var profile = new WireProfile(parameters.Material, parameters.Scene.GuidewireLength);
-            ElementLayout.Lengths(parameters, 1.0, out double[] places);
+            ElementLayout.Lengths(parameters, 1.0, out double[] positions);
             var rod = new MaterialRod(lengths.Length)
             {
                 MassDamping = parameters.Material.MassDamping,
@@ -143,7 +143,7 @@ namespace Guidewire.Core
             for (int j = 0; j < lengths.Length; j++)
             {
                 rod.Length[j] = lengths[j];
-                profile.SetElement(rod, j, places[j], places[j + 1]);
+                profile.SetElement(rod, j, positions[j], positions[j + 1]);
             }
             return rod;
         }

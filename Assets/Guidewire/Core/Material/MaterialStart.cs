@@ -16,10 +16,10 @@ namespace Guidewire.Core
 
         /// <summary>The same of the wire from a place on, units, which is in an element, with its whole
         /// radius.</summary>
-        public static string? FindProblemFrom(MaterialScene scene, int element, in Vector3d place)
+        public static string? FindProblemFrom(MaterialScene scene, int element, in Vector3d position)
         {
             Vector3d[] x = Nodes(scene);
-            x[element] = place;
+            x[element] = position;
             return FindProblem(scene, x, element, scene.Rod.ElementCount, 1.0);
         }
 

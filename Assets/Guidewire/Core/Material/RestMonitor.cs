@@ -43,7 +43,7 @@ namespace Guidewire.Core
         private readonly RodVector[] _step;
         private readonly RodVector[] _motion;
         private readonly RodVector[] _swing;
-        private double _nextLook;                      // s
+        private double _nextCheck;                      // s
 
         /// <summary>A watch on this scene's wire, which moves with these velocities.</summary>
         /// <param name="other">What acts on it besides the terms, or null.</param>
@@ -86,14 +86,14 @@ namespace Guidewire.Core
             double speed = Size(_motion);
             if (!(speed * _time <= _threshold))
             {
-                _nextLook = time;
+                _nextCheck = time;
                 return null;
             }
-            if (time < _nextLook || !_scene.Schedule.IsOver(time, _end) || _terms.Followers.ChangeAfter(time))
+            if (time < _nextCheck || !_scene.Schedule.IsOver(time, _end) || _terms.Followers.ChangeAfter(time))
             {
                 return null;
             }
-            _nextLook = time + Interval * _time;
+            _nextCheck = time + Interval * _time;
             _terms.SetTime(_scene.Schedule, time);
             if (!Factorise())
             {
@@ -119,7 +119,7 @@ namespace Guidewire.Core
         /// <summary>Writes or takes over when it looks next.</summary>
         public void Serialize(Snapshot snapshot)
         {
-            snapshot.Serialize(ref _nextLook);
+            snapshot.Serialize(ref _nextCheck);
         }
 
         // The Newton step; false where the equilibrium near by is none that a wire stays in.

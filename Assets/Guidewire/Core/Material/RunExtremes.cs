@@ -64,7 +64,7 @@ namespace Guidewire.Core
             for (int k = 0; k <= n; k++)
             {
                 Vector3d turn = _turns[k];
-                double fraction = terms.Sheath == null ? 1.0 : terms.Sheath.Share(k);
+                double fraction = terms.Sheath == null ? 1.0 : terms.Sheath.FractionOutside(k);
                 Vector3d change = turn - (terms.Sheath == null ? joints[k].Rest : terms.Sheath.RestOf(k));
                 if (fraction == 0.0)
                 {

@@ -78,11 +78,11 @@ namespace Guidewire.Core
             rod.SetSides(j, start.Result().Side, end.Result().Side);
         }
 
-        private static void AddBorder(List<double> borders, double place, double length)
+        private static void AddBorder(List<double> borders, double position, double length)
         {
-            if (place > 0.0 && place < length && !borders.Contains(place))
+            if (position > 0.0 && position < length && !borders.Contains(position))
             {
-                borders.Add(place);
+                borders.Add(position);
             }
         }
 

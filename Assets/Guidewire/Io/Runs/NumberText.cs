@@ -89,17 +89,17 @@ namespace Guidewire.Io
         private static string Above(string text)
         {
             char[] letters = text.ToCharArray();
-            int place = text.IndexOf('E') - 1;
-            while (place >= 0 && (letters[place] == '9' || letters[place] == '.'))
+            int index = text.IndexOf('E') - 1;
+            while (index >= 0 && (letters[index] == '9' || letters[index] == '.'))
             {
-                letters[place] = letters[place] == '9' ? '0' : '.';
-                place--;
+                letters[index] = letters[index] == '9' ? '0' : '.';
+                index--;
             }
-            if (place < 0)
+            if (index < 0)
             {
                 return text;
             }
-            letters[place]++;
+            letters[index]++;
             return new string(letters);
         }
 

@@ -22,8 +22,8 @@ namespace Guidewire.Io
         {
             Sum += milliseconds;
             _count++;
-            double place = Math.Log(Math.Max(milliseconds, Smallest) / Smallest) / Math.Log(Ratio);
-            _classes[(int)Math.Min(place, _classes.Length - 1)]++;
+            double bin = Math.Log(Math.Max(milliseconds, Smallest) / Smallest) / Math.Log(Ratio);
+            _classes[(int)Math.Min(bin, _classes.Length - 1)]++;
         }
 
         /// <summary>Median in ms; 0 without steps.</summary>

@@ -14,7 +14,7 @@ namespace Guidewire.Runtime
         {
             var normals = new Vector3[(Rows + 1) * Columns];
             var triangles = new int[6 * Rows * Columns];
-            int place = 0;
+            int index = 0;
             for (int a = 0; a < normals.Length; a++)
             {
                 float latitude = Mathf.PI * (a / Columns) / Rows;
@@ -24,12 +24,12 @@ namespace Guidewire.Runtime
                 if (a / Columns < Rows)
                 {
                     int b = a % Columns == Columns - 1 ? a + 1 - Columns : a + 1;
-                    triangles[place++] = a;
-                    triangles[place++] = b;
-                    triangles[place++] = a + Columns;
-                    triangles[place++] = b;
-                    triangles[place++] = b + Columns;
-                    triangles[place++] = a + Columns;
+                    triangles[index++] = a;
+                    triangles[index++] = b;
+                    triangles[index++] = a + Columns;
+                    triangles[index++] = b;
+                    triangles[index++] = b + Columns;
+                    triangles[index++] = a + Columns;
                 }
             }
             var mesh = new Mesh { name = "Ball" };

@@ -172,19 +172,19 @@ namespace Guidewire.Runtime
 
         private void WriteTriangles(int rings)
         {
-            int place = 0;
+            int index = 0;
             for (int ring = 0; ring + 1 < rings; ring++)
             {
                 for (int k = 0; k < _sides; k++)
                 {
                     int a = ring * _sides + k;
                     int b = ring * _sides + (k + 1) % _sides;
-                    Triangles[place++] = a;
-                    Triangles[place++] = b;
-                    Triangles[place++] = a + _sides;
-                    Triangles[place++] = b;
-                    Triangles[place++] = b + _sides;
-                    Triangles[place++] = a + _sides;
+                    Triangles[index++] = a;
+                    Triangles[index++] = b;
+                    Triangles[index++] = a + _sides;
+                    Triangles[index++] = b;
+                    Triangles[index++] = b + _sides;
+                    Triangles[index++] = a + _sides;
                 }
             }
         }

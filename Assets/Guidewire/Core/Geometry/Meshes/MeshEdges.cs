@@ -19,16 +19,16 @@ namespace Guidewire.Core
         {
             _mesh = mesh;
             _weight = new double[mesh.Corners.Length];
-            for (int place = 0; place < _weight.Length; place++)
+            for (int halfEdge = 0; halfEdge < _weight.Length; halfEdge++)
             {
-                int edge = mesh.EdgeOf(place);
+                int edge = mesh.EdgeOf(halfEdge);
                 if (mesh.IsRimEdge(edge))
                 {
                     _weight[edge] = RimWeight;
                 }
-                else if (place != edge)
+                else if (halfEdge != edge)
                 {
-                    _weight[edge] = ConvexEdge.Weight(Angle(edge, place));
+                    _weight[edge] = ConvexEdge.Weight(Angle(edge, halfEdge));
                 }
             }
         }
@@ -37,11 +37,11 @@ namespace Guidewire.Core
         public int[] Edges()
         {
             var edges = new List<int>();
-            for (int place = 0; place < _weight.Length; place++)
+            for (int halfEdge = 0; halfEdge < _weight.Length; halfEdge++)
             {
-                if (_weight[place] > 0.0)
+                if (_weight[halfEdge] > 0.0)
                 {
-                    edges.Add(place);
+                    edges.Add(halfEdge);
                 }
             }
             return edges.ToArray();

@@ -10,7 +10,7 @@ namespace Guidewire.Core
         private readonly Vector3d[] _rest;
         private readonly int[] _triangles;
         private readonly int[] _twin;             // place where the edge is entered from the other side, -1 at a rim
-        private readonly int[] _placeOfVertex;
+        private readonly int[] _halfEdgeOfVertex;
         private readonly bool[] _isRimVertex;
         private readonly Vector3d[] _vertices;
         private readonly Vector3d[] _corners;
@@ -34,10 +34,10 @@ namespace Guidewire.Core
             _triangles = triangles.ToArray();
             _isRimVertex = new bool[_rest.Length];
             _twin = FindTwins(_triangles, _isRimVertex);
-            _placeOfVertex = new int[_rest.Length];
-            for (int place = _triangles.Length - 1; place >= 0; place--)
+            _halfEdgeOfVertex = new int[_rest.Length];
+            for (int halfEdge = _triangles.Length - 1; halfEdge >= 0; halfEdge--)
             {
-                _placeOfVertex[_triangles[place]] = place;
+                _halfEdgeOfVertex[_triangles[halfEdge]] = halfEdge;
             }
             _vertices = new Vector3d[_rest.Length];
             _corners = new Vector3d[_triangles.Length];
@@ -60,15 +60,15 @@ namespace Guidewire.Core
         public int VertexCount => _rest.Length;
 
         /// <summary>The vertex at a place: that of corner k of triangle t is 3 t + k.</summary>
-        public int VertexAt(int place)
+        public int VertexAt(int halfEdge)
         {
-            return _triangles[place];
+            return _triangles[halfEdge];
         }
 
         /// <summary>The first place at which a vertex stands.</summary>
-        public int PlaceOfVertex(int vertex)
+        public int HalfEdgeOfVertex(int vertex)
         {
-            return _placeOfVertex[vertex];
+            return _halfEdgeOfVertex[vertex];
         }
 
         /// <summary>True for a vertex of an open rim.</summary>
@@ -79,9 +79,9 @@ namespace Guidewire.Core
 
         /// <summary>The edge that starts at a place of a triangle, by the lower of the places at which its two
         /// triangles have it.</summary>
-        public int EdgeOf(int place)
+        public int EdgeOf(int halfEdge)
         {
-            return _twin[place] < 0 ? place : Math.Min(place, _twin[place]);
+            return _twin[halfEdge] < 0 ? halfEdge : Math.Min(halfEdge, _twin[halfEdge]);
         }
 
         /// <summary>True for an edge of an open rim.</summary>
@@ -102,7 +102,7 @@ namespace Guidewire.Core
         public void EndsOf(int edge, out int from, out int to)
         {
             from = edge;
-            to = EndPlace(edge);
+            to = NextHalfEdge(edge);
             if (_triangles[from] > _triangles[to])
             {
                 (from, to) = (to, from);
@@ -203,34 +203,34 @@ namespace Guidewire.Core
         {
             var twins = new int[triangles.Length];
             var entered = new Dictionary<(int, int), int>(triangles.Length);
-            for (int place = 0; place < triangles.Length; place++)
+            for (int halfEdge = 0; halfEdge < triangles.Length; halfEdge++)
             {
-                twins[place] = -1;
-                entered[(triangles[place], End(triangles, place))] = place;
+                twins[halfEdge] = -1;
+                entered[(triangles[halfEdge], End(triangles, halfEdge))] = halfEdge;
             }
-            for (int place = 0; place < triangles.Length; place++)
+            for (int halfEdge = 0; halfEdge < triangles.Length; halfEdge++)
             {
-                if (entered.TryGetValue((End(triangles, place), triangles[place]), out int other))
+                if (entered.TryGetValue((End(triangles, halfEdge), triangles[halfEdge]), out int other))
                 {
-                    twins[place] = other;
+                    twins[halfEdge] = other;
                 }
                 else
                 {
-                    isRimVertex[triangles[place]] = true;
-                    isRimVertex[End(triangles, place)] = true;
+                    isRimVertex[triangles[halfEdge]] = true;
+                    isRimVertex[End(triangles, halfEdge)] = true;
                 }
             }
             return twins;
         }
 
-        private static int End(int[] triangles, int place)
+        private static int End(int[] triangles, int halfEdge)
         {
-            return triangles[EndPlace(place)];
+            return triangles[NextHalfEdge(halfEdge)];
         }
 
-        private static int EndPlace(int place)
+        private static int NextHalfEdge(int halfEdge)
         {
-            return place % 3 == 2 ? place - 2 : place + 1;
+            return halfEdge % 3 == 2 ? halfEdge - 2 : halfEdge + 1;
         }
     }
 }

@@ -122,35 +122,35 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Lowers the fraction of a point's motion during which it stays at least <paramref name="keep"/> from
-        /// every triangle, as <see cref="Bvh.Sweep"/> has it, but for ridges.</summary>
-        public void SweepPoint(in Vector3d from, in Vector3d to, double keep, double resolution, FeatureRange among,
+        /// <summary>Lowers the fraction of a point's motion during which it stays at least <paramref name="clearance"/> from
+        /// every triangle, as <see cref="Bvh.TimeOfImpact"/> has it, but for ridges.</summary>
+        public void ImpactOfPoint(in Vector3d from, in Vector3d to, double clearance, double resolution, FeatureRange among,
             ref double impact)
         {
             if (!among.IsKnown)
             {
-                SweepPoint(from, to, keep, resolution, ref impact);
+                ImpactOfPoint(from, to, clearance, resolution, ref impact);
                 return;
             }
             double motion = Vector3d.Distance(from, to);
-            if (motion <= keep && Keeps(to, keep, motion, among))
+            if (motion <= clearance && KeepsClearance(to, clearance, motion, among))
             {
                 return;
             }
-            double reach = (keep + motion) * RoundedUp;
-            for (int k = among.From; k < among.To && among.LeastDistance(k) <= reach; k++)
+            double limit = (clearance + motion) * RoundedUp;
+            for (int k = among.From; k < among.To && among.LeastDistance(k) <= limit; k++)
             {
                 int i = among[k];
-                if (MayBeWithin(from, reach, i))
+                if (MayBeWithin(from, limit, i))
                 {
-                    Bvh.SweepTriangle(_mesh.Corners[3 * i], _mesh.Corners[3 * i + 1], _mesh.Corners[3 * i + 2],
-                        from, from, to, to, keep, resolution, motion, ref impact);
+                    Bvh.ImpactWithTriangle(_mesh.Corners[3 * i], _mesh.Corners[3 * i + 1], _mesh.Corners[3 * i + 2],
+                        from, from, to, to, clearance, resolution, motion, ref impact);
                 }
             }
         }
 
         /// <summary>The same for a segment and the ridges.</summary>
-        public void SweepSegment(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
+        public void ImpactOfSegment(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance,
             double resolution, FeatureRange among, ref double impact)
         {
             Vector3d stepA = a1 - a0;
@@ -158,49 +158,49 @@ namespace Guidewire.Core
             double motion = Math.Sqrt(Math.Max(stepA.LengthSquared, stepB.LengthSquared));
             if (among.IsKnown)
             {
-                double reach = (keep + motion) * RoundedUp;
-                for (int k = among.From; k < among.To && among.LeastDistance(k) <= reach; k++)
+                double limit = (clearance + motion) * RoundedUp;
+                for (int k = among.From; k < among.To && among.LeastDistance(k) <= limit; k++)
                 {
-                    SweepEdge(among[k], a0, b0, a1, b1, keep, resolution, motion, ref impact);
+                    ImpactWithEdge(among[k], a0, b0, a1, b1, clearance, resolution, motion, ref impact);
                 }
                 return;
             }
             _found.Clear();
-            var swept = new SweptSegment(a0, b0, a1, b1, keep);
+            var swept = new SweptSegment(a0, b0, a1, b1, clearance);
             _edgeTree?.Within(swept, _found);
             for (int k = 0; k < _found.Count; k++)
             {
                 if (!IsBeside(_found[k], swept))
                 {
-                    SweepEdge(_convexEdge[_found[k]], a0, b0, a1, b1, keep, resolution, motion, ref impact);
+                    ImpactWithEdge(_convexEdge[_found[k]], a0, b0, a1, b1, clearance, resolution, motion, ref impact);
                 }
             }
         }
 
         // All that the point comes to is near its way.
-        private void SweepPoint(in Vector3d from, in Vector3d to, double keep, double resolution, ref double impact)
+        private void ImpactOfPoint(in Vector3d from, in Vector3d to, double clearance, double resolution, ref double impact)
         {
             double motion = Vector3d.Distance(from, to);
             _found.Clear();
-            _mesh.Tree.Within(from, to, keep * RoundedUp, _found);
+            _mesh.Tree.Within(from, to, clearance * RoundedUp, _found);
             for (int k = 0; k < _found.Count; k++)
             {
                 int i = 3 * _found[k];
-                Bvh.SweepTriangle(_mesh.Corners[i], _mesh.Corners[i + 1], _mesh.Corners[i + 2],
-                    from, from, to, to, keep, resolution, motion, ref impact);
+                Bvh.ImpactWithTriangle(_mesh.Corners[i], _mesh.Corners[i + 1], _mesh.Corners[i + 2],
+                    from, from, to, to, clearance, resolution, motion, ref impact);
             }
         }
 
         // Whether a point that has come here, on a way too short to have crossed a wall and be as far behind it, keeps
         // a distance. Where no ridge is near, the distance along a straight way is a concave function, so that of
         // its ends says it all; ridges are met by the segments on both sides of the point.
-        private bool Keeps(in Vector3d x, double keep, double motion, FeatureRange among)
+        private bool KeepsClearance(in Vector3d x, double clearance, double motion, FeatureRange among)
         {
-            double limit = keep * keep;
-            for (int k = among.From; k < among.To && among.LeastDistance(k) <= keep + motion; k++)
+            double limit = clearance * clearance;
+            for (int k = among.From; k < among.To && among.LeastDistance(k) <= clearance + motion; k++)
             {
                 int i = 3 * among[k];
-                if (MayBeWithin(x, keep, among[k]) && ClosestPoints.PointTriangle(
+                if (MayBeWithin(x, clearance, among[k]) && ClosestPoints.PointTriangle(
                     x, _mesh.Corners[i], _mesh.Corners[i + 1], _mesh.Corners[i + 2], out _, out _) < limit)
                 {
                     return false;
@@ -218,14 +218,14 @@ namespace Guidewire.Core
             return swept.IsBeside(_edgeNormal[edgeContact], Math.Min(start, end), Math.Max(start, end));
         }
 
-        private void SweepEdge(int edge, in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
+        private void ImpactWithEdge(int edge, in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance,
             double resolution, double motion, ref double impact)
         {
             _mesh.EndsOf(edge, out int from, out int to);
             ref readonly Vector3d start = ref _mesh.Corners[from];
             ref readonly Vector3d end = ref _mesh.Corners[to];
-            Bvh.SweepBody(new EdgeBody(start, end), 0.5 * (start + end), 0.5 * Vector3d.Distance(start, end),
-                a0, b0, a1, b1, keep, resolution, motion, ref impact);
+            Bvh.ImpactWithBody(new EdgeBody(start, end), 0.5 * (start + end), 0.5 * Vector3d.Distance(start, end),
+                a0, b0, a1, b1, clearance, resolution, motion, ref impact);
         }
 
         private double Distance(in Vector3d a, in Vector3d b, int edge)
@@ -238,8 +238,8 @@ namespace Guidewire.Core
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         private bool MayBeWithin(in Vector3d x, double distance, int triangle)
         {
-            double reach = distance + _radius[triangle];
-            return (x - _centre[triangle]).LengthSquared <= reach * reach;
+            double limit = distance + _radius[triangle];
+            return (x - _centre[triangle]).LengthSquared <= limit * limit;
         }
 
         private double LeastDistance(in Vector3d x, int triangle)

@@ -11,8 +11,8 @@ namespace Guidewire.Core
     /// surface has the same width however it is cut into triangles.</remarks>
     internal static class MeshWidth
     {
-        private const int MostPlaces = 10_000;
-        private const int LeastPlaces = 2_000;
+        private const int MostSamples = 10_000;
+        private const int LeastSamples = 2_000;
         private const int MostShrinks = 30;
         private const double Converged = 2e-3;    // of a ball's radius squared
         private const double Least = 1e-6;    // of the mesh's size, for a radius
@@ -28,7 +28,7 @@ namespace Guidewire.Core
                 size = Math.Max(size, Vector3d.Distance(mesh.Corners[3 * t], mesh.Corners[0]));
             }
             double least = Math.Max(above, Least * size);
-            double cell = area / Math.Min(Math.Max(area / (2.0 * least * least), LeastPlaces), MostPlaces);
+            double cell = area / Math.Min(Math.Max(area / (2.0 * least * least), LeastSamples), MostSamples);
             var walk = new LumenWalk(wall, least);
             double narrowest = double.PositiveInfinity;
             double covered = 0.5 * cell;

@@ -34,7 +34,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>The share of joint k that is outside: 0 where none of it is, above 0 to 1 elsewhere.</summary>
-        public double Share(int k)
+        public double FractionOutside(int k)
         {
             return k < _cutCount ? _outside[k] : 1.0;
         }
@@ -46,9 +46,9 @@ namespace Guidewire.Core
         }
 
         /// <summary>The hub is where it would have the window's node 0 here, m, were nothing compressed.</summary>
-        public void SetHub(in Vector3d place)
+        public void SetHub(in Vector3d position)
         {
-            SetExit(_window.ExitFrom(place));
+            SetExit(_window.ExitFrom(position));
         }
 
         /// <summary>Force that the hub has to exert along the axis besides that of its spring, N: dE/dp. Negative where
@@ -60,11 +60,11 @@ namespace Guidewire.Core
 
         /// <summary>Work of the hub, J, against what drives the wire out, while the exit's place along the wire goes on
         /// to where a place of the hub has it, by the moments of a shape.</summary>
-        /// <param name="place">As of <see cref="SetHub"/>.</param>
+        /// <param name="position">As of <see cref="SetHub"/>.</param>
         /// <param name="from">Where the exit was, m from node 0 of the whole.</param>
-        public double WorkTo(RodShape shape, in Vector3d place, double from)
+        public double WorkTo(RodShape shape, in Vector3d position, double from)
         {
-            double to = _window.ExitFrom(place);
+            double to = _window.ExitFrom(position);
             double end = Math.Max(from, to);
             double work = 0.0;
             for (double at = Math.Min(from, to); at < end;)

@@ -10,7 +10,7 @@ namespace Guidewire.Core
     /// anew for each iterate and is judged by what is then out of balance.</remarks>
     internal sealed class TipFollowerForce : EnergyTerm
     {
-        private Vector3d _anchorPlace;
+        private Vector3d _anchorPosition;
         private Vector3d _anchorForce;
 
         /// <summary>f along the axes of the last element, N.</summary>
@@ -31,7 +31,7 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void Anchor(RodShape shape)
         {
-            _anchorPlace = shape.X[shape.ElementCount];
+            _anchorPosition = shape.X[shape.ElementCount];
             _anchorForce = Along(shape);
         }
 
@@ -42,7 +42,7 @@ namespace Guidewire.Core
             {
                 return 0.0;
             }
-            return -0.5 * Vector3d.Dot(_anchorForce + Along(shape), shape.X[shape.ElementCount] - _anchorPlace);
+            return -0.5 * Vector3d.Dot(_anchorForce + Along(shape), shape.X[shape.ElementCount] - _anchorPosition);
         }
 
         /// <inheritdoc/>

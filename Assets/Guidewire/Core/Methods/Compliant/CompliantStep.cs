@@ -49,7 +49,7 @@ namespace Guidewire.Core
         private readonly double _timeStep;
         private readonly double _remainingVelocity;
         private readonly int _substeps;
-        private readonly int _sweeps;
+        private readonly int _iterations;
         private readonly DirectionError _directions;
         private readonly ConvergenceRecord _convergence;
         private readonly HeldEnds _ends;
@@ -58,7 +58,7 @@ namespace Guidewire.Core
         private readonly SolverReport _report;
         private readonly CompliantWalls? _walls;
         private readonly double _contactStiffness;    // N/m
-        private Vector3d _supportPush;    // sum over the substeps, N
+        private Vector3d _supportForce;    // sum over the substeps, N
         private StressRecord? _stress;
         private Vector3d _predictedTip;
         private double _time;
@@ -84,7 +84,7 @@ namespace Guidewire.Core
             _timeStep = method.TimeStep;
             _remainingVelocity = Math.Exp(-scene.Rod.MassDamping * method.TimeStep / method.Substeps);
             _substeps = method.Substeps;
-            _sweeps = method.ConstraintSolverSteps;
+            _iterations = method.ConstraintSolverSteps;
             _contactStiffness = contactStiffness;
             _walls = scene.Walls.Length > 0 ? new CompliantWalls(scene, _inertia, contactStiffness) : null;
             _directions = new DirectionError(scene, _inertia, _stretch, _bendTwist, _walls?.Contacts);
@@ -106,7 +106,7 @@ namespace Guidewire.Core
         public override void Advance(RodState state)
         {
             double h = _timeStep / _substeps;
-            var residual = default(SweepResidual);
+            var residual = default(IterationResidual);
             int measured = 0;
             _drive.Prepare(_shape, _time);
             _ends.Carry(_scene.Schedule.ProximalVelocity.Length, Math.Abs(_scene.Schedule.ProximalTwistRate));
@@ -151,15 +151,15 @@ namespace Guidewire.Core
             }
             ContactRecord record = walls.Record;
             Vector3d inertia = (_terms.Mass.Nodal[0] / _timeStep) * (_velocities[0] - velocity);
-            record.Reaction = inertia + (1.0 / _substeps) * _supportPush - record.Forces[0];
-            _supportPush = Vector3d.Zero;
+            record.Reaction = inertia + (1.0 / _substeps) * _supportForce - record.Forces[0];
+            _supportForce = Vector3d.Zero;
             // A drive goes on from where node 0 is; what is held is asked for until it is there.
-            Vector3d place = _scene.Schedule.ProximalPositionAt(_time);
+            Vector3d position = _scene.Schedule.ProximalPositionAt(_time);
             if (_drive.Axis == Vector3d.Zero)
             {
                 double owed = record.DriveShortfall;
-                record.AddDrive(Vector3d.Distance(place, start) / _scene.Metres - owed,
-                    Vector3d.Distance(place, _shape.X[0]) / _scene.Metres - owed);
+                record.AddDrive(Vector3d.Distance(position, start) / _scene.Metres - owed,
+                    Vector3d.Distance(position, _shape.X[0]) / _scene.Metres - owed);
                 return;
             }
             // Of the way that node 0 has gone only what is along the drive's counts: walls may push it aside.
@@ -252,17 +252,17 @@ namespace Guidewire.Core
             }
             _walls?.BeginSubstep(_old, _shape, h);
             StartFromMultipliers();
-            for (int m = 0; m < _sweeps; m++)
+            for (int m = 0; m < _iterations; m++)
             {
-                _stretch.Sweep(_shape, h);
-                _bendTwist.Sweep(_shape, h);
-                _walls?.Contacts.Sweep(_shape);
+                _stretch.Iterate(_shape, h);
+                _bendTwist.Iterate(_shape, h);
+                _walls?.Contacts.Iterate(_shape);
             }
             if (_walls != null)
             {
                 _walls.EndSubstep(_shape);
                 RodVector g = _loadGradient[0];
-                _supportPush += new Vector3d(g.X1, g.X2, g.X3) + (1.0 / (h * h)) * _stretch.FirstPush(_shape);
+                _supportForce += new Vector3d(g.X1, g.X2, g.X3) + (1.0 / (h * h)) * _stretch.FirstForce(_shape);
             }
             double rate = 1.0 / h;
             for (int i = 0; i <= last; i++)
@@ -275,9 +275,9 @@ namespace Guidewire.Core
             }
         }
 
-        private SweepResidual Residual(double h)
+        private IterationResidual Residual(double h)
         {
-            var sum = default(SweepResidual);
+            var sum = default(IterationResidual);
             _stretch.AddResidual(_shape, h, ref sum);
             _bendTwist.AddResidual(_shape, h, ref sum);
             _walls?.Contacts.AddResidual(_shape, ref sum);

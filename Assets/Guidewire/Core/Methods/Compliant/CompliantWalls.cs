@@ -26,7 +26,7 @@ namespace Guidewire.Core
         private Vector3d[] _at;                // where the substep begins
         private Vector3d[] _to;
         private readonly Vector3d[] _asked;    // of a substep that is shortened
-        private double _room;                  // way from there that passes no wall
+        private double _freeTravel;                  // way from there that passes no wall
         private bool _isNew;                   // contacts are to be looked for
 
         /// <summary>The walls of a scene, around its wire as it is.</summary>
@@ -88,11 +88,11 @@ namespace Guidewire.Core
         public void BeginSubstep(RodShape old, RodShape predicted, double substep)
         {
             SetUnits(predicted, _to);
-            double way = LongestDisplacement(_from, _to);
-            if ((_isNew || way > _reused) && way <= double.MaxValue)
+            double displacement = LongestDisplacement(_from, _to);
+            if ((_isNew || displacement > _reused) && displacement <= double.MaxValue)
             {
                 _passages.AddPart(_from, _at);
-                Look();
+                FindContacts();
                 Contacts.Renew(_search.Contacts);
                 _isNew = false;
             }
@@ -103,11 +103,11 @@ namespace Guidewire.Core
         public void EndSubstep(RodShape shape)
         {
             SetUnits(shape, _to);
-            double way = LongestDisplacement(_from, _to);
-            if (way >= _room && way <= double.MaxValue)
+            double displacement = LongestDisplacement(_from, _to);
+            if (displacement >= _freeTravel && displacement <= double.MaxValue)
             {
                 _passages.AddPart(_from, _at);
-                Look();
+                FindContacts();
                 _isNew = true;
                 if (_swept.Find(_at, _to))
                 {
@@ -121,7 +121,7 @@ namespace Guidewire.Core
             }
             (_at, _to) = (_to, _at);
             Contacts.End(shape);
-            Contacts.AddPushes(Record.Forces, Record.WallForces);
+            Contacts.AddForces(Record.Forces, Record.WallForces);
         }
 
         /// <summary>The step has come to its end.</summary>
@@ -155,7 +155,7 @@ namespace Guidewire.Core
         }
 
         // For contacts on the way from where the substep begins, and how far nothing passes a wall.
-        private void Look()
+        private void FindContacts()
         {
             _search.Find(_at, _to);
             Array.Copy(_at, _from, _at.Length);
@@ -167,7 +167,7 @@ namespace Guidewire.Core
                     nearest = Math.Min(nearest, _search.ClearanceOf(w, j));
                 }
             }
-            _room = nearest - _clearance;
+            _freeTravel = nearest - _clearance;
         }
 
         // Infinite where a place is no number.

@@ -44,7 +44,7 @@ namespace Guidewire.Core
             for (int k = 0; k < _contacts.Count; k++)
             {
                 CompliantContacts.Contact contact = _contacts[k];
-                if (contact.Push > 0.0 && contact.Element >= from && contact.Element < to)
+                if (contact.NormalImpulse > 0.0 && contact.Element >= from && contact.Element < to)
                 {
                     Add(contact, shape, gradient);
                 }
@@ -58,7 +58,7 @@ namespace Guidewire.Core
             {
                 CompliantContacts.Contact contact = _contacts[k];
                 int j = contact.Element;
-                if (contact.Push > 0.0 && j >= from && j < to)
+                if (contact.NormalImpulse > 0.0 && j >= from && j < to)
                 {
                     Add(contact, shape, gradient);
                     RodBlock.AddAt(ref blocks[j], ref blocks[j + 1], contact.Position,
@@ -70,7 +70,7 @@ namespace Guidewire.Core
         private void Add(in CompliantContacts.Contact contact, RodShape shape, RodVector[] gradient)
         {
             int j = contact.Element;
-            Vector3d force = _perSquare * (contact.Push * contact.Normal + contact.Rub);
+            Vector3d force = _perSquare * (contact.NormalImpulse * contact.Normal + contact.FrictionImpulse);
             Add(ref gradient[j], 1.0 - contact.Position, force);
             Add(ref gradient[j + 1], contact.Position, force);
             Vector3d couple = _perSquare * contact.Couple(shape.Q[j]);

@@ -78,7 +78,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Takes one step's residual.</summary>
-        public void Add(in SweepResidual step)
+        public void Add(in IterationResidual step)
         {
             _steps++;
             double perLength = 1.0 / _totalLength;
@@ -113,8 +113,8 @@ namespace Guidewire.Core
 
         private static int ClassOf(double residual)
         {
-            double place = Math.Log(Math.Max(residual, Smallest) / Smallest) / Math.Log(Ratio);
-            return (int)Math.Min(place, ClassCount - 1);
+            double bin = Math.Log(Math.Max(residual, Smallest) / Smallest) / Math.Log(Ratio);
+            return (int)Math.Min(bin, ClassCount - 1);
         }
 
         private int Worst()

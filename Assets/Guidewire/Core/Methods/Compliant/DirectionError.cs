@@ -41,7 +41,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Adds the angles of all joints, after the sweeps.</summary>
-        public void Add(RodShape shape, double substep, ref SweepResidual sum)
+        public void Add(RodShape shape, double substep, ref IterationResidual sum)
         {
             Array.Clear(_shift, 0, _shift.Length);
             Array.Clear(_turn, 0, _turn.Length);

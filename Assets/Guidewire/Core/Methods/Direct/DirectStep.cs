@@ -31,7 +31,7 @@ namespace Guidewire.Core
         private readonly HalvedSteps _halved;
         private readonly WallSteps? _walls;
         private readonly WallMonitor? _monitor;
-        private readonly ElementContactForces? _pushes;
+        private readonly ElementContactForces? _elementForces;
         private readonly JamReport? _jam;
         private readonly RunExtremes _extremes;
         private double _hubWork;            // J
@@ -56,10 +56,10 @@ namespace Guidewire.Core
             WallTerms? walls = dynamics.Terms.Walls;
             if (walls != null)
             {
-                walls.Spring.Place = scene.Schedule.ProximalPositionAt(dynamics.Time);
+                walls.Spring.Position = scene.Schedule.ProximalPositionAt(dynamics.Time);
                 _monitor = new WallMonitor(scene.Rod, walls, scene.Metres);
                 _walls = new WallSteps(dynamics, _halved, scene.Schedule, _monitor);
-                _pushes = new ElementContactForces(scene.Rod, walls.Barrier);
+                _elementForces = new ElementContactForces(scene.Rod, walls.Barrier);
                 _jam = new JamReport(dynamics.Terms, scene.Metres);
                 if (record != null)
                 {
@@ -107,7 +107,7 @@ namespace Guidewire.Core
             _hubWork += 0.5 * SheathWork(exit);
             Vector3d free = _dynamics.Shape.X[last] + _timeStep * _dynamics.Velocities[last]
                 + (_timeStep * _timeStep) * _scene.Schedule.Gravity;
-            Vector3d held = spring == null ? Vector3d.Zero : spring.HeldPlace(_dynamics.Shape);
+            Vector3d held = spring == null ? Vector3d.Zero : spring.HeldPosition(_dynamics.Shape);
             double dissipated = Dissipated;
             string? failure = _walls == null ? _halved.Step(_timeStep) : _walls.Step(_timeStep);
             if (failure != null)
@@ -145,8 +145,8 @@ namespace Guidewire.Core
                 _monitor?.EndStep(_dynamics.Shape, Contacts);
                 if (spring != null && _dynamics.Terms.Walls!.HoldsStart)
                 {
-                    GiveWay(spring);
-                    CountDrive(held, spring.HeldPlace(_dynamics.Shape));
+                    SlipHub(spring);
+                    CountDrive(held, spring.HeldPosition(_dynamics.Shape));
                     Failure ??= FindOverdriven();
                 }
             }
@@ -155,7 +155,7 @@ namespace Guidewire.Core
         }
 
         // What drives the wire out of a sheath changes with the hub's place: so it gives way once more, by much less.
-        private void GiveWay(SupportSpring spring)
+        private void SlipHub(SupportSpring spring)
         {
             RodTerms terms = _dynamics.Terms;
             double asked = _drive.Insertion;
@@ -165,7 +165,7 @@ namespace Guidewire.Core
             {
                 before = _drive.Insertion;
                 spring.Besides = terms.Sheath == null ? 0.0 : terms.Sheath.HubForce(_dynamics.Shape);
-                _drive.GiveWay(spring, _dynamics.Shape);
+                _drive.SlipHub(spring, _dynamics.Shape);
                 if (_drive.Insertion != before)
                 {
                     terms.SetTime(_scene.Schedule, _dynamics.Time);
@@ -202,13 +202,13 @@ namespace Guidewire.Core
                 }
             }
             _extremes.TakeShape(terms, _joints, _jointLengths, shape);
-            if (_pushes == null)
+            if (_elementForces == null)
             {
                 return;
             }
-            _pushes.Take(shape, Contacts!.ElementForces);
-            Contacts.Pressure = _pushes.LargestPressure;
-            _extremes.TakeWalls(_pushes.LargestForce, _pushes.LargestPressure);
+            _elementForces.Take(shape, Contacts!.ElementForces);
+            Contacts.Pressure = _elementForces.LargestPressure;
+            _extremes.TakeWalls(_elementForces.LargestForce, _elementForces.LargestPressure);
             if (terms.Walls!.HoldsStart)
             {
                 _extremes.TakeHub(terms.HubForce(shape), _dynamics.HubTorque);

@@ -61,10 +61,10 @@ namespace Guidewire.Core
         public string? LostTurn => _turns.Warning;
 
         /// <summary>Takes the wire after one more step.</summary>
-        public void Look(RodState state, double predictionError)
+        public void Update(RodState state, double predictionError)
         {
             _step++;
-            _turns.Look(state, _step);
+            _turns.Update(state, _step);
             Loss = FindLoss(state, out double strain);
             if (Loss == null)
             {

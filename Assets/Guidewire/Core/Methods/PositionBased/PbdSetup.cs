@@ -42,27 +42,27 @@ namespace Guidewire.Core
             ContactParameters contact = parameters.Contact;
             record = null;
             int iterations = method.ConstraintSolverSteps;
-            var scalar = new ScalarSweeps(new StretchConstraint(state, gains.StretchStiffness),
+            var scalar = new ScalarIterations(new StretchConstraint(state, gains.StretchStiffness),
                 new BendTwistConstraint(state, gains.BendStiffness), method.SweepOrder);
-            ISweeps fastest = SweepChoice.Fastest(scalar, iterations);
+            IIterations fastest = IterationChoice.Fastest(scalar, iterations);
             if (scene.Walls.Length == 0)
             {
                 return new GaussSeidelSolver(iterations, scalar, fastest, null);
             }
             int walls = scene.Walls.Length;
             double radius = contact.SphereRadius;
-            double reach = radius + contact.CollisionMargin;
+            double clearance = radius + contact.CollisionMargin;
             bool asPublished = contact.ElementContact == ElementContact.Seed;
             IContactSearch search = asPublished
                 ? (IContactSearch)new ThesisContactSearch(scene.Walls, state.ElementCount, radius)
-                : new ContactSearch(scene.Walls, state.ElementCount, state.ElementLength, radius, reach,
+                : new ContactSearch(scene.Walls, state.ElementCount, state.ElementLength, radius, clearance,
                     contact.ElementContact == ElementContact.Barycentric);
             IContactResponse response = asPublished
-                ? (IContactResponse)new ThesisContactResponse(state, walls, reach, contact.CollisionStiffness)
-                : new ContactResponse(state, scene.Walls, radius, reach, contact.CollisionStiffness, iterations);
-            var sweeps = new GaussSeidelSolver(iterations, scalar, fastest, response);
+                ? (IContactResponse)new ThesisContactResponse(state, walls, clearance, contact.CollisionStiffness)
+                : new ContactResponse(state, scene.Walls, radius, clearance, contact.CollisionStiffness, iterations);
+            var constraints = new GaussSeidelSolver(iterations, scalar, fastest, response);
             record = new ContactRecord(state.SphereCount);
-            return new ContactSolver(state, method.TimeStep, sweeps, search, response, record);
+            return new ContactSolver(state, method.TimeStep, constraints, search, response, record);
         }
 
         private static IPositionPrediction CreatePrediction(SimulationParameters parameters)
@@ -145,8 +145,8 @@ namespace Guidewire.Core
             double part = 1.0;
             foreach (ContactShape wall in walls)
             {
-                double own = wall.Sweep(from, from, asked, asked, clearance, out _);
-                double shared = wall.Sweep(from, next, asked, next, clearance, out _);
+                double own = wall.TimeOfImpact(from, from, asked, asked, clearance, out _);
+                double shared = wall.TimeOfImpact(from, next, asked, next, clearance, out _);
                 part = Math.Min(part, Math.Min(own, shared));
             }
             return part >= 1.0 ? asked : Vector3d.Lerp(from, asked, part);

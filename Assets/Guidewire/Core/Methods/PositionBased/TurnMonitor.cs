@@ -31,7 +31,7 @@ namespace Guidewire.Core
         /// <summary>Takes the wire after a step.</summary>
         /// <param name="state">The wire.</param>
         /// <param name="step">Number of the step, from 1.</param>
-        public void Look(RodState state, int step)
+        public void Update(RodState state, int step)
         {
             for (int j = 0; _joint < 0 && j < _wasBeyond.Length; j++)
             {

@@ -24,7 +24,7 @@ namespace Guidewire.Core
         private const double LongSkin = 20.0;    // of the barrier's distance, between looks for walls
         private const double SkinInMesh = 0.5;   // of the wire's radius, the same at least
         private const double Resolved = 1e-3;     // of the distance that is kept: an approach that is none
-        private const double ResolvedOfWay = 0.05;    // the same, of the way to it
+        private const double ResolvedOfGap = 0.05;    // the same, of the way to it
         private const double QuickFraction = 0.9;    // of a gap that is only about right
 
         private readonly ContactShape[] _walls;
@@ -41,7 +41,7 @@ namespace Guidewire.Core
         private readonly double[] _edgeGap;      // by wall and element, between its nodes
         private readonly ContactSums _sums;       // of the shape at hand
         private readonly Vector3d[] _resultant;   // of each wall on the wire, N
-        private readonly StructList<ContactPoint> _places = new StructList<ContactPoint>(16);
+        private readonly StructList<ContactPoint> _contactPoints = new StructList<ContactPoint>(16);
         private readonly StructList<EdgeContact> _edgeContacts = new StructList<EdgeContact>(16);
         private double _leastGap;                 // of all of these
         private bool _hasBending = true;
@@ -77,10 +77,10 @@ namespace Guidewire.Core
                 range[j] = _units * (Math.Max(_nodeRadius[j], _nodeRadius[j + 1]) + barrier.Distance);
             }
             // Lists of features of points grow with the square of the reach, all others hardly.
-            double reach = Array.Exists(walls, wall => wall.HasPointFeatures)
+            double skin = Array.Exists(walls, wall => wall.HasPointFeatures)
                 ? Math.Max(barrier.Distance, SkinInMesh * rod.Radius[n - 1])
                 : Math.Max(LongSkin * barrier.Distance, rod.Radius[n - 1]);
-            _near = new NeighbourList(walls, range, _units * reach);
+            _near = new NeighbourList(walls, range, _units * skin);
             _nodeGap = new double[walls.Length * (n + 1)];
             _edgeGap = new double[walls.Length * n];
             _sums = new ContactSums(n);
@@ -124,7 +124,7 @@ namespace Guidewire.Core
         /// <summary>Where walls push the wire in a shape, wall by wall and along the wire.</summary>
         public StructList<WallContact> ContactsOf(RodShape shape)
         {
-            Look(shape);
+            Update(shape);
             return _sums.Contacts;
         }
 
@@ -149,7 +149,7 @@ namespace Guidewire.Core
         /// <summary>Force of the walls on a node, its share of those on the elements among it, N.</summary>
         public Vector3d ForceOn(RodShape shape, int node)
         {
-            Look(shape);
+            Update(shape);
             return -_sums.GradientAt(node);
         }
 
@@ -163,7 +163,7 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override double Value(RodShape shape)
         {
-            Look(shape);
+            Update(shape);
             return _value;
         }
 
@@ -171,7 +171,7 @@ namespace Guidewire.Core
         public override void AddGradient(RodShape shape, RodVector[] gradient, int from, int to,
             ref GradientMeasures measured)
         {
-            Look(shape);
+            Update(shape);
             _sums.AddGradient(gradient, from, to, ref measured);
         }
 
@@ -188,7 +188,7 @@ namespace Guidewire.Core
         /// </summary>
         public override double MaxStep(RodShape shape, RodVector[] direction, double scale)
         {
-            Look(shape);
+            Update(shape);
             double step = scale * _units;
             double longest = 0.0;
             bool isInside = _sheath != null;
@@ -231,7 +231,7 @@ namespace Guidewire.Core
         /// <summary>What is near a shape; gaps are those of another.</summary>
         public NeighbourList Near(RodShape shape, RodShape other)
         {
-            Look(other);
+            Update(other);
             SetNodes(shape, _to);
             _near.Follow(_to);
             return _near;
@@ -275,14 +275,14 @@ namespace Guidewire.Core
         private double MaxStepOf(int w, int j, double radius, double gap, int hint)
         {
             double left = Math.Min(LeftOfGap * gap, MostLeft * _units * _barrier.Distance);
-            double keep = radius + left;
-            double resolution = Math.Min(Resolved * keep, ResolvedOfWay * (gap - left));
-            return gap > 0.0 ? _walls[w].FreeShare(_x[j], _x[j + 1], _to[j], _to[j + 1], keep, resolution, hint,
+            double clearance = radius + left;
+            double resolution = Math.Min(Resolved * clearance, ResolvedOfGap * (gap - left));
+            return gap > 0.0 ? _walls[w].ConservativeTimeOfImpact(_x[j], _x[j + 1], _to[j], _to[j + 1], clearance, resolution, hint,
                 _near.FeaturesAlong(w, j, _x, _to)) : 0.0;
         }
 
         // Finds what the shape comes to, unless it is that of the last call.
-        private void Look(RodShape shape)
+        private void Update(RodShape shape)
         {
             int inside = NodesInside(shape);
             bool isSame = _isKnown && _near.IsCurrent && inside == _inside;
@@ -337,17 +337,17 @@ namespace Guidewire.Core
         private void AddNode(int w, int i)
         {
             double radius = _nodeRadius[i];
-            _places.Clear();
+            _contactPoints.Clear();
             _walls[w].FindContactPoints(
-                _x[i], _units * (radius + _barrier.Distance), _near.FeaturesOfNode(w, i, _x[i]), _places);
+                _x[i], _units * (radius + _barrier.Distance), _near.FeaturesOfNode(w, i, _x[i]), _contactPoints);
             Vector3d gradient = Vector3d.Zero;
             Symmetric3 second = default;
             bool mayBeNegative = false;
             ref double nearest = ref _nodeGap[w * _x.Length + i];
-            for (int k = 0; k < _places.Count; k++)
+            for (int k = 0; k < _contactPoints.Count; k++)
             {
-                ref ContactPoint place = ref _places[k];
-                double gap = place.Contact.Distance / _units - radius;
+                ref ContactPoint point = ref _contactPoints[k];
+                double gap = point.Contact.Distance / _units - radius;
                 nearest = Math.Min(nearest, gap);
                 _leastGap = Math.Min(_leastGap, gap);
                 double value = _barrier.At(gap, out double slope, out double curvature);
@@ -355,15 +355,15 @@ namespace Guidewire.Core
                 {
                     continue;
                 }
-                _value += place.Weight * value;
-                slope *= place.Weight;
-                Vector3d n = place.Contact.Normal;
-                double along = slope * place.Curvature * _units;
-                double across = slope * place.CrossCurvature * _units;
-                mayBeNegative |= place.Weight < 0 || along < 0.0 || across < 0.0;
+                _value += point.Weight * value;
+                slope *= point.Weight;
+                Vector3d n = point.Contact.Normal;
+                double along = slope * point.Curvature * _units;
+                double across = slope * point.CrossCurvature * _units;
+                mayBeNegative |= point.Weight < 0 || along < 0.0 || across < 0.0;
                 gradient += slope * n;
-                second += Symmetric3.Outer(place.Weight * curvature, n) + Symmetric3.Outer(along, place.Direction)
-                    + Symmetric3.Outer(across, Vector3d.Cross(n, place.Direction));
+                second += Symmetric3.Outer(point.Weight * curvature, n) + Symmetric3.Outer(along, point.Direction)
+                    + Symmetric3.Outer(across, Vector3d.Cross(n, point.Direction));
                 if (double.IsPositiveInfinity(value))
                 {
                     _value = double.PositiveInfinity;

@@ -26,7 +26,7 @@ namespace Guidewire.Core
         private readonly BarrierEnergy _barrier;
         private readonly double _elasticSlip;     // s, m
         private readonly StructList<FrictionContact> _contacts = new StructList<FrictionContact>(64);
-        private readonly double[] _push;          // sum of the limits by anchor, N
+        private readonly double[] _limitSum;          // sum of the limits by anchor, N
         private readonly Vector3d[] _start;       // x_0, m
         private readonly Quaterniond[] _frames;   // q_0
 
@@ -40,7 +40,7 @@ namespace Guidewire.Core
             _frames = new Quaterniond[elementCount];
             Array.Fill(_frames, Quaterniond.Identity);
             Anchors = new FrictionAnchors(barrier.Walls.Length, elementCount);
-            _push = new double[Anchors.Count];
+            _limitSum = new double[Anchors.Count];
         }
 
         /// <summary>s by rule, m: a hundredth of the thinnest element's radius, by which a surface turns about the
@@ -74,7 +74,7 @@ namespace Guidewire.Core
         {
             for (int k = 0; k < _contacts.Count; k++)
             {
-                _push[_contacts[k].Index] = 0.0;
+                _limitSum[_contacts[k].Index] = 0.0;
             }
             _contacts.Clear();
             StructList<WallContact> contacts = _barrier.ContactsOf(shape);
@@ -85,7 +85,7 @@ namespace Guidewire.Core
                 if (limit > 0.0)
                 {
                     int index = Anchors.IndexOf(contact);
-                    _push[index] += limit;
+                    _limitSum[index] += limit;
                     _contacts.Add(new FrictionContact
                     {
                         Index = index, Element = contact.Element, Position = contact.Position,
@@ -97,9 +97,9 @@ namespace Guidewire.Core
             {
                 ref FrictionContact contact = ref _contacts[k];
                 ref FrictionAnchors.Anchor anchor = ref Anchors[contact.Index];
-                double push = _push[contact.Index];
-                double stiffness = Math.Max(anchor.Stiffness, push / _elasticSlip);
-                contact.Stiffness = contact.Limit / push * stiffness;
+                double limitSum = _limitSum[contact.Index];
+                double stiffness = Math.Max(anchor.Stiffness, limitSum / _elasticSlip);
+                contact.Stiffness = contact.Limit / limitSum * stiffness;
                 contact.Start = Turned((1.0 / stiffness) * anchor.Force, contact.Normal);
             }
         }
@@ -115,11 +115,11 @@ namespace Guidewire.Core
                 contact.Start = Math.Min(1.0, contact.Limit / (contact.Stiffness * z.Length)) * z;
                 lost += contact.Limit * Math.Max(0.0, z.Length - contact.Start.Length);
             }
-            for (int index = 0; index < _push.Length; index++)
+            for (int index = 0; index < _limitSum.Length; index++)
             {
                 ref FrictionAnchors.Anchor anchor = ref Anchors[index];
-                double push = _push[index];
-                double stiffness = push > 0.0 ? Math.Max(anchor.Stiffness, push / _elasticSlip) : 0.0;
+                double limitSum = _limitSum[index];
+                double stiffness = limitSum > 0.0 ? Math.Max(anchor.Stiffness, limitSum / _elasticSlip) : 0.0;
                 // What the stiffer contact does not store, or one that has ended.
                 lost += stiffness == anchor.Stiffness || anchor.Stiffness == 0.0 ? 0.0
                     : anchor.StoredEnergy * (1.0 - (stiffness > 0.0 ? anchor.Stiffness / stiffness : 0.0));

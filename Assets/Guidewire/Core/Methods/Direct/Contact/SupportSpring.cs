@@ -41,14 +41,14 @@ namespace Guidewire.Core
         public double Besides { get; set; }
 
         /// <summary>p, m.</summary>
-        public Vector3d Place { get; set; }
+        public Vector3d Position { get; set; }
 
         /// <summary>Force of the support on node 0, N.</summary>
         public Vector3d Force(RodShape shape)
         {
-            Vector3d force = _stiffness * (Place - shape.X[0]);
+            Vector3d force = _stiffness * (Position - shape.X[0]);
             double less = _axial == _stiffness ? 0.0
-                : (_stiffness - _axial) * Vector3d.Dot(Place - shape.X[0], Axis);
+                : (_stiffness - _axial) * Vector3d.Dot(Position - shape.X[0], Axis);
             less += Excess(shape);
             return less == 0.0 ? force : force - less * Axis;
         }
@@ -63,14 +63,14 @@ namespace Guidewire.Core
         /// not.</summary>
         public Vector3d LagOf(RodShape shape)
         {
-            return _axial == _stiffness ? Vector3d.Zero : Vector3d.Dot(Place - shape.X[0], Axis) * Axis;
+            return _axial == _stiffness ? Vector3d.Zero : Vector3d.Dot(Position - shape.X[0], Axis) * Axis;
         }
 
         /// <summary>Where the hub has the wire, m: node 0, or the end of what is before it, as long as the force leaves
         /// that.</summary>
-        public Vector3d HeldPlace(RodShape shape)
+        public Vector3d HeldPosition(RodShape shape)
         {
-            return Place - (Vector3d.Dot(Force(shape), Axis) / _stiffness) * Axis;
+            return Position - (Vector3d.Dot(Force(shape), Axis) / _stiffness) * Axis;
         }
 
         /// <summary>Takes the place back, once a step is done, to where the axial force is no more than the
@@ -79,17 +79,17 @@ namespace Guidewire.Core
         public double TakeSlip(RodShape shape)
         {
             double slip = Excess(shape) / _axial;
-            Place -= slip * Axis;
+            Position -= slip * Axis;
             return slip;
         }
 
         /// <inheritdoc/>
         public override double Value(RodShape shape)
         {
-            double value = _stiffness * (shape.X[0] - Place).LengthSquared;
+            double value = _stiffness * (shape.X[0] - Position).LengthSquared;
             if (_axial != _stiffness)
             {
-                double along = Vector3d.Dot(shape.X[0] - Place, Axis);
+                double along = Vector3d.Dot(shape.X[0] - Position, Axis);
                 value -= (_stiffness - _axial) * along * along;
             }
             double excess = Excess(shape);
@@ -135,14 +135,14 @@ namespace Guidewire.Core
         // What the axial force would have beyond the limit, N, with its sign.
         private double Excess(RodShape shape)
         {
-            double force = _axial * Vector3d.Dot(Place - shape.X[0], Axis) + Besides;
+            double force = _axial * Vector3d.Dot(Position - shape.X[0], Axis) + Besides;
             return Math.Abs(force) > _limit ? force - Math.Sign(force) * _limit : 0.0;
         }
 
         /// <inheritdoc/>
         public override void Serialize(Snapshot snapshot)
         {
-            Place = snapshot.Serialize(Place);
+            Position = snapshot.Serialize(Position);
             Besides = snapshot.Serialize(Besides);
         }
     }

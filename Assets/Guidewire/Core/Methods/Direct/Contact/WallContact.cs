@@ -23,14 +23,14 @@ namespace Guidewire.Core
         public readonly double Force;
 
         /// <summary>A contact with these values.</summary>
-        public WallContact(int wall, int element, double position, in Vector3d push, bool isNode)
+        public WallContact(int wall, int element, double position, in Vector3d force, bool isNode)
         {
             IsNode = isNode;
             Wall = wall;
             Element = element;
             Position = position;
-            Force = push.Length;
-            Normal = Vector3d.Normalize(push);
+            Force = force.Length;
+            Normal = Vector3d.Normalize(force);
         }
     }
 }

@@ -19,7 +19,7 @@ namespace Guidewire.Core
     {
         private const double LargestStart = 0.5;  // radians, or L, by which rates at the start may move the rod
         private const double SameTime = 1e-9;     // of a step
-        private const double SamePlace = 1e-9;    // radians, or of L
+        private const double SamePosition = 1e-9;    // radians, or of L
 
         private readonly RodTerms _terms;
         private readonly RodSchedule _schedule;
@@ -392,8 +392,8 @@ namespace Guidewire.Core
             double after = time + SameTime * dt;
             Vector3d proximal = _schedule.ProximalVelocity;
             Vector3d distal = _schedule.DistalVelocityAt(after);
-            bool isInPlace = _start.IsHeldAt(Shape, _schedule, time, SamePlace * _length)
-                && _frames.AreInPlace(time, SamePlace);
+            bool isInPlace = _start.IsHeldAt(Shape, _schedule, time, SamePosition * _length)
+                && _frames.AreInPlace(time, SamePosition);
             bool jumps = proximal != _proximalVelocity || distal != _distalVelocity;
             if (_hasRates && isInPlace && !jumps && _schedule.NextJump(time - SameTime * dt) > after)
             {

@@ -247,7 +247,7 @@ namespace Guidewire.Core
             double largest = 0.0;
             Vector3d[] first = Rates.SpinRate[predictor.First];
             Vector3d[] second = Rates.SpinRate[predictor.Second];
-            double fraction = predictor.Share;
+            double fraction = predictor.Fraction;
             for (int j = 0; j < _predicted.Length; j++)
             {
                 Vector3d rate = first[j] + fraction * (second[j] - first[j]);

@@ -174,7 +174,7 @@ namespace Guidewire.Core
                     if (Math.Abs(first) < Math.Abs(second) && wrong < least)
                     {
                         least = wrong;
-                        best = new StagePredictor { First = i, Second = k, Share = fraction };
+                        best = new StagePredictor { First = i, Second = k, Fraction = fraction };
                     }
                 }
             }

@@ -5,7 +5,7 @@ namespace Guidewire.Core
     {
         public int First;
         public int Second;
-        public double Share;
+        public double Fraction;
 
         /// <summary>That of one stage alone.</summary>
         public static StagePredictor Of(int stage)
@@ -14,6 +14,6 @@ namespace Guidewire.Core
         }
 
         /// <summary>2 a - a_old, for a scheme of one stage that keeps the step before in a second place.</summary>
-        public static StagePredictor OneStage => new StagePredictor { First = 0, Second = 1, Share = -1.0 };
+        public static StagePredictor OneStage => new StagePredictor { First = 0, Second = 1, Fraction = -1.0 };
     }
 }

@@ -15,28 +15,28 @@ namespace Guidewire.Core
         private const int MostParts = 16;
         private const double OfElement = 0.5;
         private readonly RodSupports _supports;
-        private readonly WallProjection _push;
+        private readonly WallProjection _projection;
         private readonly InertiaEnergy _inertia;
         private readonly Vector3d[] _past;       // x'
         private readonly Vector3d[] _before;     // x
         private readonly Vector3d[] _change;     // x - c'(s + p')
-        private readonly Vector3d[] _place;
+        private readonly Vector3d[] _point;
         private readonly double[] _at;           // s_i, m
         private readonly double _shortest;       // element, m
         private Vector3d _start;
         private bool _isHeld;
-        private double _way;                     // p, m
+        private double _travel;                     // p, m
 
         /// <summary>For a rod under terms that hold walls.</summary>
         public WallPrediction(RodTerms terms, InertiaEnergy inertia)
         {
             _supports = terms.Supports;
-            _push = new WallProjection(terms.Walls!.Barrier);
+            _projection = new WallProjection(terms.Walls!.Barrier);
             _inertia = inertia;
             _past = new Vector3d[terms.Rod.ElementCount + 1];
             _before = new Vector3d[_past.Length];
             _change = new Vector3d[_past.Length];
-            _place = new Vector3d[_past.Length];
+            _point = new Vector3d[_past.Length];
             _at = new double[_past.Length];
             _shortest = double.PositiveInfinity;
             for (int j = 0; j < terms.Rod.ElementCount; j++)
@@ -62,14 +62,14 @@ namespace Guidewire.Core
             Vector3d along = shape.Q[0].Director3;
             _isHeld = _supports.Proximal != ProximalEnd.Free;
             _start = start;
-            _way = Vector3d.Dot((_isHeld ? start : _inertia.FreePositions[0]) - shape.X[0], along);
+            _travel = Vector3d.Dot((_isHeld ? start : _inertia.FreePositions[0]) - shape.X[0], along);
             int at = 0;
-            double wayBefore = Vector3d.Dot(shape.X[0] - _past[0], along);
+            double travelBefore = Vector3d.Dot(shape.X[0] - _past[0], along);
             for (int i = 0; i <= n; i++)
             {
-                _change[i] = shape.X[i] - PlaceOn(_past, _at[i] + wayBefore, ref at);
+                _change[i] = shape.X[i] - PointOn(_past, _at[i] + travelBefore, ref at);
             }
-            return (int)Math.Min(MostParts, Math.Ceiling(Math.Max(1.0, Math.Abs(_way) / (OfElement * _shortest))));
+            return (int)Math.Min(MostParts, Math.Ceiling(Math.Max(1.0, Math.Abs(_travel) / (OfElement * _shortest))));
         }
 
         /// <summary>Sets the prediction.</summary>
@@ -84,13 +84,13 @@ namespace Guidewire.Core
             int at = 0;
             for (int i = 0; i <= last; i++)
             {
-                _place[i] = PlaceOn(_before, _at[i] + fraction * _way, ref at) + fraction * _change[i];
+                _point[i] = PointOn(_before, _at[i] + fraction * _travel, ref at) + fraction * _change[i];
             }
-            predicted.X[0] = _isHeld ? Vector3d.Lerp(_before[0], _start, fraction) : _place[0];
-            Lay(_place, predicted.X, last);
-            _push.Apply(shape, predicted, last);
-            Array.Copy(predicted.X, _place, last + 1);
-            Lay(_place, predicted.X, last);
+            predicted.X[0] = _isHeld ? Vector3d.Lerp(_before[0], _start, fraction) : _point[0];
+            Lay(_point, predicted.X, last);
+            _projection.Apply(shape, predicted, last);
+            Array.Copy(predicted.X, _point, last + 1);
+            Lay(_point, predicted.X, last);
             for (int j = 0; j < n; j++)
             {
                 Vector3d before = shape.X[j + 1] - shape.X[j];
@@ -115,7 +115,7 @@ namespace Guidewire.Core
         // The place at s on the curve through nodes, from the element on that was looked at last: cubic between two of
         // them, with the slopes of parabolas through three; behind the ends on the parabola there, at most an element
         // or two.
-        private Vector3d PlaceOn(Vector3d[] x, double s, ref int j)
+        private Vector3d PointOn(Vector3d[] x, double s, ref int j)
         {
             int n = x.Length - 1;
             while (j + 1 < n && s > _at[j + 1])

@@ -43,7 +43,7 @@ namespace Guidewire.Core
         {
             SupportSpring spring = _terms.Walls!.Spring;
             Vector3d lag = spring.LagOf(shape);
-            spring.Place = start;
+            spring.Position = start;
             spring.Besides = _terms.Sheath == null ? 0.0 : _terms.Sheath.StartForce;
             _terms.Walls.Friction?.Lag(shape);
             PlaceEnd(shape, end);

@@ -18,13 +18,13 @@ namespace Guidewire.Core
         private readonly double _longestMove;     // m
 
         /// <summary>For this motion.</summary>
-        public WallSteps(RodDynamics dynamics, HalvedSteps halved, RodSchedule schedule, WallMonitor watch)
+        public WallSteps(RodDynamics dynamics, HalvedSteps halved, RodSchedule schedule, WallMonitor monitor)
         {
             _dynamics = dynamics;
             _schedule = schedule;
-            _monitor = watch;
+            _monitor = monitor;
             _halved = halved;
-            halved.PieceDone = () => watch.AddPart(dynamics.Shape);
+            halved.PieceDone = () => monitor.AddPart(dynamics.Shape);
             _longestMove = BarrierDefaults.MostMove * dynamics.Terms.Walls!.Barrier.Barrier.Distance;
         }
 

@@ -51,7 +51,7 @@ namespace Guidewire.Core
         /// <summary>Projects all joints once, in the given order.</summary>
         /// <param name="q">n orientations, corrected in place and of unit length again.</param>
         /// <param name="order">The joints in the order of the sweep; joint j is between elements j and j + 1.</param>
-        public void Sweep(Quaterniond[] q, int[] order)
+        public void Iterate(Quaterniond[] q, int[] order)
         {
             foreach (int j in order)
             {

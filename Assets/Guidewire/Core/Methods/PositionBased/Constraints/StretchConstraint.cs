@@ -59,7 +59,7 @@ namespace Guidewire.Core
         /// <param name="x">n + 1 positions in units, corrected in place.</param>
         /// <param name="q">n orientations, corrected in place and of unit length again.</param>
         /// <param name="order">The elements in the order of the sweep.</param>
-        public void Sweep(Vector3d[] x, Quaterniond[] q, int[] order)
+        public void Iterate(Vector3d[] x, Quaterniond[] q, int[] order)
         {
             double inverseLength = 1.0 / _length;
             foreach (int j in order)

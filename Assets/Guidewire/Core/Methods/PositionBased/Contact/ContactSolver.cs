@@ -18,7 +18,7 @@ namespace Guidewire.Core
         private const int Resolves = 2;
         private const int MostParts = 4096;     // of a step; a drive that asks for more gets no more
         private const int Slides = 6;
-        private const int SweepsASlide = 8;
+        private const int SlideIterations = 8;
         private const double SmallerStep = 0.25;
         private readonly double _timeStep;
         private readonly IConstraintSolver _solver;
@@ -183,9 +183,9 @@ namespace Guidewire.Core
             {
                 _response.Stop(_swept.Impacts);
                 ShortenHeld(state, p);
-                for (int sweep = 0; sweep < SweepsASlide; sweep++)
+                for (int iteration = 0; iteration < SlideIterations; iteration++)
                 {
-                    _response.SweepStops(p);
+                    _response.IterateStops(p);
                 }
                 isFree = !_swept.Find(_safe, p);
                 if (!isFree)

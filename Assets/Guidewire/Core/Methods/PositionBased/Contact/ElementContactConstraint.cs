@@ -49,7 +49,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Adds the contact of an element.</summary>
-        public void Add(int element, in SurfaceContact contact, double reach, double gain, double friction = 0.0)
+        public void Add(int element, in SurfaceContact contact, double clearance, double gain, double friction = 0.0)
         {
             double s = contact.Position;
             double denominator = (1.0 - s) * (1.0 - s) * _inverseMasses[element] + s * s * _inverseMasses[element + 1];
@@ -61,7 +61,7 @@ namespace Guidewire.Core
             _position[Count] = s;
             _denominator[Count] = denominator;
             _normal[Count] = contact.Normal;
-            _offset[Count] = Vector3d.Dot(contact.Point, contact.Normal) + reach;
+            _offset[Count] = Vector3d.Dot(contact.Point, contact.Normal) + clearance;
             _gain[Count] = gain;
             _impulse[Count] = 0.0;
             _friction.Add(Count, friction);
@@ -76,7 +76,7 @@ namespace Guidewire.Core
 
         /// <summary>Projects all contacts once, in the order in which they were added.</summary>
         /// <param name="x">n + 1 positions in units, corrected in place.</param>
-        public void Sweep(Vector3d[] x)
+        public void Iterate(Vector3d[] x)
         {
             for (int k = 0; k < Count; k++)
             {
@@ -99,16 +99,16 @@ namespace Guidewire.Core
                 x[j] += (impulse * (1.0 - s) * _inverseMasses[j]) * n;
                 x[j + 1] += (impulse * s * _inverseMasses[j + 1]) * n;
             }
-            if (_friction.Rubs(k, _impulse[k]))
+            if (_friction.HasFriction(k, _impulse[k]))
             {
-                Rub(k, x);
+                ApplyFriction(k, x);
                 return true;
             }
             return gap > 0.0;
         }
 
         // A displacement t of the contact point is an impulse t/denominator, shared by the lever rule as its push is.
-        private void Rub(int k, Vector3d[] x)
+        private void ApplyFriction(int k, Vector3d[] x)
         {
             int j = _element[k];
             double s = _position[k];
@@ -127,7 +127,7 @@ namespace Guidewire.Core
             {
                 impulses[_element[k]] += (_impulse[k] * (1.0 - _position[k])) * _normal[k];
                 impulses[_element[k] + 1] += (_impulse[k] * _position[k]) * _normal[k];
-                if (_friction.Rubs(k, _impulse[k]))
+                if (_friction.HasFriction(k, _impulse[k]))
                 {
                     Vector3d impulse = (1.0 / _denominator[k]) * _friction.Taken(k);
                     impulses[_element[k]] += (1.0 - _position[k]) * impulse;

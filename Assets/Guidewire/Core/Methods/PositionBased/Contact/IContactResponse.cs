@@ -16,10 +16,10 @@ namespace Guidewire.Core
 
         /// <summary>Projects all contacts once.</summary>
         /// <param name="x">n + 1 positions in units, corrected in place.</param>
-        void Sweep(Vector3d[] x);
+        void Iterate(Vector3d[] x);
 
         /// <summary>Projects once what holds the wire off places that the swept test met, and nothing else.</summary>
-        void SweepStops(Vector3d[] x);
+        void IterateStops(Vector3d[] x);
 
         /// <summary>Contacts at present, in the order of a sweep.</summary>
         int ContactCount { get; }

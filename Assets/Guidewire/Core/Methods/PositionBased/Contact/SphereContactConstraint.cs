@@ -14,7 +14,7 @@ namespace Guidewire.Core
         private readonly Vector3d[] _normal;
         private readonly double[] _offset;     // (c.n + reach), units
         private readonly double[] _gain;
-        private readonly double[] _pushed;     // sum of gain g over the iterations, units
+        private readonly double[] _correction;     // sum of gain g over the iterations, units
         private readonly WallFriction _friction;
         private Vector3d[] _from;              // where the solve began, units
 
@@ -28,7 +28,7 @@ namespace Guidewire.Core
             _normal = new Vector3d[capacity];
             _offset = new double[capacity];
             _gain = new double[capacity];
-            _pushed = new double[capacity];
+            _correction = new double[capacity];
             _friction = new WallFriction(capacity, iterations);
             _from = state.Positions;
         }
@@ -44,7 +44,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Adds the contact of a sphere.</summary>
-        public void Add(int sphere, in SurfaceContact contact, double reach, double gain, double friction = 0.0)
+        public void Add(int sphere, in SurfaceContact contact, double clearance, double gain, double friction = 0.0)
         {
             if (Count == _sphere.Length || _inverseMasses[sphere] == 0.0)
             {
@@ -52,9 +52,9 @@ namespace Guidewire.Core
             }
             _sphere[Count] = sphere;
             _normal[Count] = contact.Normal;
-            _offset[Count] = Vector3d.Dot(contact.Point, contact.Normal) + reach;
+            _offset[Count] = Vector3d.Dot(contact.Point, contact.Normal) + clearance;
             _gain[Count] = gain;
-            _pushed[Count] = 0.0;
+            _correction[Count] = 0.0;
             _friction.Add(Count, friction);
             Count++;
         }
@@ -67,7 +67,7 @@ namespace Guidewire.Core
 
         /// <summary>Projects all contacts once, in the order in which they were added.</summary>
         /// <param name="x">n + 1 positions in units, corrected in place.</param>
-        public void Sweep(Vector3d[] x)
+        public void Iterate(Vector3d[] x)
         {
             for (int k = 0; k < Count; k++)
             {
@@ -84,13 +84,13 @@ namespace Guidewire.Core
             double gap = _offset[k] - Vector3d.Dot(x[i], n);
             if (gap > 0.0)
             {
-                double push = _gain[k] * gap;
-                _pushed[k] += push;
-                x[i] += push * n;
+                double correction = _gain[k] * gap;
+                _correction[k] += correction;
+                x[i] += correction * n;
             }
-            if (_friction.Rubs(k, _pushed[k]))
+            if (_friction.HasFriction(k, _correction[k]))
             {
-                x[i] += _friction.Correct(k, x[i] - _from[i], n, _pushed[k]);
+                x[i] += _friction.Correct(k, x[i] - _from[i], n, _correction[k]);
                 return true;
             }
             return gap > 0.0;
@@ -102,8 +102,8 @@ namespace Guidewire.Core
         {
             for (int k = 0; k < Count; k++)
             {
-                impulses[_sphere[k]] += (_pushed[k] / _inverseMasses[_sphere[k]]) * _normal[k];
-                if (_friction.Rubs(k, _pushed[k]))
+                impulses[_sphere[k]] += (_correction[k] / _inverseMasses[_sphere[k]]) * _normal[k];
+                if (_friction.HasFriction(k, _correction[k]))
                 {
                     impulses[_sphere[k]] += (1.0 / _inverseMasses[_sphere[k]]) * _friction.Taken(k);
                 }

@@ -45,9 +45,9 @@ namespace Guidewire.Core
         }
 
         /// <summary>True where contact k rubs, once it was pushed.</summary>
-        public bool Rubs(int k, double pushed)
+        public bool HasFriction(int k, double correction)
         {
-            return pushed > 0.0 && _coefficient[k] > 0.0;
+            return correction > 0.0 && _coefficient[k] > 0.0;
         }
 
         /// <summary>t of contact k in units: how far friction has moved its point in this solve.</summary>
@@ -60,13 +60,13 @@ namespace Guidewire.Core
         /// <param name="k">The contact.</param>
         /// <param name="motion">Its point's motion since the solve began, units.</param>
         /// <param name="normal">Its normal n.</param>
-        /// <param name="pushed">P, units.</param>
-        public Vector3d Correct(int k, in Vector3d motion, in Vector3d normal, double pushed)
+        /// <param name="correction">P, units.</param>
+        public Vector3d Correct(int k, in Vector3d motion, in Vector3d normal, double correction)
         {
             Vector3d slip = motion - Vector3d.Dot(motion, normal) * normal;
             Vector3d taken = _taken[k] - slip;
             _done[k]++;
-            double most = _coefficient[k] * pushed * Math.Min(1.0, _done[k] / _iterations);
+            double most = _coefficient[k] * correction * Math.Min(1.0, _done[k] / _iterations);
             double size = taken.Length;
             if (size > most)
             {

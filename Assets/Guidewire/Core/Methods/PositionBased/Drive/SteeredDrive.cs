@@ -7,21 +7,21 @@ namespace Guidewire.Core
     /// </remarks>
     internal sealed class SteeredDrive : IDriveMotion
     {
-        private readonly Steering _hand;
+        private readonly Steering _steering;
         private readonly AlongFirstElement _direction = new AlongFirstElement();
 
-        /// <param name="hand">What is asked.</param>
-        public SteeredDrive(Steering hand)
+        /// <param name="steering">What is asked.</param>
+        public SteeredDrive(Steering steering)
         {
-            _hand = hand;
+            _steering = steering;
         }
 
         /// <inheritdoc/>
         public void Move(RodState state)
         {
             Vector3d[] x = state.Positions;
-            state.PredictedPositions[0] = x[0] + _hand.Push * _direction.At(x[0], x[1]);
-            Quaterniond turn = Quaterniond.FromAxisAngle(Vector3d.UnitZ, _hand.Turn);
+            state.PredictedPositions[0] = x[0] + _steering.Push * _direction.At(x[0], x[1]);
+            Quaterniond turn = Quaterniond.FromAxisAngle(Vector3d.UnitZ, _steering.Turn);
             state.PredictedOrientations[0] = Quaterniond.Normalize(state.Orientations[0] * turn);
         }
     }

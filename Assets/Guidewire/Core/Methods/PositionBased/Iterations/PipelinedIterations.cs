@@ -4,7 +4,7 @@ using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
-    /// <summary>Successive iterations of <see cref="ScalarSweeps"/> in the naive order, one in each lane of a vector
+    /// <summary>Successive iterations of <see cref="ScalarIterations"/> in the naive order, one in each lane of a vector
     /// register, each three elements behind the one before: bit for bit what they give one after the other.</summary>
     /// <remarks>A sweep is a chain: a scalar loop waits for its own results most of the time. But stretch constraint j
     /// touches x_j, x_{j+1} and q_j only, bend-twist constraint j only q_j and q_{j+1}. While lane 0 is at place p,
@@ -15,7 +15,7 @@ namespace Guidewire.Core
     /// starts its next sweep at once: lanes fill once a call. A lane that has no constraint at its place or no sweep
     /// left to do hands on what it was given. That is selected, not multiplied by 0: 0 times infinity is not a number,
     /// and -0 + 0 is not -0.</remarks>
-    internal sealed class PipelinedSweeps<T> : ISweeps
+    internal sealed class PipelinedIterations<T> : IIterations
         where T : struct, ILanes<T>
     {
         private const int Lag = LaneTable.Lag;
@@ -53,7 +53,7 @@ namespace Guidewire.Core
         private readonly double[] _end;      // ticks after which each lane has no sweep left
 
         /// <param name="scalar">The sweeps to do, in the naive order.</param>
-        public PipelinedSweeps(ScalarSweeps scalar)
+        public PipelinedIterations(ScalarIterations scalar)
         {
             StretchConstraint stretch = scalar.Stretch;
             BendTwistConstraint bendTwist = scalar.BendTwist;
@@ -88,8 +88,8 @@ namespace Guidewire.Core
             }
             for (int lane = 0; lane < T.Count; lane++)
             {
-                long sweeps = (iterations - lane + T.Count - 1L) / T.Count;
-                _end[lane] = Lag * lane + sweeps * _period;
+                long laneIterations = (iterations - lane + T.Count - 1L) / T.Count;
+                _end[lane] = Lag * lane + laneIterations * _period;
             }
             Take(x, q);
             Run(Ticks(iterations), x);
@@ -136,11 +136,11 @@ namespace Guidewire.Core
 
             int[] lanesInContact = _contacts.Lanes;
             ref double held = ref _contacts.Held[0];
-            int place = 0;
+            int slot = 0;
             int leaving = -Lag * (T.Count - 1) - JointLag;    // the place of what leaves the last lane
             for (long tick = 0; tick < ticks; tick++)
             {
-                ref double entering = ref Unsafe.Add(ref nodes, Node * place);
+                ref double entering = ref Unsafe.Add(ref nodes, Node * slot);
                 T vX = T.Shift(lateX, entering);
                 T vY = T.Shift(lateY, Unsafe.Add(ref entering, 1));
                 T vZ = T.Shift(lateZ, Unsafe.Add(ref entering, 2));
@@ -152,7 +152,7 @@ namespace Guidewire.Core
                 lateY = doneY;
                 lateZ = doneZ;
                 T going = time < end;
-                ref double row = ref Unsafe.Add(ref table, rows[place]);
+                ref double row = ref Unsafe.Add(ref table, rows[slot]);
                 T turnedX, turnedY, turnedZ, turnedW;
                 {
                     T isJoint = going & T.Load(ref Unsafe.Add(ref row, IsJoint * column));
@@ -223,7 +223,7 @@ namespace Guidewire.Core
                 rY = turnedY;
                 rZ = turnedZ;
                 rW = turnedW;
-                if (lanesInContact[place] != 0)
+                if (lanesInContact[slot] != 0)
                 {
                     T.Store(doneX, ref held);
                     T.Store(doneY, ref Unsafe.Add(ref held, T.Count));
@@ -231,7 +231,7 @@ namespace Guidewire.Core
                     T.Store(lateX, ref Unsafe.Add(ref held, 3 * T.Count));
                     T.Store(lateY, ref Unsafe.Add(ref held, 4 * T.Count));
                     T.Store(lateZ, ref Unsafe.Add(ref held, 5 * T.Count));
-                    if (_contacts.Project(place, tick, _end, x))
+                    if (_contacts.Project(slot, tick, _end, x))
                     {
                         doneX = T.Load(ref held);
                         doneY = T.Load(ref Unsafe.Add(ref held, T.Count));
@@ -252,7 +252,7 @@ namespace Guidewire.Core
                     Unsafe.Add(ref node, NodeFrame + 2) = T.Last(rZ);
                     Unsafe.Add(ref node, NodeFrame + 3) = T.Last(rW);
                 }
-                place = Next(place);
+                slot = Next(slot);
                 leaving = Next(leaving);
                 time += one;
             }
@@ -295,9 +295,9 @@ namespace Guidewire.Core
             return rounds * _period + Lag * (T.Count - 1) + 1;
         }
 
-        private int Next(int place)
+        private int Next(int slot)
         {
-            return place + 1 == _period ? 0 : place + 1;
+            return slot + 1 == _period ? 0 : slot + 1;
         }
 
         private static double[] Marks(int count)

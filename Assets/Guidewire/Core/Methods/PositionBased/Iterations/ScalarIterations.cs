@@ -1,7 +1,7 @@
 namespace Guidewire.Core
 {
     /// <summary>One sweep after the other, one constraint after the other.</summary>
-    internal sealed class ScalarSweeps : ISweeps
+    internal sealed class ScalarIterations : IIterations
     {
         private readonly int[] _elements;
         private readonly int[] _joints;
@@ -9,13 +9,13 @@ namespace Guidewire.Core
         /// <param name="stretch">The elements' constraints.</param>
         /// <param name="bendTwist">The joints' constraints.</param>
         /// <param name="order">The order of each sweep.</param>
-        public ScalarSweeps(StretchConstraint stretch, BendTwistConstraint bendTwist, SweepOrder order)
+        public ScalarIterations(StretchConstraint stretch, BendTwistConstraint bendTwist, SweepOrder order)
         {
             Stretch = stretch;
             BendTwist = bendTwist;
             Order = order;
-            _elements = SweepOrders.Indices(order, stretch.Count);
-            _joints = SweepOrders.Indices(order, bendTwist.Count);
+            _elements = IterationOrders.Indices(order, stretch.Count);
+            _joints = IterationOrders.Indices(order, bendTwist.Count);
         }
 
         /// <summary>The elements' constraints.</summary>
@@ -32,9 +32,9 @@ namespace Guidewire.Core
         {
             for (int iteration = 0; iteration < iterations; iteration++)
             {
-                Stretch.Sweep(x, q, _elements);
-                BendTwist.Sweep(q, _joints);
-                contacts?.Sweep(x);
+                Stretch.Iterate(x, q, _elements);
+                BendTwist.Iterate(q, _joints);
+                contacts?.Iterate(x);
             }
             return true;
         }

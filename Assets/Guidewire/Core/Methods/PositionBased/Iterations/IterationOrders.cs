@@ -1,7 +1,7 @@
 namespace Guidewire.Core
 {
     /// <summary>The orders of one Gauss-Seidel sweep as index lists.</summary>
-    internal static class SweepOrders
+    internal static class IterationOrders
     {
         /// <summary>The indices 0 .. count - 1 in the order of the sweep.</summary>
         /// <param name="order">Naive: 0, 1, 2, ...; bilateral: 0, count - 1, 1, count - 2, ...</param>

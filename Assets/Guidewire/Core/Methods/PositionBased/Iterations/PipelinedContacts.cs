@@ -68,35 +68,35 @@ namespace Guidewire.Core
             for (int k = 0; k < count; k++)
             {
                 rule!.SpheresOf(k, out int first, out int last);
-                int place = Math.Max(_ready[first], _ready[last]);
-                if (place > first + 1 || place > _elements)
+                int slot = Math.Max(_ready[first], _ready[last]);
+                if (slot > first + 1 || slot > _elements)
                 {
                     return false;
                 }
-                _ready[first] = place;
-                _ready[last] = place;
-                Append(k, place);
+                _ready[first] = slot;
+                _ready[last] = slot;
+                Append(k, slot);
             }
             return true;
         }
 
         /// <summary>Projects the contacts of all lanes at their places, in the spheres that are held; false where they
         /// moved none.</summary>
-        /// <param name="place">Where lane 0 is.</param>
+        /// <param name="slot">Where lane 0 is.</param>
         /// <param name="tick">Places since it started.</param>
         /// <param name="end">The tick after which each lane has no sweep left.</param>
         /// <param name="x">n + 1 positions that may be written over.</param>
-        public bool Project(int place, long tick, double[] end, Vector3d[] x)
+        public bool Project(int slot, long tick, double[] end, Vector3d[] x)
         {
             bool movedAny = false;
             for (int lane = 0; lane < _lanes; lane++)
             {
                 bool going = tick >= Lag * lane && tick < end[lane];
-                if (!going || (Lanes[place] >> lane & 1) == 0)
+                if (!going || (Lanes[slot] >> lane & 1) == 0)
                 {
                     continue;
                 }
-                int p = place - Lag * lane;
+                int p = slot - Lag * lane;
                 p = p < 0 ? p + _period : p;
                 x[p] = new Vector3d(Held[lane], Held[_lanes + lane], Held[2 * _lanes + lane]);
                 if (p > 0)
@@ -123,21 +123,21 @@ namespace Guidewire.Core
             return movedAny;
         }
 
-        private void Append(int k, int place)
+        private void Append(int k, int slot)
         {
-            if (_first[place] < 0)
+            if (_first[slot] < 0)
             {
-                _first[place] = k;
+                _first[slot] = k;
                 for (int lane = 0; lane < _lanes; lane++)
                 {
-                    Lanes[(place + Lag * lane) % _period] |= 1 << lane;
+                    Lanes[(slot + Lag * lane) % _period] |= 1 << lane;
                 }
             }
             else
             {
-                _next[_last[place]] = k;
+                _next[_last[slot]] = k;
             }
-            _last[place] = k;
+            _last[slot] = k;
             _next[k] = -1;
         }
 

@@ -4,7 +4,7 @@ namespace Guidewire.Core
 {
     /// <summary>What the sweeps of a substep left undone, beside the strain that the wire holds. Sums over the whole
     /// wire: radians for bending and twist, m for stretch and shear; of contacts the largest.</summary>
-    internal struct SweepResidual
+    internal struct IterationResidual
     {
         /// <summary>Sum of |C + alpha lambda/h^2| over the joints, about d1 and d2.</summary>
         public double Bend;
@@ -29,7 +29,7 @@ namespace Guidewire.Core
 
         /// <summary>Takes in a later moment: residuals add up, weighed by the share of time that this one stands for,
         /// of strains the largest stays.</summary>
-        public void Include(in SweepResidual other, double fraction)
+        public void Include(in IterationResidual other, double fraction)
         {
             Bend += fraction * other.Bend;
             Twist += fraction * other.Twist;

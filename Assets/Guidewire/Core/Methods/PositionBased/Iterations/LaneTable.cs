@@ -52,10 +52,10 @@ namespace Guidewire.Core
             }
         }
 
-        private int Location(int place)
+        private int Location(int slot)
         {
             int strand = Strand(Rows.Length);
-            int ahead = place + Lag * (_lanes - 1);
+            int ahead = slot + Lag * (_lanes - 1);
             return ahead % Lag * strand + strand - 1 - ahead / Lag;
         }
 

@@ -1,7 +1,7 @@
 namespace Guidewire.Core
 {
     /// <summary>The sweeps of position-and-orientation-based dynamics.</summary>
-    internal interface ISweeps
+    internal interface IIterations
     {
         /// <summary>Does iterations, each all stretch constraints, then all bend-twist constraints, then all
         /// contacts.</summary>

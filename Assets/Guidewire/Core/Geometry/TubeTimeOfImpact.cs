@@ -8,10 +8,10 @@ namespace Guidewire.Core
     /// <remarks>So a motion is free when the same pieces serve the segment in the same order before and after, and
     /// their handovers keep the distance. Where others serve it the motion is halved, until the change of pieces lies
     /// in a part that is too short to bring the segment to the wall: d has slope at most 1. What is left after
-    /// <see cref="MostLooks"/> looks counts as not free. Keeps scratch memory: one object serves one thread.</remarks>
-    internal sealed class TubeSweep
+    /// <see cref="MostQueries"/> looks counts as not free. Keeps scratch memory: one object serves one thread.</remarks>
+    internal sealed class TubeTimeOfImpact
     {
-        private const int MostLooks = 16;
+        private const int MostQueries = 16;
         private const double SafePart = 0.9;
         private const double LeastFraction = 1.0 / 16.0;
         private const double ShortestTime = 1.0 / 128.0;
@@ -20,7 +20,7 @@ namespace Guidewire.Core
         private TubeHandovers _after;
 
         /// <summary>For a tube and the tree of its pieces.</summary>
-        public TubeSweep(TubeShape tube, TubeTree tree)
+        public TubeTimeOfImpact(TubeShape tube, TubeTree tree)
         {
             _tube = tube;
             _before = new TubeHandovers(tree);
@@ -28,8 +28,8 @@ namespace Guidewire.Core
         }
 
         /// <summary>Largest fraction of the motion for which every point of the segment is proven to keep a distance of
-        /// <paramref name="keep"/>, <see cref="ContactShape.NoImpact"/> for all of it.</summary>
-        public double TimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep)
+        /// <paramref name="clearance"/>, <see cref="ContactShape.NoImpact"/> for all of it.</summary>
+        public double TimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance)
         {
             bool isPoint = a0 == b0 && a1 == b1;
             double time = 0.0;
@@ -37,23 +37,23 @@ namespace Guidewire.Core
             double step = 1.0;
             if (!isPoint)
             {
-                _before.Find(a0, b0, keep);
+                _before.Find(a0, b0, clearance);
             }
-            for (int looks = 0; looks < MostLooks && step >= ShortestTime; looks++)
+            for (int queries = 0; queries < MostQueries && step >= ShortestTime; queries++)
             {
                 double until = Math.Min(end, time + step);
                 Vector3d a = Vector3d.Lerp(a0, a1, until);
                 Vector3d b = Vector3d.Lerp(b0, b1, until);
-                double least = isPoint ? _tube.LeastDistance(Vector3d.Lerp(a0, a1, time), a) : FindAfter(a, b, keep);
-                if (least < keep)
+                double least = isPoint ? _tube.LeastDistance(Vector3d.Lerp(a0, a1, time), a) : FindAfter(a, b, clearance);
+                if (least < clearance)
                 {
                     // How far it goes if the distance falls evenly.
                     double before = isPoint ? _tube.Distance(Vector3d.Lerp(a0, a1, time), out _) : _before.Least;
-                    double fraction = SafePart * (before - keep) / (before - least);
+                    double fraction = SafePart * (before - clearance) / (before - least);
                     end = until;
                     step = (end - time) * Math.Min(0.5, Math.Max(fraction, LeastFraction));
                 }
-                else if (isPoint || IsFree(keep))
+                else if (isPoint || IsFree(clearance))
                 {
                     if (until == 1.0)
                     {
@@ -71,17 +71,17 @@ namespace Guidewire.Core
             return time;
         }
 
-        private double FindAfter(in Vector3d a, in Vector3d b, double keep)
+        private double FindAfter(in Vector3d a, in Vector3d b, double clearance)
         {
-            _after.Find(a, b, keep);
+            _after.Find(a, b, clearance);
             return Math.Min(_before.Least, _after.Least);
         }
 
         // From where _before was found to where _after was.
-        private bool IsFree(double keep)
+        private bool IsFree(double clearance)
         {
             double motion = Math.Max(Vector3d.Distance(_before.A, _after.A), Vector3d.Distance(_before.B, _after.B));
-            return 0.5 * (_before.Least + _after.Least - motion) >= keep || _before.LeadTo(_after, keep);
+            return 0.5 * (_before.Least + _after.Least - motion) >= clearance || _before.LeadTo(_after, clearance);
         }
     }
 }
