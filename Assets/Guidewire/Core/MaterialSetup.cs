@@ -81,7 +81,7 @@ namespace Guidewire.Core
             FrictionEnergy? friction = Array.Exists(scene.Walls, wall => wall.FrictionCoefficient > 0.0)
                 ? new FrictionEnergy(contact, scene.Rod.ElementCount, parameters.Contact.ElasticSlip > 0.0
                     ? parameters.Contact.ElasticSlip : FrictionEnergy.ElasticSlipOf(scene.Rod)) : null;
-            // Looked for where it is asked for: the rule measures how narrow a vessel is, all of it.
+            // Evaluated on demand: the rule measures the narrowest position of the whole vessel.
             ContactParameters given = parameters.Contact;
             Func<string?>? advice = null;
             if (given.ContactDistance != 0.0 || given.ContactStiffness != 0.0)
@@ -112,7 +112,7 @@ namespace Guidewire.Core
             return dynamics;
         }
 
-        /// <summary>Sweeps over constraints with compliance.</summary>
+        /// <summary>Iterations over constraints with compliance.</summary>
         public static TimeStepper Compliant(SimulationParameters parameters, MaterialScene scene, RodTerms terms,
             SolverReport report)
         {

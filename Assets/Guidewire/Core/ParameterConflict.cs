@@ -120,7 +120,7 @@ namespace Guidewire.Core
                 return new ParameterConflict("proximalEnd",
                     "\"held\" or \"clamped\" with solver pbd; drive \"force\" frees sphere 0");
             }
-            // With gains "held" is the default and says nothing, and there is no "free".
+            // With pbd "held" is the default and says nothing, and there is no "free".
             bool isLetGo = method.TakesMaterial ? scene.ProximalEnd == ProximalEnd.Free
                 : scene.ProximalEnd != ProximalEnd.Clamped;
             if (drive == Drive.Force && !isLetGo)

@@ -5,7 +5,7 @@ using System.Globalization;
 namespace Guidewire.Core
 {
     /// <summary>What is not as it should be at the end of a run, whatever the method: wire beyond walls, a wire of
-    /// another length, a drive that did not get its way.</summary>
+    /// another length, a drive that was held back.</summary>
     internal sealed class RunWarnings
     {
         private const double OddStretch = 0.01;     // of the length, which no wire of metal survives

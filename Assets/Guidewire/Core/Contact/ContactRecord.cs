@@ -44,11 +44,11 @@ namespace Guidewire.Core
         /// run.</summary>
         public double DriveShortfall { get; internal set; }
 
-        /// <summary>The way that the drive asked of sphere 0, units, summed over the run.</summary>
+        /// <summary>The displacement that the drive asked of sphere 0, units, summed over the run.</summary>
         public double DriveAsked { get; internal set; }
 
         /// <summary>Successive steps, up to the last, in which the drive asked sphere 0 to move and the walls gave it
-        /// less than a hundredth of the way.</summary>
+        /// less than a hundredth of it.</summary>
         public int StuckSteps { get; private set; }
 
         /// <summary>Momenta over dt, dp/w, that walls gave each sphere in the present step, mass unit * unit.</summary>
@@ -62,15 +62,15 @@ namespace Guidewire.Core
         public double LargestTotal { get; private set; }
 
         /// <summary>Force of each wall on the wire along its normals in the last step, N, in the order of the scene;
-        /// empty with gains.</summary>
+        /// empty with pbd.</summary>
         public Vector3d[] WallForces { get; internal set; } = Array.Empty<Vector3d>();
 
         /// <summary>Force of the walls along their normals on each of the n elements in the last step, N: of what
-        /// pushes a sphere between two elements each has half. Empty with gains.</summary>
+        /// presses on a sphere between two elements each has half. Empty with pbd.</summary>
         public Vector3d[] ElementForces { get; internal set; } = Array.Empty<Vector3d>();
 
-        /// <summary>Largest pressure of the walls on an element in the last step, Pa: what pushes it over its length
-        /// and diameter. 0 with gains.</summary>
+        /// <summary>Largest pressure of the walls on an element in the last step, Pa: its normal force over its length
+        /// and diameter. 0 with pbd.</summary>
         public double Pressure { get; internal set; }
 
         internal void SetTotal(in Vector3d total)

@@ -13,7 +13,7 @@ namespace Guidewire.Core
         private Vector3d _position;              // of the tip where it first was outside, units
         private double _time;                 // s
 
-        /// <summary>A watch on these walls; <see cref="Begin"/> says where the tip is.</summary>
+        /// <summary>A monitor of these walls; <see cref="Begin"/> says where the tip is.</summary>
         public RimMonitor(ContactShape[] walls)
         {
             _walls = walls;
@@ -22,7 +22,8 @@ namespace Guidewire.Core
 
         /// <summary>Where and when the tip left first, in one line, or null.</summary>
         public string? Line => !_hasLeft ? null : string.Format(CultureInfo.InvariantCulture,
-            "the tip left the vessel by an open rim at ({0:G4}, {1:G4}, {2:G4}) at t = {3:G6} s", _position.X, _position.Y,
+            "the tip left the vessel by an open rim at ({0:G4}, {1:G4}, {2:G4}) at t = {3:G6} s", _position.X,
+            _position.Y,
             _position.Z, _time);
 
         /// <summary>The wire is in this state.</summary>

@@ -29,8 +29,7 @@ namespace Guidewire.Core
             _isCut = new bool[sphereCount];
         }
 
-        /// <summary>Takes the end of one sphere's motion back, in place, as far as the sphere itself asks for it.
-        /// </summary>
+        /// <summary>Shortens one sphere's motion, in place, as far as the sphere itself requires. </summary>
         /// <param name="from">Where the n + 1 spheres are, clear of the walls; units.</param>
         /// <param name="to">Where they would go.</param>
         /// <param name="i">The sphere.</param>
@@ -43,7 +42,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Takes the ends of the motion back, in place.</summary>
+        /// <summary>Shortens the motion of all spheres, in place.</summary>
         /// <param name="from">Where the n + 1 spheres are, clear of the walls; units.</param>
         /// <param name="to">Where they would go.</param>
         public void Shorten(Vector3d[] from, Vector3d[] to)

@@ -11,7 +11,7 @@ namespace Guidewire.Core
         private readonly IContactSearch _search;
         private readonly ContactShape[] _walls;
         private readonly double[] _radius;      // of elements, units
-        private readonly int[] _elementHint;    // where the nearest place was, per wall and element
+        private readonly int[] _elementHint;    // where the nearest point was, per wall and element
         private readonly int[] _sphereHint;
 
         /// <param name="search">Its walls and radius; it knows for each element a lower bound of its distance from the

@@ -11,7 +11,7 @@ namespace Guidewire.Core
         // are a factor of 1000.
         private const double OddLengths = 100.0;
         private const double OddRadii = 300.0;
-        private const double LeastRange = 1e-9;  // units: within it a wall is looked for that an axis may cut
+        private const double LeastRange = 1e-9;  // units: the range in which walls that the axis may cross are searched
 
         /// <summary>What is wrong with the start that the parameters describe, in one phrase, or null.</summary>
         /// <exception cref="ArgumentException">There is no such start.</exception>
@@ -117,7 +117,7 @@ namespace Guidewire.Core
                 box.HasValue ? ", " + what + " " + box.Value : "");
         }
 
-        // How far the drive means to push the tip, units.
+        // How far the drive is to push the tip, units.
         private static double DistanceAhead(SimulationParameters parameters)
         {
             DriveParameters drive = parameters.Drive;

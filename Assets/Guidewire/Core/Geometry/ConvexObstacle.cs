@@ -2,9 +2,9 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>A convex body that stands in the wire's way: all points within a radius of the convex hull of some
-    /// points. One point makes a sphere, two a capsule, eight corners a box, any number a hull.</summary>
-    /// <remarks>Distances by GJK, depth by EPA. Keeps scratch memory: one object serves one thread.</remarks>
+    /// <summary>A convex body in the wire's path: all points within a radius of the convex hull of some points. One
+    /// point makes a sphere, two a capsule, eight corners a box, any number a hull.</summary>
+    /// <remarks>Distances by GJK, depth by EPA. Holds scratch memory: one object serves one thread.</remarks>
     public sealed class ConvexObstacle : ContactShape
     {
         private const double RelativeFlatness = 1e-9;
@@ -76,10 +76,10 @@ namespace Guidewire.Core
             return contact.Distance <= range;
         }
 
-        /// <summary>The nearest place. Within the hull of the points itself the distance is a depth, and no curvature
+        /// <summary>The nearest point. Within the hull of the points itself the distance is a depth, and no curvature
         /// is stated.</summary>
         /// <remarks>The points that lie highest along the normal are the corner, the edge or the face of the hull on
-        /// which the place lies; the curvature is that about them.</remarks>
+        /// which the point lies; the curvature is that about them.</remarks>
         internal override void FindContactPoints(in Vector3d x, double range, FeatureRange features,
             StructList<ContactPoint> contactPoints)
         {
@@ -128,8 +128,8 @@ namespace Guidewire.Core
             return SweptTest.Impact(new Body(this), a0, b0, a1, b1, clearance, resolution);
         }
 
-        /// <summary>That of the deepest point; the distance of a segment that cuts the body is the shortest way out of
-        /// it, which may be longer.</summary>
+        /// <summary>That of the deepest point; the distance of a segment that cuts the body is the shortest
+        /// displacement out of it, which may be longer.</summary>
         /// <remarks>A point's signed distance from a convex body is convex along a segment: golden sections.</remarks>
         internal override double LeastAlong(in Vector3d a, in Vector3d b, double distance)
         {

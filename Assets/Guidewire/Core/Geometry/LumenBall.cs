@@ -21,7 +21,7 @@ namespace Guidewire.Core
         public Vector3d Centre { get; set; }
 
         /// <summary>Climbs from x to the middle of the lumen across a direction, or to where the ball is large enough:
-        /// eight ways by turns, the step doubled where one leads up and halved where none does. No step leaves the
+        /// eight directions in turn, the step doubled where one leads up and halved where none does. No step leaves the
         /// ball, and so the lumen.</summary>
         /// <param name="finest">The last step.</param>
         /// <param name="enough">Radius.</param>

@@ -3,23 +3,23 @@ using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
-    /// <summary>Walks along a lumen, both ways from a place, to where it is narrowest and gets wider again. Lengths in
-    /// units.</summary>
+    /// <summary>Walks along a lumen, in both directions from a point, to where it is narrowest and widens again.
+    /// Lengths in units.</summary>
     /// <remarks>The walk goes by balls that are centred across it (<see cref="LumenBall"/>), along the direction e in
     /// which the lesser of d(c + h e) and d(c - h e) is largest, d the distance from the wall. It ends where the lumen
-    /// has become wider than its narrowest by <see cref="WideAgain"/>, or where d falls by more than half of the way:
-    /// there is the end of the vessel. What it comes to depends on d alone, not on how the wall is cut into triangles.
-    /// A lumen that narrows to less than a wire, evenly or by steps that are not wide again, holds the wire whatever
-    /// its barriers are, and does not count.</remarks>
+    /// has become wider than its narrowest by <see cref="WideAgain"/>, or where d falls by more than half of the
+    /// distance travelled: there is the end of the vessel. What it comes to depends on d alone, not on how the wall is
+    /// cut into triangles. A lumen that narrows to less than a wire, evenly or by steps that are not wide again, holds
+    /// the wire whatever its barriers are, and does not count.</remarks>
     internal sealed class LumenWalk
     {
         private const double StepOverWidth = 0.5;
         private const double WideAgain = 1.05;
         private const double EndSlope = 0.5;
-        private const double Fineness = 2e-3;        // of the width, on the way
+        private const double Fineness = 2e-3;        // of the width, during the walk
         private const double LastFineness = 2e-4;    // at the end of it
         private const double ShortestStep = 0.02;    // of the width, at the end of a vessel
-        private const double Same = 0.5;             // of the width: places that are one
+        private const double Same = 0.5;             // of the width: positions that count as one
         private const double Probe = 0.5;            // h over d
         private const double LeastTurn = 0.02;       // rad, of e
         private const int MostSteps = 2000;
@@ -31,14 +31,14 @@ namespace Guidewire.Core
         private Vector3d _position;
         private Vector3d _along;
 
-        /// <summary>Of a wall, to places that are wider than a radius.</summary>
+        /// <summary>For a wall, and positions that are wider than a radius.</summary>
         public LumenWalk(ContactShape wall, double above)
         {
             _ball = new LumenBall(wall);
             _above = above;
         }
 
-        /// <summary>The radius where the lumen is narrowest about a place in it; infinite where it has been walked
+        /// <summary>The radius where the lumen is narrowest about a position in it; infinite where it has been walked
         /// before, narrows to what does not count, or is as wide as is enough.</summary>
         public double From(in Vector3d start, double enough)
         {
@@ -117,7 +117,7 @@ namespace Guidewire.Core
             }
         }
 
-        // By thirds of the way, half a step to both sides of the narrowest place that was walked.
+        // By thirds of the distance, half a step to both sides of the narrowest position of the walk.
         private double Bottom()
         {
             double length = StepOverWidth * _narrowest;

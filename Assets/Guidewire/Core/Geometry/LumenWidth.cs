@@ -2,16 +2,16 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>How wide a vessel's lumen is along a way: the radius of the widest ball across the way at each place.
-    /// Lengths in units.</summary>
-    /// <remarks>In a tube of numbers that is the radius of its knots. In a mesh the way is walked ball by ball, each
-    /// centred across the way by a search whose last step is <see cref="Fineness"/> of the radius asked for, so that a
+    /// <summary>How wide a vessel's lumen is along a path: the radius of the widest ball across the path at each
+    /// position. Lengths in units.</summary>
+    /// <remarks>In a tube of numbers that is the radius of its knots. In a mesh the path is followed ball by ball, each
+    /// centred across the path by a search whose last step is <see cref="Fineness"/> of the radius asked for, so that a
     /// width is found to about 1 %; at a branch the walk goes on straight. Where the lumen is narrower than the wire
-    /// the walk keeps its direction, so that it never turns round at a closed end.</remarks>
+    /// the direction of the walk is smoothed, so that it never turns back at a closed end.</remarks>
     internal sealed class LumenWidth
     {
         private const double Fineness = 0.005;
-        private const double StepOverWidth = 0.25;   // of one place of the walk to the next
+        private const double StepOverWidth = 0.25;   // from one position of the walk to the next
         private const double Ample = 4.0;            // radii, from which on nothing is centred
         private const int MostSteps = 4000;
         private readonly ContactShape _wall;
@@ -26,8 +26,8 @@ namespace Guidewire.Core
             _radius = radius;
         }
 
-        /// <summary>The widest ball at the wire's first narrow place, where that is narrower than the wire; else at its
-        /// tip.</summary>
+        /// <summary>The widest ball at the wire's first narrow position, where that is narrower than the wire; else at
+        /// its tip.</summary>
         public double Width
         {
             get => _ball.Width;
@@ -44,7 +44,7 @@ namespace Guidewire.Core
         /// <summary>True where the lumen is narrower than the wire at the wire itself, or before it as far as it is
         /// pushed. A lumen that ends there does not count: a wire stops at a vessel's end.</summary>
         /// <param name="wire">The wire's spheres, in the lumen.</param>
-        /// <param name="travel">How far it is pushed, tip first; infinite where nobody says.</param>
+        /// <param name="travel">How far it is pushed, tip first; infinite if unknown.</param>
         public bool IsTooNarrow(Vector3d[] wire, double travel)
         {
             if (_wall is TubeShape tube)

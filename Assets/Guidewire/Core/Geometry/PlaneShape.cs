@@ -69,8 +69,8 @@ namespace Guidewire.Core
             return after < clearance ? Math.Max(0.0, (before - clearance) / (before - after)) : NoImpact;
         }
 
-        // An element parallel to the plane touches it everywhere: its middle stands for it, which keeps a symmetric
-        // problem symmetric.
+        // An element parallel to the plane touches it everywhere: its middle represents it, so that a symmetric problem
+        // symmetric.
         private SurfaceContact At(in Vector3d a, in Vector3d b, double da, double db)
         {
             double s = da < db ? 0.0 : da > db ? 1.0 : 0.5;

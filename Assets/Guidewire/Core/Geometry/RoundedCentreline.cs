@@ -9,17 +9,17 @@ namespace Guidewire.Core
     /// and theta the turn, its radius is t/tan(theta/2), and it passes the knot at t tan(theta/4). Knots at equal
     /// distances on a circle of radius R so become one arc, of radius R cos(theta/2).
     ///
-    /// A wire's tip that a wall guides with a force P slides along a straight piece and turns at the next: the push
-    /// that it takes varies by P theta about that of a smooth wall, over the length of a piece. Half a degree leaves
-    /// less than a hundredth of P.</remarks>
+    /// A wire's tip that a wall guides with a force P slides along a straight piece and turns at the next: the force on
+    /// it varies by P theta about that of a smooth wall, over the length of a piece. Half a degree leaves less than a
+    /// hundredth of P.</remarks>
     public static class RoundedCentreline
     {
         private const double LargestTurn = 0.5 * Math.PI / 180.0;
-        private const double Fold = 3.0;         // radians; a line that goes back on itself has no arc
+        private const double Fold = 3.0;         // radians; a line that folds back on itself has no arc
         private const double Resolution = 1e-9;  // of the shorter piece
 
-        /// <summary>Puts arcs for corners.</summary>
-        /// <param name="knots">Centreline, units, no two neighbours at one place.</param>
+        /// <summary>Replaces corners by arcs.</summary>
+        /// <param name="knots">Centreline, units, no two neighbours at the same position.</param>
         /// <param name="radii">Radius at each, units; along an arc it changes evenly from the knot's to both
         /// ends'.</param>
         public static void Round(ref Vector3d[] knots, ref double[] radii)

@@ -5,17 +5,17 @@ namespace Guidewire.Core
     /// <summary>Time of impact of a segment whose ends move along straight lines against a convex body at rest, by
     /// conservative advancement in the direction of the closest points (Mirtich 1996).</summary>
     /// <remarks>At a moment with closest points p (segment) and c (body), n = (p - c)/|p - c|, the body lies behind the
-    /// plane through c with normal n, because it is convex. The segment cannot meet it before one of its ends does
-    /// meet that plane. So time may advance to that moment, whatever the motion along the plane: sliding along a wall
-    /// costs one look.</remarks>
+    /// plane through c with normal n, because it is convex. The segment cannot meet it before one of its ends does meet
+    /// that plane. So time may advance to that moment, whatever the motion along the plane: sliding along a wall costs
+    /// one query.</remarks>
     internal static class SweptTest
     {
         private const int MaxAdvances = 20;
 
-        /// <summary>Fraction of the motion during which the distance stays at least <paramref name="clearance"/>,
-        /// <see cref="ContactShape.NoImpact"/> for all of it. It must be more at the start. Where the advances run out
-        /// before the answer is known, the time that is proven safe is returned. An approach of less than
-        /// <paramref name="resolution"/> is none, and nobody asks what comes after <paramref name="limit"/>.</summary>
+        /// <summary>Fraction of the motion during which the clearance is at least <paramref name="clearance"/>, <see
+        /// cref="ContactShape.NoImpact"/> for all of it. It must be larger at the start. If the advances run out first,
+        /// the time proven safe so far is returned. Approaches below <paramref name="resolution"/> are ignored, and so
+        /// is what comes after <paramref name="limit"/>.</summary>
         public static double Impact<TBody>(
             in TBody body, in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance,
             double resolution, double limit = 1.0)
@@ -24,7 +24,7 @@ namespace Guidewire.Core
             Vector3d va = a1 - a0;
             Vector3d vb = b1 - b0;
             double time = 0.0;
-            double proven = 0.0;    // the last time at which the distance was seen
+            double proven = 0.0;    // the last time at which the distance was evaluated
             for (int k = 0; k < MaxAdvances; k++)
             {
                 Vector3d a = a0 + time * va;
@@ -43,8 +43,8 @@ namespace Guidewire.Core
                     return ContactShape.NoImpact;
                 }
 
-                // Both ends may keep their distance and still be on their way: then the plane has turned only a
-                // little and the remaining approach is below what the clearance resolves.
+                // Both ends may have the clearance and still be approaching: then the plane has turned only a little
+                // and the remaining approach is below the resolution.
                 if (advance * Math.Max(va.Length, vb.Length) <= resolution && distance <= 1.01 * clearance)
                 {
                     return time;

@@ -34,14 +34,14 @@ namespace Guidewire.Core
             _extent = (0.5 * _length + Math.Max(fromRadius, toRadius)) * (1.0 + 1e-12);
         }
 
-        /// <summary>True where the distance at x is surely less than this; cheaper than the distance.</summary>
+        /// <summary>True where the distance at x is certainly less than this; cheaper than the distance.</summary>
         public bool IsBelow(in Vector3d x, double distance)
         {
             double limit = _extent - distance;
             return limit < 0.0 || (x - _middle).LengthSquared > limit * limit;
         }
 
-        /// <summary>False where no point within a reach of segment a b has a distance above 0.</summary>
+        /// <summary>False where no point within a range of segment a b has a distance above 0.</summary>
         public bool MayHold(in Vector3d a, in Vector3d b, double limit)
         {
             double near = Math.Max(_radius, _radius + _slope * _length) + limit;

@@ -141,7 +141,7 @@ namespace Guidewire.Core
                 Math.Min(atA, atB), EdgeContacts.Nearest(a, b, Math.Min(hint, last), Math.Max(hint, last) + 1));
         }
 
-        /// <summary>Pieces that hold something within the reach of the segment, along the centreline.</summary>
+        /// <summary>Pieces that hold something within the skin of the segment, along the centreline.</summary>
         internal override double FindFeatures(in Vector3d a, in Vector3d b, double range, double skin, ref int hint,
             StructList<WallFeature> features)
         {
@@ -157,7 +157,7 @@ namespace Guidewire.Core
             return Math.Min(Math.Min(atA, atB), EdgeContacts.Nearest(a, b, found));
         }
 
-        /// <summary>The place of the deepest piece. On a piece's centreline the normal is 0 and no curvature is
+        /// <summary>The contact point of the deepest piece. On a piece's centreline the normal is 0 and no curvature is
         /// stated.</summary>
         internal override void FindContactPoints(in Vector3d x, double range, FeatureRange features,
             StructList<ContactPoint> contactPoints)
@@ -200,7 +200,7 @@ namespace Guidewire.Core
         }
 
         // Whether each piece from the deepest at one end to the deepest at the other holds the part of the segment
-        // between the places nearest to its knots: pieces are convex, so the ends of a part say it.
+        // between the points nearest to its knots: pieces are convex, so checking the ends of a part suffices.
         private bool HoldParts(in Vector3d a, in Vector3d b, ref int hint)
         {
             int first = _tree.Deepest(a, hint, out double atA);
@@ -250,8 +250,8 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        internal override double ConservativeTimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance,
-            double resolution, int hint, in ElementFeatures features)
+        internal override double ConservativeTimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1,
+            in Vector3d b1, double clearance, double resolution, int hint, in ElementFeatures features)
         {
             _ccd ??= new TubeCcd(_tree.Pieces, Planes);
             return _ccd.SafeFraction(a0, b0, a1, b1, clearance, hint);
@@ -267,10 +267,10 @@ namespace Guidewire.Core
             return _timeOfImpact.TimeOfImpact(a0, b0, a1, b1, clearance);
         }
 
-        // Where d is least along the segment, and the piece whose term it is. A piece that serves both ends of a part
-        // serves all of it, its term being concave, and then the part is nearest with an end. So a part is cut where
-        // the terms of the pieces at its ends cross; when one of the two is the deepest there too, that place is the
-        // nearest between. With slope at most 1, d is nowhere below (d0 + d1 - length)/2.
+        // Where d is least along the segment, and the piece whose term it is. A piece that is deepest at both ends of a
+        // part is deepest on all of it, its term being concave, and then an end is the nearest point. So a part is
+        // divided where the terms of the pieces at its ends cross; if one of the two is the deepest there too, that
+        // point is the nearest in between. With slope at most 1, d is nowhere below (d0 + d1 - length)/2.
         private int FindLeast(
             in Vector3d a, in Vector3d b, int guess, double range, out double s, out double distance)
         {

@@ -2,13 +2,13 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Swept test of a segment in a tube. Along the segment the deepest pieces hand over to each other at some
-    /// places; between two of them, during a motion, the segment's points are a patch with four corners, and a piece
-    /// that holds the corners holds the patch, its lumen being convex.</summary>
-    /// <remarks>So a motion is free when the same pieces serve the segment in the same order before and after, and
-    /// their handovers keep the distance. Where others serve it the motion is halved, until the change of pieces lies
-    /// in a part that is too short to bring the segment to the wall: d has slope at most 1. What is left after
-    /// <see cref="MostQueries"/> looks counts as not free. Keeps scratch memory: one object serves one thread.</remarks>
+    /// <summary>Time of impact of a segment in a tube. Along the segment the deepest piece changes at some points
+    /// (handovers); between two of them, during a motion, the segment's points are a patch with four corners, and a
+    /// piece that contains the corners contains the patch, because its lumen is convex.</summary>
+    /// <remarks>So a motion is free if the same pieces are deepest in the same order before and after, and the
+    /// handovers have the clearance. Otherwise the motion is halved until the change of pieces lies in a part too short
+    /// to bring the segment to the wall: d has slope at most 1. What is undecided after <see cref="MostQueries"/>
+    /// queries counts as not free. Holds scratch memory: one object serves one thread.</remarks>
     internal sealed class TubeTimeOfImpact
     {
         private const int MostQueries = 16;
@@ -27,13 +27,13 @@ namespace Guidewire.Core
             _after = new TubeHandovers(tree);
         }
 
-        /// <summary>Largest fraction of the motion for which every point of the segment is proven to keep a distance of
-        /// <paramref name="clearance"/>, <see cref="ContactShape.NoImpact"/> for all of it.</summary>
+        /// <summary>Largest fraction of the motion for which every point of the segment is proven to stay at least
+        /// <paramref name="clearance"/> from the wall, <see cref="ContactShape.NoImpact"/> for all of it.</summary>
         public double TimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance)
         {
             bool isPoint = a0 == b0 && a1 == b1;
             double time = 0.0;
-            double end = 1.0;         // up to it nothing is known to come too near
+            double end = 1.0;         // up to it no approach below the clearance is known
             double step = 1.0;
             if (!isPoint)
             {
@@ -44,10 +44,11 @@ namespace Guidewire.Core
                 double until = Math.Min(end, time + step);
                 Vector3d a = Vector3d.Lerp(a0, a1, until);
                 Vector3d b = Vector3d.Lerp(b0, b1, until);
-                double least = isPoint ? _tube.LeastDistance(Vector3d.Lerp(a0, a1, time), a) : FindAfter(a, b, clearance);
+                double least = isPoint ? _tube.LeastDistance(Vector3d.Lerp(a0, a1, time), a) : FindAfter(a, b,
+                    clearance);
                 if (least < clearance)
                 {
-                    // How far it goes if the distance falls evenly.
+                    // By linear interpolation of the distance.
                     double before = isPoint ? _tube.Distance(Vector3d.Lerp(a0, a1, time), out _) : _before.Least;
                     double fraction = SafePart * (before - clearance) / (before - least);
                     end = until;

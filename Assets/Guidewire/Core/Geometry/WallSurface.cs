@@ -25,7 +25,7 @@ namespace Guidewire.Core
         /// <summary>The triangles of a wall.</summary>
         /// <param name="shape">The wall.</param>
         /// <param name="middle">Where the picture's middle is, units.</param>
-        /// <param name="extent">How far from there a wall without end is drawn, units.</param>
+        /// <param name="extent">How far from there an unbounded wall is drawn, units.</param>
         public static WallSurface Create(ContactShape shape, in Vector3d middle, double extent)
         {
             var surface = new WallSurface();
@@ -104,7 +104,7 @@ namespace Guidewire.Core
         }
 
         // A wall's outside is drawn as seen from the wire, which is outside an obstacle. Every vertex is the body's
-        // farthest point in its direction, so a box keeps its corners and loses nothing but the order of its faces.
+        // farthest point in its direction, so a box has its own corners and only the order of its faces is lost.
         private void AddObstacle(ConvexObstacle obstacle)
         {
             int rows = Sides / 2;
@@ -142,7 +142,7 @@ namespace Guidewire.Core
             }
         }
 
-        // Rings that run about their way as a right hand's fingers about its thumb, seen from within; or circles of
+        // Rings that run counter-clockwise about their direction (right-hand rule), seen from within; or circles of
         // latitude from pole to pole, seen from without.
         private void AddStrips(int rings)
         {

@@ -12,7 +12,7 @@ namespace Guidewire.Core
     ///
     /// No turn is missed, however far a step goes: elements turn by q := q exp(turn), which follows the double cover of
     /// the rotations, so that Re(q_a* q_b) = cos(a/2) is below 0 beyond half a turn and stays so when the joint has
-    /// unwound itself the other way. It is enough to look once a step.</remarks>
+    /// unwound in the other direction. One check a step suffices.</remarks>
     internal sealed class JointMonitor
     {
         private const double Limit = 0.98 * Math.PI;
@@ -27,7 +27,7 @@ namespace Guidewire.Core
         private readonly double _end;       // of the run, s
         private readonly double _least = Math.Cos(0.5 * Limit);
 
-        /// <summary>A watch on the joints of this scene's rod.</summary>
+        /// <summary>A monitor of the joints of this scene's rod.</summary>
         /// <param name="end">When the run ends at the latest, s: up to then turns go on that are prescribed.</param>
         public JointMonitor(MaterialScene scene, double end)
         {

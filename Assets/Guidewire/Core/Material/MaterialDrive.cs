@@ -3,10 +3,10 @@ using System;
 namespace Guidewire.Core
 {
     /// <summary>Prescribes the motion of node 0 of a material rod and the turn of its clamp within the next step, as a
-    /// hand, a table or the drive's speeds have it.</summary>
+    /// user steering, a table or the drive's speeds have it.</summary>
     internal sealed class MaterialDrive
     {
-        private const double Nothing = 1e-12;  // m, a way that rounding leaves of times in a table
+        private const double Nothing = 1e-12;  // m, a displacement left by rounding of times in a table
 
         private readonly RodSchedule _schedule;
         private IDriveDirection? _direction;
@@ -19,7 +19,7 @@ namespace Guidewire.Core
         private double _sense = 1.0;         // 1 where it was last asked to push, -1 to pull
 
         /// <summary>The drive of this scene.</summary>
-        /// <param name="followsSpring">Whether node 0 follows its place on a spring, which gives way a little.</param>
+        /// <param name="followsSpring">Whether node 0 follows its support on a spring, which yields a little.</param>
         public MaterialDrive(SimulationParameters parameters, Scene scene, bool followsSpring)
         {
             DriveParameters drive = parameters.Drive;
@@ -39,7 +39,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>How far the drive has moved node 0 along its way since the start, m; negative where it has
+        /// <summary>How far the drive has moved node 0 along its direction since the start, m; negative where it has
         /// pulled.</summary>
         public double Insertion { get; private set; }
 
@@ -52,17 +52,17 @@ namespace Guidewire.Core
         /// <summary>The farthest back, m.</summary>
         public double LeastInsertion { get; set; } = double.NegativeInfinity;
 
-        /// <summary>The way of the drive in the present step, a unit vector; zero where nothing is driven.</summary>
+        /// <summary>Direction of the drive in the present step, a unit vector; zero where nothing is driven.</summary>
         public Vector3d Axis { get; private set; }
 
-        /// <summary>What the hub has lost of its way, m: less where it gave way in the sense in which it was
-        /// asked to go.</summary>
+        /// <summary>Displacement that the hub has lost, m: less where it slipped in the sense in which it was asked to
+        /// go.</summary>
         public double Slip { get; private set; }
 
         /// <summary>When the present step ends, s.</summary>
         public double StepEnd { get; private set; }
 
-        /// <summary>The way asked for in the present step, m, never negative.</summary>
+        /// <summary>The displacement asked for in the present step, m, never negative.</summary>
         public double Asked { get; private set; }
 
         /// <summary>What moves node 0 moves it along this axis, of any length but 0.</summary>
@@ -111,7 +111,7 @@ namespace Guidewire.Core
             return _direction == null ? 0.0 : Limited(SpeedAt(time) * _timeStep);
         }
 
-        /// <summary>The hub gives way, after a step, to the spring between it and node 0.</summary>
+        /// <summary>The hub slips, after a step, under the force of the spring between it and node 0.</summary>
         public void SlipHub(SupportSpring spring, RodShape shape)
         {
             double slip = spring.TakeSlip(shape);
@@ -123,8 +123,8 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>What of a way between two places is in the sense in which the drive was last asked to go,
-        /// m.</summary>
+        /// <summary>The part of a displacement between two positions in the sense in which the drive was last asked to
+        /// go, m.</summary>
         public double Gone(in Vector3d from, in Vector3d to)
         {
             return _sense * Vector3d.Dot(to - from, Axis);

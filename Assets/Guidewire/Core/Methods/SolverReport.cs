@@ -22,7 +22,7 @@ namespace Guidewire.Core
         /// <summary>Steps, and parts of steps, that had no solution and were halved; NaN but with direct.</summary>
         public double HalvedSteps { get; internal set; } = double.NaN;
 
-        /// <summary>Gap below which walls push, m; NaN without walls.</summary>
+        /// <summary>Gap below which barriers act, m; NaN without walls.</summary>
         public double ContactDistance { get; internal set; } = double.NaN;
 
         /// <summary>Stiffness of a contact, N/m; NaN without walls.</summary>

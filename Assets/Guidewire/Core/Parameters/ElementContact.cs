@@ -3,7 +3,7 @@ namespace Guidewire.Core
     /// <summary>What touches a wall besides the spheres.</summary>
     public enum ElementContact
     {
-        /// <summary>Rod elements; their spheres share the push by the lever rule.</summary>
+        /// <summary>Rod elements; their spheres share the correction by the lever rule.</summary>
         Barycentric,
 
         /// <summary>Nothing.</summary>

@@ -46,7 +46,8 @@ namespace Guidewire.Io
             {
                 warnings.Add(string.Format(CultureInfo.InvariantCulture,
                     "{0}: the mesh goes through itself: {1} edges pierce a triangle, the first at ({2:G6}, {3:G6},"
-                    + " {4:G6}); what is inside there is not defined", file, count, position.X, position.Y, position.Z));
+                    + " {4:G6}); what is inside there is not defined", file, count, position.X, position.Y,
+                        position.Z));
             }
         }
 

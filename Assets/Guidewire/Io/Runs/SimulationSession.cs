@@ -12,7 +12,7 @@ namespace Guidewire.Io
     /// for. Its host, such as a Unity scene, decides when to step.</summary>
     public sealed class SimulationSession : IDisposable
     {
-        private const double Smoothing = 0.02;     // share of the newest step in the step time shown
+        private const double Smoothing = 0.02;     // weight of the newest step in the step time shown
 
         private const string Magic = "guidewire-snapshot";
         private const int LongestHead = 256;       // bytes of the line before a snapshot's numbers
@@ -60,15 +60,15 @@ namespace Guidewire.Io
         /// <summary>All effective values of the keys that the method takes.</summary>
         public JObject EffectiveParameters => _handler.ToJson();
 
-        /// <summary>Whether a hand holds the first element, in place of the drive.</summary>
+        /// <summary>Whether the user holds the first element, instead of the drive.</summary>
         public bool IsSteered => _steering != null;
 
         /// <summary>A run at its start that is not logged, and states contact forces and reactions wherever its method
         /// has them.</summary>
         /// <param name="file">Parameter file, or null for the defaults.</param>
         /// <param name="overrides">Parameters that count instead of the file's.</param>
-        /// <param name="isSteered">Whether a hand holds the first element, in place of the drive; null: with
-        /// gains.</param>
+        /// <param name="isSteered">Whether the user holds the first element, instead of the drive; null: with
+        /// pbd.</param>
         /// <exception cref="ParameterException">The file or a value cannot be used.</exception>
         public static SimulationSession Open(string? file, IEnumerable<KeyValuePair<string, JToken>> overrides,
             bool? isSteered)
@@ -91,7 +91,7 @@ namespace Guidewire.Io
         /// <param name="file">Parameter file.</param>
         /// <param name="overrides">KEY=VALUE each: parameters that count instead of the file's.</param>
         /// <param name="logFolder">Folder that takes the results; empty for a run that is not logged.</param>
-        /// <param name="isSteered">Whether a hand holds the first element, in place of the drive.</param>
+        /// <param name="isSteered">Whether the user holds the first element, instead of the drive.</param>
         /// <exception cref="ParameterException">The file, a value or the folder cannot be used.</exception>
         public static SimulationSession Open(string file, IEnumerable<string> overrides,
             string logFolder, bool isSteered)

@@ -2,16 +2,16 @@ using UnityEngine;
 
 namespace Guidewire.Runtime
 {
-    /// <summary>Blue to grey to red, as a texture of one row: a material that takes it is lit and coloured by place,
-    /// with Unity's own shader.</summary>
+    /// <summary>Blue to grey to red, as a texture of one row: a material that takes it is lit and coloured by texture
+    /// coordinate, with Unity's own shader.</summary>
     internal static class ColourMap
     {
-        /// <summary>The place of the value 0: grey.</summary>
+        /// <summary>The texture coordinate of the value 0: grey.</summary>
         public const float Middle = 0.5f;
 
         private const int Width = 256;
 
-        /// <summary>The place of a value.</summary>
+        /// <summary>The texture coordinate of a value.</summary>
         /// <param name="value">Any number; beyond the range it takes the end's colour.</param>
         /// <param name="range">The value of the last colour, positive.</param>
         public static float Coordinate(double value, float range)

@@ -45,7 +45,7 @@ namespace Guidewire.Runtime
             return new Material(from) { mainTexture = null, color = new Color(red, green, blue) };
         }
 
-        /// <summary>Draws a ball; nothing where its place is not finite.</summary>
+        /// <summary>Draws a ball; nothing where its position is not finite.</summary>
         public static void DrawBall(Mesh ball, Vector3 centre, float radius, Material material)
         {
             if (centre.IsFinite())
@@ -54,7 +54,7 @@ namespace Guidewire.Runtime
             }
         }
 
-        /// <summary>Draws a ball drawn out to a stick from a place along a vector.</summary>
+        /// <summary>Draws a ball drawn out to a stick from a point along a vector.</summary>
         public static void DrawStick(Mesh ball, Vector3 from, Vector3 along, float radius, Material material)
         {
             float half = 0.5f * along.magnitude;

@@ -49,7 +49,7 @@ namespace Guidewire.Core
             Refit(corners);
         }
 
-        /// <summary>Takes over new corners of the same triangles; the tree keeps its shape.</summary>
+        /// <summary>Takes over new corners of the same triangles; the topology of the tree stays.</summary>
         public void Refit(Vector3d[] corners)
         {
             for (int k = 0; k < _order.Length; k++)
@@ -94,7 +94,7 @@ namespace Guidewire.Core
             }
             else
             {
-                // From the hint's leaf up: what is nearest is found first, and each level costs one look at the branch
+                // From the hint's leaf up: what is nearest is found first, and each level costs one test of the branch
                 // that is not yet searched.
                 int node = _leaf[hint];
                 TestLeaf(_nodes[node], ref search);
@@ -257,10 +257,10 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Fraction of the motion of segment a b during which it stays at least <paramref name="clearance"/> from
-        /// every triangle, <see cref="ContactShape.NoImpact"/> for all of it. <paramref name="hint"/>: a triangle that
-        /// may be near, -1 for none.</summary>
-        /// <remarks>Once something is met, only what the segment may come to before then is looked at.</remarks>
+        /// <summary>Fraction of the motion of segment a b during which it stays at least <paramref name="clearance"/>
+        /// from every triangle, <see cref="ContactShape.NoImpact"/> for all of it. <paramref name="hint"/>: a triangle
+        /// that may be near, -1 for none.</summary>
+        /// <remarks>After an impact is found, only what the segment may meet before then is tested.</remarks>
         public double TimeOfImpact(
             in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance, double resolution,
             int hint)
@@ -271,7 +271,8 @@ namespace Guidewire.Core
             var search = new SegmentSearch(a0, b0, swept.Range);
             if (hint >= 0)
             {
-                ImpactWithLeaf(_nodes[_leaf[hint]], a0, b0, a1, b1, clearance, resolution, motion, ref search, ref impact);
+                ImpactWithLeaf(_nodes[_leaf[hint]], a0, b0, a1, b1, clearance, resolution, motion, ref search,
+                    ref impact);
             }
             Span<int> stack = stackalloc int[StackSize];
             int depth = 0;
@@ -310,9 +311,9 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Lowers the fraction of the motion of segment a b during which it stays at least
-        /// <paramref name="clearance"/> from a triangle, where the triangle asks for it; returns the lower one, or
-        /// <see cref="ContactShape.NoImpact"/>.</summary>
+        /// <summary>Lowers the fraction of the motion of segment a b during which it stays at least <paramref
+        /// name="clearance"/> from a triangle, if the triangle requires it; returns the lower one, or <see
+        /// cref="ContactShape.NoImpact"/>.</summary>
         /// <param name="motion">No end of the segment goes farther.</param>
         public static double ImpactWithTriangle(in Vector3d v0, in Vector3d v1, in Vector3d v2, in Vector3d a0,
             in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance, double resolution, double motion,
@@ -387,8 +388,8 @@ namespace Guidewire.Core
             }
         }
 
-        // The part of the segment that may come to a body: what lies within reach of the middle of the ball around it.
-        // Of a long segment that turns about its touching place, that part moves little.
+        // The part of the segment that may meet a body: what lies within the range of the centre of the ball around it.
+        // Of a long segment that turns about its contact point, that part moves little.
         private static bool PartWithin(in Vector3d a, in Vector3d b, double range, in Vector3d middle, out double from,
             out double to)
         {

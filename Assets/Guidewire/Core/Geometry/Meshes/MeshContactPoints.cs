@@ -1,21 +1,21 @@
 namespace Guidewire.Core
 {
-    /// <summary>All places of a mesh within a range of a point.</summary>
+    /// <summary>All contact points of a mesh within a range of a point.</summary>
     /// <remarks>By inclusion and exclusion: the surface is the union of its closed triangles, two neighbours share an
     /// edge, all around an inner corner share that corner. So triangles count 1, inner edges -1, inner corners 1, each
-    /// with the place of it that is nearest to the point; an edge or corner of an open rim is shared by nobody and
-    /// counts 0 of itself. That place lies inside a face, inside an edge or at a corner, and a feature's weight is what
-    /// the triangles, edges and corners whose nearest place it holds count together. Where the wall is flat all but the
-    /// foot cancel, however finely it is cut; an edge that bulges into the free side is left with 1, the edge of a
-    /// valley between two feet with -1. Each triangle's distance changes continuously with the point, and so does the
-    /// sum of any function of the distances over all of them.</remarks>
+    /// at its point nearest to the query point; an edge or corner of an open rim is shared by no two triangles and
+    /// counts 0. That nearest point lies inside a face, inside an edge or at a corner, and a feature's weight is the
+    /// sum of the counts of all triangles, edges and corners whose nearest point lies on it. Where the wall is flat all
+    /// but the foot cancel, however finely it is cut; an edge that bulges into the free side is left with 1, the edge
+    /// of a valley between two feet with -1. Each triangle's distance changes continuously with the point, and so does
+    /// the sum of any function of the distances over all of them.</remarks>
     internal sealed class MeshContactPoints
     {
         private const int Touched = 1 << 20;    // added to the weight of what has one, so that 0 means untouched
         private readonly MeshGeometry _mesh;
         private readonly StructList<int> _triangles = new StructList<int>(64);
         private readonly StructList<int> _features = new StructList<int>(64);
-        private readonly int[] _weight;         // of edges, by their place, then of vertices
+        private readonly int[] _weight;         // of edges, by half-edge, then of vertices
         private double _nearest;
         private bool _isBehind;
 
@@ -26,14 +26,14 @@ namespace Guidewire.Core
             _weight = new int[mesh.Corners.Length + mesh.VertexCount];
         }
 
-        /// <summary>Adds the places within <paramref name="range"/> of a point: first faces in the order of the
+        /// <summary>Adds the contact points within <paramref name="range"/> of a point: first faces in the order of the
         /// triangles, then edges and corners in the order in which those faces and their neighbours lead to
         /// them.</summary>
         /// <param name="x">The point, units.</param>
         /// <param name="range">Units.</param>
         /// <param name="nearby">Chooses from the features.</param>
         /// <param name="among">The triangles near the point; all are searched where they are not known.</param>
-        /// <param name="contactPoints">Receives the places.</param>
+        /// <param name="contactPoints">Receives the contact points.</param>
         public void Find(in Vector3d x, double range, MeshNearby nearby, FeatureRange among,
             StructList<ContactPoint> contactPoints)
         {
@@ -102,7 +102,8 @@ namespace Guidewire.Core
                 {
                     CountEdge(x, limit, halfEdge);
                 }
-                if (_mesh.HalfEdgeOfVertex(_mesh.VertexAt(halfEdge)) == halfEdge && !_mesh.IsRimVertex(_mesh.VertexAt(halfEdge))
+                if (_mesh.HalfEdgeOfVertex(_mesh.VertexAt(halfEdge)) == halfEdge
+                    && !_mesh.IsRimVertex(_mesh.VertexAt(halfEdge))
                     && (x - _mesh.Corners[halfEdge]).LengthSquared <= limit)
                 {
                     Count(VertexOf(halfEdge), 1);
@@ -152,7 +153,8 @@ namespace Guidewire.Core
                 double t = ClosestPoints.PointSegment(x, start, end);
                 SurfaceContact contact = Unsigned(
                     x, Vector3d.Lerp(start, end, t), feature / 3, ClosestPoints.Edge + feature % 3);
-                contactPoints.Add(ContactPoint.Edge(contact, weight, Vector3d.Normalize(end - start), contact.Distance));
+                contactPoints.Add(ContactPoint.Edge(contact, weight, Vector3d.Normalize(end - start),
+                    contact.Distance));
             }
         }
 

@@ -3,13 +3,13 @@ using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
-    /// <summary>A mesh at its place: the hierarchy over its triangles and the normals of its faces, edges and
+    /// <summary>A placed mesh: the hierarchy over its triangles and the normals of its faces, edges and
     /// corners.</summary>
     internal sealed class MeshGeometry
     {
         private readonly Vector3d[] _rest;
         private readonly int[] _triangles;
-        private readonly int[] _twin;             // place where the edge is entered from the other side, -1 at a rim
+        private readonly int[] _twin;             // half-edge in the opposite direction, -1 at a rim
         private readonly int[] _halfEdgeOfVertex;
         private readonly bool[] _isRimVertex;
         private readonly Vector3d[] _vertices;
@@ -59,13 +59,14 @@ namespace Guidewire.Core
         /// <summary>Number of vertices.</summary>
         public int VertexCount => _rest.Length;
 
-        /// <summary>The vertex at a place: that of corner k of triangle t is 3 t + k.</summary>
+        /// <summary>The vertex at which a half-edge starts: half-edge 3 t + k starts at corner k of triangle
+        /// t.</summary>
         public int VertexAt(int halfEdge)
         {
             return _triangles[halfEdge];
         }
 
-        /// <summary>The first place at which a vertex stands.</summary>
+        /// <summary>The first half-edge that starts at a vertex.</summary>
         public int HalfEdgeOfVertex(int vertex)
         {
             return _halfEdgeOfVertex[vertex];
@@ -77,8 +78,8 @@ namespace Guidewire.Core
             return _isRimVertex[vertex];
         }
 
-        /// <summary>The edge that starts at a place of a triangle, by the lower of the places at which its two
-        /// triangles have it.</summary>
+        /// <summary>The edge of a half-edge, by the lower of the two half-edges at which its two triangles have
+        /// it.</summary>
         public int EdgeOf(int halfEdge)
         {
             return _twin[halfEdge] < 0 ? halfEdge : Math.Min(halfEdge, _twin[halfEdge]);
@@ -97,7 +98,7 @@ namespace Guidewire.Core
             return FeatureNormal(edge / 3, ClosestPoints.Edge + edge % 3, out _);
         }
 
-        /// <summary>Places of an edge's two ends, that of the lower vertex first, so that the edge runs one way
+        /// <summary>Corners of an edge's two ends, that of the lower vertex first, so that the edge has one direction
         /// whatever its triangles do.</summary>
         public void EndsOf(int edge, out int from, out int to)
         {
@@ -109,7 +110,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Moves everything to its new place.</summary>
+        /// <summary>Moves everything by a new placement.</summary>
         public void Place(in Placement placement)
         {
             Update(placement);
@@ -198,7 +199,7 @@ namespace Guidewire.Core
             }
         }
 
-        // The place at which each edge is entered from its other side, -1 at a rim.
+        // The half-edge in the opposite direction of each, -1 at a rim.
         private static int[] FindTwins(int[] triangles, bool[] isRimVertex)
         {
             var twins = new int[triangles.Length];

@@ -4,18 +4,17 @@ using System.Runtime.CompilerServices;
 namespace Guidewire.Core
 {
     /// <summary>What of a mesh is near a wire, found once in the hierarchies and then asked as the wire moves: near
-    /// nodes triangles, near elements ridges.</summary>
+    /// nodes triangles, near elements convex edges.</summary>
     /// <remarks>The inside of an element can only be nearer to the wall than its ends where the wall bulges: at the
-    /// nearest place of a valley, of a flat wall or of a hollow corner the distance is a concave function along the
-    /// element. So triangles are for points, and the edges for elements are ridges; corners are ends of ridges.
-    /// </remarks>
+    /// nearest point of a valley, a flat wall or a concave corner the distance is a concave function along the element.
+    /// So points need the triangles, and elements only the convex edges; corners are ends of those. </remarks>
     internal sealed class MeshNearby
     {
         private const double RoundedUp = 1.0 + 1e-9;
         private readonly MeshGeometry _mesh;
         private readonly Vector3d[] _centre;     // of the triangles
         private readonly double[] _radius;       // of the balls around them
-        private readonly int[] _convexEdge;           // places of the edges that are ridges
+        private readonly int[] _convexEdge;           // half-edges of the convex edges
         private readonly Vector3d[] _edgeNormal; // between those of an edge's faces, unit vectors
         private readonly Bvh? _edgeTree;
         private readonly StructList<int> _found = new StructList<int>(256);
@@ -79,7 +78,7 @@ namespace Guidewire.Core
             return nearest;
         }
 
-        /// <summary>Adds the ridges within a range of segment a b, nearest first.</summary>
+        /// <summary>Adds the edge contacts within a range of segment a b, nearest first.</summary>
         /// <returns>The distance of the nearest; infinite where there is none.</returns>
         public double FindEdgeContacts(in Vector3d a, in Vector3d b, double range, StructList<WallFeature> edgeContacts)
         {
@@ -111,7 +110,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Adds the ridges that may be within a distance of segment a b.</summary>
+        /// <summary>Adds the convex edges that may be within a distance of segment a b.</summary>
         public void ChooseEdges(in Vector3d a, in Vector3d b, double distance, StructList<int> edgeContacts)
         {
             int from = edgeContacts.Count;
@@ -122,10 +121,10 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Lowers the fraction of a point's motion during which it stays at least <paramref name="clearance"/> from
-        /// every triangle, as <see cref="Bvh.TimeOfImpact"/> has it, but for ridges.</summary>
-        public void ImpactOfPoint(in Vector3d from, in Vector3d to, double clearance, double resolution, FeatureRange among,
-            ref double impact)
+        /// <summary>Lowers the fraction of a point's motion during which it stays at least <paramref name="clearance"/>
+        /// from every triangle, as <see cref="Bvh.TimeOfImpact"/> does, but without convex edges.</summary>
+        public void ImpactOfPoint(in Vector3d from, in Vector3d to, double clearance, double resolution,
+            FeatureRange among, ref double impact)
         {
             if (!among.IsKnown)
             {
@@ -149,7 +148,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>The same for a segment and the ridges.</summary>
+        /// <summary>The same for a segment and the convex edges.</summary>
         public void ImpactOfSegment(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance,
             double resolution, FeatureRange among, ref double impact)
         {
@@ -177,8 +176,9 @@ namespace Guidewire.Core
             }
         }
 
-        // All that the point comes to is near its way.
-        private void ImpactOfPoint(in Vector3d from, in Vector3d to, double clearance, double resolution, ref double impact)
+        // All that the point may meet is near its path.
+        private void ImpactOfPoint(in Vector3d from, in Vector3d to, double clearance, double resolution,
+            ref double impact)
         {
             double motion = Vector3d.Distance(from, to);
             _found.Clear();
@@ -191,9 +191,9 @@ namespace Guidewire.Core
             }
         }
 
-        // Whether a point that has come here, on a way too short to have crossed a wall and be as far behind it, keeps
-        // a distance. Where no ridge is near, the distance along a straight way is a concave function, so that of
-        // its ends says it all; ridges are met by the segments on both sides of the point.
+        // Whether a point at its end position, after a displacement too short to have crossed a wall and be as far
+        // behind it, has the clearance. Where no convex edge is near, the distance along a straight path is a concave
+        // function, so the values at its ends suffice; convex edges are met by the segments on both sides of the point.
         private bool KeepsClearance(in Vector3d x, double clearance, double motion, FeatureRange among)
         {
             double limit = clearance * clearance;
@@ -209,7 +209,7 @@ namespace Guidewire.Core
             return true;
         }
 
-        // Whether the motion stays on one side of a plane, or a thin slab, that a ridge lies in.
+        // Whether the motion stays on one side of a plane, or a thin slab, that a convex edge lies in.
         private bool IsBeside(int edgeContact, in SweptSegment swept)
         {
             _mesh.EndsOf(_convexEdge[edgeContact], out int from, out int to);
@@ -218,8 +218,8 @@ namespace Guidewire.Core
             return swept.IsBeside(_edgeNormal[edgeContact], Math.Min(start, end), Math.Max(start, end));
         }
 
-        private void ImpactWithEdge(int edge, in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance,
-            double resolution, double motion, ref double impact)
+        private void ImpactWithEdge(int edge, in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
+            double clearance, double resolution, double motion, ref double impact)
         {
             _mesh.EndsOf(edge, out int from, out int to);
             ref readonly Vector3d start = ref _mesh.Corners[from];

@@ -17,10 +17,10 @@ namespace Guidewire.Core
         private MeshContactPoints? _contactPoints;
         private MeshEdges? _edgeContacts;
         private MeshNearby? _nearby;
-        private FeatureCache? _cache;         // with the reach that was asked for last
+        private FeatureCache? _cache;         // with the skin of the last request
         private (double Above, double Radius)? _narrowest;    // what was asked for last
 
-        /// <summary>The wall at the place where its file has it.</summary>
+        /// <summary>The wall where its file has it.</summary>
         public MeshShape(TriangleMesh mesh)
             : this(mesh, Placement.Identity)
         {
@@ -76,7 +76,7 @@ namespace Guidewire.Core
             if (triangle < 0)
             {
                 // Beyond the wall by more than the range is seen only by the sign, which a wire that the swept test
-                // keeps inside never needs.
+                // inside never needs.
                 contact = default;
                 return false;
             }
@@ -85,10 +85,9 @@ namespace Guidewire.Core
             return true;
         }
 
-        /// <summary>The nearest places of all triangles, edges and corners, less those that cancel each other: feet
+        /// <summary>The nearest points of all triangles, edges and corners, less those that cancel each other: feet
         /// inside faces, and what of edges and corners is left over; see <see cref="MeshContactPoints"/>. All have the
-        /// sign of the nearest. On an edge or corner itself, at
-        /// distance 0, no curvature is stated.</summary>
+        /// sign of the nearest. On an edge or corner itself, at distance 0, no curvature is stated.</summary>
         internal override void FindContactPoints(in Vector3d x, double range, FeatureRange features,
             StructList<ContactPoint> contactPoints)
         {
@@ -122,7 +121,7 @@ namespace Guidewire.Core
             return Nearby.FindTriangles(x, range, features);
         }
 
-        /// <summary>The ridges within the range.</summary>
+        /// <summary>The convex edges within the range.</summary>
         internal override double FindFeatures(in Vector3d a, in Vector3d b, double range, double skin, ref int hint,
             StructList<WallFeature> features)
         {
@@ -136,9 +135,9 @@ namespace Guidewire.Core
             EdgeContacts.Find(a, b, range, Nearby, features, edgeContacts);
         }
 
-        /// <summary>Of both ends and the triangles, and of what is between them and the ridges.</summary>
-        internal override double ConservativeTimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance,
-            double resolution, int hint, in ElementFeatures features)
+        /// <summary>For both ends against the triangles, and for the interior against the convex edges.</summary>
+        internal override double ConservativeTimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1,
+            in Vector3d b1, double clearance, double resolution, int hint, in ElementFeatures features)
         {
             double impact = NoImpact;
             Nearby.ImpactOfPoint(a0, a1, clearance, resolution, features.AtA, ref impact);

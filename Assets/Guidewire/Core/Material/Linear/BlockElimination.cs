@@ -9,11 +9,11 @@ namespace Guidewire.Core
     ///   W = E L'^-T, G = W R^-1, A+ -= W G^T, W = F L'^-T, H = W R^-1, B+ -= W G^T, C+ -= W H^T (the rotation theta).
     /// </summary>
     /// <remarks>x of one node never meets theta of the next element but one, so the elimination fills nothing in: 228
-    /// multiplications a block against some 400 of a dense 6x6 sweep. The pivots of a 3x3 block are ratios of its
+    /// multiplications a block against some 400 of a dense 6x6 elimination. The pivots of a 3x3 block are ratios of its
     /// leading minors m1, m2, m3: P^-1 = diag(1/m1, m1/m2, m2/m3), so its three divisions do not wait for each other,
     /// nor do the products with L^-1, whose three entries are formed first; the minors' signs count the negative
-    /// eigenvalues (Sylvester's law of inertia). A row is finished before the next is begun, and finished rows are
-    /// read back from the block: the few numbers at work then fit the registers.</remarks>
+    /// eigenvalues (Sylvester's law of inertia). A row is finished before the next is begun, and finished rows are read
+    /// back from the block: the few numbers at work then fit the registers.</remarks>
     internal static class BlockElimination
     {
         /// <summary>Eliminates one block, with its right-hand side, from the block after it. The block is overwritten:

@@ -65,7 +65,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>One Gauss-Seidel sweep over all joints.</summary>
+        /// <summary>One Gauss-Seidel iteration over all joints.</summary>
         /// <param name="shape">The wire, turned in place.</param>
         /// <param name="substep">h, s.</param>
         public void Iterate(RodShape shape, double substep)

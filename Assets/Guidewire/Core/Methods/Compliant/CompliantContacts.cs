@@ -7,19 +7,19 @@ namespace Guidewire.Core
     /// least 0, with compliance 1/k where a contact has a stiffness k and none where it is rigid (Macklin 2016).
     /// Coulomb friction as a second multiplier f along the wall, |f| at most mu lambda, against the slip of the wire's
     /// surface since the substep began (Macklin 2020).</summary>
-    /// <remarks>Per sweep and contact, with W = a_j^2 w_j + a_{j+1}^2 w_{j+1}: dlambda = -(C + lambda/(k h^2))/(W +
+    /// <remarks>Per iteration and contact, with W = a_j^2 w_j + a_{j+1}^2 w_{j+1}: dlambda = -(C + lambda/(k h^2))/(W +
     /// 1/(k h^2)), the sum held at 0 or more; then f - u/V, shortened to mu lambda, with the slip u = P (a_j (x_j -
     /// x_j0) + a_{j+1} (x_{j+1} - x_{j+1,0}) + r n x R_0 phi), P = 1 - n n^T, phi the element's turn since the substep
-    /// began along its axes there. What a force f does to the surface includes the couple r f x n on the element. V =
-    /// W + r^2 max(1/I) is at least as much as f moves the surface in any direction, and the same in all of them: so
-    /// where the sweeps have converged f is against u, which it would not be with what f moves it by in its own.
-    /// A slip of 0 is held by any f within the limit. What sweeps leave of the slip of a contact is kept with f and
+    /// began along its axes there. What a force f does to the surface includes the couple r f x n on the element. V = W
+    /// + r^2 max(1/I) is at least as much as f moves the surface in any direction, and the same in all of them: so
+    /// where the iterations have converged f is against u, which it would not be with what f moves it by in its own. A
+    /// slip of 0 is held by any f within the limit. What iterations leave of the slip of a contact is kept with f and
     /// added to that of the next substep, so that what sticks goes back to where it was: no more than V mu lambda, by
     /// which a force at the limit moves it in a substep, because a contact beyond its limit slips.
     ///
-    /// A rigid contact that finds itself in the wall, because a plane is the wall only near the place that it was found
-    /// for, is taken out of it by no more than its own way in the substep, or a share of the depth: all at once would
-    /// be a speed of depth over h, and what moves over an edge of the wall comes out of it as fast as it
+    /// A rigid contact that is inside the wall, because its plane approximates the wall only near the point where it
+    /// was found, is moved out by no more than its own displacement in the substep, or a fraction of the depth: all at
+    /// once would be a speed of depth over h, and what moves over an edge of the wall comes out of it as fast as it
     /// moves.</remarks>
     internal sealed class CompliantContacts
     {
@@ -118,7 +118,7 @@ namespace Guidewire.Core
 
         /// <summary>A substep begins; a held node that would come nearer than its radius is kept off.</summary>
         /// <param name="old">The wire where it begins; it stays so until the next.</param>
-        /// <param name="shape">The wire, not swept yet, with its held nodes placed.</param>
+        /// <param name="shape">The wire, before the iterations, with its held nodes placed.</param>
         /// <param name="substep">h, s.</param>
         public void Begin(RodShape old, RodShape shape, double substep)
         {
@@ -141,7 +141,8 @@ namespace Guidewire.Core
                 if (_compliance == 0.0 && distance < contact.Radius)
                 {
                     double depth = contact.Radius - distance;
-                    contact.Clearance = distance + Math.Min(depth, Math.Max(Recovered * depth, DisplacementOf(contact, shape)));
+                    contact.Clearance = distance + Math.Min(depth, Math.Max(Recovered * depth, DisplacementOf(contact,
+                        shape)));
                 }
             }
         }
@@ -194,7 +195,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>One Gauss-Seidel sweep over all contacts.</summary>
+        /// <summary>One Gauss-Seidel iteration over all contacts.</summary>
         /// <param name="shape">The wire, moved and turned in place.</param>
         public void Iterate(RodShape shape)
         {
@@ -224,7 +225,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>A substep has come to this shape: keeps what is left of the slips.</summary>
+        /// <summary>A substep has come to this shape: stores the remaining slips.</summary>
         public void End(RodShape shape)
         {
             for (int k = 0; k < _count; k++)
@@ -236,7 +237,8 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Takes the largest way, in radii, by which one more sweep would move a contact's point.</summary>
+        /// <summary>Takes the largest displacement, in radii, by which one more iteration would move a contact's
+        /// point.</summary>
         public void AddResidual(RodShape shape, ref IterationResidual sum)
         {
             for (int k = 0; k < _count; k++)
@@ -247,7 +249,8 @@ namespace Guidewire.Core
                 if (_friction[contact.Wall] > 0.0)
                 {
                     displacement = Math.Max(displacement,
-                        contact.InverseOfSlip * Vector3d.Distance(FrictionImpulseIn(contact, shape), contact.FrictionImpulse));
+                        contact.InverseOfSlip * Vector3d.Distance(FrictionImpulseIn(contact, shape),
+                        contact.FrictionImpulse));
                 }
                 sum.Contact = Math.Max(sum.Contact, displacement / contact.Radius);
             }
@@ -282,7 +285,8 @@ namespace Guidewire.Core
             for (int k = 0; k < _count; k++)
             {
                 _keptSlip[_contacts[k].Slot] = _contacts[k].Slip;
-                _kept[_contacts[k].Slot] = _contacts[k].NormalImpulse * _contacts[k].Normal + _contacts[k].FrictionImpulse;
+                _kept[_contacts[k].Slot] = _contacts[k].NormalImpulse * _contacts[k].Normal
+                    + _contacts[k].FrictionImpulse;
             }
         }
 
@@ -348,7 +352,7 @@ namespace Guidewire.Core
             /// <summary>Where its multipliers are kept while contacts are found anew.</summary>
             public int Slot;
 
-            /// <summary>By its place in the scene's list.</summary>
+            /// <summary>Index in the scene's list.</summary>
             public int Wall;
 
             /// <summary>j.</summary>

@@ -4,30 +4,30 @@ using System.Globalization;
 namespace Guidewire.Core
 {
     /// <summary>One step of extended position-based dynamics (Macklin 2016): the time step is divided into substeps,
-    /// each a prediction and m sweeps over all constraints with compliance.</summary>
-    /// <remarks>Where the sweeps have converged a substep is one of implicit Euler, whatever m is.
+    /// each a prediction and m iterations over all constraints with compliance.</summary>
+    /// <remarks>Where the iterations have converged a substep is one of implicit Euler, whatever m is.
     ///
-    /// Multipliers start from those of the last substep, not from 0, and move the wire before the first sweep, all in
-    /// the predicted shape. There are two reasons. A wire at rest then needs no correction at all, so its shape does
-    /// not depend on m. And a sweep from 0 passes through shapes in which the first joints already pull and the last
-    /// do not yet: elements are turned by h^2 K theta/J on the way, and their pulls keep the directions that they had
-    /// there. No number of sweeps takes that out again; such forces have no potential, and a twisted ring that should
-    /// hold left its plane at 0.96 of its critical twist. Multipliers that would turn an element, or shift a node over
-    /// its length, by more than 0.1 belong to a wave that a substep does not resolve, and are dropped.
+    /// Multipliers start from those of the last substep, not from 0, and move the wire before the first iteration, all
+    /// in the predicted shape. There are two reasons. A wire at rest then needs no correction at all, so its shape does
+    /// not depend on m. And an iteration from 0 passes through shapes in which the first joints already pull and the
+    /// last do not yet: elements are turned by h^2 K theta/J in between, and their forces retain the directions that
+    /// they had there. No number of iterations takes that out again; such forces have no potential, and a twisted ring
+    /// that should hold left its plane at 0.96 of its critical twist. Multipliers that would turn an element, or shift
+    /// a node over its length, by more than 0.1 belong to a wave that a substep does not resolve, and are dropped.
     ///
-    /// Orientations carry the wire's own rotary inertia rho I l (2 rho I l about the axis), 4 (l/r)^2 times less than
-    /// a sphere's mass times l^2: 1,600 times in an element 20 radii long. So bending, shear and twist move as they do
+    /// Orientations carry the wire's own rotary inertia rho I l (2 rho I l about the axis), 4 (l/r)^2 times less than a
+    /// sphere's mass times l^2: 1,600 times in an element 20 radii long. So bending, shear and twist move as they do
     /// under every other solver, and waves of twist run at sqrt(G/rho). What an element does against its own shear, at
     /// 2 sqrt(G/rho)/r, is too fast for a substep and is damped away, as implicit Euler does; it does not bound the
-    /// substep. What bounds it is sound along the wire, because a sweep brings a correction one element back: on wires
-    /// with l/r from 2 to 100 runs converge up to h sqrt(E/rho)/l = 0.5 with m = 1, 1 with 3, 2 with 10, and diverge
-    /// soon after.
+    /// substep. What bounds it is sound along the wire, because an iteration brings a correction one element back: on
+    /// wires with l/r from 2 to 100 runs converge up to h sqrt(E/rho)/l = 0.5 with m = 1, 1 with 3, 2 with 10, and
+    /// diverge soon after.
     ///
     /// Between walls <see cref="CompliantWalls"/> stands around each substep, and <see cref="CompliantContacts"/> has a
-    /// part in every sweep.
+    /// part in every iteration.
     ///
-    /// How far the sweeps were from convergence is measured in substeps 1, 2, 4, 8 .. and the last of each step, each
-    /// for the time since the one before, because what a step changes is over in its first substeps; see <see
+    /// How far the iterations were from convergence is measured in substeps 1, 2, 4, 8 .. and the last of each step,
+    /// each for the time since the one before, because what a step changes is over in its first substeps; see <see
     /// cref="ConvergenceRecord"/>.</remarks>
     internal sealed class CompliantStep : TimeStepper
     {
@@ -162,7 +162,7 @@ namespace Guidewire.Core
                     Vector3d.Distance(position, _shape.X[0]) / _scene.Metres - owed);
                 return;
             }
-            // Of the way that node 0 has gone only what is along the drive's counts: walls may push it aside.
+            // Of the displacement of node 0 only the component along the drive counts: walls may move it aside.
             double asked = _drive.Asked / _scene.Metres;
             record.AddDrive(asked, asked - _drive.Gone(start, _shape.X[0]) / _scene.Metres);
         }

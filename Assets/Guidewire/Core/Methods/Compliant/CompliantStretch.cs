@@ -67,7 +67,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>One Gauss-Seidel sweep over all elements.</summary>
+        /// <summary>One Gauss-Seidel iteration over all elements.</summary>
         /// <param name="shape">The wire, moved and turned in place.</param>
         /// <param name="substep">h, s.</param>
         public void Iterate(RodShape shape, double substep)

@@ -154,7 +154,8 @@ namespace Guidewire.Core
             return true;
         }
 
-        // What drives the wire out of a sheath changes with the hub's place: so it gives way once more, by much less.
+        // The force that drives the wire out of a sheath depends on the hub's position: so the hub slips once more, by
+        // much less.
         private void SlipHub(SupportSpring spring)
         {
             RodTerms terms = _dynamics.Terms;
@@ -260,7 +261,7 @@ namespace Guidewire.Core
             return _hub;
         }
 
-        /// <summary>A hub that gives way does less than it is asked; a free wire that spins fast loses angular
+        /// <summary>A hub that slips moves less than asked; a free wire that spins fast loses angular
         /// momentum.</summary>
         public override string? AccuracyWarning => _drive.Slip != 0.0 ? string.Format(
             CultureInfo.InvariantCulture,
@@ -381,7 +382,7 @@ namespace Guidewire.Core
             Contacts.DriveShortfall += (_drive.Asked - _drive.Gone(before, after)) / _scene.Metres;
         }
 
-        // A hub that misses its place by a tenth of an element pulls at node 0 with EA, the force under which a wire
+        // A hub that misses its position by a tenth of an element pulls at node 0 with EA, the force under which a wire
         // would have no length left: then what the drive asks and what walls allow do not go together.
         private string? FindOverdriven()
         {

@@ -1,7 +1,7 @@
 namespace Guidewire.Core
 {
     /// <summary>Position-and-orientation-based dynamics (thesis 2.1.2): m iterations, each all stretch constraints,
-    /// then all bend-twist constraints, then all contacts. The answer depends on m, because gains act per
+    /// then all bend-twist constraints, then all contacts. The answer depends on m, because pbd stiffness acts per
     /// iteration.</summary>
     internal sealed class GaussSeidelSolver : IConstraintSolver
     {
@@ -12,9 +12,10 @@ namespace Guidewire.Core
 
         /// <param name="iterations">m, 0 or more.</param>
         /// <param name="scalar">What does them where the others cannot take the contacts.</param>
-        /// <param name="fastest">What does the iterations, bit for bit the same.</param>
+        /// <param name="fastest">Performs the iterations, bit for bit the same.</param>
         /// <param name="contacts">Contacts, or null in a scene without walls.</param>
-        public GaussSeidelSolver(int iterations, ScalarIterations scalar, IIterations fastest, IContactResponse? contacts)
+        public GaussSeidelSolver(int iterations, ScalarIterations scalar, IIterations fastest,
+            IContactResponse? contacts)
         {
             _iterations = iterations;
             _scalar = scalar;

@@ -2,7 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Builds a run with gains, once, from its parameters.</summary>
+    /// <summary>Builds a run with pbd, once, from its parameters.</summary>
     internal static class PbdSetup
     {
         /// <summary>The wire at its start, sphere 0 displaced, and its stepper.</summary>
@@ -129,7 +129,7 @@ namespace Guidewire.Core
             return drive;
         }
 
-        // A weight of 0 keeps the sweeps from turning a frame; a spin would go on turning it.
+        // A weight of 0 prevents the iterations from turning a frame; a spin would go on turning it.
         private static void HoldFrame(RodState state, int element)
         {
             state.OrientationWeights[element] = 0.0;

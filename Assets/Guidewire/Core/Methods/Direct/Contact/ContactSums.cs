@@ -3,7 +3,7 @@ using System;
 namespace Guidewire.Core
 {
     /// <summary>What the contacts of a wire with walls come to in one shape: where they are, and the first and second
-    /// derivatives of their energy by the nodes' places.</summary>
+    /// derivatives of their energy by the nodes' positions.</summary>
     /// <remarks>An element's contact at s acts on its two nodes with weights 1 - s and s. What its second derivative
     /// owes to its force is kept apart. Most of a long wire touches nothing, and is passed over.</remarks>
     internal sealed class ContactSums
@@ -32,7 +32,7 @@ namespace Guidewire.Core
         /// <summary>Wall by wall and along the wire.</summary>
         public StructList<WallContact> Contacts { get; } = new StructList<WallContact>(64);
 
-        /// <summary>By the place of node i, N.</summary>
+        /// <summary>By the position of node i, N.</summary>
         public Vector3d GradientAt(int i)
         {
             return _gradient[i];
@@ -71,10 +71,10 @@ namespace Guidewire.Core
             _own[i] += second;
         }
 
-        /// <summary>A contact of the inside of element j with a ridge.</summary>
+        /// <summary>A contact of the interior of element j with a convex edge.</summary>
         /// <param name="w">Which wall.</param>
         /// <param name="j">Which element.</param>
-        /// <param name="ridge">In units.</param>
+        /// <param name="edge">In units.</param>
         /// <param name="chord">x_j+1 - x_j, units.</param>
         /// <param name="units">Per metre.</param>
         /// <param name="value">b of the gap, J.</param>
@@ -165,7 +165,7 @@ namespace Guidewire.Core
             _isTouched[j + 1] = true;
         }
 
-        // The force of a ridge times the second derivative of its distance.
+        // The force of an edge contact times the second derivative of its distance.
         private void AddBending(int j, in EdgeContact edge, in Vector3d chord, double force)
         {
             double s = edge.Position;

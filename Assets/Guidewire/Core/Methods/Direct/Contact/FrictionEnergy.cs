@@ -10,15 +10,16 @@ namespace Guidewire.Core
     /// <remarks>At the end of an accepted step the anchor follows what is beyond the limit (return mapping; Simo and
     /// Hughes, Computational Inelasticity, 1998; in contact Wriggers, Computational Contact Mechanics, 2006): d is
     /// force/k, no longer than mu N/k. What sticks is held by its force without slipping, and does not creep. The heat
-    /// of the step is mu N (|z| - mu N/k). k = mu N/s with s the elastic slip that is allowed, N the largest push since
-    /// the contact began: a push that rises or falls leaves the force of what sticks as it is, and energy is only lost.
+    /// of the step is mu N (|z| - mu N/k). k = mu N/s with s the elastic slip that is allowed, N the largest normal
+    /// force since the contact began: a normal force that rises or falls leaves the force of a sticking contact
+    /// unchanged, and energy is only lost.
     ///
-    /// Pushes N and normals n are lagged: those of the shape that was last given to <see cref="Lag"/>. Contacts of
-    /// one element with several ridges of a wall share one anchor by their pushes. The surface of element j at s
-    /// slips by u = P ((1 - s) (x_j - x_j0) + s (x_j+1 - x_j+1,0) + r n x R_0 phi), P = 1 - n n^T, phi the turn of the
-    /// element since the step's start along its axes there: what turns about its own axis rubs, too, and takes a
-    /// couple. With u' = W theta, W = r [n] R_0 J^-1(phi), the second derivative leaves out that of phi, of order
-    /// |phi|.</remarks>
+    /// Normal forces N and normals n are lagged: those of the shape last given to <see cref="Lag"/>. Contacts of one
+    /// element with several edges of a wall share one anchor in proportion to their normal forces. The surface of
+    /// element j at s slips by u = P ((1 - s) (x_j - x_j0) + s (x_j+1 - x_j+1,0) + r n x R_0 phi), P = 1 - n n^T, phi
+    /// the turn of the element since the step's start along its axes there: an element that turns about its own axis
+    /// has friction too, and takes a couple. With u' = W theta, W = r [n] R_0 J^-1(phi), the second derivative leaves
+    /// out that of phi, of order |phi|.</remarks>
     internal sealed class FrictionEnergy : EnergyTerm
     {
         private const double OfRadius = 1e-2;
@@ -69,7 +70,7 @@ namespace Guidewire.Core
             Array.Copy(shape.Q, _frames, _frames.Length);
         }
 
-        /// <summary>Takes over pushes and normals from a shape.</summary>
+        /// <summary>Takes over normal forces and normals from a shape.</summary>
         public void Lag(RodShape shape)
         {
             for (int k = 0; k < _contacts.Count; k++)
@@ -120,7 +121,7 @@ namespace Guidewire.Core
                 ref FrictionAnchors.Anchor anchor = ref Anchors[index];
                 double limitSum = _limitSum[index];
                 double stiffness = limitSum > 0.0 ? Math.Max(anchor.Stiffness, limitSum / _elasticSlip) : 0.0;
-                // What the stiffer contact does not store, or one that has ended.
+                // The energy that a stiffer contact does not store, or one that has ended.
                 lost += stiffness == anchor.Stiffness || anchor.Stiffness == 0.0 ? 0.0
                     : anchor.StoredEnergy * (1.0 - (stiffness > 0.0 ? anchor.Stiffness / stiffness : 0.0));
                 anchor = new FrictionAnchors.Anchor { Stiffness = stiffness };

@@ -2,13 +2,13 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Which walls the nodes and elements of a wire may come near while each stays within a reach of where it
-    /// was looked for them, and the walls' features there. Lengths in units.</summary>
-    /// <remarks>What leaves its reach is looked for anew, alone: its features are added at the end of the list, which
-    /// is begun anew where it has grown too long.</remarks>
+    /// <summary>Neighbour list (Verlet list): the walls near each node and element of a wire, valid while it moves no
+    /// farther than the skin from where the query was made, and the walls' features there. Lengths in units.</summary>
+    /// <remarks>A node or element that has moved farther than the skin is queried again, alone: its features are added
+    /// at the end of the list, which is begun anew where it has grown too long.</remarks>
     internal sealed class NeighbourList
     {
-        private const double SureOfQuick = 0.9;   // of a quick distance there is surely room
+        private const double SureOfQuick = 0.9;   // of a quick distance: the part that is certain
         private const int MostLists = 8;          // of the features of all, before the list is begun anew
         private readonly ContactShape[] _walls;
         private readonly double[] _range;         // by element: its radius and the barrier's distance
@@ -21,10 +21,10 @@ namespace Guidewire.Core
         private readonly int[] _version;          // of these when the nodes were found
         private int _mostFeatures;
 
-        /// <summary>For a wire that has not been looked for.</summary>
+        /// <summary>A list without any query made.</summary>
         /// <param name="walls">The walls.</param>
         /// <param name="range">By element: what is farther does not count.</param>
-        /// <param name="skin">Nothing is looked for anew before it has gone this far.</param>
+        /// <param name="skin">The skin: nothing is queried again before it has moved this far.</param>
         public NeighbourList(ContactShape[] walls, double[] range, double skin)
         {
             int n = range.Length;
@@ -55,7 +55,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Looks for what has left its reach.</summary>
+        /// <summary>Queries again what has moved farther than the skin.</summary>
         /// <param name="x">The wire's n + 1 nodes.</param>
         public void Follow(Vector3d[] x)
         {
@@ -84,7 +84,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Whether element j may come near wall w within reach.</summary>
+        /// <summary>Whether element j may come near wall w within the skin.</summary>
         public bool IsNear(int w, int j)
         {
             return _element[w * _range.Length + j].IsNear
@@ -119,7 +119,7 @@ namespace Guidewire.Core
                 : _element[j - 1].FeaturesAtB(_features, x);
         }
 
-        /// <summary>Features about the way of element j, as far as they are known on all of it.</summary>
+        /// <summary>Features about the motion of element j, where they are known for all of it.</summary>
         public ElementFeatures FeaturesAlong(int w, int j, Vector3d[] x, Vector3d[] to)
         {
             FeatureRange between = _element[w * _range.Length + j].Covers(to[j], to[j + 1])

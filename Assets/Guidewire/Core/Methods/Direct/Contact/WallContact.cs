@@ -1,10 +1,10 @@
 namespace Guidewire.Core
 {
-    /// <summary>Where a wall pushes the wire, and how hard: on element j at s, which is one of its nodes at 0 and
+    /// <summary>A contact force of a wall on the wire: on element j at s, which is one of its nodes at 0 and
     /// 1.</summary>
     internal readonly struct WallContact
     {
-        /// <summary>Its place in the list of walls.</summary>
+        /// <summary>Index in the list of walls.</summary>
         public readonly int Wall;
 
         /// <summary>j.</summary>
@@ -16,7 +16,7 @@ namespace Guidewire.Core
         /// <summary>Whether a node touches, else the inside of the element.</summary>
         public readonly bool IsNode;
 
-        /// <summary>Unit vector of the push.</summary>
+        /// <summary>Unit normal, the direction of the force.</summary>
         public readonly Vector3d Normal;
 
         /// <summary>N.</summary>

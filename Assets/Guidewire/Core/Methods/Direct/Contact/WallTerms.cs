@@ -10,7 +10,7 @@ namespace Guidewire.Core
         private readonly Func<string?>? _advice;
 
         /// <summary>Those of a rod.</summary>
-        /// <param name="friction">Null where no wall rubs.</param>
+        /// <param name="friction">Null where no wall has friction.</param>
         /// <param name="holdsStart">Whether a support holds node 0.</param>
         /// <param name="advice">See <see cref="Advice"/>.</param>
         public WallTerms(BarrierEnergy barrier, FrictionEnergy? friction, SupportSpring spring, bool holdsStart,
@@ -39,7 +39,7 @@ namespace Guidewire.Core
         /// <summary>Contact.</summary>
         public BarrierEnergy Barrier { get; }
 
-        /// <summary>Friction; null where no wall rubs.</summary>
+        /// <summary>Friction; null where no wall has friction.</summary>
         public FrictionEnergy? Friction { get; }
 
         /// <summary>The spring; of no effect where nothing holds node 0.</summary>
@@ -57,8 +57,8 @@ namespace Guidewire.Core
             return HoldsStart ? Spring.Force(shape) : Vector3d.Zero;
         }
 
-        /// <summary>Writes or takes over what friction keeps from step to step; a reader between as many walls of which
-        /// one rubs takes over what such a writer has.</summary>
+        /// <summary>Writes or takes over the state of friction between steps; a reader with as many walls, one of them
+        /// with friction, takes over that of such a writer.</summary>
         public void SerializeFriction(Snapshot snapshot)
         {
             snapshot.Section(Friction == null ? "no friction" : "friction at " + Friction.Anchors.Count,

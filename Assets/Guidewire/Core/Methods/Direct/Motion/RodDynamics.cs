@@ -41,7 +41,7 @@ namespace Guidewire.Core
         private double _lastStep;             // s
         private bool _hasStepped;
         private bool _hasRates;               // the last stage has the rates of the next step's start
-        private bool _hasPast;                // stages of the step before are at hand, to predict from
+        private bool _hasPast;                // stages of the step before are known, to predict from
         private Vector3d _proximalVelocity;   // of the supports in the last step, m/s
         private Vector3d _distalVelocity;
         private StageForces _meanForces;
@@ -146,7 +146,7 @@ namespace Guidewire.Core
         public Vector3d MomentumRate { get; private set; }
 
         /// <summary>Force that the supports exert on node 0, N, the mean over the last step by the scheme's weights
-        /// (BDF2: at the step's end): the first element's stress, less the node's own share of weight and
+        /// (BDF2: at the step's end): the first element's stress, less the node's own fraction of weight and
         /// inertia.</summary>
         public Vector3d MeanReaction => _meanForces.Proximal;
 

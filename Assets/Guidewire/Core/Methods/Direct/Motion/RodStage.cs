@@ -101,7 +101,7 @@ namespace Guidewire.Core
         /// rates.</summary>
         /// <param name="jump">When a load jumps next: a stage at that time is before the jump.</param>
         /// <param name="stage">Its index among the rates.</param>
-        /// <param name="hasPast">Whether stages of the step before are at hand.</param>
+        /// <param name="hasPast">Whether stages of the step before are known.</param>
         /// <param name="predictor">Which stages before it is predicted from.</param>
         /// <returns>Null, or why it has no solution; the shape is then not to be used.</returns>
         public string? Solve(double time, double jump, int stage, bool hasPast, in StagePredictor predictor)

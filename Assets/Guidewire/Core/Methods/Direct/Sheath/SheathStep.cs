@@ -177,7 +177,7 @@ namespace Guidewire.Core
             Build(_dynamics.Time, old);
         }
 
-        // Where a sheathed element is when it comes in: on the axis, as long as the push leaves it.
+        // Where a sheathed element enters: on the axis, as long as the axial force leaves it.
         private void Enter(int j)
         {
             Vector3d next = _shape.X[j + 1];

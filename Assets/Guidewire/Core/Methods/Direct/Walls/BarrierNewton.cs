@@ -5,7 +5,7 @@ namespace Guidewire.Core
 {
     /// <summary>Solves one implicit stage between walls: Newton's method on one energy, that of inertia, wire, loads
     /// and barriers, from a shape whose gaps are all open to one whose forces balance.</summary>
-    /// <remarks>A step goes no farther than every gap allows on the straight way of the nodes, and is cut until the
+    /// <remarks>A step goes no farther than every gap allows on the straight path of the nodes, and is cut until the
     /// energy falls by a part of what the slope promises; so no iterate is outside a wall. Where the second derivative
     /// is not positive definite, a wire under thrust away from the solution, a multiple of the metric is added, kept
     /// from one time to the next. A stage is solved when no piece of the rod, from its start to any node, is out of
@@ -31,7 +31,7 @@ namespace Guidewire.Core
         private readonly RodVector[] _gradient;
         private readonly RodVector[] _direction;
         private readonly RodVector[] _forces;
-        private readonly double[] _values;        // of the terms in the shape that was looked at last, J
+        private readonly double[] _values;        // of the terms in the shape evaluated last, J
         private readonly RodShape _trial;
         private readonly double _totalLength;
         private readonly double _mass;
@@ -64,7 +64,7 @@ namespace Guidewire.Core
         /// L.</summary>
         public double Tolerance { get; set; } = 1e-6;
 
-        /// <summary>Share of the largest force that a stage may leave unbalanced.</summary>
+        /// <summary>Fraction of the largest force that a stage may leave unbalanced.</summary>
         public double Balance { get; set; } = 1e-7;
 
         /// <summary>Newton iterations of a stage.</summary>

@@ -2,11 +2,11 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>What walls push each element of a wire with, along their normals. What pushes a node between two
-    /// elements is shared by both; what pushes an end is its element's.</summary>
-    /// <remarks>Pressure is the sum of an element's pushes, whatever their directions, over its length and its
-    /// diameter: what it would be if it were spread over the element's shadow. So it does not depend on n where a wire
-    /// lies along a wall; where one place pushes, such as the tip, it grows with n.</remarks>
+    /// <summary>Normal force of the walls on each element of a wire. A force on a node between two elements is shared
+    /// by both; a force on an end belongs to its element.</summary>
+    /// <remarks>Pressure is the sum of an element's normal forces, regardless of their directions, over its length and
+    /// its diameter: what it would be if it were spread over the element's shadow. So it does not depend on n where a
+    /// wire lies along a wall; at a single contact point, such as the tip, it grows with n.</remarks>
     internal sealed class ElementContactForces
     {
         private readonly BarrierEnergy _barrier;

@@ -16,11 +16,11 @@ namespace Guidewire.Core
         private readonly int[] _hint;
         private readonly PassageCount _passages;
         private readonly Vector3d[] _start;    // of the step, units
-        private readonly Vector3d[] _from;     // of its part at hand
+        private readonly Vector3d[] _from;     // of the current part
         private readonly Vector3d[] _to;
         private readonly double[] _clearance;  // of elements from all walls at least, where a part begins, units
 
-        /// <summary>A watch on a rod between walls.</summary>
+        /// <summary>A monitor of a rod between walls.</summary>
         public WallMonitor(MaterialRod rod, WallTerms walls, double metresPerUnit)
         {
             BarrierEnergy barrier = walls.Barrier;

@@ -5,11 +5,11 @@ namespace Guidewire.Core
     /// <summary>Where a wire between walls would come to in a stage: it goes on along itself as far as its first node
     /// does, changes its shape as in the time before, and is moved along the walls' normals: off where it would come
     /// too near, back to where it touched.</summary>
-    /// <remarks>With c(s) the curve through the nodes and p the way along it, x_i -> c(s_i + p) + x_i - c'(s_i + p'),
-    /// where ' was a stage before, x' = 2 x - x~ with x~ where the nodes would go without forces: where p is 0, that is
-    /// free flight, and a wire that slides along its walls keeps its shape. Free flight alone would leave the curve by
-    /// p^2/2 of its curvature, and lengthen elements that turn. Each element turns with its chord, and about it by its
-    /// spin.</remarks>
+    /// <remarks>With c(s) the curve through the nodes and p the travel along it, x_i -> c(s_i + p) + x_i - c'(s_i +
+    /// p'), where ' was a stage before, x' = 2 x - x~ with x~ where the nodes would go without forces: where p is 0,
+    /// that is free flight, and a wire that slides along its walls preserves its shape. Free flight alone would leave
+    /// the curve by p^2/2 of its curvature, and lengthen elements that turn. Each element turns with its chord, and
+    /// about it by its spin.</remarks>
     internal sealed class WallPrediction
     {
         private const int MostParts = 16;
@@ -46,11 +46,11 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Looks at a shape from which predictions set out.</summary>
+        /// <summary>Takes a shape from which predictions start.</summary>
         /// <param name="shape">Where the wire is.</param>
         /// <param name="start">Where node 0 is to be, m.</param>
-        /// <returns>In how many parts the way should be taken: in each a node goes less than half an element along the
-        /// curve, so that straight ways of the nodes do not leave it by much.</returns>
+        /// <returns>In how many parts the motion should be divided: in each a node moves less than half an element
+        /// along the curve, so that straight paths of the nodes stay near it.</returns>
         public int Begin(RodShape shape, in Vector3d start)
         {
             int n = shape.ElementCount;
@@ -73,7 +73,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Sets the prediction.</summary>
-        /// <param name="share">Of the stage's time.</param>
+        /// <param name="fraction">Of the stage's time.</param>
         /// <param name="orientations">The elements' by their spins, of which the turn about the element counts.</param>
         /// <param name="shape">Where the wire is now.</param>
         /// <param name="predicted">Receives it; its last node, where that is held, and its frames are kept.</param>
@@ -112,9 +112,8 @@ namespace Guidewire.Core
             }
         }
 
-        // The place at s on the curve through nodes, from the element on that was looked at last: cubic between two of
-        // them, with the slopes of parabolas through three; behind the ends on the parabola there, at most an element
-        // or two.
+        // The point at s on the curve through nodes, from the element found last: cubic between two of them, with the
+        // slopes of parabolas through three; behind the ends on the parabola there, at most an element or two.
         private Vector3d PointOn(Vector3d[] x, double s, ref int j)
         {
             int n = x.Length - 1;

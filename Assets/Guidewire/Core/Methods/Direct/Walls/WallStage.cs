@@ -4,8 +4,8 @@ namespace Guidewire.Core
     /// the walls let it, to the minimum of the stage's energy.</summary>
     internal sealed class WallStage
     {
-        private const int FrictionLagIterations = 1;       // of the pushes that friction goes with
-        private const double Far = 1e3;     // of the error that a stage may have: after such a way it is not done
+        private const int FrictionLagIterations = 1;       // of the normal forces in friction
+        private const double Far = 1e3;     // of the error of a stage: a larger displacement is refused
 
         private readonly RodTerms _terms;
         private readonly RodSupports _supports;

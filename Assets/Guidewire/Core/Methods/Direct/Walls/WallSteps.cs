@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Steps of a wire between walls: a step that moves or turns the proximal end farther than the barriers
-    /// reach is made in parts, each of which is halved where it has no solution.</summary>
+    /// <summary>Steps of a wire between walls: a step that moves or turns the proximal end farther than the range of
+    /// the barriers is made in parts, each of which is halved where it has no solution.</summary>
     internal sealed class WallSteps
     {
         private const int MostParts = 64;

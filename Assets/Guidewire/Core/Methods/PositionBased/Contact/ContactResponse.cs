@@ -4,14 +4,14 @@ using System.Runtime.CompilerServices;
 namespace Guidewire.Core
 {
     /// <summary>Contact of spheres and of rod elements by the lever rule, with hard stops where the swept test met a
-    /// wall; see <see cref="SphereContactConstraint"/> and <see cref="ElementContactConstraint"/>. Walls rub, see
+    /// wall; see <see cref="SphereContactConstraint"/> and <see cref="ElementContactConstraint"/>. With friction, see
     /// <see cref="WallFriction"/>.</summary>
     internal sealed class ContactResponse : IContactResponse
     {
         private const int ContactsPerSphere = 8;
         private readonly double _clearance;
         private readonly double _gain;
-        private readonly double _stop;    // what a stop keeps between core line and wall, units
+        private readonly double _stop;    // clearance of a stop between core line and wall, units
         private readonly double[] _friction;    // mu, per wall
         private readonly SphereContactConstraint _spheres;
         private readonly ElementContactConstraint _elements;
@@ -21,7 +21,7 @@ namespace Guidewire.Core
         /// <param name="state">The wire, with its final masses.</param>
         /// <param name="walls">Walls of the scene.</param>
         /// <param name="radius">r in units.</param>
-        /// <param name="clearance">r + margin in units: the distance that contacts keep.</param>
+        /// <param name="clearance">r + margin in units: the clearance of contacts.</param>
         /// <param name="gain">k_C in [0, 1], per iteration.</param>
         /// <param name="iterations">m of a solve.</param>
         public ContactResponse(RodState state, ContactShape[] walls, double radius, double clearance, double gain,
@@ -99,7 +99,7 @@ namespace Guidewire.Core
             _sphereStops.AddImpulses(impulses);
         }
 
-        // Where contact k of a sweep stands, and which it is there: spheres, or where that is null, elements.
+        // Where contact k of an iteration is stored, and which it is there: spheres, or where that is null, elements.
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         private SphereContactConstraint? At(ref int k, out ElementContactConstraint? elements)
         {

@@ -2,17 +2,17 @@ using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
-    /// <summary>Keeps a sphere's centre p at a distance from a wall: with contact point c and unit normal n,
-    /// g = max(0, reach - (p - c).n), dp = gain g n, per iteration (thesis 3.1.2 for a sphere, without its drag along
+    /// <summary>Holds a sphere's centre p at a clearance from a wall: with contact point c and unit normal n, g =
+    /// max(0, clearance - (p - c).n), dp = gain g n, per iteration (thesis 3.1.2 for a sphere, without its drag along
     /// the wall). It never attracts; along the wall it pulls by <see cref="WallFriction"/> alone.</summary>
-    /// <remarks>reach is r + margin and the gain k_C in [0, 1], or a bare clearance with gain 1 where the swept test
-    /// met the wall. A sphere of inverse mass 0 is not moved.</remarks>
+    /// <remarks>The clearance is r + margin and the gain k_C in [0, 1], or a bare clearance with gain 1 where the swept
+    /// test met the wall. A sphere of inverse mass 0 is not moved.</remarks>
     internal sealed class SphereContactConstraint
     {
         private readonly double[] _inverseMasses;
         private readonly int[] _sphere;
         private readonly Vector3d[] _normal;
-        private readonly double[] _offset;     // (c.n + reach), units
+        private readonly double[] _offset;     // (c.n + clearance), units
         private readonly double[] _gain;
         private readonly double[] _correction;     // sum of gain g over the iterations, units
         private readonly WallFriction _friction;
@@ -20,7 +20,7 @@ namespace Guidewire.Core
 
         /// <param name="state">The wire, with its final masses.</param>
         /// <param name="capacity">Contacts that fit; what comes on top is left out.</param>
-        /// <param name="iterations">m of a solve, for what walls rub.</param>
+        /// <param name="iterations">m of a solve, for friction.</param>
         public SphereContactConstraint(RodState state, int capacity, int iterations = 1)
         {
             _inverseMasses = state.InverseMasses;
@@ -36,7 +36,8 @@ namespace Guidewire.Core
         /// <summary>Contacts at present.</summary>
         public int Count { get; private set; }
 
-        /// <summary>Forgets all contacts; those to come rub on what moves from these n + 1 positions.</summary>
+        /// <summary>Forgets all contacts; friction of those to come acts on the motion from these n + 1
+        /// positions.</summary>
         public void Clear(Vector3d[] from)
         {
             _from = from;

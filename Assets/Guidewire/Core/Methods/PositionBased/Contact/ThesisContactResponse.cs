@@ -3,8 +3,8 @@ using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
-    /// <summary>Contact as published (thesis 3.1.2); see <see cref="ThesisContactConstraint"/>. Nothing keeps the wire
-    /// from passing a wall.</summary>
+    /// <summary>Contact as published (thesis 3.1.2); see <see cref="ThesisContactConstraint"/>. Nothing prevents the
+    /// wire from passing a wall.</summary>
     internal sealed class ThesisContactResponse : IContactResponse
     {
         private const int ContactsPerSphere = 4;

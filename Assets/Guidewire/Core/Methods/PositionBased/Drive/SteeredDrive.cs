@@ -1,16 +1,15 @@
 namespace Guidewire.Core
 {
-    /// <summary>Moves sphere 0 along the first element and turns that element about its axis, as a hand asks at the
-    /// moment.
-    /// </summary>
-    /// <remarks>The hand holds the frame of element 0, also while it asks for nothing: its orientation has weight 0.
-    /// </remarks>
+    /// <summary>Moves sphere 0 along the first element and turns that element about its axis, as the user asks at the
+    /// moment. </summary>
+    /// <remarks>The user holds the frame of element 0, also while steering asks for nothing: its orientation has weight
+    /// 0. </remarks>
     internal sealed class SteeredDrive : IDriveMotion
     {
         private readonly Steering _steering;
         private readonly AlongFirstElement _direction = new AlongFirstElement();
 
-        /// <param name="steering">What is asked.</param>
+        /// <param name="steering">What the user asks.</param>
         public SteeredDrive(Steering steering)
         {
             _steering = steering;

@@ -1,12 +1,13 @@
 namespace Guidewire.Core
 {
-    /// <summary>Which sweeps a run does, of those that give the same bits: the fastest on this processor.</summary>
+    /// <summary>Chooses the implementation of the iterations, of those that give the same bits: the fastest on this
+    /// processor.</summary>
     internal static class IterationChoice
     {
         private const int MostLanes = 8;
 
-        /// <summary>The sweeps of least cost.</summary>
-        /// <param name="scalar">The sweeps to do.</param>
+        /// <summary>The iterations of least cost.</summary>
+        /// <param name="scalar">The iterations to do.</param>
         /// <param name="iterations">m, how many will be asked for at a time.</param>
         public static IIterations Fastest(ScalarIterations scalar, int iterations)
         {
@@ -22,7 +23,7 @@ namespace Guidewire.Core
             return fastest;
         }
 
-        /// <summary>The sweeps with 4 or 8 lanes whether they are faster or not, or null where there are none: on
+        /// <summary>The iterations with 4 or 8 lanes whether they are faster or not, or null where there are none: on
         /// another processor, in Unity, in the bilateral order, whose two ends meet in the middle.</summary>
         public static IIterations? WithLanes(ScalarIterations scalar, int lanes)
         {

@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>One sweep after the other, one constraint after the other.</summary>
+    /// <summary>One iteration after the other, one constraint after the other.</summary>
     internal sealed class ScalarIterations : IIterations
     {
         private readonly int[] _elements;
@@ -8,7 +8,7 @@ namespace Guidewire.Core
 
         /// <param name="stretch">The elements' constraints.</param>
         /// <param name="bendTwist">The joints' constraints.</param>
-        /// <param name="order">The order of each sweep.</param>
+        /// <param name="order">The order of each iteration.</param>
         public ScalarIterations(StretchConstraint stretch, BendTwistConstraint bendTwist, SweepOrder order)
         {
             Stretch = stretch;
@@ -24,7 +24,7 @@ namespace Guidewire.Core
         /// <summary>The joints' constraints.</summary>
         public BendTwistConstraint BendTwist { get; }
 
-        /// <summary>The order of each sweep.</summary>
+        /// <summary>The order of each iteration.</summary>
         public SweepOrder Order { get; }
 
         /// <inheritdoc/>
