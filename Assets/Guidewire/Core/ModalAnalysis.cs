@@ -80,7 +80,7 @@ namespace Guidewire.Core
             }
             if (!MethodTable.Of(parameters.Method.Solver).TakesMaterial)
             {
-                throw new ArgumentException("solver needs to be one for a material: gains have no frequencies");
+                throw new ArgumentException("solver needs to be one for a material: a pbd wire has no frequencies");
             }
             if (count < 1 || count > 3 * ElementLayout.Count(atRest))
             {

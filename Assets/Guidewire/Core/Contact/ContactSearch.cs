@@ -3,11 +3,11 @@ using System;
 namespace Guidewire.Core
 {
     /// <summary>Which spheres and, unless switched off, which rod elements come near the walls.</summary>
-    /// <remarks>One search an element tells whether anything is in range. Only then the two spheres are asked, and
-    /// where the element touches with an end, the sphere's own contact stands for it and, where spheres leave gaps, the
-    /// element's middle half is asked: a long element in a bend lies against the outer wall with its ends and against
-    /// the inner wall between. Where a motion is long enough to have met the wall, the swept test gives the point of
-    /// impact.</remarks>
+    /// <remarks>One search an element tells whether anything is in range. Only then the two spheres are searched; where
+    /// the element touches with an end, the sphere's own contact represents it and, where spheres leave gaps, the
+    /// element's middle half is searched: a long element in a bend lies against the outer wall with its ends and
+    /// against the inner wall between. Where a motion is long enough to have met the wall, the swept test gives the
+    /// point of impact.</remarks>
     internal sealed class ContactSearch : IContactSearch
     {
         private const double MiddleFrom = 0.25;
@@ -25,7 +25,7 @@ namespace Guidewire.Core
         /// <param name="elementCount">n.</param>
         /// <param name="elementLength">l in units.</param>
         /// <param name="radius">r in units.</param>
-        /// <param name="clearance">r + margin in units: the clearance of contacts.</param>
+        /// <param name="clearance">r + margin in units.</param>
         /// <param name="findsElements">Whether rod elements touch, or spheres alone.</param>
         public ContactSearch(ContactShape[] walls, int elementCount, double elementLength, double radius,
             double clearance, bool findsElements)

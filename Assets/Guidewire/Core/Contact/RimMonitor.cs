@@ -2,8 +2,8 @@ using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>Sees when the tip of a wire leaves a vessel by an open rim or end, beyond which no wall is near: inside
-    /// before a step, outside after it, and no passage in it.</summary>
+    /// <summary>Detects when the tip of a wire leaves a vessel by an open rim or end, beyond which no wall is near:
+    /// inside before a step, outside after it, and no passage in it.</summary>
     internal sealed class RimMonitor
     {
         private readonly ContactShape[] _walls;
@@ -22,9 +22,8 @@ namespace Guidewire.Core
 
         /// <summary>Where and when the tip left first, in one line, or null.</summary>
         public string? Line => !_hasLeft ? null : string.Format(CultureInfo.InvariantCulture,
-            "the tip left the vessel by an open rim at ({0:G4}, {1:G4}, {2:G4}) at t = {3:G6} s", _position.X,
-            _position.Y,
-            _position.Z, _time);
+            "the tip left the vessel by an open rim at ({0:G4}, {1:G4}, {2:G4}) at t = {3:G6} s",
+            _position.X, _position.Y, _position.Z, _time);
 
         /// <summary>The wire is in this state.</summary>
         public void Begin(RodState state)

@@ -2,11 +2,11 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Shortens a motion of the wire until it passes no wall, as the last resort: that of the spheres that
-    /// would, and of their elements, at the end to nothing.</summary>
-    /// <remarks>First each is cut to nine tenths of what is free. A cut turns elements, which may then pass elsewhere;
-    /// so after <see cref="CutRounds"/> rounds the spheres of what still would are left where they are. Each round
-    /// leaves at least one more, and an element between two of them does not move. Only what a round changed is asked
+    /// <summary>Shortens a motion of the wire until it passes no wall, as the last resort: the motion of the spheres
+    /// that would, and of their elements, in the end to zero.</summary>
+    /// <remarks>First each is shortened to nine tenths of what is free. That turns elements, which may then pass
+    /// elsewhere; so after <see cref="CutRounds"/> rounds the spheres of those that still would do not move. Each round
+    /// leaves at least one more, and an element between two of them does not move. Only what a round changed is tested
     /// again, so all of them together cost no more than a few swept searches of the whole wire.</remarks>
     internal sealed class ShortenedMotion
     {
@@ -15,7 +15,7 @@ namespace Guidewire.Core
         private readonly SweptSearch _swept;
         private readonly double[] _fraction;
         private readonly Vector3d[] _whole;
-        private readonly bool[] _changed;    // since it was last asked
+        private readonly bool[] _changed;    // since it was last tested
         private readonly bool[] _isCut;
 
         /// <param name="swept">Tells what would pass a wall.</param>
@@ -29,7 +29,7 @@ namespace Guidewire.Core
             _isCut = new bool[sphereCount];
         }
 
-        /// <summary>Shortens one sphere's motion, in place, as far as the sphere itself requires. </summary>
+        /// <summary>Shortens one sphere's motion, in place, as far as the sphere itself requires.</summary>
         /// <param name="from">Where the n + 1 spheres are, clear of the walls; units.</param>
         /// <param name="to">Where they would go.</param>
         /// <param name="i">The sphere.</param>

@@ -28,7 +28,7 @@ namespace Guidewire.Core
         public StructList<WireContact> Impacts { get; }
 
         /// <summary>Clearance between core line and wall in the swept test, units: enough to stay clear of rounding,
-        /// too little to be felt.</summary>
+        /// too little to matter.</summary>
         public static double ClearanceFor(double radius)
         {
             return 1e-3 * radius;
@@ -106,7 +106,7 @@ namespace Guidewire.Core
             return first;
         }
 
-        // What is known of an element, or of a sphere by its elements.
+        // Lower bound of the distance of an element, or of a sphere by its elements.
         private double ClearanceOf(int w, int i, int k, int elementCount)
         {
             if (i != k)

@@ -2,7 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>The widest ball in a lumen across a direction: by it vessels are walked along. In units.</summary>
+    /// <summary>The widest ball in a lumen across a direction, for walks along a vessel. In units.</summary>
     internal sealed class LumenBall
     {
         private readonly ContactShape _wall;
@@ -22,7 +22,7 @@ namespace Guidewire.Core
 
         /// <summary>Climbs from x to the middle of the lumen across a direction, or to where the ball is large enough:
         /// eight directions in turn, the step doubled where one leads up and halved where none does. No step leaves the
-        /// ball, and so the lumen.</summary>
+        /// ball, hence none leaves the lumen.</summary>
         /// <param name="finest">The last step.</param>
         /// <param name="enough">Radius.</param>
         public void Climb(in Vector3d x, in Vector3d along, double finest, double enough)

@@ -8,9 +8,9 @@ namespace Guidewire.Core
     /// <remarks>The walk goes by balls that are centred across it (<see cref="LumenBall"/>), along the direction e in
     /// which the lesser of d(c + h e) and d(c - h e) is largest, d the distance from the wall. It ends where the lumen
     /// has become wider than its narrowest by <see cref="WideAgain"/>, or where d falls by more than half of the
-    /// distance travelled: there is the end of the vessel. What it comes to depends on d alone, not on how the wall is
-    /// cut into triangles. A lumen that narrows to less than a wire, evenly or by steps that are not wide again, holds
-    /// the wire whatever its barriers are, and does not count.</remarks>
+    /// distance travelled: there is the end of the vessel. The result depends on d alone, not on how the wall is
+    /// triangulated. A lumen that narrows to less than a wire without widening again holds the wire whatever its
+    /// barriers are, and does not count.</remarks>
     internal sealed class LumenWalk
     {
         private const double StepOverWidth = 0.5;
@@ -38,8 +38,8 @@ namespace Guidewire.Core
             _above = above;
         }
 
-        /// <summary>The radius where the lumen is narrowest about a position in it; infinite where it has been walked
-        /// before, narrows to what does not count, or is as wide as is enough.</summary>
+        /// <summary>The radius where the lumen is narrowest about a position in it; infinite where the walk was made
+        /// before, the lumen narrows to what does not count, or it is wide enough.</summary>
         public double From(in Vector3d start, double enough)
         {
             double width = _ball.DistanceAt(start);
@@ -83,8 +83,8 @@ namespace Guidewire.Core
             for (int k = 0; k < MostSteps && fraction > ShortestStep && width <= WideAgain * _narrowest; k++)
             {
                 _ball.Climb(centre + fraction * width * along, along, Fineness * width, 2.0 * WideAgain * width);
-                double way = Vector3d.Distance(centre, _ball.Centre);
-                if (width - _ball.Width > EndSlope * way || !(_ball.Width > 0.0))
+                double distance = Vector3d.Distance(centre, _ball.Centre);
+                if (width - _ball.Width > EndSlope * distance || !(_ball.Width > 0.0))
                 {
                     fraction *= 0.5;
                     continue;
@@ -92,7 +92,7 @@ namespace Guidewire.Core
                 Vector3d chord = Vector3d.Normalize(_ball.Centre - centre);
                 if (Vector3d.Dot(chord, along) < 0.5)
                 {
-                    return true;    // the climb has left for a wider lumen beside
+                    return true;    // the climb has moved into a wider neighbouring lumen
                 }
                 centre = _ball.Centre;
                 width = _ball.Width;
@@ -138,21 +138,21 @@ namespace Guidewire.Core
             return least;
         }
 
-        // Not where the vessel has its end.
-        private double Inside(double least, double width, double way)
+        // Not at the end of the vessel.
+        private double Inside(double least, double width, double distance)
         {
-            return width > _above && _narrowest - width <= EndSlope * way ? Math.Min(least, width) : least;
+            return width > _above && _narrowest - width <= EndSlope * distance ? Math.Min(least, width) : least;
         }
 
-        private double Across(double way)
+        private double Across(double distance)
         {
-            _ball.Climb(_position + way * _along, _along, LastFineness * _narrowest, 2.0 * WideAgain * _narrowest);
+            _ball.Climb(_position + distance * _along, _along, LastFineness * _narrowest, 2.0 * WideAgain * _narrowest);
             return _ball.Width;
         }
 
-        private double Lesser(in Vector3d x, in Vector3d way)
+        private double Lesser(in Vector3d x, in Vector3d direction)
         {
-            return Math.Min(_ball.DistanceAt(x + way), _ball.DistanceAt(x - way));
+            return Math.Min(_ball.DistanceAt(x + direction), _ball.DistanceAt(x - direction));
         }
 
         // Of the axes, the diagonals of the faces and those of the cube.
@@ -162,12 +162,12 @@ namespace Guidewire.Core
             double most = double.NegativeInfinity;
             for (int k = 14; k < 27; k++)
             {
-                Vector3d way = Vector3d.Normalize(new Vector3d(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1));
-                double lesser = Lesser(x, Probe * width * way);
+                Vector3d direction = Vector3d.Normalize(new Vector3d(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1));
+                double lesser = Lesser(x, Probe * width * direction);
                 if (lesser > most)
                 {
                     most = lesser;
-                    best = way;
+                    best = direction;
                 }
             }
             return best;
@@ -186,12 +186,12 @@ namespace Guidewire.Core
                 for (int k = 0; k < 4; k++)
                 {
                     Vector3d side = k % 2 == 0 ? u : v;
-                    Vector3d way = Vector3d.Normalize(best + (k < 2 ? turn : -turn) * side);
-                    double lesser = Lesser(x, h * way);
+                    Vector3d direction = Vector3d.Normalize(best + (k < 2 ? turn : -turn) * side);
+                    double lesser = Lesser(x, h * direction);
                     if (lesser > most)
                     {
                         most = lesser;
-                        best = way;
+                        best = direction;
                     }
                 }
             }

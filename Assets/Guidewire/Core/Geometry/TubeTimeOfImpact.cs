@@ -44,8 +44,8 @@ namespace Guidewire.Core
                 double until = Math.Min(end, time + step);
                 Vector3d a = Vector3d.Lerp(a0, a1, until);
                 Vector3d b = Vector3d.Lerp(b0, b1, until);
-                double least = isPoint ? _tube.LeastDistance(Vector3d.Lerp(a0, a1, time), a) : FindAfter(a, b,
-                    clearance);
+                double least = isPoint ? _tube.LeastDistance(Vector3d.Lerp(a0, a1, time), a) 
+                    : FindAfter(a, b, clearance);
                 if (least < clearance)
                 {
                     // By linear interpolation of the distance.

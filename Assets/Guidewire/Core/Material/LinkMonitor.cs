@@ -11,7 +11,7 @@ namespace Guidewire.Core
     /// No wire does that. It shows once the wire is stretched out again: where every element points forward, d3 . axis
     /// above 0, its orientation is a turn psi about the axis and then a tilt of less than 90 degrees, and psi from
     /// clamp to clamp is the turn that the clamps have made, bent or not (Fuller). Where an element points back nothing
-    /// is said. </remarks>
+    /// is said.</remarks>
     internal sealed class LinkMonitor
     {
         private readonly RodSchedule _schedule;

@@ -27,7 +27,7 @@ namespace Guidewire.Core
         /// <summary>Largest torque of the hub about its axis, in either sense, N m; NaN without walls.</summary>
         public double AxialTorque { get; private set; } = double.NaN;
 
-        /// <summary>Largest normal force of the walls on one element, N; NaN without walls. </summary>
+        /// <summary>Largest normal force of the walls on one element, N; NaN without walls.</summary>
         public double ElementForce { get; private set; } = double.NaN;
 
         /// <summary>Largest of these forces over the element's length and diameter, Pa; NaN without walls.</summary>

@@ -25,8 +25,8 @@ namespace Guidewire.Core
         /// iterations may leave a wire wrong without losing it.</summary>
         public virtual string? AccuracyWarning => null;
 
-        /// <summary>The forces that act on the wire from outside, and what contact came to; null where nobody asked for
-        /// them.</summary>
+        /// <summary>The forces that act on the wire from outside, and the results of contact; null where nobody asked
+        /// for them.</summary>
         public virtual ContactRecord? Contacts => null;
 
         /// <summary>Strains, forces, couples and energies of the wire as it is; null with pbd.</summary>

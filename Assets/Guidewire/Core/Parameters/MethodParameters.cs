@@ -34,7 +34,7 @@ namespace Guidewire.Core
         public double TimeStepError { get; set; }
 
         /// <summary>Newton iterations after which the direct solver gives up a stage; a rest shape gets ten times as
-        /// many. </summary>
+        /// many.</summary>
         public int MaxNewtonIterations { get; set; } = 50;
 
         /// <summary>epsilon, in units: with pbd, a steady state's prediction errors lie below it (<see

@@ -67,7 +67,7 @@ namespace Guidewire.Core
         /// sheathed part is a spring between hub and frame. Null: the frame is the hub.</summary>
         public double? HeldFrameTurn { get; set; }
 
-        /// <summary>Place of the last node before its displacement, m.</summary>
+        /// <summary>Position of the last node before its displacement, m.</summary>
         public Vector3d DistalPosition { get; set; }
 
         /// <summary>The distal clamp's frame before it turns.</summary>

@@ -3,7 +3,7 @@ using System;
 namespace Guidewire.Io
 {
     /// <summary>Sum and median of step times in constant memory: the median from classes 1 % wide, so it is within 0.5
-    /// %. </summary>
+    /// %.</summary>
     internal sealed class StepTimes
     {
         private const double Smallest = 1e-5;         // ms

@@ -26,7 +26,7 @@ namespace Guidewire.Runtime
         [Tooltip("Folder that takes positions.json, parameters.json and summary.json; empty: the run is not logged.")]
         [SerializeField] private string _logFolder = "";
 
-        [Tooltip("Parameter file that a key takes in this one's place, and back; empty: none.")]
+        [Tooltip("Parameter file that a key swaps with this one, and back; empty: none.")]
         [SerializeField] private string _alternativeFile = "";
 
         [Tooltip("KEY=VALUE, one a line: parameters that count instead of that file's.")]
@@ -43,7 +43,7 @@ namespace Guidewire.Runtime
         [SerializeField, Range(1f, 100f)] private float _frameBudget = 12f;
 
         [Header("Steering")]
-        [Tooltip("Whether keys push and turn the wire, in place of the parameter file's drive.")]
+        [Tooltip("Whether keys push and turn the wire, instead of the parameter file's drive.")]
         [SerializeField] private bool _isSteered;
 
         [Tooltip("Speed of sphere 0 while a push or pull key is down, in units a second of in-game time.")]

@@ -3,11 +3,11 @@ using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
-    /// <summary>What of a mesh is near a wire, found once in the hierarchies and then asked as the wire moves: near
-    /// nodes triangles, near elements convex edges.</summary>
-    /// <remarks>The inside of an element can only be nearer to the wall than its ends where the wall bulges: at the
+    /// <summary>The features of a mesh near a wire, found once in the hierarchies and then queried as the wire moves:
+    /// triangles near nodes, convex edges near elements.</summary>
+    /// <remarks>The interior of an element can only be nearer to the wall than its ends where the wall bulges: at the
     /// nearest point of a valley, a flat wall or a concave corner the distance is a concave function along the element.
-    /// So points need the triangles, and elements only the convex edges; corners are ends of those. </remarks>
+    /// So points need the triangles, and elements only the convex edges; corners are ends of those.</remarks>
     internal sealed class MeshNearby
     {
         private const double RoundedUp = 1.0 + 1e-9;
@@ -19,7 +19,7 @@ namespace Guidewire.Core
         private readonly Bvh? _edgeTree;
         private readonly StructList<int> _found = new StructList<int>(256);
 
-        /// <summary>For this mesh where it stands.</summary>
+        /// <summary>For this mesh at its placement.</summary>
         public MeshNearby(MeshGeometry mesh, MeshEdges edgeContacts)
         {
             _mesh = mesh;

@@ -83,10 +83,10 @@ namespace Guidewire.Core
             for (int k = 0; k < found.Count; k++)
             {
                 ref readonly WireContact contact = ref found[k];
-                SurfaceContact place = contact.Nearest;
+                SurfaceContact nearest = contact.Nearest;
                 bool isTip = !contact.IsElement && contact.Index == n;
                 int j = isTip ? n - 1 : contact.Index;
-                double s = contact.IsElement ? place.Position : isTip ? 1.0 : 0.0;
+                double s = contact.IsElement ? nearest.Position : isTip ? 1.0 : 0.0;
                 double inverse = (1.0 - s) * (1.0 - s) * _inverseMass[j] + s * s * _inverseMass[j + 1];
                 bool isHeld = !(inverse > 0.0);
                 if (isHeld && _heldCount == _held.Length)
@@ -99,8 +99,8 @@ namespace Guidewire.Core
                 to.Element = j;
                 to.Position = s;
                 to.Node = s == 1.0 ? j + 1 : j;
-                to.Normal = place.Normal;
-                to.Offset = _metres * Vector3d.Dot(place.Point, place.Normal);
+                to.Normal = nearest.Normal;
+                to.Offset = _metres * Vector3d.Dot(nearest.Point, nearest.Normal);
                 to.Radius = contact.IsElement ? _radius[j] : _nodeRadius[contact.Index];
                 to.Inverse = inverse;
                 Vector3d turning = _inverseInertia[j];
@@ -141,8 +141,8 @@ namespace Guidewire.Core
                 if (_compliance == 0.0 && distance < contact.Radius)
                 {
                     double depth = contact.Radius - distance;
-                    contact.Clearance = distance + Math.Min(depth, Math.Max(Recovered * depth, DisplacementOf(contact,
-                        shape)));
+                    contact.Clearance = distance
+                        + Math.Min(depth, Math.Max(Recovered * depth, DisplacementOf(contact, shape)));
                 }
             }
         }

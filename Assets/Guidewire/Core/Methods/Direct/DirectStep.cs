@@ -394,7 +394,7 @@ namespace Guidewire.Core
             double most = _scene.Rod.StretchStiffness[0];
             return force <= most ? null : string.Format(CultureInfo.InvariantCulture,
                 "the walls do not let sphere 0 to where the drive has it at t = {0:G6} s, {1:G3} units on: the hub"
-                + " would need {2:G3} N, more than the wire's EA, {3:G3} N; {4}; a shorter way (displacementPerStep,"
+                + " would need {2:G3} N, more than the wire's EA, {3:G3} N; {4}; a smaller motion (displacementPerStep,"
                 + " insertionSpeed, maxSimulationSteps) may do, or a hubForceLimit", _dynamics.Time,
                 Contacts.DriveShortfall, force, most, _jam!.Text(_dynamics.Shape));
         }

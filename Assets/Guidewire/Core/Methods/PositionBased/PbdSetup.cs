@@ -38,12 +38,12 @@ namespace Guidewire.Core
             out ContactRecord? record)
         {
             MethodParameters method = parameters.Method;
-            PbdParameters gains = parameters.Pbd;
+            PbdParameters pbd = parameters.Pbd;
             ContactParameters contact = parameters.Contact;
             record = null;
             int iterations = method.ConstraintSolverSteps;
-            var scalar = new ScalarIterations(new StretchConstraint(state, gains.StretchStiffness),
-                new BendTwistConstraint(state, gains.BendStiffness), method.SweepOrder);
+            var scalar = new ScalarIterations(new StretchConstraint(state, pbd.StretchStiffness),
+                new BendTwistConstraint(state, pbd.BendStiffness), method.SweepOrder);
             IIterations fastest = IterationChoice.Fastest(scalar, iterations);
             if (scene.Walls.Length == 0)
             {

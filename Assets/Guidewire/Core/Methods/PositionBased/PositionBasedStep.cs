@@ -39,7 +39,7 @@ namespace Guidewire.Core
         public override string? AccuracyWarning => Contacts == null || Contacts.StuckSteps < StepsThatAreStuck
             ? _monitor?.LostTurn
             : "the drive is stuck: in the last " + Contacts.StuckSteps.ToString(CultureInfo.InvariantCulture)
-                + " steps the walls gave sphere 0 less than 1 % of its way";
+                + " steps the walls gave sphere 0 less than 1 % of its displacement";
 
         /// <summary>Sets what ends the run before its last step; without it nothing does.</summary>
         public void EndBy(PbdMonitor monitor)

@@ -18,9 +18,9 @@ namespace Guidewire.Core
     /// changes no value. The result for one shape is cached until another is evaluated.</remarks>
     internal sealed class BarrierEnergy : EnergyTerm
     {
-        private const double LeftOfGap = 0.3;     // that a step leaves at least
+        private const double LeftOfGap = 0.3;     // the least that a step leaves
         private const double MostLeft = 0.2;      // of the barrier's distance
-        private const double LongSkin = 20.0;    // of the barrier's distance
+        private const double LongSkin = 20.0;    // of the barrier's distance, the skin without point features
         private const double SkinInMesh = 0.5;   // of the wire's radius, the least skin
         private const double Resolved = 1e-3;     // of the clearance: approaches below it are ignored
         private const double ResolvedOfGap = 0.05;    // the same, of the gap to close
@@ -75,7 +75,7 @@ namespace Guidewire.Core
             {
                 range[j] = _units * (Math.Max(_nodeRadius[j], _nodeRadius[j + 1]) + barrier.Distance);
             }
-            // Lists of features of points grow with the square of the skin, all others hardly.
+            // Lists of features of points grow with the square of the skin, all others hardly grow.
             double skin = Array.Exists(walls, wall => wall.HasPointFeatures)
                 ? Math.Max(barrier.Distance, SkinInMesh * rod.Radius[n - 1])
                 : Math.Max(LongSkin * barrier.Distance, rod.Radius[n - 1]);

@@ -2,10 +2,11 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>What the contacts of a wire with walls come to in one shape: where they are, and the first and second
-    /// derivatives of their energy by the nodes' positions.</summary>
-    /// <remarks>An element's contact at s acts on its two nodes with weights 1 - s and s. What its second derivative
-    /// owes to its force is kept apart. Most of a long wire touches nothing, and is passed over.</remarks>
+    /// <summary>The contacts of a wire with walls in one shape: their positions, and the first and second derivatives
+    /// of their energy by the nodes' positions.</summary>
+    /// <remarks>An element's contact at s acts on its two nodes with weights 1 - s and s. The part of its second
+    /// derivative that is proportional to its force is stored apart. Most of a long wire touches nothing and is
+    /// skipped.</remarks>
     internal sealed class ContactSums
     {
         private readonly Vector3d[] _gradient;    // by node, N
@@ -38,7 +39,7 @@ namespace Guidewire.Core
             return _gradient[i];
         }
 
-        /// <summary>Nothing touches.</summary>
+        /// <summary>Removes all contacts.</summary>
         public void Clear()
         {
             for (int k = 0; k < Contacts.Count; k++)
@@ -133,7 +134,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Adds the second derivatives of nodes from one (inclusive) to another (exclusive), with or without
-        /// what goes with the forces of elements' contacts.</summary>
+        /// the part proportional to the forces of elements' contacts.</summary>
         public void AddBlocks(RodBlock[] blocks, int from, int to, bool hasBending)
         {
             int end = Math.Min(to, _gradient.Length);

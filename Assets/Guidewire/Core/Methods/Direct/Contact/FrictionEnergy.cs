@@ -56,7 +56,7 @@ namespace Guidewire.Core
             return OfRadius * thinnest;
         }
 
-        /// <summary>What is kept from step to step.</summary>
+        /// <summary>The state between steps.</summary>
         public FrictionAnchors Anchors { get; }
 
         /// <summary>Its slope is a force; its value over a step holds the heat too. What contacts store is
@@ -194,7 +194,7 @@ namespace Guidewire.Core
             return contact.Stiffness * size <= contact.Limit ? contact.Stiffness : contact.Limit / size;
         }
 
-        // A vector in the plane across a normal, as long as it was.
+        // A vector in the plane across a normal, of unchanged length.
         private static Vector3d Turned(in Vector3d v, in Vector3d normal)
         {
             Vector3d flat = v - Vector3d.Dot(v, normal) * normal;

@@ -5,11 +5,11 @@ namespace Guidewire.Core
     /// <summary>Neighbour list (Verlet list): the walls near each node and element of a wire, valid while it moves no
     /// farther than the skin from where the query was made, and the walls' features there. Lengths in units.</summary>
     /// <remarks>A node or element that has moved farther than the skin is queried again, alone: its features are added
-    /// at the end of the list, which is begun anew where it has grown too long.</remarks>
+    /// at the end of the list, which is rebuilt when it has grown too long.</remarks>
     internal sealed class NeighbourList
     {
         private const double SureOfQuick = 0.9;   // of a quick distance: the part that is certain
-        private const int MostLists = 8;          // of the features of all, before the list is begun anew
+        private const int MostLists = 8;          // of the features of all, before the list is rebuilt
         private readonly ContactShape[] _walls;
         private readonly double[] _range;         // by element: its radius and the barrier's distance
         private readonly double _skin;
@@ -18,7 +18,7 @@ namespace Guidewire.Core
         private readonly int[] _hint;             // by wall and element
         private readonly StructList<WallFeature> _features = new StructList<WallFeature>(1024);
         private readonly FeatureCache?[] _caches;  // of nodes, by wall
-        private readonly int[] _version;          // of these when the nodes were found
+        private readonly int[] _version;          // of the caches when the nodes were queried
         private int _mostFeatures;
 
         /// <summary>A list without any query made.</summary>
@@ -41,7 +41,8 @@ namespace Guidewire.Core
             Forget(_node);
         }
 
-        /// <summary>Whether what was found still holds where it was: others may have made a wall forget it.</summary>
+        /// <summary>Whether the entries are still valid where they were found: another user may have cleared a wall's
+        /// cache.</summary>
         public bool IsCurrent
         {
             get
@@ -135,7 +136,7 @@ namespace Guidewire.Core
             return ref _hint[w * _range.Length + j];
         }
 
-        /// <summary>By how much element j of a wire is farther from all walls than 0 at least.</summary>
+        /// <summary>Lower bound of the distance of element j from all walls.</summary>
         /// <param name="x">Nodes of the wire.</param>
         public double ClearanceOf(Vector3d[] x, int j)
         {

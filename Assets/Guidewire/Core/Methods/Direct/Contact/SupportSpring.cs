@@ -66,8 +66,8 @@ namespace Guidewire.Core
             return _axial == _stiffness ? Vector3d.Zero : Vector3d.Dot(Position - shape.X[0], Axis) * Axis;
         }
 
-        /// <summary>Where the hub has the wire, m: node 0, or the end of what is before it, as long as the force leaves
-        /// that.</summary>
+        /// <summary>Where the hub has the wire, m: node 0, or the end of what is before it, as long as it is under the
+        /// force.</summary>
         public Vector3d HeldPosition(RodShape shape)
         {
             return Position - (Vector3d.Dot(Force(shape), Axis) / _stiffness) * Axis;

@@ -13,7 +13,7 @@ namespace Guidewire.Core
         /// <summary>s.</summary>
         public readonly double Position;
 
-        /// <summary>Whether a node touches, else the inside of the element.</summary>
+        /// <summary>Whether a node touches, else the interior of the element.</summary>
         public readonly bool IsNode;
 
         /// <summary>Unit normal, the direction of the force.</summary>

@@ -42,7 +42,7 @@ namespace Guidewire.Core
         /// <summary>Friction; null where no wall has friction.</summary>
         public FrictionEnergy? Friction { get; }
 
-        /// <summary>The spring; of no effect where nothing holds node 0.</summary>
+        /// <summary>The spring; without effect where nothing holds node 0.</summary>
         public SupportSpring Spring { get; }
 
         /// <summary>Whether a support holds node 0.</summary>

@@ -3,12 +3,12 @@ using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>What holds a wire between walls whose step has no solution: the force of its hub, and the contact that
-    /// has the largest force.</summary>
-    /// <remarks>A hub that does not slip jams a wire with more thrust than buckles a clamped length of 90 of its
-    /// diameters, 4 pi^2 EI/(180 r)^2: under a larger thrust it bends until walls hold it on both sides at every such
-    /// length, and its shape is one of many. Then a hub with a limit ends the jam; below that thrust a shorter step may
-    /// follow the wire round.</remarks>
+    /// <summary>Reports what holds a wire between walls whose step has no solution: the force of its hub, and the
+    /// largest contact force.</summary>
+    /// <remarks>A hub that does not slip jams a wire when its thrust exceeds the buckling load of a clamped length of
+    /// 90 diameters, 4 pi^2 EI/(180 r)^2: under a larger thrust it bends until walls hold it on both sides at every
+    /// such length, and its shape is one of many. Then a hub with a limit ends the jam; below that thrust a shorter
+    /// step may follow the wire.</remarks>
     internal sealed class JamReport
     {
         private const double FreeLength = 180.0;  // radii
@@ -52,7 +52,7 @@ namespace Guidewire.Core
                 : "no hub holds the wire";
             if (contacts.Count == 0)
             {
-                return hub + ", no wall pushes";
+                return hub + ", no wall touches";
             }
             int most = 0;
             for (int k = 1; k < contacts.Count; k++)

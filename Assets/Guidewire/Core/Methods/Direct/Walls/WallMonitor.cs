@@ -2,11 +2,11 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Counts, from the positions alone and apart from what the solver knows, what of a wire passes walls, and
-    /// takes down the forces of contact.</summary>
+    /// <summary>Counts passages through walls from the positions alone, independent of the solver, and records contact
+    /// forces.</summary>
     internal sealed class WallMonitor : IWallClearance
     {
-        private const double Near = 1.02;      // in radii, where a distance is asked for exactly
+        private const double Near = 1.02;      // in radii, below which the exact distance is evaluated
 
         private readonly WallTerms _walls;
         private readonly BarrierEnergy _barrier;

@@ -2,9 +2,9 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Where a wire between walls would come to in a stage: it goes on along itself as far as its first node
-    /// does, changes its shape as in the time before, and is moved along the walls' normals: off where it would come
-    /// too near, back to where it touched.</summary>
+    /// <summary>Prediction of a stage of a wire between walls: it advances along itself as far as its first node,
+    /// changes its shape as in the stage before, and is moved along the walls' normals: off where it would come too
+    /// near, back where it touched.</summary>
     /// <remarks>With c(s) the curve through the nodes and p the travel along it, x_i -> c(s_i + p) + x_i - c'(s_i +
     /// p'), where ' was a stage before, x' = 2 x - x~ with x~ where the nodes would go without forces: where p is 0,
     /// that is free flight, and a wire that slides along its walls preserves its shape. Free flight alone would leave
@@ -101,8 +101,8 @@ namespace Guidewire.Core
             }
         }
 
-        // Nodes 1 to last one after the other, in the directions of a curve, as far from each other as they were: what
-        // would be compressed has no stable shape to begin with.
+        // Nodes 1 to last one after the other, in the directions of a curve, at unchanged distances: a compressed wire
+        // would be an unstable start.
         private void Lay(Vector3d[] curve, Vector3d[] x, int last)
         {
             for (int i = 1; i <= last; i++)

@@ -3,10 +3,10 @@ using System;
 namespace Guidewire.Core
 {
     /// <summary>Moves nodes of a shape along the walls' normals, until those that touched a wall in the shape before
-    /// have the gap that they had, and no other gap is less than half of the barrier's distance, but for what one
-    /// projection does to the next.</summary>
+    /// have the gap that they had, and no other gap is less than half of the barrier's distance, up to the effect of
+    /// one projection on the next.</summary>
     /// <remarks>A node that touched is pulled back too: where it would leave the wall in the first iteration of a step,
-    /// nothing would hold it there, and it is hit again in the next.</remarks>
+    /// nothing would hold it there, and it would hit the wall again in the next.</remarks>
     internal sealed class WallProjection
     {
         private const double ProjectedTo = 0.5;      // of the barrier's distance

@@ -1,11 +1,11 @@
 namespace Guidewire.Core
 {
-    /// <summary>One implicit stage of a wire between walls: from where the wire is, as far towards the prediction as
-    /// the walls let it, to the minimum of the stage's energy.</summary>
+    /// <summary>One implicit stage of a wire between walls: starts where the wire is, moves as far towards the
+    /// prediction as the walls allow, and goes on to the minimum of the stage's energy.</summary>
     internal sealed class WallStage
     {
         private const int FrictionLagIterations = 1;       // of the normal forces in friction
-        private const double Far = 1e3;     // of the error of a stage: a larger displacement is refused
+        private const double Far = 1e3;     // of the error of a stage: farther moved, not converged
 
         private readonly RodTerms _terms;
         private readonly RodSupports _supports;

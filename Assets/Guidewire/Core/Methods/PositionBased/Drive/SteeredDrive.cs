@@ -1,9 +1,9 @@
 namespace Guidewire.Core
 {
     /// <summary>Moves sphere 0 along the first element and turns that element about its axis, as the user asks at the
-    /// moment. </summary>
+    /// moment.</summary>
     /// <remarks>The user holds the frame of element 0, also while steering asks for nothing: its orientation has weight
-    /// 0. </remarks>
+    /// 0.</remarks>
     internal sealed class SteeredDrive : IDriveMotion
     {
         private readonly Steering _steering;

@@ -14,7 +14,7 @@ namespace Guidewire.Core
         private readonly int _lanes;
 
         /// <param name="columns">How many numbers a slot has.</param>
-        /// <param name="period">Places of an iteration, at least <see cref="Lag"/> times the lanes.</param>
+        /// <param name="period">Slots of an iteration, at least <see cref="Lag"/> times the lanes.</param>
         /// <param name="lanes">Number of lanes.</param>
         public LaneTable(int columns, int period, int lanes)
         {

@@ -24,7 +24,7 @@ namespace Guidewire.Core
         private IContactResponse? _rule;
 
         /// <param name="elements">n.</param>
-        /// <param name="period">Places of an iteration.</param>
+        /// <param name="period">Slots of an iteration.</param>
         /// <param name="lanes">Number of lanes.</param>
         public PipelinedContacts(int elements, int period, int lanes)
         {
@@ -46,7 +46,7 @@ namespace Guidewire.Core
         /// number a lane for x, y, z, then three times for the earlier.</summary>
         public double[] Held { get; }
 
-        /// <summary>Finds the slot of each contact; false where there is none for some.</summary>
+        /// <summary>Finds the slot of each contact; false where some have none.</summary>
         public bool TryPlan(IContactResponse? rule)
         {
             Array.Clear(Lanes, 0, Lanes.Length);
@@ -83,7 +83,7 @@ namespace Guidewire.Core
         /// <summary>Projects the contacts of all lanes at their slots, in the spheres that are held; false where they
         /// moved none.</summary>
         /// <param name="slot">Where lane 0 is.</param>
-        /// <param name="tick">Places since it started.</param>
+        /// <param name="tick">Slots since it started.</param>
         /// <param name="end">The tick after which each lane has no iteration left.</param>
         /// <param name="x">n + 1 positions that may be written over.</param>
         public bool Project(int slot, long tick, double[] end, Vector3d[] x)

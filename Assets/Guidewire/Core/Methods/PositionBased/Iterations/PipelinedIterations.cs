@@ -12,9 +12,9 @@ namespace Guidewire.Core
     /// slot p, lane k does stretch p - 3 k and bend-twist p - 3 k - 2: nothing is touched twice, and whatever depends
     /// on each other comes in the order of the scalar iterations. What a lane is done with, one sphere and one frame a
     /// slot, goes to the next lane; the first takes from memory, the last gives back to it. An iteration has n + 1
-    /// slots, the last to hand on x_n, and at least three a lane, so that nothing is taken before it is given back. A
+    /// slots, the last to pass on x_n, and at least three a lane, so that nothing is taken before it is given back. A
     /// lane at the end starts its next iteration at once: lanes fill once a call. A lane that has no constraint at its
-    /// slot or no iteration left to do hands on what it was given. That is selected, not multiplied by 0: 0 times
+    /// slot or no iteration left to do passes on what it was given. That is selected, not multiplied by 0: 0 times
     /// infinity is not a number, and -0 + 0 is not -0.</remarks>
     internal sealed class PipelinedIterations<T> : IIterations
         where T : struct, ILanes<T>
@@ -104,8 +104,9 @@ namespace Guidewire.Core
             return T.TickCost * Ticks(iterations) + CopyCost * _elements;
         }
 
-        // The joint's block has the lines of BendTwistConstraint.Sweep, the element's those of StretchConstraint.Sweep.
-        // A frame rests one slot between the two, so that at one slot neither waits for the other.
+        // The joint's block has the lines of BendTwistConstraint.Iterate, the element's those of
+        // StretchConstraint.Iterate. A frame rests one slot between the two, so that at one slot neither waits for the
+        // other.
         [MethodImpl(Compiled.AtOnce)]
         private void Run(long ticks, Vector3d[] x)
         {
