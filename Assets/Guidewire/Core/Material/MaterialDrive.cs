@@ -2,7 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Prescribes the motion of node 0 of a material rod and the turn of its clamp within the next step, as a
+    /// <summary>Prescribes the motion of node 0 of a material rod and the turn of its clamp within the next step, as
     /// user steering, a table or the drive's speeds have it.</summary>
     internal sealed class MaterialDrive
     {
@@ -150,14 +150,14 @@ namespace Guidewire.Core
             _schedule.SerializeDrive(snapshot);
         }
 
-        // What is asked for from this time on, m/s.
+        // Speed asked for from this time on, m/s.
         private double SpeedAt(double time)
         {
             return _steering != null ? _metres * _steering.Push / _timeStep
                 : _table != null ? Rate(_table.Insertion, time) : _speed;
         }
 
-        // What of a move the limits allow, m.
+        // The part of a move that the limits allow, m.
         private double Limited(double asked)
         {
             return Insertion + asked > MostInsertion || Insertion + asked < LeastInsertion

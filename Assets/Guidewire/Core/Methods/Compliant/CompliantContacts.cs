@@ -12,10 +12,11 @@ namespace Guidewire.Core
     /// x_j0) + a_{j+1} (x_{j+1} - x_{j+1,0}) + r n x R_0 phi), P = 1 - n n^T, phi the element's turn since the substep
     /// began along its axes there. What a force f does to the surface includes the couple r f x n on the element. V = W
     /// + r^2 max(1/I) is at least as much as f moves the surface in any direction, and the same in all of them: so
-    /// where the iterations have converged f is against u, which it would not be with what f moves it by in its own. A
-    /// slip of 0 is held by any f within the limit. What iterations leave of the slip of a contact is kept with f and
-    /// added to that of the next substep, so that what sticks goes back to where it was: no more than V mu lambda, by
-    /// which a force at the limit moves it in a substep, because a contact beyond its limit slips.
+    /// where the iterations have converged f is against u, which it would not be with the motion by f in its own
+    /// direction alone. A slip of 0 is held by any f within the limit. The slip of a contact that the iterations leave
+    /// is stored with f and added to that of the next substep, so that a sticking contact returns to where it was: no
+    /// more than V mu lambda, by which a force at the limit moves it in a substep, because a contact beyond its limit
+    /// slips.
     ///
     /// A rigid contact that is inside the wall, because its plane approximates the wall only near the point where it
     /// was found, is moved out by no more than its own displacement in the substep, or a fraction of the depth: all at
@@ -258,7 +259,7 @@ namespace Guidewire.Core
 
         /// <summary>Adds the multipliers to the nodes on which they act, lambda n + f, and along the normals to their
         /// walls, kg m.</summary>
-        public void AddForces(Vector3d[] nodes, Vector3d[] walls)
+        public void AddMultipliers(Vector3d[] nodes, Vector3d[] walls)
         {
             for (int k = 0; k < _count; k++)
             {
@@ -298,7 +299,7 @@ namespace Guidewire.Core
                 + contact.Position * Vector3d.Dot(shape.X[j + 1], contact.Normal) - contact.Offset;
         }
 
-        // That the point has gone since the substep began, m.
+        // Displacement of the point since the substep began, m.
         private double DisplacementOf(in Contact contact, RodShape shape)
         {
             int j = contact.Element;
@@ -306,14 +307,14 @@ namespace Guidewire.Core
                 + contact.Position * (shape.X[j + 1] - _old.X[j + 1])).Length;
         }
 
-        // What lambda should be by this shape.
+        // The value of lambda for this shape.
         private double NormalImpulseIn(in Contact contact, RodShape shape)
         {
             double error = Distance(contact, shape) - contact.Clearance + _perSquare * contact.NormalImpulse;
             return Math.Max(0.0, contact.NormalImpulse - error / (contact.Inverse + _perSquare));
         }
 
-        // What f should be.
+        // The value of f for this shape.
         private Vector3d FrictionImpulseIn(in Contact contact, RodShape shape)
         {
             return Shortened(contact.FrictionImpulse - (1.0 / contact.InverseOfSlip) * SlipIn(contact, shape),
@@ -332,7 +333,7 @@ namespace Guidewire.Core
             return contact.Slip + move - Vector3d.Dot(move, n) * n;
         }
 
-        // What a force along the wall turns the element by, along the element's axes.
+        // Turn of the element by a force along the wall, along the element's axes.
         private Vector3d Turn(in Contact contact, in Quaterniond q, in Vector3d friction)
         {
             Vector3d couple = contact.Couple(q, friction);
@@ -349,7 +350,7 @@ namespace Guidewire.Core
         /// <summary>A contact and its multipliers.</summary>
         internal struct Contact
         {
-            /// <summary>Where its multipliers are kept while contacts are found anew.</summary>
+            /// <summary>Where its multipliers are stored while contacts are searched again.</summary>
             public int Slot;
 
             /// <summary>Index in the scene's list.</summary>
@@ -373,7 +374,7 @@ namespace Guidewire.Core
             /// <summary>r, m.</summary>
             public double Radius;
 
-            /// <summary>What the substep asks for of the distance, r or less, m.</summary>
+            /// <summary>Distance that the substep requires, r or less, m.</summary>
             public double Clearance;
 
             /// <summary>W, 1/kg.</summary>

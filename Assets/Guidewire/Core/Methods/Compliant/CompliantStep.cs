@@ -141,7 +141,7 @@ namespace Guidewire.Core
             _scene.Write(state, _shape, _velocities, _spins);
         }
 
-        // Between walls: forces, and what the drive asked of node 0 and did not get.
+        // Between walls: forces, and the displacement of node 0 that the drive asked for and walls prevented.
         private void EndStep(CompliantWalls walls, double h, in Vector3d start, in Vector3d velocity)
         {
             walls.EndStep(h, _substeps);
@@ -153,7 +153,7 @@ namespace Guidewire.Core
             Vector3d inertia = (_terms.Mass.Nodal[0] / _timeStep) * (_velocities[0] - velocity);
             record.Reaction = inertia + (1.0 / _substeps) * _supportForce - record.Forces[0];
             _supportForce = Vector3d.Zero;
-            // A drive goes on from where node 0 is; what is held is asked for until it is there.
+            // A drive continues from where node 0 is; a held node is asked for until it has arrived.
             Vector3d position = _scene.Schedule.ProximalPositionAt(_time);
             if (_drive.Axis == Vector3d.Zero)
             {
@@ -262,7 +262,7 @@ namespace Guidewire.Core
             {
                 _walls.EndSubstep(_shape);
                 RodVector g = _loadGradient[0];
-                _supportForce += new Vector3d(g.X1, g.X2, g.X3) + (1.0 / (h * h)) * _stretch.FirstForce(_shape);
+                _supportForce += new Vector3d(g.X1, g.X2, g.X3) + (1.0 / (h * h)) * _stretch.FirstMultiplier(_shape);
             }
             double rate = 1.0 / h;
             for (int i = 0; i <= last; i++)

@@ -42,7 +42,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>What element 0 gives node 1, and takes from node 0, in this shape, kg m.</summary>
-        public Vector3d FirstForce(RodShape shape)
+        public Vector3d FirstMultiplier(RodShape shape)
         {
             return (1.0 / _length[0]) * Quaterniond.Rotate(shape.Q[0], _multiplier[0]);
         }

@@ -122,7 +122,7 @@ namespace Guidewire.Core
             }
             (_at, _to) = (_to, _at);
             Contacts.End(shape);
-            Contacts.AddForces(Record.Forces, Record.WallForces);
+            Contacts.AddMultipliers(Record.Forces, Record.WallForces);
         }
 
         /// <summary>The step has come to its end.</summary>

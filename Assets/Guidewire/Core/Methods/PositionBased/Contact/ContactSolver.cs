@@ -8,8 +8,8 @@ namespace Guidewire.Core
     /// half an element or a radius is done in P parts, each with its own detection and solve. A part after which
     /// something would have passed a wall is solved again against the points of impact, twice; then it and those that
     /// follow are halved, once; then it is projected off those points without regard to the other constraints, and
-    /// shortened. What the drive did not get is reported. So a step takes no more than 2 P + 1 tries of three solves
-    /// each, however the wire lies.</remarks>
+    /// shortened. The displacement that the drive did not reach is reported. So a step takes at most 2 P + 1 attempts
+    /// of three solves each, whatever the shape of the wire.</remarks>
     internal sealed class ContactSolver : IConstraintSolver
     {
         /// <summary>Of its snapshot.</summary>
@@ -39,9 +39,9 @@ namespace Guidewire.Core
         /// <param name="state">The wire.</param>
         /// <param name="timeStep">dt in s.</param>
         /// <param name="solver">What corrects each part; its iterations include the response.</param>
-        /// <param name="search">Which contacts there are.</param>
-        /// <param name="response">What they do.</param>
-        /// <param name="record">Takes down what they came to.</param>
+        /// <param name="search">Finds the contacts.</param>
+        /// <param name="response">The effect of contacts.</param>
+        /// <param name="record">Receives forces and counts.</param>
         public ContactSolver(RodState state, double timeStep, IConstraintSolver solver, IContactSearch search,
             IContactResponse response, ContactRecord record)
         {
