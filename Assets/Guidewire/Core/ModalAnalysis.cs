@@ -50,7 +50,7 @@ namespace Guidewire.Core
         /// <summary>Why there are no modes, in one line, or null.</summary>
         public string? Failure { get; }
 
-        /// <summary>Places of the n+1 nodes at rest, in units.</summary>
+        /// <summary>Positions of the n+1 nodes at rest, in units.</summary>
         public Vector3d[] Positions { get; }
 
         /// <summary>Hz, ascending.</summary>
@@ -63,7 +63,7 @@ namespace Guidewire.Core
         /// <summary>The lowest modes of the wire of these parameters about its rest shape.</summary>
         /// <param name="parameters">Of a method for a material; at least one end is clamped.</param>
         /// <param name="count">How many, from 1 to 3 n.</param>
-        /// <exception cref="ArgumentException">Parameters that do not go together, gains, too many modes.</exception>
+        /// <exception cref="ArgumentException">Parameters that do not go together, pbd, too many modes.</exception>
         public static ModalAnalysis Of(SimulationParameters parameters, int count)
         {
             SimulationParameters atRest = parameters.Copy();
@@ -80,7 +80,7 @@ namespace Guidewire.Core
             }
             if (!MethodTable.Of(parameters.Method.Solver).TakesMaterial)
             {
-                throw new ArgumentException("solver needs to be one for a material: gains have no frequencies");
+                throw new ArgumentException("solver needs to be one for a material: a pbd wire has no frequencies");
             }
             if (count < 1 || count > 3 * ElementLayout.Count(atRest))
             {

@@ -69,12 +69,12 @@ namespace Guidewire.Core
                 return new ParameterConflict("initialState",
                     "\"straight\" between walls: rest shapes are found without them");
             }
-            bool rubs = Array.Exists(parameters.Scene.Walls, wall => wall.FrictionCoefficient > 0.0);
-            if (rubs && method.HasBarriers && parameters.Method.Integrator != Integrator.ImplicitEuler)
+            bool hasFriction = Array.Exists(parameters.Scene.Walls, wall => wall.FrictionCoefficient > 0.0);
+            if (hasFriction && method.HasBarriers && parameters.Method.Integrator != Integrator.ImplicitEuler)
             {
                 return new ParameterConflict("integrator", "implicitEuler where a wall has a frictionCoefficient");
             }
-            if (rubs && !method.TakesMaterial && parameters.Contact.ElementContact == ElementContact.Thesis)
+            if (hasFriction && !method.TakesMaterial && parameters.Contact.ElementContact == ElementContact.Thesis)
             {
                 return new ParameterConflict("elementContact",
                     "\"barycentric\" or \"none\" where a wall has a frictionCoefficient");
@@ -120,7 +120,7 @@ namespace Guidewire.Core
                 return new ParameterConflict("proximalEnd",
                     "\"held\" or \"clamped\" with solver pbd; drive \"force\" frees sphere 0");
             }
-            // With gains "held" is the default and says nothing, and there is no "free".
+            // With pbd "held" is the default and says nothing, and there is no "free".
             bool isLetGo = method.TakesMaterial ? scene.ProximalEnd == ProximalEnd.Free
                 : scene.ProximalEnd != ProximalEnd.Clamped;
             if (drive == Drive.Force && !isLetGo)

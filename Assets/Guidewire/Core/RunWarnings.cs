@@ -5,7 +5,7 @@ using System.Globalization;
 namespace Guidewire.Core
 {
     /// <summary>What is not as it should be at the end of a run, whatever the method: wire beyond walls, a wire of
-    /// another length, a drive that did not get its way.</summary>
+    /// another length, a drive that was held back.</summary>
     internal sealed class RunWarnings
     {
         private const double OddStretch = 0.01;     // of the length, which no wire of metal survives
@@ -52,9 +52,9 @@ namespace Guidewire.Core
 
         /// <summary>A step has come to this state.</summary>
         /// <param name="time">s.</param>
-        public void Look(RodState state, ContactRecord? contacts, double time)
+        public void Update(RodState state, ContactRecord? contacts, double time)
         {
-            _rims.Look(state, contacts, time);
+            _rims.Update(state, contacts, time);
         }
 
         /// <summary>Writes or takes over what was seen.</summary>

@@ -13,7 +13,7 @@ namespace Guidewire.Core
         private readonly StopRule _stopRule;
         private readonly StepClock _clock;
         private readonly RunWarnings _warnings;
-        private readonly RodStart _start;    // a place where the wire may be built, which not every later one is
+        private readonly RodStart _start;    // a state in which the wire may be built, which not every later one is
         private bool _isWritten = true;
         private string? _ownReason;
         private string? _warning;
@@ -64,7 +64,7 @@ namespace Guidewire.Core
 
         /// <summary>Whether the run came to its end and nothing that it measures of itself says that its result is not
         /// to be trusted: it has converged or finished, its reason holds no "but", nothing passed a wall or lay deeper
-        /// in one than the method allows, the wire has its length, and the drive got its way.</summary>
+        /// in one than the method allows, the wire has its length, and the drive was not held back.</summary>
         public bool IsReliable => (Outcome == Outcome.Converged || Outcome == Outcome.Finished) && _warning == null
             && (StepCount == 0 || _warnings.AreNoDoubts(State, Contacts));
 
@@ -125,13 +125,13 @@ namespace Guidewire.Core
                 : SheathExit.FindProblem(parameters, material);
         }
 
-        /// <summary>What the solver says of itself, for a run with a material; null with gains.</summary>
+        /// <summary>What the solver says of itself, for a run with a material; null with pbd.</summary>
         public SolverReport? Report()
         {
             return _stepper.Report();
         }
 
-        /// <summary>What the material feels along the wire as it is now; null with gains. Each call writes the record
+        /// <summary>What the material feels along the wire as it is now; null with pbd. Each call writes the record
         /// anew.</summary>
         public StressRecord? Stress()
         {
@@ -154,9 +154,9 @@ namespace Guidewire.Core
             }
             Vector3d[] before = State.Positions;
             _stepper.Advance(State);
-            _isWritten = State.Positions != before;    // a state that is written takes the place of the one before
+            _isWritten = State.Positions != before;    // a state that is written replaces the one before
             _clock.Advance();
-            _warnings.Look(State, Contacts, Time);
+            _warnings.Update(State, Contacts, Time);
             Outcome = _stopRule.Check(State, _stepper, StepCount);
             if (Outcome == Outcome.Finished || Outcome == Outcome.Converged)
             {
@@ -169,9 +169,9 @@ namespace Guidewire.Core
         /// what the method remembers of earlier steps is kept. What others make meaningless (a scheme's history under
         /// another step size) begins anew.</summary>
         /// <param name="parameters">For a wire of as many elements. Their <see cref="SceneParameters.Start"/>, <see
-        /// cref="SceneParameters.InitialState"/> and <see cref="DriveParameters.Displacement"/> are not looked at: the
-        /// start is over.</param>
-        /// <exception cref="ArgumentException">As <see cref="Create"/>; another number of elements; gains that go on as
+        /// cref="SceneParameters.InitialState"/> and <see cref="DriveParameters.Displacement"/> are ignored: the start
+        /// is over.</param>
+        /// <exception cref="ArgumentException">As <see cref="Create"/>; another number of elements; pbd that goes on as
         /// a material, or the reverse; a sheath where there was none, or the reverse.</exception>
         public Simulation Continue(SimulationParameters parameters)
         {

@@ -41,7 +41,7 @@ namespace Guidewire.Benchmarks
 
         private static string Cell(int n, int m, int lanes, double? limit)
         {
-            var inLanes = new SteppedWire(n, m, scalar => SweepChoice.WithLanes(scalar, lanes));
+            var inLanes = new SteppedWire(n, m, scalar => IterationChoice.WithLanes(scalar, lanes));
             if (inLanes.Sweeps == null)
             {
                 return " no " + lanes + " lanes here;";
@@ -62,8 +62,8 @@ namespace Guidewire.Benchmarks
             {
                 foreach (int m in Iterations)
                 {
-                    var fastest = new SteppedWire(n, m, scalar => SweepChoice.Fastest(scalar, m));
-                    if (fastest.Sweeps is ScalarSweeps || (double)n * m > MostWork)
+                    var fastest = new SteppedWire(n, m, scalar => IterationChoice.Fastest(scalar, m));
+                    if (fastest.Sweeps is ScalarIterations || (double)n * m > MostWork)
                     {
                         continue;
                     }

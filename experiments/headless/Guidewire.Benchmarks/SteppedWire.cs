@@ -15,13 +15,13 @@ namespace Guidewire.Benchmarks
         /// <param name="elements">n.</param>
         /// <param name="iterations">m.</param>
         /// <param name="choice">Gives the sweeps to use, or null where they cannot be had.</param>
-        public SteppedWire(int elements, int iterations, Func<ScalarSweeps, ISweeps?> choice)
+        public SteppedWire(int elements, int iterations, Func<ScalarIterations, IIterations?> choice)
         {
             var parameters = new SimulationParameters();
             _state = new RodState(elements, 10.0 * elements, parameters.Pbd.TotalMass, 0.0);
             _state.InverseMasses[0] = 0.0;
             Bend(_state);
-            var scalar = new ScalarSweeps(new StretchConstraint(_state, parameters.Pbd.StretchStiffness),
+            var scalar = new ScalarIterations(new StretchConstraint(_state, parameters.Pbd.StretchStiffness),
                 new BendTwistConstraint(_state, parameters.Pbd.BendStiffness), SweepOrder.Naive);
             Sweeps = choice(scalar);
             _step = new PositionBasedStep(parameters.Method.TimeStep,
@@ -30,7 +30,7 @@ namespace Guidewire.Benchmarks
         }
 
         /// <summary>The sweeps in use, or null where they could not be had.</summary>
-        public ISweeps? Sweeps { get; }
+        public IIterations? Sweeps { get; }
 
         /// <summary>Does one step.</summary>
         public void Step()

@@ -2,7 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>What contact with walls came to: forces of the last step, and sums over the run.</summary>
+    /// <summary>Results of contact with walls: forces of the last step, and sums over the run.</summary>
     public sealed class ContactRecord
     {
         private readonly Vector3d[] _impulses;
@@ -40,18 +40,17 @@ namespace Guidewire.Core
         /// after a step, units; see <see cref="WireDepth"/>.</summary>
         public double MaxPenetration { get; internal set; }
 
-        /// <summary>What the drive asked of sphere 0 and the walls did not let it go, units, summed over the
-        /// run.</summary>
+        /// <summary>What the drive asked of sphere 0 and the walls prevented, units, summed over the run.</summary>
         public double DriveShortfall { get; internal set; }
 
-        /// <summary>The way that the drive asked of sphere 0, units, summed over the run.</summary>
+        /// <summary>The displacement that the drive asked of sphere 0, units, summed over the run.</summary>
         public double DriveAsked { get; internal set; }
 
-        /// <summary>Successive steps, up to the last, in which the drive asked sphere 0 to move and the walls gave it
-        /// less than a hundredth of the way.</summary>
+        /// <summary>Successive steps, up to the last, in which the drive asked sphere 0 to move and the walls allowed
+        /// less than a hundredth of it.</summary>
         public int StuckSteps { get; private set; }
 
-        /// <summary>Momenta over dt, dp/w, that walls gave each sphere in the present step, mass unit * unit.</summary>
+        /// <summary>Momenta over dt, dp/w, of the walls on each sphere in the present step, mass unit * unit.</summary>
         internal Vector3d[] Impulses => _impulses;
 
         /// <summary>The largest force of the walls on one sphere after any step of the run, as
@@ -62,15 +61,15 @@ namespace Guidewire.Core
         public double LargestTotal { get; private set; }
 
         /// <summary>Force of each wall on the wire along its normals in the last step, N, in the order of the scene;
-        /// empty with gains.</summary>
+        /// empty with pbd.</summary>
         public Vector3d[] WallForces { get; internal set; } = Array.Empty<Vector3d>();
 
-        /// <summary>Force of the walls along their normals on each of the n elements in the last step, N: of what
-        /// pushes a sphere between two elements each has half. Empty with gains.</summary>
+        /// <summary>Force of the walls along their normals on each of the n elements in the last step, N: a force on a
+        /// sphere between two elements counts half for each. Empty with pbd.</summary>
         public Vector3d[] ElementForces { get; internal set; } = Array.Empty<Vector3d>();
 
-        /// <summary>Largest pressure of the walls on an element in the last step, Pa: what pushes it over its length
-        /// and diameter. 0 with gains.</summary>
+        /// <summary>Largest pressure of the walls on an element in the last step, Pa: its normal force over its length
+        /// and diameter. 0 with pbd.</summary>
         public double Pressure { get; internal set; }
 
         internal void SetTotal(in Vector3d total)
@@ -135,7 +134,7 @@ namespace Guidewire.Core
             snapshot.Serialize(ElementForces);
         }
 
-        /// <summary>Adds what the drive asked of sphere 0 in a step, and what of it the walls did not give,
+        /// <summary>Adds what the drive asked of sphere 0 in a step, and what of it the walls prevented,
         /// units.</summary>
         internal void AddDrive(double asked, double shortfall)
         {

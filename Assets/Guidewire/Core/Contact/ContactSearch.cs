@@ -3,11 +3,11 @@ using System;
 namespace Guidewire.Core
 {
     /// <summary>Which spheres and, unless switched off, which rod elements come near the walls.</summary>
-    /// <remarks>One search an element tells whether anything is in reach. Only then the two spheres are asked, and
-    /// where the element touches with an end, the sphere's own contact stands for it and, where spheres leave gaps,
-    /// the element's middle half is asked: a long element in a bend lies against the outer wall with its ends and
-    /// against the inner wall between. Where a motion is long enough to have met the wall on its way, the swept test
-    /// gives the place where it did.</remarks>
+    /// <remarks>One search an element tells whether anything is in range. Only then the two spheres are searched; where
+    /// the element touches with an end, the sphere's own contact represents it and, where spheres leave gaps, the
+    /// element's middle half is searched: a long element in a bend lies against the outer wall with its ends and
+    /// against the inner wall between. Where a motion is long enough to have met the wall, the swept test gives the
+    /// point of impact.</remarks>
     internal sealed class ContactSearch : IContactSearch
     {
         private const double MiddleFrom = 0.25;
@@ -25,17 +25,17 @@ namespace Guidewire.Core
         /// <param name="elementCount">n.</param>
         /// <param name="elementLength">l in units.</param>
         /// <param name="radius">r in units.</param>
-        /// <param name="reach">r + margin in units: the distance that contacts keep.</param>
+        /// <param name="clearance">r + margin in units.</param>
         /// <param name="findsElements">Whether rod elements touch, or spheres alone.</param>
-        public ContactSearch(ContactShape[] walls, int elementCount, double elementLength, double radius, double reach,
-            bool findsElements)
+        public ContactSearch(ContactShape[] walls, int elementCount, double elementLength, double radius,
+            double clearance, bool findsElements)
         {
             Walls = walls;
             Radius = radius;
             GuardsElements = findsElements;
 
-            // What comes within half a radius more may be pushed into reach by the other constraints.
-            _range = reach + 0.5 * radius;
+            // What is within half a radius more may be moved into range by the other constraints.
+            _range = clearance + 0.5 * radius;
             _clearance = SweptSearch.ClearanceFor(radius);
             _elementHint = new int[walls.Length * elementCount];
             _sphereHint = new int[walls.Length * (elementCount + 1)];
@@ -99,7 +99,7 @@ namespace Guidewire.Core
             return _distance[w * _elementCount + j];
         }
 
-        // True where the element comes near the wall, or may have met it on its way.
+        // True where the element comes near the wall, or may have met it during the motion.
         private bool FindElement(int w, int j, Vector3d[] from, Vector3d[] to)
         {
             ref int hint = ref _elementHint[w * _elementCount + j];
@@ -111,7 +111,7 @@ namespace Guidewire.Core
             bool mayHaveMet = distance <= motion + _clearance;
             if (near && !mayHaveMet && (contact.Position == 0.0 || contact.Position == 1.0))
             {
-                // The place nearest to the element is nearest to the sphere at its end, too.
+                // The point nearest to the element is also nearest to the sphere at its end.
                 int end = contact.Position == 0.0 ? j : j + 1;
                 if (!_isKnown[end])
                 {
@@ -123,7 +123,7 @@ namespace Guidewire.Core
             {
                 return near || mayHaveMet;
             }
-            if (mayHaveMet && wall.Sweep(
+            if (mayHaveMet && wall.TimeOfImpact(
                 from[j], from[j + 1], to[j], to[j + 1], _clearance, out SurfaceContact impact) < ContactShape.NoImpact)
             {
                 AddImpact(new WireContact(w, j, true, impact));
@@ -168,7 +168,7 @@ namespace Guidewire.Core
             double motion = Vector3d.Distance(from[i], to[i]);
             bool near = wall.Nearest(to[i], to[i], _range, ref hint, out SurfaceContact contact);
             bool mayHaveMet = (near ? Math.Abs(contact.Distance) : _range) <= motion + _clearance;
-            if (mayHaveMet && wall.Sweep(
+            if (mayHaveMet && wall.TimeOfImpact(
                 from[i], from[i], to[i], to[i], _clearance, out SurfaceContact impact) < ContactShape.NoImpact)
             {
                 AddImpact(new WireContact(w, i, false, impact));

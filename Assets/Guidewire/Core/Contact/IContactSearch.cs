@@ -4,7 +4,7 @@ namespace Guidewire.Core
     /// implementation a rule of contact, chosen once.</summary>
     internal interface IContactSearch : IWallClearance
     {
-        /// <summary>Whether spheres may not pass a wall, so that the swept test looks for places where they
+        /// <summary>Whether spheres may not pass a wall, so that the swept test looks for points where they
         /// would.</summary>
         bool GuardsSpheres { get; }
 
@@ -14,7 +14,7 @@ namespace Guidewire.Core
         /// <summary>What the last search found, wall by wall and along the wire.</summary>
         StructList<WireContact> Contacts { get; }
 
-        /// <summary>What of it the swept test met on the way; it would pass the wall, were it not held up there.
+        /// <summary>The impacts that the swept test found; without stops there the motion would pass the wall.
         /// </summary>
         StructList<WireContact> Impacts { get; }
 

@@ -9,7 +9,7 @@ namespace Guidewire.Core
         /// <summary>Radius of the wire, its least where it varies, units.</summary>
         double Radius { get; }
 
-        /// <summary>Lower bound of the distance of element j from wall w at the start of the motion that is looked at,
+        /// <summary>Lower bound of the distance of element j from wall w at the start of the motion under test,
         /// units.</summary>
         double ClearanceOf(int w, int j);
     }

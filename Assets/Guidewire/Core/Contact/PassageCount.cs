@@ -4,17 +4,17 @@ namespace Guidewire.Core
 {
     /// <summary>Counts points of the wire that are inside before a step and outside after it, ten an element (s = 0,
     /// 0.1, ... 0.9) and the last sphere. Leaving through an open rim is no passage.</summary>
-    /// <remarks>Where a point left is asked of each part of a step: the straight line between a whole step's ends may
+    /// <remarks>Where a point left is decided in each part of a step: the straight line between a whole step's ends may
     /// cut the corner of a rim around which the wire really went. In a part, a point has left across a wall where it
-    /// was inside, is outside, and its straight way meets the wall itself and not the disc of a rim. Only the points of
-    /// an element that moved by as much as its distance from the wall are asked.</remarks>
+    /// was inside, is outside, and its straight path meets the wall itself and not the disc of a rim. Only the points
+    /// of an element that moved by as much as its distance from the wall are tested.</remarks>
     internal sealed class PassageCount
     {
         private const int SamplesPerElement = 10;
         private readonly IWallClearance _bounds;
         private readonly ContactShape[] _walls;
         private readonly double _clearance;
-        private readonly int[] _hint;     // where the nearest place was, per wall and element
+        private readonly int[] _hint;     // where the nearest point was, per wall and element
         private readonly bool[] _left;    // whether a point left across a wall in this step, per wall and point
 
         /// <param name="bounds">Walls, radius, and the distances of elements where a part of a step begins.</param>
@@ -53,7 +53,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>A step begins: what a try that was given up had marked counts no more.</summary>
+        /// <summary>A step begins: marks of an abandoned attempt are cleared.</summary>
         public void BeginStep()
         {
             Array.Clear(_left, 0, _left.Length);
@@ -81,8 +81,8 @@ namespace Guidewire.Core
             }
         }
 
-        // Whether the wire, whose first sphere is inside, meets the wall nowhere: what is outside of it then left by a
-        // rim, whatever lay on the straight way of a long step.
+        // Whether the wire, whose first sphere is inside, meets the wall nowhere: what is outside then left by a rim,
+        // whatever lay on the straight path of a long step.
         private bool LeadsOut(ContactShape wall, Vector3d[] x)
         {
             bool isWhole = wall.Contains(x[0]);

@@ -2,18 +2,18 @@ using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>Sees when the tip of a wire leaves a vessel by an open rim or end, beyond which no wall is near: inside
-    /// before a step, outside after it, and no passage in it.</summary>
+    /// <summary>Detects when the tip of a wire leaves a vessel by an open rim or end, beyond which no wall is near:
+    /// inside before a step, outside after it, and no passage in it.</summary>
     internal sealed class RimMonitor
     {
         private readonly ContactShape[] _walls;
         private readonly bool[] _isInside;    // the tip, by wall
         private long _passages;
         private bool _hasLeft;
-        private Vector3d _place;              // of the tip where it first was outside, units
+        private Vector3d _position;              // of the tip where it first was outside, units
         private double _time;                 // s
 
-        /// <summary>A watch on these walls; <see cref="Begin"/> says where the tip is.</summary>
+        /// <summary>A monitor of these walls; <see cref="Begin"/> says where the tip is.</summary>
         public RimMonitor(ContactShape[] walls)
         {
             _walls = walls;
@@ -22,8 +22,8 @@ namespace Guidewire.Core
 
         /// <summary>Where and when the tip left first, in one line, or null.</summary>
         public string? Line => !_hasLeft ? null : string.Format(CultureInfo.InvariantCulture,
-            "the tip left the vessel by an open rim at ({0:G4}, {1:G4}, {2:G4}) at t = {3:G6} s", _place.X, _place.Y,
-            _place.Z, _time);
+            "the tip left the vessel by an open rim at ({0:G4}, {1:G4}, {2:G4}) at t = {3:G6} s",
+            _position.X, _position.Y, _position.Z, _time);
 
         /// <summary>The wire is in this state.</summary>
         public void Begin(RodState state)
@@ -37,7 +37,7 @@ namespace Guidewire.Core
 
         /// <summary>A step has come to this state.</summary>
         /// <param name="time">s.</param>
-        public void Look(RodState state, ContactRecord? contacts, double time)
+        public void Update(RodState state, ContactRecord? contacts, double time)
         {
             Vector3d tip = state.Positions[state.ElementCount];
             long passages = contacts?.Passages ?? 0;
@@ -48,7 +48,7 @@ namespace Guidewire.Core
                 if (wasInside && !_isInside[w] && passages == _passages && tip.IsFinite)
                 {
                     _hasLeft = true;
-                    _place = tip;
+                    _position = tip;
                     _time = time;
                 }
             }
@@ -61,7 +61,7 @@ namespace Guidewire.Core
         {
             snapshot.Serialize(ref _passages);
             snapshot.Serialize(ref _hasLeft);
-            snapshot.Serialize(ref _place);
+            snapshot.Serialize(ref _position);
             snapshot.Serialize(ref _time);
             Begin(state);
         }

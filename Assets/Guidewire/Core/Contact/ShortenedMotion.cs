@@ -2,20 +2,20 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Shortens a motion of the wire until it passes no wall, as the last resort: that of the spheres that
-    /// would, and of their elements, at the end to nothing.</summary>
-    /// <remarks>First each is cut to nine tenths of what is free. A cut turns elements, which may then pass elsewhere;
-    /// so after <see cref="CutRounds"/> rounds the spheres of what still would are left where they are. Each round
-    /// leaves at least one more, and an element between two of them does not move. Only what a round changed is asked
+    /// <summary>Shortens a motion of the wire until it passes no wall, as the last resort: the motion of the spheres
+    /// that would, and of their elements, in the end to zero.</summary>
+    /// <remarks>First each is shortened to nine tenths of what is free. That turns elements, which may then pass
+    /// elsewhere; so after <see cref="CutRounds"/> rounds the spheres of those that still would do not move. Each round
+    /// leaves at least one more, and an element between two of them does not move. Only what a round changed is tested
     /// again, so all of them together cost no more than a few swept searches of the whole wire.</remarks>
     internal sealed class ShortenedMotion
     {
         private const int CutRounds = 2;
         private const double SafePart = 0.9;
         private readonly SweptSearch _swept;
-        private readonly double[] _share;
+        private readonly double[] _fraction;
         private readonly Vector3d[] _whole;
-        private readonly bool[] _changed;    // since it was last asked
+        private readonly bool[] _changed;    // since it was last tested
         private readonly bool[] _isCut;
 
         /// <param name="swept">Tells what would pass a wall.</param>
@@ -23,14 +23,13 @@ namespace Guidewire.Core
         public ShortenedMotion(SweptSearch swept, int sphereCount)
         {
             _swept = swept;
-            _share = new double[sphereCount];
+            _fraction = new double[sphereCount];
             _whole = new Vector3d[sphereCount];
             _changed = new bool[sphereCount];
             _isCut = new bool[sphereCount];
         }
 
-        /// <summary>Takes the end of one sphere's motion back, in place, as far as the sphere itself asks for it.
-        /// </summary>
+        /// <summary>Shortens one sphere's motion, in place, as far as the sphere itself requires.</summary>
         /// <param name="from">Where the n + 1 spheres are, clear of the walls; units.</param>
         /// <param name="to">Where they would go.</param>
         /// <param name="i">The sphere.</param>
@@ -43,20 +42,20 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Takes the ends of the motion back, in place.</summary>
+        /// <summary>Shortens the motion of all spheres, in place.</summary>
         /// <param name="from">Where the n + 1 spheres are, clear of the walls; units.</param>
         /// <param name="to">Where they would go.</param>
         public void Shorten(Vector3d[] from, Vector3d[] to)
         {
             Array.Copy(to, _whole, to.Length);
-            Array.Fill(_share, 1.0);
+            Array.Fill(_fraction, 1.0);
             Array.Fill(_changed, true);
             for (int round = 0; Cut(from, to, round < CutRounds ? SafePart : 0.0); round++)
             {
                 for (int i = 0; i < to.Length; i++)
                 {
                     _changed[i] = _isCut[i];
-                    to[i] = _isCut[i] ? Vector3d.Lerp(from[i], _whole[i], _share[i]) : to[i];
+                    to[i] = _isCut[i] ? Vector3d.Lerp(from[i], _whole[i], _fraction[i]) : to[i];
                 }
             }
         }
@@ -87,7 +86,7 @@ namespace Guidewire.Core
             }
             for (int i = first; i <= last; i++)
             {
-                _share[i] *= part * free;
+                _fraction[i] *= part * free;
                 _isCut[i] = true;
             }
             return true;

@@ -5,7 +5,7 @@ namespace Guidewire.Core
     /// <summary>Where a motion of the wire would pass a wall.</summary>
     /// <remarks>The start of every motion is clear of the wall by induction: a motion is only accepted when the swept
     /// test finds it clear, and the wire does not move at all where nothing else is. An element whose distance at the
-    /// start is known to exceed the way of its ends cannot meet the wall and is not swept.</remarks>
+    /// start is known to exceed the displacement of its ends cannot meet the wall and is not swept.</remarks>
     internal sealed class SweptSearch
     {
         private readonly IContactSearch _search;
@@ -27,14 +27,14 @@ namespace Guidewire.Core
         /// impact.</summary>
         public StructList<WireContact> Impacts { get; }
 
-        /// <summary>What the swept test keeps between core line and wall, units: enough to stay clear of rounding, too
-        /// little to be felt.</summary>
+        /// <summary>Clearance between core line and wall in the swept test, units: enough to stay clear of rounding,
+        /// too little to matter.</summary>
         public static double ClearanceFor(double radius)
         {
             return 1e-3 * radius;
         }
 
-        /// <summary>Lists every place where the motion would pass a wall; true when there is one.</summary>
+        /// <summary>Lists every point where the motion would pass a wall; true when there is one.</summary>
         /// <param name="from">Where the n + 1 spheres are, clear of the walls; units.</param>
         /// <param name="to">Where they would go.</param>
         public bool Find(Vector3d[] from, Vector3d[] to)
@@ -96,7 +96,7 @@ namespace Guidewire.Core
                 {
                     continue;
                 }
-                double time = _walls[w].Sweep(from[i], from[k], to[i], to[k], _clearance, out SurfaceContact at);
+                double time = _walls[w].TimeOfImpact(from[i], from[k], to[i], to[k], _clearance, out SurfaceContact at);
                 if (time < first)
                 {
                     first = time;
@@ -106,7 +106,7 @@ namespace Guidewire.Core
             return first;
         }
 
-        // What is known of an element, or of a sphere by its elements.
+        // Lower bound of the distance of an element, or of a sphere by its elements.
         private double ClearanceOf(int w, int i, int k, int elementCount)
         {
             if (i != k)

@@ -3,7 +3,7 @@ namespace Guidewire.Core
     /// <summary>A sphere or a rod element that is near a wall, and where.</summary>
     internal readonly struct WireContact
     {
-        /// <summary>The wall, by its place in the scene's list.</summary>
+        /// <summary>The wall, by its index in the scene's list.</summary>
         public readonly int Wall;
 
         /// <summary>The sphere, 0 to n, or the rod element, 0 to n - 1, from sphere Index to Index + 1.</summary>

@@ -5,13 +5,13 @@ namespace Guidewire.Core
     /// <summary>How deep the wire lies in a wall: r less the least distance of a sphere's centre or of a rod element's
     /// core line from any wall, r the element's own. A core line that cuts a wall has distance 0; beyond a wall
     /// distances are negative.</summary>
-    /// <remarks>Spheres and elements that are known to lie less deep than what was found before are left out.</remarks>
+    /// <remarks>Spheres and elements that are known to lie less deep than the depth found so far are skipped.</remarks>
     internal sealed class WireDepth
     {
         private readonly IContactSearch _search;
         private readonly ContactShape[] _walls;
         private readonly double[] _radius;      // of elements, units
-        private readonly int[] _elementHint;    // where the nearest place was, per wall and element
+        private readonly int[] _elementHint;    // where the nearest point was, per wall and element
         private readonly int[] _sphereHint;
 
         /// <param name="search">Its walls and radius; it knows for each element a lower bound of its distance from the

@@ -11,7 +11,7 @@ namespace Guidewire.Core
         // are a factor of 1000.
         private const double OddLengths = 100.0;
         private const double OddRadii = 300.0;
-        private const double LeastRange = 1e-9;  // units: within it a wall is looked for that an axis may cut
+        private const double LeastRange = 1e-9;  // units: search range for walls that the axis may cross
 
         /// <summary>What is wrong with the start that the parameters describe, in one phrase, or null.</summary>
         /// <exception cref="ArgumentException">There is no such start.</exception>
@@ -74,8 +74,8 @@ namespace Guidewire.Core
                 {
                     return string.Format(CultureInfo.InvariantCulture,
                         "sphereRadius = {0} is larger than the lumen on the wire's way: {1:G4} units at ({2:G4},"
-                        + " {3:G4}, {4:G4})", parameters.Contact.SphereRadius, lumen.Width, lumen.Place.X,
-                        lumen.Place.Y, lumen.Place.Z);
+                        + " {3:G4}, {4:G4})", parameters.Contact.SphereRadius, lumen.Width, lumen.Centre.X,
+                        lumen.Centre.Y, lumen.Centre.Z);
                 }
             }
             return null;
@@ -97,7 +97,7 @@ namespace Guidewire.Core
             bool isInside = wall.Contains(a) && wall.Contains(b);
             if (!isInside && isReached && Array.Exists(x, node => wall.Contains(node)))
             {
-                // Which side of a far wall is free says nothing behind a rim.
+                // Behind a rim the free side of a distant wall means nothing.
                 bool isNear = wall.Nearest(a, b, Math.Max(least, LeastRange), ref hint, out SurfaceContact near);
                 distance = isNear ? near.Distance : double.PositiveInfinity;
                 return distance > least;
@@ -117,7 +117,7 @@ namespace Guidewire.Core
                 box.HasValue ? ", " + what + " " + box.Value : "");
         }
 
-        // How far the drive means to push the tip, units.
+        // How far the drive is to push the tip, units.
         private static double DistanceAhead(SimulationParameters parameters)
         {
             DriveParameters drive = parameters.Drive;

@@ -22,8 +22,8 @@ namespace Guidewire.Core
         // Squared ratio of a triangle's height to its length below which it is a needle.
         private const double Needle = 1e-8;
 
-        // Relative width in which a triangle at the limit is still looked at: above the rounding of a triangle that is
-        // no needle, and without cost.
+        // Relative width in which a triangle at the limit is still tested: above the rounding of a triangle that is no
+        // needle, and without cost.
         private const double LimitBorder = 1e-9;
 
         /// <summary>Parameter in [0, 1] of the point of segment a b nearest to p; 0 for a segment of no

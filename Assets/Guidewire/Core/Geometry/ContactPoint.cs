@@ -1,6 +1,7 @@
 namespace Guidewire.Core
 {
-    /// <summary>A place of a wall near a segment: where it is, the wall's normal there, and its curvature.</summary>
+    /// <summary>A contact point of a wall near a segment: its position, the wall's normal there, and its
+    /// curvature.</summary>
     /// <remarks>The curvatures are those of the surface of equal distance through the segment's point x: the second
     /// derivative of the distance d of a point at x is H = k1 t1 t1^T + k2 t2 t2^T with t1 = <see cref="Direction"/>,
     /// t2 = n x t1, k1 = <see cref="Curvature"/>, k2 = <see cref="CrossCurvature"/>; its first is the normal n. They
@@ -15,8 +16,8 @@ namespace Guidewire.Core
         /// as <see cref="ContactShape.Nearest"/> has it.</summary>
         public readonly SurfaceContact Contact;
 
-        /// <summary>How often the place counts in a sum over all places, not 0; see
-        /// <see cref="ContactShape.FindContactPoints"/>.</summary>
+        /// <summary>How often the point counts in a sum over all contact points, not 0; see <see
+        /// cref="ContactShape.FindContactPoints"/>.</summary>
         public readonly int Weight;
 
         /// <summary>First principal direction t1, a unit vector along the wall.</summary>
@@ -28,7 +29,7 @@ namespace Guidewire.Core
         /// <summary>Principal curvature along n x <see cref="Direction"/>, 1/units.</summary>
         public readonly double CrossCurvature;
 
-        /// <summary>A place with these values.</summary>
+        /// <summary>A contact point with these values.</summary>
         public ContactPoint(in SurfaceContact contact, int weight, in Vector3d direction, double curvature,
             double crossCurvature)
         {
@@ -39,13 +40,13 @@ namespace Guidewire.Core
             CrossCurvature = crossCurvature;
         }
 
-        /// <summary>A place of a flat wall.</summary>
+        /// <summary>A contact point of a flat wall.</summary>
         public static ContactPoint Flat(in SurfaceContact contact, int weight)
         {
             return new ContactPoint(contact, weight, Vector3d.Perpendicular(contact.Normal), 0.0, 0.0);
         }
 
-        /// <summary>A place at a straight edge, or on a cylinder.</summary>
+        /// <summary>A contact point at a straight edge, or on a cylinder.</summary>
         /// <param name="contact">Where.</param>
         /// <param name="weight">How often it counts.</param>
         /// <param name="along">Unit vector along the edge.</param>
@@ -56,7 +57,7 @@ namespace Guidewire.Core
             return new ContactPoint(contact, weight, along, 0.0, radius == 0.0 ? 0.0 : 1.0 / radius);
         }
 
-        /// <summary>A place at a corner, or on a ball.</summary>
+        /// <summary>A contact point at a corner, or on a ball.</summary>
         /// <param name="contact">Where.</param>
         /// <param name="weight">How often it counts.</param>
         /// <param name="radius">Distance of the segment's point from the corner, signed as an edge's.</param>
@@ -66,7 +67,7 @@ namespace Guidewire.Core
             return new ContactPoint(contact, weight, Vector3d.Perpendicular(contact.Normal), curvature, curvature);
         }
 
-        /// <summary>The same place seen from behind the wall.</summary>
+        /// <summary>The same point seen from behind the wall.</summary>
         public ContactPoint FromBehind()
         {
             return new ContactPoint(

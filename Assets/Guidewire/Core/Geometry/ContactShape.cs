@@ -7,7 +7,7 @@ namespace Guidewire.Core
     /// <remarks>One virtual call per element and step: some 2 ns beside the 100 to 1000 ns of a distance.</remarks>
     public abstract class ContactShape
     {
-        /// <summary>Value of <see cref="Sweep"/> for a motion that meets no wall.</summary>
+        /// <summary>Value of a time of impact for a motion that meets no wall.</summary>
         public const double NoImpact = 2.0;
 
         private const double SlidingLoss = 1e-7;
@@ -17,33 +17,32 @@ namespace Guidewire.Core
         /// dimensionless.</summary>
         public double FrictionCoefficient { get; set; }
 
-        /// <summary>The place where segment a b comes nearest to the wall, if that is no farther than
-        /// <paramref name="range"/>; a = b for a sphere's centre.</summary>
+        /// <summary>The point where segment a b comes nearest to the wall, if that is no farther than <paramref
+        /// name="range"/>; a = b for a sphere's centre.</summary>
         /// <param name="a">First end of the segment.</param>
         /// <param name="b">Second end of the segment.</param>
         /// <param name="range">Largest distance of interest; negative distances always count.</param>
         /// <param name="hint">Kept by the caller from one query of an element to its next, -1 at first: where the
-        /// nearest place was. It changes the time of a query, never its answer.</param>
-        /// <param name="contact">The nearest place.</param>
+        /// nearest point was. It affects the cost of a query, never its result.</param>
+        /// <param name="contact">The nearest point.</param>
         public abstract bool Nearest(
             in Vector3d a, in Vector3d b, double range, ref int hint, out SurfaceContact contact);
 
-        /// <summary>Adds to <paramref name="places"/> the places of the wall within <paramref name="range"/> of a
-        /// point, each once. Beyond a plane, tube or obstacle negative distances always count; of a mesh, places whose
-        /// distance is no larger than the range by its size.</summary>
+        /// <summary>Adds to <paramref name="contactPoints"/> the contact points of the wall within <paramref
+        /// name="range"/> of a point, each once. Beyond a plane, tube or obstacle negative distances always count; of a
+        /// mesh, points whose distance is no larger than the range by its size.</summary>
         /// <param name="x">The point, units.</param>
         /// <param name="range">Units.</param>
-        /// <param name="features">The wall's features near the point, where they are known: they make the query
-        /// quicker.</param>
-        /// <param name="places">Receives the places.</param>
-        /// <remarks>Which places those are, each shape says; the nearest, as <see cref="Nearest"/> finds it, is among
+        /// <param name="features">The wall's features near the point, where known: they speed up the query.</param>
+        /// <param name="contactPoints">Receives the contact points.</param>
+        /// <remarks>Each shape defines its contact points; the nearest one, as found by <see cref="Nearest"/>, is among
         /// them. Their weights make sums over them continuous: for any function f that is 0 from the range on, the sum
-        /// of Weight f(Distance) has no jump when the point moves, though places come and go. A place of weight -1
-        /// takes off what two places to both sides of it have in common. The order follows from wall and point alone.
-        /// Nothing is allocated once the list, and the shape's own scratch memory, have been as long before; one object
+        /// of Weight f(Distance) has no jump when the point moves, although points appear and vanish. A point of weight
+        /// -1 subtracts what the two points on either side of it have in common. The order depends on wall and point
+        /// alone. Nothing is allocated once the list and the shape's scratch memory have reached their size; one object
         /// serves one thread.</remarks>
         internal abstract void FindContactPoints(in Vector3d x, double range, FeatureRange features,
-            StructList<ContactPoint> places);
+            StructList<ContactPoint> contactPoints);
 
         /// <summary>True where the wire may be: in a vessel's lumen, outside an obstacle.</summary>
         public abstract bool Contains(in Vector3d point);
@@ -57,15 +56,16 @@ namespace Guidewire.Core
         /// <summary>Fraction of the linear motion of segment a b from (a0, b0) to (a1, b1) after which it stops clear
         /// of the wall, or <see cref="NoImpact"/>. At that moment its distance is at least <see cref="Kept"/>, and
         /// until then nowhere less than that or half the clearance, whichever is less.</summary>
-        /// <remarks>On its way a segment may come nearer than where it ends: it could not turn about an edge that it
-        /// touches otherwise, because every bound of its distance between two moments needs some room.</remarks>
+        /// <remarks>During the motion a segment may come nearer than at its end. Otherwise it could not turn about an
+        /// edge that it touches, because every bound on the distance between two moments needs some
+        /// clearance.</remarks>
         /// <param name="a0">First end before the motion; the segment starts on the free side.</param>
         /// <param name="b0">Second end before the motion.</param>
         /// <param name="a1">First end after the motion.</param>
         /// <param name="b1">Second end after the motion.</param>
-        /// <param name="clearance">Distance to keep, units.</param>
-        /// <param name="contact">The nearest place at that moment, when there is an impact.</param>
-        public double Sweep(
+        /// <param name="clearance">Clearance, units.</param>
+        /// <param name="contact">The nearest point at that moment, when there is an impact.</param>
+        public double TimeOfImpact(
             in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance,
             out SurfaceContact contact)
         {
@@ -97,39 +97,39 @@ namespace Guidewire.Core
             return impact;
         }
 
-        /// <summary>The distance that a segment keeps at the end of a motion when it starts at <paramref name="start"/>
-        /// (0 or more, units): the clearance, or where it starts nearer, what it has less a small share, which lets it
-        /// slide in spite of rounding.</summary>
-        /// <remarks>Pressed on in every part of every step, a wire would lose half the clearance in 7 million parts; a
-        /// clearance of a thousandth of the radius is some 10 digits above rounding.</remarks>
+        /// <summary>The clearance of a segment at the end of a motion that starts at distance <paramref name="start"/>
+        /// (0 or more, units): the one asked for, or the smaller distance at the start less a small fraction, so that
+        /// the segment can slide in spite of rounding.</summary>
+        /// <remarks>Pressed against the wall in every part of every step, a wire would lose half the clearance in 7
+        /// million parts; a clearance of a thousandth of the radius is some 10 digits above rounding.</remarks>
         internal static double Kept(double start, double clearance)
         {
             return (1.0 - SlidingLoss) * Math.Min(start, clearance);
         }
 
         /// <summary>How far a guarded wire's element is from the wall's surface, units, by its signed distance. Spheres
-        /// are beyond no wall that has no way out: an element of negative distance then lies across it.</summary>
+        /// never get behind a wall that has no exit: an element of negative distance then lies across it.</summary>
         internal virtual double SizeOf(double distance)
         {
             return Math.Max(0.0, distance);
         }
 
         /// <summary>Least signed distance of a point of segment a b, units, where <see cref="Nearest"/> found the
-        /// segment at a negative distance. The two differ where a segment's distance is the way out of the wall of all
-        /// of it.</summary>
+        /// segment at a negative distance. The two differ where a segment's distance is the displacement that takes all
+        /// of it out of the wall.</summary>
         internal virtual double LeastAlong(in Vector3d a, in Vector3d b, double distance)
         {
             return distance;
         }
 
-        /// <summary>Largest fraction of the motion for which it is proven that every point of the segment keeps a
-        /// distance of at least <paramref name="keep"/>, <see cref="NoImpact"/> for all of it. An approach of less than
-        /// the resolution, units, is none. The hint, where the nearest place was at the start or -1, changes the time
-        /// that it takes.</summary>
+        /// <summary>Largest fraction of the motion for which every point of the segment is proven to stay at least
+        /// <paramref name="clearance"/> from the wall, <see cref="NoImpact"/> for all of it. Approaches below the
+        /// resolution, units, are ignored. The hint, where the nearest point was at the start or -1, affects the cost
+        /// alone.</summary>
         private protected abstract double TimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
-            double keep, double resolution, int hint);
+            double clearance, double resolution, int hint);
 
-        // The time itself where the distance is kept then, or 0.
+        // The time itself if the segment has the clearance then, else 0.
         private double LastKept(
             in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double time, double kept, ref int hint)
         {
@@ -138,26 +138,26 @@ namespace Guidewire.Core
             return isKept ? time : 0.0;
         }
 
-        /// <summary>Distance of segment a b from the wall in units; it may be infinite beyond
-        /// <paramref name="range"/>, and too large by a little where the wall's ridges are not even.</summary>
+        /// <summary>Distance of segment a b from the wall in units; it may be infinite beyond <paramref name="range"/>,
+        /// and slightly too large where the wall's edges are uneven.</summary>
         internal virtual double QuickDistance(in Vector3d a, in Vector3d b, double range, ref int hint)
         {
             return Nearest(a, b, range, ref hint, out SurfaceContact contact) ? contact.Distance
                 : double.PositiveInfinity;
         }
 
-        /// <summary>The same, and features of the wall (whatever a shape takes for them) that queries of points and
-        /// parts of the segment may come to while nothing of it goes farther than <paramref name="reach"/>, units: they
-        /// are added to a list, by which such queries are quicker. None where a shape has none. The distance may be too
-        /// small, never too large beyond what a quick one is; where a shape <see cref="HasPointFeatures"/>, it is that
-        /// of the segment's inside, and counts only where it is less than those of its ends.</summary>
-        internal virtual double FindFeatures(in Vector3d a, in Vector3d b, double range, double reach, ref int hint,
+        /// <summary>The same, and adds to a list the features of the wall (as the shape defines them) that queries of
+        /// points and parts of the segment may meet while nothing of it moves farther than <paramref name="skin"/>,
+        /// units; such queries are then faster. Some shapes have none. The distance may be too small, and no more too
+        /// large than a quick one; where a shape <see cref="HasPointFeatures"/>, it is that of the segment's interior
+        /// and counts only where it is less than those of its ends.</summary>
+        internal virtual double FindFeatures(in Vector3d a, in Vector3d b, double range, double skin, ref int hint,
             StructList<WallFeature> features)
         {
             return QuickDistance(a, b, range, ref hint);
         }
 
-        /// <summary>False where surely nothing of the wall comes within a distance, units, of a segment that moves from
+        /// <summary>False where no part of the wall can come within a distance, units, of a segment that moves from
         /// (a0, b0) to (a1, b1). The hint is that of <see cref="Nearest"/>.</summary>
         internal virtual bool MayMeet(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double distance,
             ref int hint)
@@ -169,9 +169,9 @@ namespace Guidewire.Core
         /// <summary>Whether points have features of their own.</summary>
         internal virtual bool HasPointFeatures => false;
 
-        /// <summary>These features, kept for all that asks for them with this reach, units; null where there are
+        /// <summary>The cache of these features, shared by all queries with this skin, units; null where there are
         /// none.</summary>
-        internal virtual FeatureCache? CellsFor(double reach)
+        internal virtual FeatureCache? FeatureCacheFor(double skin)
         {
             return null;
         }
@@ -183,39 +183,40 @@ namespace Guidewire.Core
             return double.PositiveInfinity;
         }
 
-        /// <summary>The ridges within a range of a segment, by the features near it.</summary>
+        /// <summary>Adds the edge contacts within a range of a segment, by the features near it.</summary>
         internal virtual void FindEdgeContacts(in Vector3d a, in Vector3d b, double range, FeatureRange features,
             StructList<EdgeContact> edgeContacts)
         {
             FindEdgeContacts(a, b, range, edgeContacts);
         }
 
-        /// <summary>Whether the whole segment surely lies where the wire may be; false too where a shape cannot tell
+        /// <summary>True if the whole segment certainly lies on the free side; also false where a shape cannot tell
         /// quickly.</summary>
         internal virtual bool Holds(in Vector3d a, in Vector3d b, ref int hint)
         {
             return false;
         }
 
-        /// <summary>A fraction of the linear motion of segment a b from (a0, b0) to (a1, b1) on which it keeps a
-        /// distance, in units, or more: <see cref="NoImpact"/> for all of it, 0 where the start is nearer. An approach
-        /// of less than <paramref name="resolution"/>, units, is none. The hint is that of a query of the start, or
-        /// -1; the features, where they are known, those of the start, for a reach that the motion keeps to.</summary>
-        internal virtual double FreeShare(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
-            double resolution, int hint, in ElementFeatures features)
+        /// <summary>A lower bound of the time of impact of segment a b in linear motion from (a0, b0) to (a1, b1), as a
+        /// fraction during which it has at least a clearance, in units: <see cref="NoImpact"/> for all of it, 0 where
+        /// it starts nearer. Approaches below <paramref name="resolution"/>, units, are ignored. The hint is that of a
+        /// query of the start, or -1; the features, where they are known, those of the start, for a skin that the
+        /// motion does not leave.</summary>
+        internal virtual double ConservativeTimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1,
+            in Vector3d b1, double clearance, double resolution, int hint, in ElementFeatures features)
         {
-            return TimeOfImpact(a0, b0, a1, b1, keep, resolution, hint);
+            return TimeOfImpact(a0, b0, a1, b1, clearance, resolution, hint);
         }
 
-        /// <summary>Adds the ridges of the wall within <paramref name="range"/> of segment a b: where the wall bulges
-        /// into the free side, so that the inside of a segment can meet it before its ends do. None of a wall that
-        /// bulges nowhere.</summary>
+        /// <summary>Adds the edge contacts within <paramref name="range"/> of segment a b: where the wall is convex
+        /// towards the free side, so that the interior of a segment can meet it before its ends do. None where the wall
+        /// has no convex edge.</summary>
         internal virtual void FindEdgeContacts(
             in Vector3d a, in Vector3d b, double range, StructList<EdgeContact> edgeContacts)
         {
         }
 
-        /// <summary>Radius in units of the largest ball that fits where the free side is narrowest, of all places
+        /// <summary>Radius in units of the largest ball that fits where the free side is narrowest, of all positions
         /// that are wider than a radius; infinite where the wall encloses nothing.</summary>
         internal virtual double NarrowestRadius(double above)
         {

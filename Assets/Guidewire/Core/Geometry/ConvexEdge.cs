@@ -2,23 +2,24 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>An edge as a ridge of a wall, for a segment near it.</summary>
+    /// <summary>A convex edge of a wall, in contact with a segment near it.</summary>
     /// <remarks>Where segment and edge are parallel their closest points jump; so the weight fades as c = sin^2 of the
-    /// angle between them goes to 0: t (2 - t) with t = c/0.01. A segment along an edge is seen at its ends.</remarks>
+    /// angle between them goes to 0: t (2 - t) with t = c/0.01. A segment along an edge has its contacts at its
+    /// ends.</remarks>
     internal static class ConvexEdge
     {
         private const double Fade = 0.01;         // of sin^2
         private const double Sharp = 0.02;        // radians, from which an edge counts as one
 
         /// <summary>Weight of an edge at which the wall turns by an angle, radians: tanh(angle/0.02).</summary>
-        /// <remarks>In proportion to small angles, so that a bend counts the same however finely it is cut; but not so
-        /// small for those of a coarse one that the one edge which is met holds the wire at a vanishing gap.</remarks>
+        /// <remarks>Proportional to small angles, so that a bend counts the same however finely it is divided; but
+        /// large enough for a coarse bend that the one edge met does not hold the wire at a vanishing gap.</remarks>
         public static double Weight(double angle)
         {
             return Math.Tanh(angle / Sharp);
         }
 
-        /// <summary>Adds the ridge if it is within a range of segment a b.</summary>
+        /// <summary>Adds the edge contact if the edge is within a range of segment a b.</summary>
         /// <param name="a">First end of the segment.</param>
         /// <param name="b">Second end.</param>
         /// <param name="start">First end of the edge; the second may be the same, which is a corner.</param>
@@ -26,13 +27,13 @@ namespace Guidewire.Core
         /// <param name="radius">By which the edge is widened, units.</param>
         /// <param name="weight">Of an edge across the segment.</param>
         /// <param name="range">Units.</param>
-        /// <param name="ridges">Receives it.</param>
+        /// <param name="contacts">Receives it.</param>
         public static void Add(in Vector3d a, in Vector3d b, in Vector3d start, in Vector3d end, double radius,
             double weight, double range, StructList<EdgeContact> contacts)
         {
             double squared = ClosestPoints.SegmentSegment(a, b, start, end, out double s, out double t);
-            double reach = range + radius;
-            if (squared > reach * reach || squared == 0.0)
+            double limit = range + radius;
+            if (squared > limit * limit || squared == 0.0)
             {
                 return;
             }
@@ -55,7 +56,7 @@ namespace Guidewire.Core
             contacts.Add(s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0 ? Sliding(contact, u, along, distance) : contact);
         }
 
-        // Between the ends of both the crossing slides to where the distance along the segment stays least.
+        // Between the ends of both, the crossing slides so that the distance along the segment stays least.
         private static EdgeContact Sliding(in EdgeContact contact, in Vector3d u, in Vector3d along, double distance)
         {
             double s = contact.Position;

@@ -2,9 +2,9 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>A convex body that stands in the wire's way: all points within a radius of the convex hull of some
-    /// points. One point makes a sphere, two a capsule, eight corners a box, any number a hull.</summary>
-    /// <remarks>Distances by GJK, depth by EPA. Keeps scratch memory: one object serves one thread.</remarks>
+    /// <summary>A convex body in the wire's path: all points within a radius of the convex hull of some points. One
+    /// point makes a sphere, two a capsule, eight corners a box, any number a hull.</summary>
+    /// <remarks>Distances by GJK, depth by EPA. Holds scratch memory: one object serves one thread.</remarks>
     public sealed class ConvexObstacle : ContactShape
     {
         private const double RelativeFlatness = 1e-9;
@@ -76,12 +76,12 @@ namespace Guidewire.Core
             return contact.Distance <= range;
         }
 
-        /// <summary>The nearest place. Within the hull of the points itself the distance is a depth, and no curvature
+        /// <summary>The nearest point. Within the hull of the points itself the distance is a depth, and no curvature
         /// is stated.</summary>
         /// <remarks>The points that lie highest along the normal are the corner, the edge or the face of the hull on
-        /// which the place lies; the curvature is that about them.</remarks>
+        /// which the point lies; the curvature is that about them.</remarks>
         internal override void FindContactPoints(in Vector3d x, double range, FeatureRange features,
-            StructList<ContactPoint> places)
+            StructList<ContactPoint> contactPoints)
         {
             int hint = -1;
             if (!Nearest(x, x, range, ref hint, out SurfaceContact contact))
@@ -101,7 +101,7 @@ namespace Guidewire.Core
                     along = along == Vector3d.Zero ? Vector3d.Normalize(offset) : along;
                 }
             }
-            places.Add(isFlat ? ContactPoint.Flat(contact, 1)
+            contactPoints.Add(isFlat ? ContactPoint.Flat(contact, 1)
                 : along == Vector3d.Zero ? ContactPoint.Corner(contact, 1, core)
                 : ContactPoint.Edge(contact, 1, along, core));
         }
@@ -123,13 +123,13 @@ namespace Guidewire.Core
         }
 
         private protected override double TimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
-            double keep, double resolution, int hint)
+            double clearance, double resolution, int hint)
         {
-            return SweptTest.Impact(new Body(this), a0, b0, a1, b1, keep, resolution);
+            return SweptTest.Impact(new Body(this), a0, b0, a1, b1, clearance, resolution);
         }
 
-        /// <summary>That of the deepest point; the distance of a segment that cuts the body is the shortest way out of
-        /// it, which may be longer.</summary>
+        /// <summary>That of the deepest point; the distance of a segment that cuts the body is the shortest
+        /// displacement out of it, which may be longer.</summary>
         /// <remarks>A point's signed distance from a convex body is convex along a segment: golden sections.</remarks>
         internal override double LeastAlong(in Vector3d a, in Vector3d b, double distance)
         {

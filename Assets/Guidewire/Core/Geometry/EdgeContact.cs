@@ -1,11 +1,11 @@
 namespace Guidewire.Core
 {
-    /// <summary>Where a segment a b crosses a ridge of a wall: an edge, or the crease at the inner side of a bend,
-    /// that bulges into the free side.</summary>
-    /// <remarks>The crossing's distance d from the ridge has the derivative ((1 - s) n, s n) along (a, b). An energy is
-    /// W f(d) with a weight W that is continuous while the segment moves: it counts the angle by which the wall turns
-    /// at the ridge, so that a bend counts the same however finely it is cut, and fades where the crossing loses its
-    /// place: along a parallel ridge, or at a segment's end, which is seen as a point of its own.</remarks>
+    /// <summary>Where a segment a b crosses a convex edge of a wall: an edge of a mesh, or the crease at the inner side
+    /// of a bend, which bulges into the free side.</summary>
+    /// <remarks>The crossing's distance d from the edge has the derivative ((1 - s) n, s n) along (a, b). An energy is
+    /// W f(d) with a weight W that is continuous while the segment moves: it measures the angle by which the wall turns
+    /// at the edge, so that a bend counts the same however finely it is divided, and fades where the crossing is not
+    /// defined: along a parallel edge, or at a segment's end, which is a contact point of its own.</remarks>
     internal readonly struct EdgeContact
     {
         /// <summary>Position s of the crossing along the segment.</summary>
@@ -14,7 +14,7 @@ namespace Guidewire.Core
         /// <summary>d, units.</summary>
         public readonly double Distance;
 
-        /// <summary>n, from the ridge into the free side.</summary>
+        /// <summary>n, from the edge into the free side.</summary>
         public readonly Vector3d Normal;
 
         /// <summary>W, 0 or more.</summary>

@@ -94,8 +94,8 @@ namespace Guidewire.Core
                 }
                 normal = Vector3d.Normalize(direction);
                 MinkowskiVertex next = MinkowskiVertex.Support(a, b, hull, normal);
-                double reach = Vector3d.Dot(next.Offset - _vertices[0].Offset, normal);
-                if (reach > Resolution * (next.Offset.Length + _vertices[0].Offset.Length))
+                double height = Vector3d.Dot(next.Offset - _vertices[0].Offset, normal);
+                if (height > Resolution * (next.Offset.Length + _vertices[0].Offset.Length))
                 {
                     _vertices[_vertexCount++] = next;
                     return true;

@@ -2,47 +2,48 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>What points of a wire are asked again and again: features of a wall about the points of a lattice, each
-    /// found once and kept. A wire that is pushed goes through the same places node after node.</summary>
-    /// <remarks>One place in the table for each hash: what was there before is forgotten; and all is where the lists
-    /// have grown long. Nothing is allocated once it stands, unless one wire needs longer lists.</remarks>
+    /// <summary>Caches the features of a wall about the points of a lattice, each found once. The nodes of a wire that
+    /// is pushed pass the same positions one after another.</summary>
+    /// <remarks>One slot in the table for each hash: a new entry replaces the old one, and the whole table is cleared
+    /// when the lists have grown long. Nothing is allocated after construction unless a wire needs longer
+    /// lists.</remarks>
     internal sealed class FeatureCache
     {
-        private const int Places = 1 << 13;
+        private const int Slots = 1 << 13;
         private const int MostFeatures = 1 << 17;
-        private const int LongestList = 1 << 13;    // that is expected
+        private const int LongestList = 1 << 13;    // expected
         private const int MostLists = 8;            // of all that a wire asks for at once
         private const double HalfDiagonal = 0.8661;    // of a lattice's cell, rounded up
         private readonly ContactShape _wall;
         private readonly double _size;
-        private readonly double _reach;    // from a point of the lattice
-        private readonly Cell[] _cells = new Cell[Places];
+        private readonly double _skin;    // from a point of the lattice
+        private readonly Cell[] _cells = new Cell[Slots];
         private int _most = MostFeatures;
-        private int _before;    // features when they were looked through last
+        private int _before;    // features at the last trim
 
         /// <summary>For a wall that stays where it is.</summary>
-        /// <param name="wall">It has features of points.</param>
-        /// <param name="reach">What is found holds at least this far about where it was asked for, units.</param>
-        public FeatureCache(ContactShape wall, double reach)
+        /// <param name="wall">One that has features of points.</param>
+        /// <param name="skin">Entries are valid within this distance of the query point at least, units.</param>
+        public FeatureCache(ContactShape wall, double skin)
         {
             _wall = wall;
-            Reach = reach;
-            _size = 0.5 * reach;
-            _reach = reach + HalfDiagonal * _size;
+            Skin = skin;
+            _size = 0.5 * skin;
+            _skin = skin + HalfDiagonal * _size;
         }
 
-        /// <summary>What is found holds at least this far about where it was asked for, units.</summary>
-        public double Reach { get; }
+        /// <summary>Entries are valid within this distance of the query point at least, units.</summary>
+        public double Skin { get; }
 
-        /// <summary>How often all was forgotten; places that were found before then hold no longer.</summary>
+        /// <summary>How often the cache was cleared; what was found before then is invalid.</summary>
         public int Version { get; private set; }
 
         /// <summary>The lists.</summary>
         public StructList<WallFeature> Features { get; } =
             new StructList<WallFeature>(MostFeatures + LongestList);
 
-        /// <summary>Forgets all where the lists have grown too long, but not before they hold several times what was
-        /// asked for since the last call: a wire of many elements in a fine mesh needs long ones.</summary>
+        /// <summary>Clears the cache where the lists have grown too long, but not before they hold several times what
+        /// was queried since the last call: a wire of many elements in a fine mesh needs long lists.</summary>
         public void Trim()
         {
             _most = Math.Max(_most, MostLists * (Features.Count - _before));
@@ -57,28 +58,28 @@ namespace Guidewire.Core
 
         /// <summary>Finds the wall about the lattice point next to a point.</summary>
         /// <param name="x">Units.</param>
-        /// <param name="range">Of the features, beyond the reach, units.</param>
-        /// <param name="place">Receives it, with its features among <see cref="Features"/>.</param>
-        public void Find(in Vector3d x, double range, ref Neighbour place)
+        /// <param name="range">Of the features, beyond the skin, units.</param>
+        /// <param name="neighbour">Receives it, with its features among <see cref="Features"/>.</param>
+        public void Find(in Vector3d x, double range, ref Neighbour neighbour)
         {
             var centre = new Vector3d(
                 _size * Math.Round(x.X / _size), _size * Math.Round(x.Y / _size), _size * Math.Round(x.Z / _size));
-            double radius = _reach + range;
-            ref Cell cell = ref _cells[PlaceOf(centre, radius)];
+            double radius = _skin + range;
+            ref Cell cell = ref _cells[SlotOf(centre, radius)];
             if (!cell.Is(centre, radius))
             {
                 int from = Features.Count;
                 double distance = _wall.FindFeatures(centre, radius, Features);
                 cell = new Cell(centre, radius, from, Features.Count, distance);
             }
-            place.Begin(centre, centre, _reach, cell.From);
-            place.End(cell.Distance, radius, cell.To);
+            neighbour.Begin(centre, centre, _skin, cell.From);
+            neighbour.End(cell.Distance, radius, cell.To);
         }
 
-        private static int PlaceOf(in Vector3d centre, double radius)
+        private static int SlotOf(in Vector3d centre, double radius)
         {
             ulong hash = Mixed(Mixed(Mixed(Mixed(0UL, centre.X), centre.Y), centre.Z), radius);
-            return (int)(hash >> 40) & (Places - 1);
+            return (int)(hash >> 40) & (Slots - 1);
         }
 
         private static ulong Mixed(ulong hash, double value)
@@ -94,7 +95,7 @@ namespace Guidewire.Core
             public readonly int To;
             public readonly double Distance;
             private readonly Vector3d _centre;
-            private readonly double _radius;    // 0: nothing was found here
+            private readonly double _radius;    // 0: the slot is empty
 
             public Cell(in Vector3d centre, double radius, int from, int to, double distance)
             {

@@ -33,10 +33,10 @@ namespace Guidewire.Core
     {
         private readonly StructList<WallFeature>? _features;
 
-        /// <summary>The part from one place (inclusive) to another (exclusive).</summary>
+        /// <summary>The part from one index (inclusive) to another (exclusive).</summary>
         /// <param name="features">The list.</param>
-        /// <param name="from">First place.</param>
-        /// <param name="to">Place behind the last.</param>
+        /// <param name="from">First index.</param>
+        /// <param name="to">Index behind the last.</param>
         /// <param name="moved">Units; nothing of what they were found for has gone farther since then.</param>
         public FeatureRange(StructList<WallFeature> features, int from, int to, double moved)
         {
@@ -49,22 +49,22 @@ namespace Guidewire.Core
         /// <summary>Whether the features near are known; if not, the range is empty and says nothing.</summary>
         public bool IsKnown => _features != null;
 
-        /// <summary>First place.</summary>
+        /// <summary>First index.</summary>
         public int From { get; }
 
-        /// <summary>Place behind the last.</summary>
+        /// <summary>Index behind the last.</summary>
         public int To { get; }
 
         /// <summary>How far what they were found for has gone since then at most, units.</summary>
         public double Moved { get; }
 
-        /// <summary>The feature at a place.</summary>
-        public int this[int place] => _features![place].Index;
+        /// <summary>The feature at an index.</summary>
+        public int this[int index] => _features![index].Index;
 
-        /// <summary>A distance, units, than which the feature at a place is no nearer now.</summary>
-        public double LeastDistance(int place)
+        /// <summary>Lower bound of the present distance of the feature at an index, units.</summary>
+        public double LeastDistance(int index)
         {
-            return _features![place].Distance - Moved;
+            return _features![index].Distance - Moved;
         }
     }
 

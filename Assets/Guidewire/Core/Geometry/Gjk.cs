@@ -4,7 +4,7 @@ namespace Guidewire.Core
 {
     /// <summary>Distance of a segment from the convex hull of some points (Gilbert, Johnson and Keerthi 1988): the
     /// point of their Minkowski difference nearest to the origin, found on a simplex that moves towards it.</summary>
-    /// <remarks>Keeps scratch memory: one object serves one thread. Sizes: the answer is within 1e-12 of the largest
+    /// <remarks>Holds scratch memory: one object serves one thread. Sizes: the answer is within 1e-12 of the largest
     /// offset between the two.</remarks>
     internal sealed class Gjk
     {
@@ -16,8 +16,9 @@ namespace Guidewire.Core
         private int _count;
 
         /// <summary>Signed distance of segment a b from the hull: positive apart, minus the depth where they overlap.
-        /// <paramref name="normal"/> points from the hull's <paramref name="point"/> to the segment's at
-        /// <paramref name="s"/>, or where they overlap in the direction of the shortest way out.</summary>
+        /// <paramref name="normal"/> points from the hull's <paramref name="point"/> to the segment's at <paramref
+        /// name="s"/>, or where they overlap in the direction of the shortest displacement that separates
+        /// them.</summary>
         public double Distance(
             in Vector3d a, in Vector3d b, Vector3d[] hull, out double s, out Vector3d point, out Vector3d normal)
         {

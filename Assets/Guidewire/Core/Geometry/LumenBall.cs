@@ -2,7 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>The widest ball in a lumen across a direction: by it vessels are walked along. In units.</summary>
+    /// <summary>The widest ball in a lumen across a direction, for walks along a vessel. In units.</summary>
     internal sealed class LumenBall
     {
         private readonly ContactShape _wall;
@@ -18,23 +18,23 @@ namespace Guidewire.Core
         public double Width { get; set; } = double.PositiveInfinity;
 
         /// <summary>Centre.</summary>
-        public Vector3d Place { get; set; }
+        public Vector3d Centre { get; set; }
 
         /// <summary>Climbs from x to the middle of the lumen across a direction, or to where the ball is large enough:
-        /// eight ways by turns, the step doubled where one leads up and halved where none does. No step leaves the
-        /// ball, and so the lumen.</summary>
+        /// eight directions in turn, the step doubled where one leads up and halved where none does. No step leaves the
+        /// ball, hence none leaves the lumen.</summary>
         /// <param name="finest">The last step.</param>
         /// <param name="enough">Radius.</param>
         public void Climb(in Vector3d x, in Vector3d along, double finest, double enough)
         {
             Vector3d u = Vector3d.Perpendicular(along);
             Vector3d v = Vector3d.Cross(along, u);
-            Place = x;
+            Centre = x;
             Width = DistanceAt(x);
             double step = 0.5 * Width;
             while (step > finest && Width < enough)
             {
-                Vector3d start = Place;
+                Vector3d start = Centre;
                 double width = Width;
                 for (int k = 0; k < 8; k++)
                 {
@@ -44,7 +44,7 @@ namespace Guidewire.Core
                     if (distance > Width)
                     {
                         Width = distance;
-                        Place = other;
+                        Centre = other;
                     }
                 }
                 step = Width > width ? Math.Min(2.0 * step, 0.5 * Width) : 0.5 * step;

@@ -3,43 +3,43 @@ using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
-    /// <summary>Walks along a lumen, both ways from a place, to where it is narrowest and gets wider again. Lengths in
-    /// units.</summary>
+    /// <summary>Walks along a lumen, in both directions from a point, to where it is narrowest and widens again.
+    /// Lengths in units.</summary>
     /// <remarks>The walk goes by balls that are centred across it (<see cref="LumenBall"/>), along the direction e in
     /// which the lesser of d(c + h e) and d(c - h e) is largest, d the distance from the wall. It ends where the lumen
-    /// has become wider than its narrowest by <see cref="WideAgain"/>, or where d falls by more than half of the way:
-    /// there is the end of the vessel. What it comes to depends on d alone, not on how the wall is cut into triangles.
-    /// A lumen that narrows to less than a wire, evenly or by steps that are not wide again, holds the wire whatever
-    /// its barriers are, and does not count.</remarks>
+    /// has become wider than its narrowest by <see cref="WideAgain"/>, or where d falls by more than half of the
+    /// distance travelled: there is the end of the vessel. The result depends on d alone, not on how the wall is
+    /// triangulated. A lumen that narrows to less than a wire without widening again holds the wire whatever its
+    /// barriers are, and does not count.</remarks>
     internal sealed class LumenWalk
     {
         private const double StepOverWidth = 0.5;
         private const double WideAgain = 1.05;
         private const double EndSlope = 0.5;
-        private const double Fineness = 2e-3;        // of the width, on the way
+        private const double Fineness = 2e-3;        // of the width, during the walk
         private const double LastFineness = 2e-4;    // at the end of it
         private const double ShortestStep = 0.02;    // of the width, at the end of a vessel
-        private const double Same = 0.5;             // of the width: places that are one
+        private const double Same = 0.5;             // of the width: positions that count as one
         private const double Probe = 0.5;            // h over d
         private const double LeastTurn = 0.02;       // rad, of e
         private const int MostSteps = 2000;
         private const int Thirds = 16;               // of the last bracket
         private readonly LumenBall _ball;
         private readonly double _above;
-        private readonly List<(Vector3d Place, double Width)> _walked = new List<(Vector3d, double)>();
+        private readonly List<(Vector3d Centre, double Width)> _walked = new List<(Vector3d, double)>();
         private double _narrowest;
-        private Vector3d _place;
+        private Vector3d _position;
         private Vector3d _along;
 
-        /// <summary>Of a wall, to places that are wider than a radius.</summary>
+        /// <summary>For a wall, and positions that are wider than a radius.</summary>
         public LumenWalk(ContactShape wall, double above)
         {
             _ball = new LumenBall(wall);
             _above = above;
         }
 
-        /// <summary>The radius where the lumen is narrowest about a place in it; infinite where it has been walked
-        /// before, narrows to what does not count, or is as wide as is enough.</summary>
+        /// <summary>The radius where the lumen is narrowest about a position in it; infinite where the walk was made
+        /// before, the lumen narrows to what does not count, or it is wide enough.</summary>
         public double From(in Vector3d start, double enough)
         {
             double width = _ball.DistanceAt(start);
@@ -49,11 +49,11 @@ namespace Guidewire.Core
             }
             Vector3d along = Turned(start, width, FirstDirection(start, width));
             _ball.Climb(start, along, Fineness * width, enough);
-            if (_ball.Width >= enough || IsWalked(_ball.Place, _ball.Width))
+            if (_ball.Width >= enough || IsWalked(_ball.Centre, _ball.Width))
             {
                 return double.PositiveInfinity;
             }
-            Vector3d centre = _ball.Place;
+            Vector3d centre = _ball.Centre;
             double first = _ball.Width;
             along = Turned(centre, first, along);
             _walked.Add((centre, first));
@@ -65,10 +65,10 @@ namespace Guidewire.Core
 
         private bool IsWalked(in Vector3d x, double width)
         {
-            foreach ((Vector3d place, double other) in _walked)
+            foreach ((Vector3d position, double other) in _walked)
             {
                 double near = Same * Math.Min(width, other);
-                if ((place - x).LengthSquared < near * near)
+                if ((position - x).LengthSquared < near * near)
                 {
                     return true;
                 }
@@ -83,18 +83,18 @@ namespace Guidewire.Core
             for (int k = 0; k < MostSteps && fraction > ShortestStep && width <= WideAgain * _narrowest; k++)
             {
                 _ball.Climb(centre + fraction * width * along, along, Fineness * width, 2.0 * WideAgain * width);
-                double way = Vector3d.Distance(centre, _ball.Place);
-                if (width - _ball.Width > EndSlope * way || !(_ball.Width > 0.0))
+                double distance = Vector3d.Distance(centre, _ball.Centre);
+                if (width - _ball.Width > EndSlope * distance || !(_ball.Width > 0.0))
                 {
                     fraction *= 0.5;
                     continue;
                 }
-                Vector3d chord = Vector3d.Normalize(_ball.Place - centre);
+                Vector3d chord = Vector3d.Normalize(_ball.Centre - centre);
                 if (Vector3d.Dot(chord, along) < 0.5)
                 {
-                    return true;    // the climb has left for a wider lumen beside
+                    return true;    // the climb has moved into a wider neighbouring lumen
                 }
-                centre = _ball.Place;
+                centre = _ball.Centre;
                 width = _ball.Width;
                 if (width <= _above)
                 {
@@ -112,12 +112,12 @@ namespace Guidewire.Core
             if (width < _narrowest)
             {
                 _narrowest = width;
-                _place = centre;
+                _position = centre;
                 _along = along;
             }
         }
 
-        // By thirds of the way, half a step to both sides of the narrowest place that was walked.
+        // By thirds of the distance, half a step to both sides of the narrowest position of the walk.
         private double Bottom()
         {
             double length = StepOverWidth * _narrowest;
@@ -138,21 +138,21 @@ namespace Guidewire.Core
             return least;
         }
 
-        // Not where the vessel has its end.
-        private double Inside(double least, double width, double way)
+        // Not at the end of the vessel.
+        private double Inside(double least, double width, double distance)
         {
-            return width > _above && _narrowest - width <= EndSlope * way ? Math.Min(least, width) : least;
+            return width > _above && _narrowest - width <= EndSlope * distance ? Math.Min(least, width) : least;
         }
 
-        private double Across(double way)
+        private double Across(double distance)
         {
-            _ball.Climb(_place + way * _along, _along, LastFineness * _narrowest, 2.0 * WideAgain * _narrowest);
+            _ball.Climb(_position + distance * _along, _along, LastFineness * _narrowest, 2.0 * WideAgain * _narrowest);
             return _ball.Width;
         }
 
-        private double Lesser(in Vector3d x, in Vector3d way)
+        private double Lesser(in Vector3d x, in Vector3d direction)
         {
-            return Math.Min(_ball.DistanceAt(x + way), _ball.DistanceAt(x - way));
+            return Math.Min(_ball.DistanceAt(x + direction), _ball.DistanceAt(x - direction));
         }
 
         // Of the axes, the diagonals of the faces and those of the cube.
@@ -162,12 +162,12 @@ namespace Guidewire.Core
             double most = double.NegativeInfinity;
             for (int k = 14; k < 27; k++)
             {
-                Vector3d way = Vector3d.Normalize(new Vector3d(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1));
-                double lesser = Lesser(x, Probe * width * way);
+                Vector3d direction = Vector3d.Normalize(new Vector3d(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1));
+                double lesser = Lesser(x, Probe * width * direction);
                 if (lesser > most)
                 {
                     most = lesser;
-                    best = way;
+                    best = direction;
                 }
             }
             return best;
@@ -186,12 +186,12 @@ namespace Guidewire.Core
                 for (int k = 0; k < 4; k++)
                 {
                     Vector3d side = k % 2 == 0 ? u : v;
-                    Vector3d way = Vector3d.Normalize(best + (k < 2 ? turn : -turn) * side);
-                    double lesser = Lesser(x, h * way);
+                    Vector3d direction = Vector3d.Normalize(best + (k < 2 ? turn : -turn) * side);
+                    double lesser = Lesser(x, h * direction);
                     if (lesser > most)
                     {
                         most = lesser;
-                        best = way;
+                        best = direction;
                     }
                 }
             }

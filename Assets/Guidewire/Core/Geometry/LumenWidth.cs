@@ -2,18 +2,18 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>How wide a vessel's lumen is along a way: the radius of the widest ball across the way at each place.
-    /// Lengths in units.</summary>
-    /// <remarks>In a tube of numbers that is the radius of its knots. In a mesh the way is walked ball by ball, each
-    /// centred across the way by a search whose last step is <see cref="Fineness"/> of the radius asked for, so that a
+    /// <summary>How wide a vessel's lumen is along a path: the radius of the widest ball across the path at each
+    /// position. Lengths in units.</summary>
+    /// <remarks>In a tube of numbers that is the radius of its knots. In a mesh the path is followed ball by ball, each
+    /// centred across the path by a search whose last step is <see cref="Fineness"/> of the radius asked for, so that a
     /// width is found to about 1 %; at a branch the walk goes on straight. Where the lumen is narrower than the wire
-    /// the walk keeps its direction, so that it never turns round at a closed end.</remarks>
+    /// the direction of the walk is smoothed, so that it never turns back at a closed end.</remarks>
     internal sealed class LumenWidth
     {
         private const double Fineness = 0.005;
-        private const double StepOverWidth = 0.25;   // of one place of the walk to the next
+        private const double StepOverWidth = 0.25;   // from one position of the walk to the next
         private const double Ample = 4.0;            // radii, from which on nothing is centred
-        private const int MostPlaces = 4000;
+        private const int MostSteps = 4000;
         private readonly ContactShape _wall;
         private readonly LumenBall _ball;
         private readonly double _radius;
@@ -26,8 +26,8 @@ namespace Guidewire.Core
             _radius = radius;
         }
 
-        /// <summary>The widest ball at the wire's first narrow place, where that is narrower than the wire; else at its
-        /// tip.</summary>
+        /// <summary>The widest ball at the wire's first narrow position, where that is narrower than the wire; else at
+        /// its tip.</summary>
         public double Width
         {
             get => _ball.Width;
@@ -35,21 +35,21 @@ namespace Guidewire.Core
         }
 
         /// <summary>Centre of that ball.</summary>
-        public Vector3d Place
+        public Vector3d Centre
         {
-            get => _ball.Place;
-            private set => _ball.Place = value;
+            get => _ball.Centre;
+            private set => _ball.Centre = value;
         }
 
         /// <summary>True where the lumen is narrower than the wire at the wire itself, or before it as far as it is
         /// pushed. A lumen that ends there does not count: a wire stops at a vessel's end.</summary>
         /// <param name="wire">The wire's spheres, in the lumen.</param>
-        /// <param name="way">How far it is pushed, tip first; infinite where nobody says.</param>
-        public bool IsTooNarrow(Vector3d[] wire, double way)
+        /// <param name="travel">How far it is pushed, tip first; infinite if unknown.</param>
+        public bool IsTooNarrow(Vector3d[] wire, double travel)
         {
             if (_wall is TubeShape tube)
             {
-                return IsTooNarrow(tube, wire, way);
+                return IsTooNarrow(tube, wire, travel);
             }
             if (!(_wall is MeshShape))
             {
@@ -65,39 +65,39 @@ namespace Guidewire.Core
                     return true;
                 }
             }
-            return NarrowsAhead(Vector3d.Normalize(wire[tip] - wire[tip - 1]), way);
+            return NarrowsAhead(Vector3d.Normalize(wire[tip] - wire[tip - 1]), travel);
         }
 
         // From the ball at the tip on. What is narrower counts once the lumen has been as wide as the wire again, or
         // has let the walk out of an open rim; at a closed end the balls shrink to nothing.
-        private bool NarrowsAhead(Vector3d along, double way)
+        private bool NarrowsAhead(Vector3d along, double travel)
         {
             double tipWidth = Width;
-            Vector3d tipPlace = Place;
+            Vector3d tipCentre = Centre;
             double narrowest = double.PositiveInfinity;
-            Vector3d narrow = Place;
+            Vector3d narrow = Centre;
             double gone = 0.0;
-            for (int k = 0; k < MostPlaces && gone < way && Width > Fineness * _radius; k++)
+            for (int k = 0; k < MostSteps && gone < travel && Width > Fineness * _radius; k++)
             {
-                Vector3d before = Place;
+                Vector3d before = Centre;
                 Vector3d next = before + (StepOverWidth * Math.Min(Width, Ample * _radius)) * along;
                 bool isOut = !_wall.Contains(next);
                 if (!isOut)
                 {
                     Measure(next, along, Ample * _radius);
-                    gone += Vector3d.Distance(before, Place);
+                    gone += Vector3d.Distance(before, Centre);
                     along = Width < _radius ? along
-                        : Vector3d.Normalize(along + 0.5 * Vector3d.Normalize(Place - before));
+                        : Vector3d.Normalize(along + 0.5 * Vector3d.Normalize(Centre - before));
                     if (Width < narrowest)
                     {
                         narrowest = Width;
-                        narrow = Place;
+                        narrow = Centre;
                     }
                 }
                 if (narrowest < _radius * (1.0 - 2.0 * Fineness) && (isOut || Width >= _radius))
                 {
                     Width = narrowest;
-                    Place = narrow;
+                    Centre = narrow;
                     return true;
                 }
                 if (isOut)
@@ -106,7 +106,7 @@ namespace Guidewire.Core
                 }
             }
             Width = tipWidth;
-            Place = tipPlace;
+            Centre = tipCentre;
             return false;
         }
 
@@ -115,7 +115,7 @@ namespace Guidewire.Core
             _ball.Climb(x, along, Fineness * _radius, enough);
         }
 
-        private bool IsTooNarrow(TubeShape tube, Vector3d[] wire, double way)
+        private bool IsTooNarrow(TubeShape tube, Vector3d[] wire, double travel)
         {
             double[] stations = Stations(tube);
             double proximal = StationOf(tube, stations, wire[0], out double atProximal);
@@ -127,8 +127,8 @@ namespace Guidewire.Core
                 return true;
             }
             bool forward = tip >= proximal;
-            double from = forward ? proximal : tip - way;
-            double to = forward ? tip + way : proximal;
+            double from = forward ? proximal : tip - travel;
+            double to = forward ? tip + travel : proximal;
             int last = tube.Knots.Length - 1;
             for (int k = 0; k <= last; k++)
             {
@@ -155,10 +155,10 @@ namespace Guidewire.Core
             return isOpen || isWideAgain;
         }
 
-        private void Take(double width, in Vector3d place)
+        private void Take(double width, in Vector3d centre)
         {
             Width = width;
-            Place = place;
+            Centre = centre;
         }
 
         private static double[] Stations(TubeShape tube)

@@ -2,59 +2,60 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Where a node or an element was looked for a wall, and what was found. Lengths in units.</summary>
+    /// <summary>The result of a neighbour query of a node or an element, and where it was made. Lengths in
+    /// units.</summary>
     internal struct Neighbour
     {
         private Vector3d _a;
         private Vector3d _b;
-        private double _reach;        // below 0: it was not looked for
-        private double _room;
+        private double _skin;        // below 0: no query was made
+        private double _clearance;
         private int _from;
         private int _to;
 
-        /// <summary>Whether the wall is near within reach.</summary>
+        /// <summary>Whether the wall is within the range of the query.</summary>
         public bool IsNear { get; private set; }
 
-        /// <summary>It was not looked for.</summary>
+        /// <summary>Marks the query as not made.</summary>
         public void Forget()
         {
-            _reach = -1.0;
+            _skin = -1.0;
             IsNear = false;
         }
 
-        /// <summary>It is looked for between a and b; features are added from a place of the list on.</summary>
-        public void Begin(in Vector3d a, in Vector3d b, double reach, int from)
+        /// <summary>Begins a query between a and b; features are added from an index of the list on.</summary>
+        public void Begin(in Vector3d a, in Vector3d b, double skin, int from)
         {
             _a = a;
             _b = b;
-            _reach = reach;
+            _skin = skin;
             _from = from;
         }
 
-        /// <summary>It was found at a distance, if that is within the range; features up to a place of the list are
-        /// its.</summary>
+        /// <summary>Ends the query: the wall is at a distance, if that is within the range; features up to an index of
+        /// the list belong to it.</summary>
         public void End(double distance, double range, int to)
         {
             IsNear = distance <= range;
-            _room = Math.Min(distance, range);
+            _clearance = Math.Min(distance, range);
             _to = to;
         }
 
-        /// <summary>Whether what was found holds between a and b.</summary>
+        /// <summary>Whether the result is valid between a and b.</summary>
         public readonly bool Covers(in Vector3d a, in Vector3d b)
         {
-            return _reach >= 0.0 && (a - _a).LengthSquared <= _reach * _reach
-                && (b - _b).LengthSquared <= _reach * _reach;
+            return _skin >= 0.0 && (a - _a).LengthSquared <= _skin * _skin
+                && (b - _b).LengthSquared <= _skin * _skin;
         }
 
-        /// <summary>A distance than which the wall is no nearer to what is between a and b; minus infinity where it was
-        /// not looked for.</summary>
+        /// <summary>Lower bound of the distance between the wall and segment a b; minus infinity where no query was
+        /// made.</summary>
         public readonly double Clearance(in Vector3d a, in Vector3d b)
         {
-            return _reach >= 0.0 ? _room - Moved(a, b) : double.NegativeInfinity;
+            return _skin >= 0.0 ? _clearance - Moved(a, b) : double.NegativeInfinity;
         }
 
-        /// <summary>Its features, if they are known between a and b.</summary>
+        /// <summary>Its features, if the result is valid between a and b.</summary>
         public readonly FeatureRange Features(StructList<WallFeature> features, in Vector3d a, in Vector3d b)
         {
             return Covers(a, b) ? new FeatureRange(features, _from, _to, Moved(a, b)) : default;

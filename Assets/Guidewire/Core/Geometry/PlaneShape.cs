@@ -39,12 +39,12 @@ namespace Guidewire.Core
 
         /// <summary>The foot of the perpendicular.</summary>
         internal override void FindContactPoints(in Vector3d x, double range, FeatureRange features,
-            StructList<ContactPoint> places)
+            StructList<ContactPoint> contactPoints)
         {
             int hint = -1;
             if (Nearest(x, x, range, ref hint, out SurfaceContact contact))
             {
-                places.Add(ContactPoint.Flat(contact, 1));
+                contactPoints.Add(ContactPoint.Flat(contact, 1));
             }
         }
 
@@ -55,22 +55,22 @@ namespace Guidewire.Core
         }
 
         private protected override double TimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
-            double keep, double resolution, int hint)
+            double clearance, double resolution, int hint)
         {
             double da0 = Vector3d.Dot(a0 - _point, _normal);
             double db0 = Vector3d.Dot(b0 - _point, _normal);
             double da1 = Vector3d.Dot(a1 - _point, _normal);
             double db1 = Vector3d.Dot(b1 - _point, _normal);
-            return Math.Min(Crossing(da0, da1, keep), Crossing(db0, db1, keep));
+            return Math.Min(Crossing(da0, da1, clearance), Crossing(db0, db1, clearance));
         }
 
-        private static double Crossing(double before, double after, double keep)
+        private static double Crossing(double before, double after, double clearance)
         {
-            return after < keep ? Math.Max(0.0, (before - keep) / (before - after)) : NoImpact;
+            return after < clearance ? Math.Max(0.0, (before - clearance) / (before - after)) : NoImpact;
         }
 
-        // An element parallel to the plane touches it everywhere: its middle stands for it, which keeps a symmetric
-        // problem symmetric.
+        // An element parallel to the plane touches it everywhere: its middle represents it, so that a symmetric problem
+        // symmetric.
         private SurfaceContact At(in Vector3d a, in Vector3d b, double da, double db)
         {
             double s = da < db ? 0.0 : da > db ? 1.0 : 0.5;

@@ -9,17 +9,17 @@ namespace Guidewire.Core
     /// and theta the turn, its radius is t/tan(theta/2), and it passes the knot at t tan(theta/4). Knots at equal
     /// distances on a circle of radius R so become one arc, of radius R cos(theta/2).
     ///
-    /// A wire's tip that a wall guides with a force P slides along a straight piece and turns at the next: the push
-    /// that it takes varies by P theta about that of a smooth wall, over the length of a piece. Half a degree leaves
-    /// less than a hundredth of P.</remarks>
+    /// A wire's tip that a wall guides with a force P slides along a straight piece and turns at the next: the force on
+    /// it varies by P theta about that of a smooth wall, over the length of a piece. Half a degree leaves less than a
+    /// hundredth of P.</remarks>
     public static class RoundedCentreline
     {
         private const double LargestTurn = 0.5 * Math.PI / 180.0;
-        private const double Fold = 3.0;         // radians; a line that goes back on itself has no arc
+        private const double Fold = 3.0;         // radians; a line that folds back on itself has no arc
         private const double Resolution = 1e-9;  // of the shorter piece
 
-        /// <summary>Puts arcs for corners.</summary>
-        /// <param name="knots">Centreline, units, no two neighbours at one place.</param>
+        /// <summary>Replaces corners by arcs.</summary>
+        /// <param name="knots">Centreline, units, no two neighbours at the same position.</param>
         /// <param name="radii">Radius at each, units; along an arc it changes evenly from the knot's to both
         /// ends'.</param>
         public static void Round(ref Vector3d[] knots, ref double[] radii)
@@ -48,12 +48,12 @@ namespace Guidewire.Core
                 Add(knots[k], radii[k], 0.0, line, widths);
                 return;
             }
-            double reach = 0.5 * Math.Min(before, after);
-            double radius = reach / Math.Tan(0.5 * turn);
-            Vector3d start = knots[k] - reach * along;
+            double limit = 0.5 * Math.Min(before, after);
+            double radius = limit / Math.Tan(0.5 * turn);
+            Vector3d start = knots[k] - limit * along;
             Vector3d inwards = Vector3d.Normalize(next - Math.Cos(turn) * along);
-            double atStart = radii[k] + reach / before * (radii[k - 1] - radii[k]);
-            double atEnd = radii[k] + reach / after * (radii[k + 1] - radii[k]);
+            double atStart = radii[k] + limit / before * (radii[k - 1] - radii[k]);
+            double atEnd = radii[k] + limit / after * (radii[k + 1] - radii[k]);
             int parts = 2 * (int)Math.Ceiling(0.5 * turn / LargestTurn);
             for (int i = 0; i <= parts; i++)
             {
@@ -61,7 +61,7 @@ namespace Guidewire.Core
                 double fromKnot = Math.Abs(2.0 * i / parts - 1.0);
                 double width = radii[k] + fromKnot * ((2 * i < parts ? atStart : atEnd) - radii[k]);
                 Add(start + radius * (Math.Sin(angle) * along + (1.0 - Math.Cos(angle)) * inwards), width,
-                    Resolution * reach, line, widths);
+                    Resolution * limit, line, widths);
             }
         }
 

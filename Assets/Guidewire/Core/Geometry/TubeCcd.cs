@@ -2,15 +2,16 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>How far a segment may move in a tube so that it surely keeps a distance.</summary>
-    /// <remarks>A piece's lumen is convex, less the distance to keep as well, and its term of the distance concave. So
-    /// the segment is cut where it crosses the planes that halve the tube's bends, and the motion where an end does;
-    /// in between, a part of the segment sweeps a patch that its piece holds where it holds the four corners, and on
-    /// the straight way of a corner the term is no less than the line between its values. The cuts move along the
-    /// segment, which bends their way by up to a quarter of both changes. Where the pieces between the planes do not
-    /// hold their corners at the start, pieces are looked for: what a part of the segment sweeps in a part of the time
-    /// is kept where one piece holds its corners, the longer side of a part is halved where none does, and where that
-    /// does not tell after some halvings, the answer is no.</remarks>
+    /// <summary>Conservative continuous collision detection of a segment in a tube: a fraction of its motion that is
+    /// proven to have a clearance.</summary>
+    /// <remarks>A piece's lumen is convex, also when reduced by the clearance, and its term of the distance is concave.
+    /// So the segment is divided where it crosses the planes that halve the tube's bends, and the motion where an end
+    /// crosses one; in between, a part of the segment covers a patch that lies in its piece if the four corners do, and
+    /// on the straight path of a corner the term is no less than the line between its values. The dividing points move
+    /// along the segment, which bends their paths by up to a quarter of both changes. Where the pieces between the
+    /// planes do not contain their corners at the start, pieces are searched: the patch of a part of the segment in a
+    /// part of the time is free if one piece contains its corners, else its longer side is halved; if that decides
+    /// nothing after some halvings, the motion counts as not free.</remarks>
     internal sealed class TubeCcd
     {
         private const int MaxHalvings = 14;
@@ -18,18 +19,18 @@ namespace Guidewire.Core
         private const int MostParts = 32;         // of the time, between crossings of planes
         private const int MostPieces = 64;        // of the segment
         private const double LeastPart = 1e-6;    // of the time
-        private const double LeastFraction = 0.05;   // of what is proven, by which going on must promise to add to it
+        private const double LeastFraction = 0.05;   // of what is proven: the least gain for which the search continues
         private const double LeastGrowth = 0.25;
         private readonly TubePiece[] _pieces;
         private readonly TubePlanes _planes;
         private readonly int[] _near;
         private int _count;
-        private int _last;    // the piece that last held all corners: asked first
+        private int _last;    // the piece that last contained all corners: tried first
         private Vector3d _a;
         private Vector3d _b;
         private Vector3d _moveA;
         private Vector3d _moveB;
-        private double _keep;
+        private double _clearance;
 
         /// <summary>In these pieces.</summary>
         public TubeCcd(TubePiece[] pieces, TubePlanes planes)
@@ -39,21 +40,21 @@ namespace Guidewire.Core
             _near = new int[pieces.Length];
         }
 
-        /// <summary>See <see cref="ContactShape.FreeShare"/>.</summary>
-        public double SafeFraction(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
+        /// <summary>See <see cref="ContactShape.ConservativeTimeOfImpact"/>.</summary>
+        public double SafeFraction(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance,
             int hint)
         {
             _a = a0;
             _b = b0;
             _moveA = a1 - a0;
             _moveB = b1 - b0;
-            _keep = keep;
+            _clearance = clearance;
             double fraction = BetweenPlanes(hint >= 0 && hint < _pieces.Length ? hint : _last, out bool isTold);
             return isTold ? fraction : Math.Max(fraction, BySearch(a0, b0, a1, b1));
         }
 
-        // The share of the motion that is free by the pieces between the planes, one part after another in time: up to
-        // the next plane that an end crosses, or shorter where that proves too little.
+        // The fraction of the motion that is free by the pieces between the planes, one part after another in time: up
+        // to the next plane that an end crosses, or shorter where that proves too little.
         private double BetweenPlanes(int guess, out bool isTold)
         {
             int first = _planes.PieceAt(_a, guess);
@@ -90,7 +91,7 @@ namespace Guidewire.Core
             return time;
         }
 
-        // The share of a part of the motion in which the ends stay in the same pieces.
+        // The fraction of a part of the motion in which the ends stay in the same pieces.
         private double PartFraction(int first, int last, double from, double to)
         {
             if (last < first || last - first > MostPieces)
@@ -119,7 +120,7 @@ namespace Guidewire.Core
                 Vector3d y1 = a1 + end1 * u1;
                 if (end0 > begin0 || end1 > begin1)
                 {
-                    double need = _keep + 0.25 * turn * Math.Max(Math.Abs(begin1 - begin0), Math.Abs(end1 - end0));
+                    double need = _clearance + 0.25 * turn * Math.Max(Math.Abs(begin1 - begin0), Math.Abs(end1 - end0));
                     fraction = Math.Min(fraction, CornerFraction(_pieces[i], x0, x1, need));
                     fraction = fraction > 0.0 ? Math.Min(fraction, CornerFraction(_pieces[i], y0, y1, need)) : 0.0;
                     if (fraction == 0.0)
@@ -174,7 +175,7 @@ namespace Guidewire.Core
             return safe;
         }
 
-        // Pieces of which some point may hold a corner.
+        // Pieces that may contain a corner.
         private void FindNear(in Vector3d a1, in Vector3d b1)
         {
             Vector3d middle = 0.25 * (_a + _b + a1 + b1);
@@ -183,14 +184,14 @@ namespace Guidewire.Core
             _count = 0;
             for (int i = 0; i < _pieces.Length; i++)
             {
-                if (!_pieces[i].IsBelow(middle, _keep - size))
+                if (!_pieces[i].IsBelow(middle, _clearance - size))
                 {
                     _near[_count++] = i;
                 }
             }
         }
 
-        // Whether the part from s0 to s1 keeps the distance from time t0 to t1.
+        // Whether the part from s0 to s1 has the clearance from time t0 to t1.
         private bool IsSafe(double s0, double s1, double t0, double t1, int depth)
         {
             Vector3d c00 = At(s0, t0);
@@ -240,7 +241,7 @@ namespace Guidewire.Core
 
         private bool Holds(in TubePiece piece, in Vector3d x)
         {
-            return !piece.IsBelow(x, _keep) && piece.Distance(x, out _, out _) >= _keep;
+            return !piece.IsBelow(x, _clearance) && piece.Distance(x, out _, out _) >= _clearance;
         }
 
         private Vector3d At(double s, double t)

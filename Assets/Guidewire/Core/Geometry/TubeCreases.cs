@@ -142,9 +142,9 @@ namespace Guidewire.Core
         // one side of the knot's plane to the other, but for the slack.
         private bool MayCross(int k, in Vector3d a, in Vector3d b, double size)
         {
-            double reach = 1.5 * _radii[k] + size;
+            double limit = 1.5 * _radii[k] + size;
             Vector3d offset = a - _knots[k];
-            return _isCrease[k] && offset.LengthSquared <= reach * reach
+            return _isCrease[k] && offset.LengthSquared <= limit * limit
                 && _planes.Past(k, a) <= _slack[k] && _planes.Past(k, b) >= -_slack[k];
         }
 

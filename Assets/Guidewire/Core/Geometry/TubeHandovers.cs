@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Which pieces of a tube serve a segment, in order, and where one hands over to the next: the places
-    /// where both hold it equally deep. No point of the segment is less deep than the least of them and the
+    /// <summary>The pieces of a tube that are deepest along a segment, in order, and where one hands over to the next:
+    /// the points where both hold it equally deep. No point of the segment is less deep than the least of them and the
     /// ends.</summary>
     internal sealed class TubeHandovers
     {
@@ -47,10 +47,10 @@ namespace Guidewire.Core
         }
 
         /// <summary>True where a linear motion of the segment to where <paramref name="after"/> has it is proven to
-        /// keep a distance, units.</summary>
-        /// <remarks>A handover's place on the segment changes linearly with time, and so does the segment: their
-        /// product bends the handover's way by up to a quarter of both changes.</remarks>
-        public bool LeadTo(TubeHandovers after, double keep)
+        /// have a clearance, units.</summary>
+        /// <remarks>A handover's position on the segment changes linearly with time, and so does the segment: their
+        /// product bends the handover's path by up to a quarter of both changes.</remarks>
+        public bool LeadTo(TubeHandovers after, double clearance)
         {
             if (_places.Count != after._places.Count)
             {
@@ -66,7 +66,7 @@ namespace Guidewire.Core
                 double slide = Math.Max(Math.Abs(leftAfter.S - left.S), Math.Abs(rightAfter.S - right.S));
                 double least = Math.Min(
                     Math.Min(left.Distance, right.Distance), Math.Min(leftAfter.Distance, rightAfter.Distance));
-                if (left.Piece != leftAfter.Piece || least < keep + 0.25 * slide * turn)
+                if (left.Piece != leftAfter.Piece || least < clearance + 0.25 * slide * turn)
                 {
                     return false;
                 }

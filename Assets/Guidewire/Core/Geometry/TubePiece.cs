@@ -34,17 +34,17 @@ namespace Guidewire.Core
             _extent = (0.5 * _length + Math.Max(fromRadius, toRadius)) * (1.0 + 1e-12);
         }
 
-        /// <summary>True where the distance at x is surely less than this; cheaper than the distance.</summary>
+        /// <summary>True where the distance at x is certainly less than this; cheaper than the distance.</summary>
         public bool IsBelow(in Vector3d x, double distance)
         {
-            double reach = _extent - distance;
-            return reach < 0.0 || (x - _middle).LengthSquared > reach * reach;
+            double limit = _extent - distance;
+            return limit < 0.0 || (x - _middle).LengthSquared > limit * limit;
         }
 
-        /// <summary>False where no point within a reach of segment a b has a distance above 0.</summary>
-        public bool MayHold(in Vector3d a, in Vector3d b, double reach)
+        /// <summary>False where no point within a range of segment a b has a distance above 0.</summary>
+        public bool MayHold(in Vector3d a, in Vector3d b, double limit)
         {
-            double near = Math.Max(_radius, _radius + _slope * _length) + reach;
+            double near = Math.Max(_radius, _radius + _slope * _length) + limit;
             return ClosestPoints.SegmentSegment(a, b, From, To, out _, out _) <= near * near;
         }
 

@@ -47,7 +47,7 @@ namespace Guidewire.Core
 
         /// <summary>When a point of a piece, which moves evenly, first crosses one of the piece's planes.</summary>
         /// <param name="x">Where it is, units.</param>
-        /// <param name="move">Its way in a time of 1.</param>
+        /// <param name="move">Its displacement in a time of 1.</param>
         /// <param name="piece">In which it is.</param>
         /// <param name="limit">The answer where it crosses none before.</param>
         /// <param name="next">The piece behind that plane, or the same.</param>

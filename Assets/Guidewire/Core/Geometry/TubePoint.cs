@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>A place of a segment in a tube.</summary>
+    /// <summary>A point of a segment in a tube.</summary>
     internal readonly struct TubePoint
     {
         /// <summary>Where along the segment, 0 at its first end and 1 at its second.</summary>
@@ -12,7 +12,7 @@ namespace Guidewire.Core
         /// <summary>The piece that gives it; at a handover, the one that follows.</summary>
         public readonly int Piece;
 
-        /// <summary>A place with these values.</summary>
+        /// <summary>A point with these values.</summary>
         public TubePoint(double s, double distance, int piece)
         {
             S = s;

@@ -15,7 +15,7 @@ namespace Guidewire.Core
         private readonly Vector3d[] _knots;
         private readonly double[] _radii;
         private readonly TubeTree _tree;
-        private readonly TubeSweep _sweep;
+        private readonly TubeTimeOfImpact _timeOfImpact;
         private TubeCreases? _edgeContacts;
         private TubeCcd? _ccd;
         private TubePlanes? _planes;
@@ -60,7 +60,7 @@ namespace Guidewire.Core
                 _radii[count + shift] = radii[count - 1];
             }
             _tree = new TubeTree(_knots, _radii, 1e-12 * (length + widest));
-            _sweep = new TubeSweep(this, _tree);
+            _timeOfImpact = new TubeTimeOfImpact(this, _tree);
             FirstKnot = shift;
             LastKnot = shift + count - 1;
         }
@@ -141,12 +141,12 @@ namespace Guidewire.Core
                 Math.Min(atA, atB), EdgeContacts.Nearest(a, b, Math.Min(hint, last), Math.Max(hint, last) + 1));
         }
 
-        /// <summary>Pieces that hold something within the reach of the segment, along the centreline.</summary>
-        internal override double FindFeatures(in Vector3d a, in Vector3d b, double range, double reach, ref int hint,
+        /// <summary>Pieces that hold something within the skin of the segment, along the centreline.</summary>
+        internal override double FindFeatures(in Vector3d a, in Vector3d b, double range, double skin, ref int hint,
             StructList<WallFeature> features)
         {
             int from = features.Count;
-            _tree.Collect(a, b, reach, features);
+            _tree.Collect(a, b, skin, features);
             if (features.Count == from)
             {
                 return QuickDistance(a, b, range, ref hint);
@@ -157,10 +157,10 @@ namespace Guidewire.Core
             return Math.Min(Math.Min(atA, atB), EdgeContacts.Nearest(a, b, found));
         }
 
-        /// <summary>The place of the deepest piece. On a piece's centreline the normal is 0 and no curvature is
+        /// <summary>The contact point of the deepest piece. On a piece's centreline the normal is 0 and no curvature is
         /// stated.</summary>
         internal override void FindContactPoints(in Vector3d x, double range, FeatureRange features,
-            StructList<ContactPoint> places)
+            StructList<ContactPoint> contactPoints)
         {
             int piece = features.From == features.To ? _tree.Deepest(x, 0, out double distance)
                 : Deepest(x, features, out distance);
@@ -174,7 +174,7 @@ namespace Guidewire.Core
             var contact = new SurfaceContact(0.0, x - distance * normal, normal, distance);
             Vector3d around = Vector3d.Normalize(Vector3d.Cross(_knots[piece + 1] - _knots[piece], normal));
             bool isRound = along <= 0.0 || along >= 1.0;
-            places.Add(isRound ? ContactPoint.Corner(contact, 1, -radius)
+            contactPoints.Add(isRound ? ContactPoint.Corner(contact, 1, -radius)
                 : ContactPoint.Edge(contact, 1, Vector3d.Cross(around, normal), -radius));
         }
 
@@ -200,7 +200,7 @@ namespace Guidewire.Core
         }
 
         // Whether each piece from the deepest at one end to the deepest at the other holds the part of the segment
-        // between the places nearest to its knots: pieces are convex, so the ends of a part say it.
+        // between the points nearest to its knots: pieces are convex, so checking the ends of a part suffices.
         private bool HoldParts(in Vector3d a, in Vector3d b, ref int hint)
         {
             int first = _tree.Deepest(a, hint, out double atA);
@@ -209,8 +209,8 @@ namespace Guidewire.Core
             bool isHeld = atA > 0.0 && atB > 0.0;
             for (int knot = Math.Min(first, last) + 1; knot <= Math.Max(first, last) && isHeld; knot++)
             {
-                Vector3d place = Vector3d.Lerp(a, b, ClosestPoints.PointSegment(_knots[knot], a, b));
-                isHeld = _tree.Pieces[knot - 1].Distance(place) > 0.0 && _tree.Pieces[knot].Distance(place) > 0.0;
+                Vector3d point = Vector3d.Lerp(a, b, ClosestPoints.PointSegment(_knots[knot], a, b));
+                isHeld = _tree.Pieces[knot - 1].Distance(point) > 0.0 && _tree.Pieces[knot].Distance(point) > 0.0;
             }
             return isHeld;
         }
@@ -250,11 +250,11 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        internal override double FreeShare(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
-            double resolution, int hint, in ElementFeatures features)
+        internal override double ConservativeTimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1,
+            in Vector3d b1, double clearance, double resolution, int hint, in ElementFeatures features)
         {
             _ccd ??= new TubeCcd(_tree.Pieces, Planes);
-            return _ccd.SafeFraction(a0, b0, a1, b1, keep, hint);
+            return _ccd.SafeFraction(a0, b0, a1, b1, clearance, hint);
         }
 
         private TubeCreases EdgeContacts => _edgeContacts ??= new TubeCreases(this, _tree.Pieces, Planes);
@@ -262,15 +262,15 @@ namespace Guidewire.Core
         private TubePlanes Planes => _planes ??= new TubePlanes(_knots);
 
         private protected override double TimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
-            double keep, double resolution, int hint)
+            double clearance, double resolution, int hint)
         {
-            return _sweep.TimeOfImpact(a0, b0, a1, b1, keep);
+            return _timeOfImpact.TimeOfImpact(a0, b0, a1, b1, clearance);
         }
 
-        // Where d is least along the segment, and the piece whose term it is. A piece that serves both ends of a part
-        // serves all of it, its term being concave, and then the part is nearest with an end. So a part is cut where
-        // the terms of the pieces at its ends cross; when one of the two is the deepest there too, that place is the
-        // nearest between. With slope at most 1, d is nowhere below (d0 + d1 - length)/2.
+        // Where d is least along the segment, and the piece whose term it is. A piece that is deepest at both ends of a
+        // part is deepest on all of it, its term being concave, and then an end is the nearest point. So a part is
+        // divided where the terms of the pieces at its ends cross; if one of the two is the deepest there too, that
+        // point is the nearest in between. With slope at most 1, d is nowhere below (d0 + d1 - length)/2.
         private int FindLeast(
             in Vector3d a, in Vector3d b, int guess, double range, out double s, out double distance)
         {

@@ -5,7 +5,7 @@ namespace Guidewire.Core
     /// <summary>Finds the piece of a tube in which a point lies deepest: a binary tree over the pieces in the order of
     /// the centreline, each node with the box around its knots and its largest radius.</summary>
     /// <remarks>A piece gives a point no more than its largest radius less the point's distance from the box, so most
-    /// of a long tube is left out at one look. Nothing is allocated in a search.</remarks>
+    /// of a long tube is skipped by one test. Nothing is allocated in a search.</remarks>
     internal sealed class TubeTree
     {
         private const int MostSecants = 60;
@@ -45,8 +45,7 @@ namespace Guidewire.Core
 
         /// <summary>The piece in which x lies deepest, and its term there.</summary>
         /// <param name="x">Units.</param>
-        /// <param name="guess">A piece that is looked at first, such as that of a point nearby; it counts where others
-        /// are equal.</param>
+        /// <param name="guess">A piece that is tried first, such as that of a point nearby; it wins ties.</param>
         /// <param name="distance">The piece's term at x, units.</param>
         public int Deepest(in Vector3d x, int guess, out double distance)
         {
@@ -56,7 +55,7 @@ namespace Guidewire.Core
             return piece;
         }
 
-        /// <summary>Where on segment a b, between two places, the terms of their pieces are equal; false position with
+        /// <summary>Where on segment a b, between two points, the terms of their pieces are equal; false position with
         /// the weight of an end that stays halved (Illinois).</summary>
         public double Crossing(in Vector3d a, in Vector3d b, in TubePoint from, in TubePoint to)
         {
@@ -68,7 +67,7 @@ namespace Guidewire.Core
             double over1 = first.Distance(Vector3d.Lerp(a, b, s1)) - to.Distance;
             if (!(over0 > 0.0) || !(over1 < 0.0))
             {
-                // Equal at an end: two pieces hold what lies about their common knot alike.
+                // Equal at an end: two pieces have the same term about their common knot.
                 return over0 > 0.0 ? s1 : s0;
             }
             double s = s0;
@@ -97,14 +96,14 @@ namespace Guidewire.Core
             return s;
         }
 
-        /// <summary>Adds the pieces that hold something within a reach of segment a b, in their order.</summary>
-        public void Collect(in Vector3d a, in Vector3d b, double reach, StructList<WallFeature> pieces)
+        /// <summary>Adds the pieces that hold something within a range of segment a b, in their order.</summary>
+        public void Collect(in Vector3d a, in Vector3d b, double limit, StructList<WallFeature> pieces)
         {
             Vector3d middle = 0.5 * (a + b);
-            Collect(0, 0, _pieces.Length, a, b, reach, middle, -reach - 0.5 * Vector3d.Distance(a, b), pieces);
+            Collect(0, 0, _pieces.Length, a, b, limit, middle, -limit - 0.5 * Vector3d.Distance(a, b), pieces);
         }
 
-        private void Collect(int node, int first, int end, in Vector3d a, in Vector3d b, double reach,
+        private void Collect(int node, int first, int end, in Vector3d a, in Vector3d b, double limit,
             in Vector3d middle, double least, StructList<WallFeature> pieces)
         {
             if (Bound(node, middle) < least)
@@ -113,15 +112,15 @@ namespace Guidewire.Core
             }
             if (end - first == 1)
             {
-                if (_pieces[first].MayHold(a, b, reach))
+                if (_pieces[first].MayHold(a, b, limit))
                 {
                     pieces.Add(new WallFeature(first, 0.0));
                 }
                 return;
             }
             int half = (first + end) / 2;
-            Collect(2 * node + 1, first, half, a, b, reach, middle, least, pieces);
-            Collect(2 * node + 2, half, end, a, b, reach, middle, least, pieces);
+            Collect(2 * node + 1, first, half, a, b, limit, middle, least, pieces);
+            Collect(2 * node + 2, half, end, a, b, limit, middle, least, pieces);
         }
 
         private void Descend(int node, int first, int end, in Vector3d x, ref int piece, ref double distance)

@@ -25,8 +25,8 @@ namespace Guidewire.Core
         /// <summary>The triangles of a wall.</summary>
         /// <param name="shape">The wall.</param>
         /// <param name="middle">Where the picture's middle is, units.</param>
-        /// <param name="reach">How far from there a wall without end is drawn, units.</param>
-        public static WallSurface Create(ContactShape shape, in Vector3d middle, double reach)
+        /// <param name="extent">How far from there an unbounded wall is drawn, units.</param>
+        public static WallSurface Create(ContactShape shape, in Vector3d middle, double extent)
         {
             var surface = new WallSurface();
             switch (shape)
@@ -35,10 +35,10 @@ namespace Guidewire.Core
                     surface.AddMesh(mesh.Wall);
                     break;
                 case PlaneShape plane:
-                    surface.AddPlane(plane, middle, reach);
+                    surface.AddPlane(plane, middle, extent);
                     break;
                 case TubeShape tube:
-                    surface.AddTube(tube, reach);
+                    surface.AddTube(tube, extent);
                     break;
                 case ConvexObstacle obstacle:
                     surface.AddObstacle(obstacle);
@@ -51,20 +51,20 @@ namespace Guidewire.Core
 
         private void AddMesh(MeshGeometry mesh)
         {
-            var place = new Dictionary<Vector3d, int>();
+            var indices = new Dictionary<Vector3d, int>();
             for (int t = 0; t < mesh.FaceNormals.Length; t++)
             {
                 Vector3d a = mesh.Corners[3 * t];
                 Vector3d b = mesh.Corners[3 * t + 1];
                 Vector3d c = mesh.Corners[3 * t + 2];
                 bool isTurned = Vector3d.Dot(Vector3d.Cross(b - a, c - a), mesh.FaceNormals[t]) < 0.0;
-                _triangles.Add(PlaceOf(place, a));
-                _triangles.Add(PlaceOf(place, isTurned ? c : b));
-                _triangles.Add(PlaceOf(place, isTurned ? b : c));
+                _triangles.Add(IndexOf(indices, a));
+                _triangles.Add(IndexOf(indices, isTurned ? c : b));
+                _triangles.Add(IndexOf(indices, isTurned ? b : c));
             }
         }
 
-        private int PlaceOf(Dictionary<Vector3d, int> known, in Vector3d corner)
+        private int IndexOf(Dictionary<Vector3d, int> known, in Vector3d corner)
         {
             if (!known.TryGetValue(corner, out int index))
             {
@@ -75,22 +75,22 @@ namespace Guidewire.Core
             return index;
         }
 
-        private void AddPlane(PlaneShape plane, in Vector3d middle, double reach)
+        private void AddPlane(PlaneShape plane, in Vector3d middle, double extent)
         {
             Vector3d n = plane.Normal;
-            Vector3d u = reach * Vector3d.Perpendicular(n);
+            Vector3d u = extent * Vector3d.Perpendicular(n);
             Vector3d v = Vector3d.Cross(n, u);
             Vector3d foot = middle - Vector3d.Dot(middle - plane.Point, n) * n;
             _vertices.AddRange(new[] { foot - u - v, foot + u - v, foot + u + v, foot - u + v });
             _triangles.AddRange(new[] { 0, 1, 2, 0, 2, 3 });
         }
 
-        private void AddTube(TubeShape tube, double reach)
+        private void AddTube(TubeShape tube, double extent)
         {
             var knots = (Vector3d[])tube.Knots.Clone();
             int last = knots.Length - 1;
-            knots[0] = Nearer(knots[0], knots[1], reach);
-            knots[last] = Nearer(knots[last], knots[last - 1], reach);
+            knots[0] = Nearer(knots[0], knots[1], extent);
+            knots[last] = Nearer(knots[last], knots[last - 1], extent);
             Vector3d side = Vector3d.Perpendicular(knots[1] - knots[0]);
             for (int i = 0; i <= last; i++)
             {
@@ -104,7 +104,7 @@ namespace Guidewire.Core
         }
 
         // A wall's outside is drawn as seen from the wire, which is outside an obstacle. Every vertex is the body's
-        // farthest point in its direction, so a box keeps its corners and loses nothing but the order of its faces.
+        // farthest point in its direction, so a box has its own corners and only the order of its faces is lost.
         private void AddObstacle(ConvexObstacle obstacle)
         {
             int rows = Sides / 2;
@@ -127,10 +127,10 @@ namespace Guidewire.Core
             AddStrips(rows + 1);
         }
 
-        private static Vector3d Nearer(in Vector3d far, in Vector3d from, double reach)
+        private static Vector3d Nearer(in Vector3d far, in Vector3d from, double extent)
         {
-            Vector3d way = far - from;
-            return way.Length > reach ? from + reach * Vector3d.Normalize(way) : far;
+            Vector3d direction = far - from;
+            return direction.Length > extent ? from + extent * Vector3d.Normalize(direction) : far;
         }
 
         private void AddRing(in Vector3d centre, in Vector3d u, in Vector3d v)
@@ -142,7 +142,7 @@ namespace Guidewire.Core
             }
         }
 
-        // Rings that run about their way as a right hand's fingers about its thumb, seen from within; or circles of
+        // Rings that run counter-clockwise about their direction (right-hand rule), seen from within; or circles of
         // latitude from pole to pole, seen from without.
         private void AddStrips(int rings)
         {

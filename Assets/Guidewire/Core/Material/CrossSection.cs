@@ -2,7 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>The wire at one place: how stiff and heavy its cross-section is, and how it is bent at rest.</summary>
+    /// <summary>The wire at one position: how stiff and heavy its cross-section is, and how it is bent at
+    /// rest.</summary>
     internal struct CrossSection
     {
         /// <summary>EA, N.</summary>
@@ -72,14 +73,14 @@ namespace Guidewire.Core
             return Of(area, 0.25 * area * (square + hollow), youngsModulus, shearModulus, density);
         }
 
-        /// <summary>The wire of these parameters at a place, units from the proximal end: of the sections there the
+        /// <summary>The wire of these parameters at a position, units from the proximal end: of the sections there the
         /// last one that says something counts.</summary>
-        public static CrossSection At(MaterialParameters material, double place)
+        public static CrossSection At(MaterialParameters material, double position)
         {
             var wire = new WireSection { AxialStiffness = material.AxialStiffness };
             foreach (WireSection section in material.Sections)
             {
-                if (place >= section.From && place < section.To)
+                if (position >= section.From && position < section.To)
                 {
                     wire.TakeOver(section);
                 }

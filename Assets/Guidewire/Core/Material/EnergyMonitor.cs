@@ -7,9 +7,9 @@ namespace Guidewire.Core
     /// it.</summary>
     /// <remarks>With T of motion and V of the strains, T + V is at most what it was at the start plus the work W of
     /// loads and held ends; damping and implicit steps only take from it. V is no less than 0, so T never exceeds the
-    /// largest sum that start and W have had. T alone is compared: strains that too few sweeps have not yet closed
-    /// hold energy on paper only, and such a wire is wrong but not lost. There is room for a factor of 4, and more for
-    /// explicit steps h near their limit, where T of a mode is too high by 1/(1 - (omega h/2)^2).</remarks>
+    /// largest sum that start and W have had. T alone is compared: strains left by too few iterations hold energy on
+    /// paper only, and such a wire is wrong but not lost. The margin allows a factor of 4, and more for explicit steps
+    /// h near their limit, where T of a mode is too high by 1/(1 - (omega h/2)^2).</remarks>
     internal sealed class EnergyMonitor
     {
         /// <summary>The least that T may be over the energy put in.</summary>
@@ -28,7 +28,7 @@ namespace Guidewire.Core
         private double _mostPutIn;              // J
         private int _step;
 
-        /// <summary>A watch on a wire at its start.</summary>
+        /// <summary>A monitor of a wire at its start.</summary>
         /// <param name="terms">Its energies and loads.</param>
         /// <param name="inertia">How its motion counts.</param>
         /// <param name="shape">Where it is, now and after each step.</param>
@@ -88,7 +88,7 @@ namespace Guidewire.Core
             _start = Motion() + _terms.StoredEnergy(_shape);
         }
 
-        /// <summary>Writes or takes over the energies so far. A reader's wire is in place; where it is heavier or
+        /// <summary>Writes or takes over the energies so far. A reader's wire is placed already; where it is heavier or
         /// stiffer than the writer's was, the same motion in the same shape holds more, and that was put in.</summary>
         public void Serialize(Snapshot snapshot)
         {

@@ -96,7 +96,7 @@ namespace Guidewire.Core
             return _system.Factorise(_terms, shape, _gradient, _work, shift);
         }
 
-        // Just above the size of the most negative eigenvalue; its factorisation is left at hand.
+        // Just above the size of the most negative eigenvalue; its factorisation is kept.
         private double LowestShift(RodShape shape)
         {
             double low = 0.0;
@@ -112,7 +112,7 @@ namespace Guidewire.Core
             return high;
         }
 
-        // By inverse iteration, across the modes before it; the eigenvalue of the matrix at hand.
+        // By inverse iteration, across the modes before it; the eigenvalue of the current matrix.
         private double FindMode(int k)
         {
             RodVector[] mode = _modes[k];

@@ -5,10 +5,10 @@ namespace Guidewire.Core
     /// <summary>The tangent K of a rod under a couple and a force that turn with its tip, plus a drag: K + d M,
     /// factorised and solved in O(n).</summary>
     /// <remarks>K is the symmetric second derivative S of the terms plus the part that no energy carries. That part
-    /// acts between the turn theta of the last element and the place x of the last node only: [m]/2 on (theta,
-    /// theta), N = R [f]/2 on (x, theta) and -N^T on (theta, x). It is put in exactly by Woodbury's formula: with G
-    /// the tip's answers to unit couples and forces of the symmetric system and Z the part, (1 + G Z)^-1 G in place
-    /// of G, at three more solutions for a couple and six for a force. M is the metric: l on turns, l/L^2 on
+    /// acts between the turn theta of the last element and the position x of the last node only: [m]/2 on (theta,
+    /// theta), N = R [f]/2 on (x, theta) and -N^T on (theta, x). It is put in exactly by Woodbury's formula: with G the
+    /// tip's answers to unit couples and forces of the symmetric system and Z the part, (1 + G Z)^-1 G in place of G,
+    /// at three more solutions for a couple and six for a force. M is the metric: l on turns, l/L^2 on
     /// shifts.</remarks>
     internal sealed class FollowerTangent
     {
@@ -57,7 +57,7 @@ namespace Guidewire.Core
             return negative;
         }
 
-        /// <summary>y := (K + d M)^-1 y with the factorisation at hand.</summary>
+        /// <summary>y := (K + d M)^-1 y with the current factorisation.</summary>
         public void Solve(RodVector[] y)
         {
             _system.Solve(y);
@@ -148,9 +148,9 @@ namespace Guidewire.Core
         private double OfTip(RodVector[] y, int k)
         {
             RodVector turn = y[_tip];
-            RodVector place = y[_tip + 1];
-            return k == 0 ? turn.T1 : k == 1 ? turn.T2 : k == 2 ? turn.T3 : k == 3 ? place.X1
-                : k == 4 ? place.X2 : place.X3;
+            RodVector position = y[_tip + 1];
+            return k == 0 ? turn.T1 : k == 1 ? turn.T2 : k == 2 ? turn.T3 : k == 3 ? position.X1
+                : k == 4 ? position.X2 : position.X3;
         }
 
         // Gaussian elimination with exchange of rows, in place.

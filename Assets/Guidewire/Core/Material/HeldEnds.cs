@@ -12,8 +12,8 @@ namespace Guidewire.Core
         private readonly bool _holdsLast;
         private double _proximalTurn;  // that the frames have made, radians
         private double _distalTurn;
-        private Vector3d _firstPlace;  // of ends that are followed, m
-        private Vector3d _lastPlace;
+        private Vector3d _firstPosition;  // of ends that are followed, m
+        private Vector3d _lastPosition;
         private double _carried;       // J
         private readonly double _stretch;  // the largest EA, N
         private readonly double _twist;    // the largest GJ, N m^2
@@ -42,11 +42,11 @@ namespace Guidewire.Core
         /// times the move, which is exact while the stress is proportional to it.</summary>
         public double Work { get; private set; }
 
-        /// <summary>The most that <see cref="Work"/> has been, J; where steps are counted, with what there is room for
-        /// within one.</summary>
+        /// <summary>The most that <see cref="Work"/> has been, J; where steps are counted, with the allowance within
+        /// one.</summary>
         public double MostWork { get; private set; }
 
-        /// <summary>Places and frames of this time.</summary>
+        /// <summary>Sets positions and frames of this time.</summary>
         public void Place(RodShape shape, double time)
         {
             if (_holdsFirst)
@@ -70,15 +70,15 @@ namespace Guidewire.Core
         /// radians.</summary>
         public void Follow(RodShape shape, double proximalTurn, double distalTurn)
         {
-            _firstPlace = shape.X[0];
-            _lastPlace = shape.X[shape.ElementCount];
+            _firstPosition = shape.X[0];
+            _lastPosition = shape.X[shape.ElementCount];
             _proximalTurn = proximalTurn;
             _distalTurn = distalTurn;
         }
 
         /// <summary>Takes note of the speeds of the ends: what brings a wire at rest to them may be over within a part
-        /// of a step and leave no force by which <see cref="Place"/> could count it, so there is always room for the
-        /// energy of the whole wire at the largest.</summary>
+        /// of a step and leave no force by which <see cref="Place"/> could count it, so there is always an allowance
+        /// for the energy of the whole wire at the largest.</summary>
         /// <param name="speed">m/s.</param>
         /// <param name="turning">rad/s.</param>
         public void Carry(double speed, double turning)
@@ -92,15 +92,16 @@ namespace Guidewire.Core
         /// itself, by forces and couples at its end.</summary>
         /// <remarks>In a step longer than sound needs along the wire, a support that starts or stops leaves forces of
         /// either sign in it, up to EA times the move over L: so no step takes energy out again. What brings a wire at
-        /// rest to the speed of its support may be over within a step and leave no force at all: so there is always
-        /// room for the energy of the whole wire at the largest speed that the ends have had. And one that shortens a
-        /// straight wire may have met all of its axial stiffness before it buckled, or all of its torsion: there is
-        /// room for EA/(2 L) times the largest move squared, and GJ/(2 L) times the turn squared.</remarks>
+        /// rest to the speed of its support may be over within a step and leave no force at all: so there is always an
+        /// allowance for the energy of the whole wire at the largest speed that the ends have had. And one that
+        /// shortens a straight wire may have met all of its axial stiffness before it buckled, or all of its torsion:
+        /// there is an allowance for EA/(2 L) times the largest move squared, and GJ/(2 L) times the turn
+        /// squared.</remarks>
         public void Count(RodShape shape, double proximalTurn, double distalTurn, double dt)
         {
             int last = shape.ElementCount;
-            Vector3d firstMove = _holdsFirst ? shape.X[0] - _firstPlace : Vector3d.Zero;
-            Vector3d lastMove = _holdsLast ? shape.X[last] - _lastPlace : Vector3d.Zero;
+            Vector3d firstMove = _holdsFirst ? shape.X[0] - _firstPosition : Vector3d.Zero;
+            Vector3d lastMove = _holdsLast ? shape.X[last] - _lastPosition : Vector3d.Zero;
             double firstTurn = proximalTurn - _proximalTurn;
             double lastTurn = distalTurn - _distalTurn;
             Follow(shape, proximalTurn, distalTurn);
@@ -142,8 +143,8 @@ namespace Guidewire.Core
         {
             SerializeTurns(snapshot);
             SerializeWork(snapshot);
-            snapshot.Serialize(ref _firstPlace);
-            snapshot.Serialize(ref _lastPlace);
+            snapshot.Serialize(ref _firstPosition);
+            snapshot.Serialize(ref _lastPosition);
         }
 
         private void Shift(RodShape shape, int node, in Vector3d to)

@@ -5,7 +5,7 @@ namespace Guidewire.Core
     /// <summary>What is read off at the hub and at the tip of a wire with a material, at one moment, in SI
     /// units.</summary>
     /// <remarks>The hub is the proximal support; its axis is that of the clamp. Force and torque are those of the hub
-    /// on the wire: a push and a turn to the right, as seen from the hub, are positive.</remarks>
+    /// on the wire: a thrust and a turn to the right, as seen from the hub, are positive.</remarks>
     public sealed class HubRecord
     {
         private readonly double[] _jointLength;  // m
@@ -77,7 +77,7 @@ namespace Guidewire.Core
                 Vector3d turn = _turns[k];
                 Twist += turn.Z;
                 double bend = Math.Sqrt(turn.X * turn.X + turn.Y * turn.Y);
-                double fraction = terms.Sheath == null ? 1.0 : terms.Sheath.Share(k);
+                double fraction = terms.Sheath == null ? 1.0 : terms.Sheath.FractionOutside(k);
                 LargestCurvature = fraction == 0.0 ? LargestCurvature
                     : Math.Max(LargestCurvature, bend / (fraction * _jointLength[k]));
             }

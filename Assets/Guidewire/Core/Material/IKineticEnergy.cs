@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>A way to share a wire's mass out, as far as the energy of its motion goes.</summary>
+    /// <summary>A distribution of a wire's mass, for its kinetic energy.</summary>
     internal interface IKineticEnergy
     {
         /// <summary>Kinetic energy, J.</summary>

@@ -12,12 +12,12 @@ namespace Guidewire.Core
     ///
     /// No turn is missed, however far a step goes: elements turn by q := q exp(turn), which follows the double cover of
     /// the rotations, so that Re(q_a* q_b) = cos(a/2) is below 0 beyond half a turn and stays so when the joint has
-    /// unwound itself the other way. It is enough to look once a step.</remarks>
+    /// unwound in the other direction. One check a step suffices.</remarks>
     internal sealed class JointMonitor
     {
         private const double Limit = 0.98 * Math.PI;
         private const double Even = 1e-9;   // by which elements of one length may differ
-        private const double Share = 0.9;   // of the limit, for the number of elements that is proposed
+        private const double FractionOfLimit = 0.9;   // of the limit, for the number of elements that is proposed
 
         private readonly Joint[] _joints;
         private readonly RodSupports _supports;
@@ -27,7 +27,7 @@ namespace Guidewire.Core
         private readonly double _end;       // of the run, s
         private readonly double _least = Math.Cos(0.5 * Limit);
 
-        /// <summary>A watch on the joints of this scene's rod.</summary>
+        /// <summary>A monitor of the joints of this scene's rod.</summary>
         /// <param name="end">When the run ends at the latest, s: up to then turns go on that are prescribed.</param>
         public JointMonitor(MaterialScene scene, double end)
         {
@@ -90,7 +90,7 @@ namespace Guidewire.Core
                 ? _schedule.TurnAhead(time, _end) / done : 1.0;
             return string.Format(CultureInfo.InvariantCulture,
                 "joint {0} is turned by {1:G4} rad{2}; from {3:G3} rad on a joint does not tell the way round, and the"
-                + " wire would lose the turn; {4}", worst, angle, Place(worst), Limit,
+                + " wire would lose the turn; {4}", worst, angle, PositionOf(worst), Limit,
                 IsAlone(shape, worst, angle) ? "the joints beside it are turned by less than half of that: shorter"
                     + " elements share the turn out only where they are shorter than what bends there, such as a soft"
                     + " section, which may have a numberRodElements of its own"
@@ -140,7 +140,7 @@ namespace Guidewire.Core
                 ? "elements there of {1:G3} of their length would do (numberRodElements, of the section where it has"
                     + " one)"
                 : "numberRodElements = {0} would do",
-                Math.Ceiling(_rod.ElementCount * angle / (Share * Limit)), Share * Limit / angle);
+                Math.Ceiling(_rod.ElementCount * angle / (FractionOfLimit * Limit)), FractionOfLimit * Limit / angle);
         }
 
         // Whether a joint's neighbours, if it has any, are turned by less than half of its angle: then what bends is no
@@ -156,7 +156,7 @@ namespace Guidewire.Core
             return most >= 0.0 && most < 0.5 * angle;
         }
 
-        private string Place(int joint)
+        private string PositionOf(int joint)
         {
             return joint == 0 ? " against the proximal clamp"
                 : joint == _rod.ElementCount ? " against the distal clamp" : "";

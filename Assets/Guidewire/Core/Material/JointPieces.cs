@@ -6,9 +6,9 @@ namespace Guidewire.Core
     /// series.</summary>
     /// <remarks>lambda_p, the weight of piece p, is the integral over it of the joint's hat function: 1 at its node, 0
     /// at both neighbours. The pieces share one moment, so compliances add up, sum(lambda_p/B_p), and so do turns at
-    /// rest, sum(lambda_p kappa_p). Shares of a stiffness in place of them are wrong by an amount that does not fall
-    /// with the elements' length. The hat functions add up to 1 between two joints: what all joints together release
-    /// where a cut moves on is that of the wire at the cut, wherever the nodes are.</remarks>
+    /// rest, sum(lambda_p kappa_p). Fractions of a stiffness instead are wrong by an amount that does not fall with the
+    /// elements' length. The hat functions add up to 1 between two joints: what all joints together release where a cut
+    /// moves on is that of the wire at the cut, wherever the nodes are.</remarks>
     internal sealed class JointPieces
     {
         private readonly double[] _border;       // of the pieces, m from node 0
@@ -21,7 +21,7 @@ namespace Guidewire.Core
         /// <param name="stations">Of its n + 1 nodes, m from node 0.</param>
         public JointPieces(WireProfile profile, double metres, double[] stations)
         {
-            _border = Array.ConvertAll(profile.Borders, place => metres * place);
+            _border = Array.ConvertAll(profile.Borders, position => metres * position);
             _piece = profile.Pieces;
             _station = stations;
         }
@@ -74,18 +74,18 @@ namespace Guidewire.Core
             return 0.5 * hat * (full1 * full1 / piece.BendStiffness1 + full2 * full2 / piece.BendStiffness2);
         }
 
-        /// <summary>The next place after one, m from node 0, up to which releases are linear: a node or a border.
+        /// <summary>The next position after one, m from node 0, up to which releases are linear: a node or a border.
         /// </summary>
-        public double NextBreak(double place)
+        public double NextBreak(double position)
         {
-            return Math.Min(Next(_station, place), Next(_border, place));
+            return Math.Min(Next(_station, position), Next(_border, position));
         }
 
-        private static double Next(double[] places, double place)
+        private static double Next(double[] positions, double position)
         {
-            int at = Array.BinarySearch(places, place);
+            int at = Array.BinarySearch(positions, position);
             at = at < 0 ? ~at : at + 1;
-            return at < places.Length ? places[at] : double.PositiveInfinity;
+            return at < positions.Length ? positions[at] : double.PositiveInfinity;
         }
 
         // Of the element between the joint's node and another; the hat function falls from 1 to 0 between them.

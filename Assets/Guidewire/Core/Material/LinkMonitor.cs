@@ -5,20 +5,20 @@ namespace Guidewire.Core
 {
     /// <summary>Finds a wire between two clamps that has lost whole turns of its twist by passing through
     /// itself.</summary>
-    /// <remarks>The wire does not meet itself. Wound up beyond what keeps it straight (couples of 2 sqrt(EI T) under a
-    /// tension T) it bends into a loop; a loop that passes through the wire, or over an end, takes two turns along
-    /// (Calugareanu: twist and writhe change by 2 together), and what is left may well be in balance. No wire does
-    /// that. It shows once the wire is stretched out again: where every element points forward, d3 . axis above 0, its
-    /// orientation is a turn psi about the axis and then a tilt of less than 90 degrees, and psi from clamp to clamp is
-    /// the turn that the clamps have made, bent or not (Fuller). Where an element points back nothing is said.
-    /// </remarks>
+    /// <remarks>The wire does not meet itself. Wound up beyond the couple at which it stays straight (couples of 2
+    /// sqrt(EI T) under a tension T) it bends into a loop; a loop that passes through the wire, or over an end, takes
+    /// two turns along (Calugareanu: twist and writhe change by 2 together), and what is left may well be in balance.
+    /// No wire does that. It shows once the wire is stretched out again: where every element points forward, d3 . axis
+    /// above 0, its orientation is a turn psi about the axis and then a tilt of less than 90 degrees, and psi from
+    /// clamp to clamp is the turn that the clamps have made, bent or not (Fuller). Where an element points back nothing
+    /// is said.</remarks>
     internal sealed class LinkMonitor
     {
         private readonly RodSchedule _schedule;
         private readonly bool _isOn;
         private readonly double _start;  // psi from clamp to clamp before the clamps turn, radians
 
-        /// <summary>A watch on a wire at its start, whose clamps have not turned yet.</summary>
+        /// <summary>A monitor of a wire at its start, whose clamps have not turned yet.</summary>
         public LinkMonitor(RodSupports supports, RodSchedule schedule, RodShape start)
         {
             _schedule = schedule;

@@ -2,24 +2,24 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Prescribes the motion of node 0 of a material rod and the turn of its clamp within the next step, as a
-    /// hand, a table or the drive's speeds have it.</summary>
+    /// <summary>Prescribes the motion of node 0 of a material rod and the turn of its clamp within the next step, as
+    /// user steering, a table or the drive's speeds have it.</summary>
     internal sealed class MaterialDrive
     {
-        private const double Nothing = 1e-12;  // m, a way that rounding leaves of times in a table
+        private const double Nothing = 1e-12;  // m, a displacement left by rounding of times in a table
 
         private readonly RodSchedule _schedule;
         private IDriveDirection? _direction;
         private readonly double _speed;      // m/s
         private readonly double _timeStep;   // s
         private readonly double _metres;     // per unit
-        private readonly Steering? _hand;
+        private readonly Steering? _steering;
         private readonly DriveTable? _table;
         private readonly bool _followsSpring;
         private double _sense = 1.0;         // 1 where it was last asked to push, -1 to pull
 
         /// <summary>The drive of this scene.</summary>
-        /// <param name="followsSpring">Whether node 0 follows its place on a spring, which gives way a little.</param>
+        /// <param name="followsSpring">Whether node 0 follows its support on a spring, which yields a little.</param>
         public MaterialDrive(SimulationParameters parameters, Scene scene, bool followsSpring)
         {
             DriveParameters drive = parameters.Drive;
@@ -29,17 +29,17 @@ namespace Guidewire.Core
             _metres = scene.UnitLength;
             _speed = drive.InsertionSpeed != 0.0 ? drive.InsertionSpeed
                 : scene.UnitLength * drive.DisplacementPerStep / parameters.Method.TimeStep;
-            _hand = scene.Steering;
-            _table = _hand == null ? drive.Table : null;
-            _direction = _hand == null ? scene.Drive : scene.Drive ?? new AlongFirstElement();
-            if (_hand != null || _table != null)
+            _steering = scene.Steering;
+            _table = _steering == null ? drive.Table : null;
+            _direction = _steering == null ? scene.Drive : scene.Drive ?? new AlongFirstElement();
+            if (_steering != null || _table != null)
             {
                 _schedule.ProximalTwistRate = 0.0;
                 _schedule.DriveEnd = _table?.End ?? double.PositiveInfinity;
             }
         }
 
-        /// <summary>How far the drive has moved node 0 along its way since the start, m; negative where it has
+        /// <summary>How far the drive has moved node 0 along its direction since the start, m; negative where it has
         /// pulled.</summary>
         public double Insertion { get; private set; }
 
@@ -52,17 +52,17 @@ namespace Guidewire.Core
         /// <summary>The farthest back, m.</summary>
         public double LeastInsertion { get; set; } = double.NegativeInfinity;
 
-        /// <summary>The way of the drive in the present step, a unit vector; zero where nothing is driven.</summary>
+        /// <summary>Direction of the drive in the present step, a unit vector; zero where nothing is driven.</summary>
         public Vector3d Axis { get; private set; }
 
-        /// <summary>What the hub has lost of its way, m: less where it gave way in the sense in which it was
-        /// asked to go.</summary>
+        /// <summary>Displacement that the hub has lost, m: less where it slipped in the sense in which it was asked to
+        /// go.</summary>
         public double Slip { get; private set; }
 
         /// <summary>When the present step ends, s.</summary>
         public double StepEnd { get; private set; }
 
-        /// <summary>The way asked for in the present step, m, never negative.</summary>
+        /// <summary>The displacement asked for in the present step, m, never negative.</summary>
         public double Asked { get; private set; }
 
         /// <summary>What moves node 0 moves it along this axis, of any length but 0.</summary>
@@ -74,9 +74,9 @@ namespace Guidewire.Core
         /// <summary>Sets where node 0 is and how fast it goes and turns, from this time on.</summary>
         public void Prepare(RodShape shape, double time)
         {
-            if (_hand != null)
+            if (_steering != null)
             {
-                _schedule.TurnOn(time, _hand.Turn / _timeStep);
+                _schedule.TurnOn(time, _steering.Turn / _timeStep);
             }
             else if (_table != null)
             {
@@ -113,7 +113,7 @@ namespace Guidewire.Core
 
         /// <summary>The hub slips, after a step, along its axis.</summary>
         /// <param name="slip">m, back where it is positive.</param>
-        public void GiveWay(double slip)
+        public void SlipHub(double slip)
         {
             if (slip != 0.0)
             {
@@ -123,8 +123,8 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>What of a way between two places is in the sense in which the drive was last asked to go,
-        /// m.</summary>
+        /// <summary>The part of a displacement between two positions in the sense in which the drive was last asked to
+        /// go, m.</summary>
         public double Gone(in Vector3d from, in Vector3d to)
         {
             return _sense * Vector3d.Dot(to - from, Axis);
@@ -150,14 +150,14 @@ namespace Guidewire.Core
             _schedule.SerializeDrive(snapshot);
         }
 
-        // What is asked for from this time on, m/s.
+        // Speed asked for from this time on, m/s.
         private double SpeedAt(double time)
         {
-            return _hand != null ? _metres * _hand.Push / _timeStep
+            return _steering != null ? _metres * _steering.Push / _timeStep
                 : _table != null ? Rate(_table.Insertion, time) : _speed;
         }
 
-        // What of a move the limits allow, m.
+        // The part of a move that the limits allow, m.
         private double Limited(double asked)
         {
             return Insertion + asked > MostInsertion || Insertion + asked < LeastInsertion

@@ -186,7 +186,7 @@ namespace Guidewire.Core
         /// <summary>The n+1 joints: 0 and n at the ends, k between elements k-1 and k. A joint stands for half of the
         /// element on either side, times its weight; its compliance is the sum of theirs.</summary>
         /// <remarks>Gregory's weights need three joints from each clamp of their own, on elements that are all alike;
-        /// elsewhere the half element takes their place.</remarks>
+        /// elsewhere the half element replaces them.</remarks>
         public Joint[] Joints(RodSupports supports)
         {
             if (supports.Sheath != null)
@@ -271,16 +271,16 @@ namespace Guidewire.Core
             return supports.Clamp == ClampRule.FourthOrder ? ClampRule.HalfElement : supports.Clamp;
         }
 
-        /// <summary>Weight of the joint that stands <paramref name="place"/> places from a clamp (0: the clamp's
+        /// <summary>Weight of the joint that stands <paramref name="index"/> joints from a clamp (0: the clamp's
         /// own).</summary>
-        private static double Weight(ClampRule rule, int place)
+        private static double Weight(ClampRule rule, int index)
         {
             switch (rule)
             {
                 case ClampRule.FourthOrder:
-                    return place < GregoryWeights.Length ? GregoryWeights[place] : 1.0;
+                    return index < GregoryWeights.Length ? GregoryWeights[index] : 1.0;
                 case ClampRule.HalfElement:
-                    return place == 0 ? 0.5 : 1.0;
+                    return index == 0 ? 0.5 : 1.0;
                 default:
                     return 1.0;
             }

@@ -72,7 +72,7 @@ namespace Guidewire.Core
         /// <summary>What moves node 0 in every step.</summary>
         public MaterialDrive Drive { get; }
 
-        /// <summary>Looks for joints that are turned too far.</summary>
+        /// <summary>Finds joints that are turned too far.</summary>
         public JointMonitor Joints { get; }
 
         /// <summary>Whether the rod sets out straight, from no shape of its own.</summary>
@@ -112,7 +112,7 @@ namespace Guidewire.Core
         }
 
         // q and -q are the same orientation. A start counts each joint's turn as the shorter one, with Re(q_a* q_b) of
-        // 0 or more; from then on the signs keep what joints have turned (JointMonitor).
+        // 0 or more; from then on the signs record the turns of joints (JointMonitor).
         private void AlignTurns()
         {
             Quaterniond before = Shape.ProximalFrame;
@@ -134,7 +134,7 @@ namespace Guidewire.Core
         private static MaterialRod CreateRod(SimulationParameters parameters, double[] lengths)
         {
             var profile = new WireProfile(parameters.Material, parameters.Scene.GuidewireLength);
-            ElementLayout.Lengths(parameters, 1.0, out double[] places);
+            ElementLayout.Lengths(parameters, 1.0, out double[] positions);
             var rod = new MaterialRod(lengths.Length)
             {
                 MassDamping = parameters.Material.MassDamping,
@@ -143,7 +143,7 @@ namespace Guidewire.Core
             for (int j = 0; j < lengths.Length; j++)
             {
                 rod.Length[j] = lengths[j];
-                profile.SetElement(rod, j, places[j], places[j + 1]);
+                profile.SetElement(rod, j, positions[j], positions[j + 1]);
             }
             return rod;
         }

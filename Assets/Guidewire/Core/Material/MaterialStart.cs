@@ -14,17 +14,17 @@ namespace Guidewire.Core
             return FindProblem(scene, 0, scene.Rod.ElementCount, touches ? SweptSearch.ClearanceFor(1.0) : 1.0);
         }
 
-        /// <summary>The same of the wire from a place on, units, which is in an element, with its whole
+        /// <summary>The same of the wire from a position on, units, which is in an element, with its whole
         /// radius.</summary>
-        public static string? FindProblemFrom(MaterialScene scene, int element, in Vector3d place)
+        public static string? FindProblemFrom(MaterialScene scene, int element, in Vector3d position)
         {
             Vector3d[] x = Nodes(scene);
-            x[element] = place;
+            x[element] = position;
             return FindProblem(scene, x, element, scene.Rod.ElementCount, 1.0);
         }
 
         /// <summary>The same of the elements before one, exclusive.</summary>
-        /// <param name="share">Of the radius, that has to be free.</param>
+        /// <param name="fraction">Of the radius, that has to be free.</param>
         public static string? FindProblem(MaterialScene scene, int from, int to, double fraction = 1.0)
         {
             return FindProblem(scene, Nodes(scene), from, to, fraction);

@@ -5,19 +5,16 @@ namespace Guidewire.Core
 {
     /// <summary>Decides whether a wire with a material is at rest, by how fast it moves and by the forces that are out
     /// of balance, whatever the method and its time step.</summary>
-    /// <remarks>With K the second derivative of all terms at the shape at hand, g their gradient and M the mass, a wire
-    /// near its rest shape moves by M u'' + K u = 0 about it. Three lengths must be below the threshold:
-    /// 1. |K^-1 g|, the Newton step to the rest shape: how far the wire is from it, also at a turning point, where
-    ///    nothing moves. K must have no negative eigenvalue but those of neutral motions: an equilibrium that a
-    ///    disturbance leaves is no end.
-    /// 2. sqrt(|v| |K^-1 M v|), how far the wire goes on swinging: in a mode of angular frequency w it is v/w, however
-    ///    slow the mode is.
-    /// 3. |v| t with t = sqrt(m L^3/EI): in t the slowest bending mode of a straight cantilever turns by 3.5 rad, every
-    ///    other by more. It costs no factorisation and is asked in every step; the other two only where it holds, and
-    ///    then at most once in a tenth of t.
-    /// No hold is needed: position and speed together tell how far a wire will ever be from rest, a position or a speed
-    /// alone does not. Sizes are the larger of turns (times L) and shifts. A wire on which something prescribed is
-    /// still to change is not at rest.</remarks>
+    /// <remarks>With K the second derivative of all terms at the current shape, g their gradient and M the mass, a wire
+    /// near its rest shape moves by M u'' + K u = 0 about it. Three lengths must be below the threshold: 1. |K^-1 g|,
+    /// the Newton step to the rest shape: how far the wire is from it, also at a turning point, where nothing moves. K
+    /// must have no negative eigenvalue but those of neutral motions: an equilibrium that a disturbance leaves is no
+    /// end. 2. sqrt(|v| |K^-1 M v|), how far the wire goes on swinging: in a mode of angular frequency w it is v/w,
+    /// however slow the mode is. 3. |v| t with t = sqrt(m L^3/EI): in t the slowest bending mode of a straight
+    /// cantilever turns by 3.5 rad, every other by more. It costs no factorisation and is asked in every step; the
+    /// other two only where it holds, and then at most once in a tenth of t. No hold is needed: position and speed
+    /// together tell how far a wire will ever be from rest, a position or a speed alone does not. Sizes are the larger
+    /// of turns (times L) and shifts. A wire on which something prescribed is still to change is not at rest.</remarks>
     internal sealed class RestMonitor
     {
         private const double Interval = 0.1;           // of t
@@ -43,9 +40,9 @@ namespace Guidewire.Core
         private readonly RodVector[] _step;
         private readonly RodVector[] _motion;
         private readonly RodVector[] _swing;
-        private double _nextLook;                      // s
+        private double _nextCheck;                      // s
 
-        /// <summary>A watch on this scene's wire, which moves with these velocities.</summary>
+        /// <summary>A monitor of this scene's wire, which moves with these velocities.</summary>
         /// <param name="other">What acts on it besides the terms, or null.</param>
         public RestMonitor(MaterialScene scene, RodTerms terms, Vector3d[] velocities, Vector3d[] spins,
             MethodParameters method, EnergyTerm? other = null)
@@ -86,14 +83,14 @@ namespace Guidewire.Core
             double speed = Size(_motion);
             if (!(speed * _time <= _threshold))
             {
-                _nextLook = time;
+                _nextCheck = time;
                 return null;
             }
-            if (time < _nextLook || !_scene.Schedule.IsOver(time, _end) || _terms.Followers.ChangeAfter(time))
+            if (time < _nextCheck || !_scene.Schedule.IsOver(time, _end) || _terms.Followers.ChangeAfter(time))
             {
                 return null;
             }
-            _nextLook = time + Interval * _time;
+            _nextCheck = time + Interval * _time;
             _terms.SetTime(_scene.Schedule, time);
             if (!Factorise())
             {
@@ -116,10 +113,10 @@ namespace Guidewire.Core
                 away / _scene.Metres, Math.Max(swing, speed * _time) / _scene.Metres, _threshold / _scene.Metres);
         }
 
-        /// <summary>Writes or takes over when it looks next.</summary>
+        /// <summary>Writes or takes over the time of the next check.</summary>
         public void Serialize(Snapshot snapshot)
         {
-            snapshot.Serialize(ref _nextLook);
+            snapshot.Serialize(ref _nextCheck);
         }
 
         // The Newton step; false where the equilibrium near by is none that a wire stays in.

@@ -7,7 +7,7 @@ namespace Guidewire.Core
         /// <summary>The proximal end; default clamped.</summary>
         public ProximalEnd Proximal { get; set; } = ProximalEnd.Clamped;
 
-        /// <summary>Whether node 0 follows its place on a stiff spring (<see cref="SupportSpring"/>) in place of being
+        /// <summary>Whether node 0 follows its support on a stiff spring (<see cref="SupportSpring"/>) instead of being
         /// there exactly.</summary>
         public bool HasSpring { get; set; }
 

@@ -5,7 +5,7 @@ namespace Guidewire.Core
     /// <summary>All that stores energy in a material rod or does work on it: the one list of energy terms. Rest shapes,
     /// motions, explicit forces, energies and reactions are made of what stands here.</summary>
     /// <remarks>A new load or a new kind of energy is a class of its own and one entry in the list. Elastic terms store
-    /// energy, 0 or more, in the wire; loads act on it from outside. The compliant solver has constraints in place of
+    /// energy, 0 or more, in the wire; loads act on it from outside. The compliant solver has constraints instead of
     /// stretch and bending, and takes the loads from here.</remarks>
     internal sealed class RodTerms
     {
@@ -67,7 +67,7 @@ namespace Guidewire.Core
         /// <summary>How it is held.</summary>
         public RodSupports Supports { get; }
 
-        /// <summary>How its mass is shared out.</summary>
+        /// <summary>How its mass is distributed.</summary>
         public RodMass Mass { get; }
 
         /// <summary>Stretch and shear.</summary>
@@ -76,7 +76,7 @@ namespace Guidewire.Core
         /// <summary>Bending and twist.</summary>
         public BendTwistTerm Bending { get; }
 
-        /// <summary>What keeps it straight in its sheath; null without one.</summary>
+        /// <summary>The term that holds it straight in its sheath; null without one.</summary>
         public SheathEnergy? Sheath { get; }
 
         /// <summary>Weight and forces on the nodes.</summary>
@@ -203,7 +203,7 @@ namespace Guidewire.Core
             return new Vector3d(g.X1, g.X2, g.X3);
         }
 
-        /// <summary>Writes or takes over what the terms keep from step to step.</summary>
+        /// <summary>Writes or takes over the state of the terms between steps.</summary>
         public void Serialize(Snapshot snapshot)
         {
             foreach (EnergyTerm term in All)

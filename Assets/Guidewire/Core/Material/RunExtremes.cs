@@ -21,25 +21,24 @@ namespace Guidewire.Core
         /// rest, and the stretch or compression of the element beside it that has more. Dimensionless.</summary>
         public double Strain { get; private set; }
 
-        /// <summary>Largest force of the hub along its axis, push or pull, N; NaN without walls.</summary>
+        /// <summary>Largest force of the hub along its axis, thrust or pull, N; NaN without walls.</summary>
         public double AxialForce { get; private set; } = double.NaN;
 
-        /// <summary>Largest torque of the hub about its axis, either way, N m; NaN without walls.</summary>
+        /// <summary>Largest torque of the hub about its axis, in either sense, N m; NaN without walls.</summary>
         public double AxialTorque { get; private set; } = double.NaN;
 
-        /// <summary>Largest force with which walls push one element along their normals, N; NaN without walls.
-        /// </summary>
+        /// <summary>Largest normal force of the walls on one element, N; NaN without walls.</summary>
         public double ElementForce { get; private set; } = double.NaN;
 
         /// <summary>Largest of these forces over the element's length and diameter, Pa; NaN without walls.</summary>
         public double WallPressure { get; private set; } = double.NaN;
 
         /// <summary>Largest power of the slip against friction in a step, W: friction turns energy into heat, and it is
-        /// never above 0. NaN where no wall rubs.</summary>
+        /// never above 0. NaN where no wall has friction.</summary>
         public double FrictionPower { get; private set; } = double.NaN;
 
-        /// <summary>Work of friction on what slips, J, minus the heat of all steps; NaN where no wall rubs. What its
-        /// contacts store elastically is energy of the wire.</summary>
+        /// <summary>Work of friction on what slips, J, minus the heat of all steps; NaN where no wall has friction.
+        /// What its contacts store elastically is energy of the wire.</summary>
         public double FrictionWork { get; private set; } = double.NaN;
 
         /// <summary>Takes what the wire's shape alone says.</summary>
@@ -64,7 +63,7 @@ namespace Guidewire.Core
             for (int k = 0; k <= n; k++)
             {
                 Vector3d turn = _turns[k];
-                double fraction = terms.Sheath == null ? 1.0 : terms.Sheath.Share(k);
+                double fraction = terms.Sheath == null ? 1.0 : terms.Sheath.FractionOutside(k);
                 Vector3d change = turn - (terms.Sheath == null ? joints[k].Rest : terms.Sheath.RestOf(k));
                 if (fraction == 0.0)
                 {
@@ -93,7 +92,7 @@ namespace Guidewire.Core
             AxialTorque = Larger(AxialTorque, Math.Abs(torque));
         }
 
-        /// <summary>Takes what walls push elements with.</summary>
+        /// <summary>Takes the normal forces of walls on elements.</summary>
         /// <param name="force">Largest on an element, N.</param>
         /// <param name="pressure">Largest of an element, Pa.</param>
         internal void TakeWalls(double force, double pressure)
@@ -123,7 +122,7 @@ namespace Guidewire.Core
             FrictionWork = snapshot.Serialize(FrictionWork);
         }
 
-        // NaN gives way to any number.
+        // Any number replaces NaN.
         private static double Larger(double before, double now)
         {
             return before >= now ? before : now;

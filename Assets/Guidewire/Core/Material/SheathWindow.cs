@@ -72,10 +72,10 @@ namespace Guidewire.Core
         }
 
         /// <summary>Where the exit is along the wire, m from node 0 of the whole.</summary>
-        /// <param name="place">Where the hub would have the window's node 0 if nothing were compressed, m.</param>
-        public double ExitFrom(in Vector3d place)
+        /// <param name="position">Where the hub would hold the window's node 0 if nothing were compressed, m.</param>
+        public double ExitFrom(in Vector3d position)
         {
-            return Pieces.Stations[First] - Outside(place);
+            return Pieces.Stations[First] - Outside(position);
         }
 
         /// <summary>How many nodes of the window, from its first on, are in the sheath.</summary>

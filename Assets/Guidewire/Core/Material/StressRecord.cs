@@ -44,9 +44,9 @@ namespace Guidewire.Core
 
         /// <summary>Takes the record of the part of a wire that is outside its sheath; the rest is straight, under the
         /// sheath's springs.</summary>
-        /// <param name="push">Force of the hub along the axis, N.</param>
+        /// <param name="thrust">Force of the hub along the axis, N.</param>
         /// <param name="torque">Torque of the wire on the sheathed part about it, N m.</param>
-        internal void Take(StressRecord outside, SheathWindow window, double push, double torque)
+        internal void Take(StressRecord outside, SheathWindow window, double thrust, double torque)
         {
             int first = window.First;
             Array.Copy(outside.Strain, 0, Strain, first, outside.Strain.Length);
@@ -56,8 +56,8 @@ namespace Guidewire.Core
             for (int j = 0; j < first; j++)
             {
                 (double stretch, double twist) = window.Stiffness(j);
-                Strain[j] = (-push / stretch) * Vector3d.UnitZ;
-                Force[j] = -push * window.Axis;
+                Strain[j] = (-thrust / stretch) * Vector3d.UnitZ;
+                Force[j] = -thrust * window.Axis;
                 Curvature[j] = (torque / twist) * Vector3d.UnitZ;
                 Couple[j] = torque * window.Axis;
             }

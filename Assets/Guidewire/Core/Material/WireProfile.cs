@@ -3,8 +3,8 @@ using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
-    /// <summary>What the wire is made of from place to place: even pieces between the borders of its sections, and
-    /// their mean over an element.</summary>
+    /// <summary>What the wire is made of along its length: even pieces between the borders of its sections, and their
+    /// mean over an element.</summary>
     /// <remarks>Over an element that holds a border, compliances (1/EA, 1/GA), masses and rotary inertia are averaged
     /// by length. A joint turns the element after it against the one before it, each a straight line that stands for
     /// the mean direction of its piece of wire: the difference of two means is the integral of the curvature times the
@@ -43,7 +43,7 @@ namespace Guidewire.Core
         /// <summary>The pieces between them.</summary>
         public CrossSection[] Pieces => _piece;
 
-        /// <summary>Sets all but the length of element j, which lies between these places (units).</summary>
+        /// <summary>Sets all but the length of element j, which lies between these positions (units).</summary>
         public void SetElement(MaterialRod rod, int j, double from, double to)
         {
             double slack = Rounding * (to - from);
@@ -67,7 +67,7 @@ namespace Guidewire.Core
             var end = new Mean();
             for (int k = first; k <= last; k++)
             {
-                // Shares of the element, from 0 at its start to 1 at its end.
+                // Fractions of the element, from 0 at its start to 1 at its end.
                 double a = k == first ? 0.0 : (_border[k] - from) / (to - from);
                 double b = k == last ? 1.0 : (_border[k + 1] - from) / (to - from);
                 mean.Add(_piece[k], b - a);
@@ -78,11 +78,11 @@ namespace Guidewire.Core
             rod.SetSides(j, start.Result().Side, end.Result().Side);
         }
 
-        private static void AddBorder(List<double> borders, double place, double length)
+        private static void AddBorder(List<double> borders, double position, double length)
         {
-            if (place > 0.0 && place < length && !borders.Contains(place))
+            if (position > 0.0 && position < length && !borders.Contains(position))
             {
-                borders.Add(place);
+                borders.Add(position);
             }
         }
 

@@ -1,7 +1,7 @@
 namespace Guidewire.Core
 {
     /// <summary>What a solver for a material says of itself at the end of a run. A number that does not apply is NaN, a
-    /// force or couple that the method does not compute null. </summary>
+    /// force or couple that the method does not compute null.</summary>
     public sealed class SolverReport
     {
         /// <summary>How the method stands to the loads and the rule of convergence, in one line.</summary>
@@ -22,7 +22,7 @@ namespace Guidewire.Core
         /// <summary>Steps, and parts of steps, that had no solution and were halved; NaN but with direct.</summary>
         public double HalvedSteps { get; internal set; } = double.NaN;
 
-        /// <summary>Gap below which walls push, m; NaN without walls.</summary>
+        /// <summary>Gap below which barriers act, m; NaN without walls.</summary>
         public double ContactDistance { get; internal set; } = double.NaN;
 
         /// <summary>Stiffness of a contact, N/m; NaN without walls.</summary>
@@ -35,7 +35,7 @@ namespace Guidewire.Core
         public double EquilibriumResidual { get; internal set; } = double.NaN;
 
         /// <summary>Smallest eigenvalue of the rest shape's second derivative against l on turns and l/L^2 on shifts,
-        /// N. </summary>
+        /// N.</summary>
         public double SmallestEigenvalue { get; internal set; } = double.NaN;
 
         /// <summary>Largest error that a step left, by the solver's own measure.</summary>

@@ -22,14 +22,14 @@ namespace Guidewire.Core
         public int SteadySteps { get; protected set; } = 1;
 
         /// <summary>What is not accurate in the steps so far, and what helps, in one line, or null: small steps or few
-        /// sweeps may leave a wire wrong without losing it.</summary>
+        /// iterations may leave a wire wrong without losing it.</summary>
         public virtual string? AccuracyWarning => null;
 
-        /// <summary>The forces that act on the wire from outside, and what contact came to; null where nobody asked for
-        /// them.</summary>
+        /// <summary>The forces that act on the wire from outside, and the results of contact; null where nobody asked
+        /// for them.</summary>
         public virtual ContactRecord? Contacts => null;
 
-        /// <summary>Strains, forces, couples and energies of the wire as it is; null with gains.</summary>
+        /// <summary>Strains, forces, couples and energies of the wire as it is; null with pbd.</summary>
         public virtual StressRecord? Stress()
         {
             return null;
@@ -44,7 +44,7 @@ namespace Guidewire.Core
         /// <summary>Advances the state by one step.</summary>
         public abstract void Advance(RodState state);
 
-        /// <summary>What the solver says of itself after the steps so far; null with gains.</summary>
+        /// <summary>What the solver says of itself after the steps so far; null with pbd.</summary>
         public virtual SolverReport? Report()
         {
             return null;

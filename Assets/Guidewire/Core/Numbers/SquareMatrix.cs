@@ -6,8 +6,8 @@ namespace Guidewire.Core
     /// lie.</summary>
     /// <remarks>The sign of a matrix has its eigenvectors and the eigenvalues +1 and -1, as the real parts are above or
     /// below 0 (Roberts 1980). Newton's iteration S := (S + S^-1)/2 finds it, and its trace is the difference of their
-    /// numbers. Scaling S by |det S|^(-1/n) first keeps eigenvalues of unlike size from taking turns
-    /// (Byers 1987).</remarks>
+    /// numbers. Scaling S by |det S|^(-1/n) first prevents eigenvalues of unlike size from taking turns (Byers
+    /// 1987).</remarks>
     internal static class SquareMatrix
     {
         private const int MostSteps = 60;

@@ -22,14 +22,14 @@ namespace Guidewire.Core
         /// <see cref="Clear"/>.</summary>
         public ref T this[int k] => ref _items[k];
 
-        /// <summary>Forgets all items and keeps their memory.</summary>
+        /// <summary>Removes all items; their memory stays.</summary>
         public void Clear()
         {
             Count = 0;
         }
 
-        /// <summary>Sorts the items from place <paramref name="from"/> on; allocates nothing where items say
-        /// themselves which comes first.</summary>
+        /// <summary>Sorts the items from index <paramref name="from"/> on; allocates nothing where items say themselves
+        /// which comes first.</summary>
         public void Sort(int from)
         {
             Array.Sort(_items, from, Count - from);

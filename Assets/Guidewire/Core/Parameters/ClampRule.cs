@@ -9,7 +9,7 @@ namespace Guidewire.Core
         /// of k under P = EI 2 (1 - cos k l)/l^2 = EI k^2 (1 - (k l)^2/12 + ..). Clamped at both ends, k = 2 pi/L, it
         /// buckles (2 pi/n)^2/12 too early (0.82 % at n = 20, 0.21 % at n = 40), and holds as much less thrust when
         /// shortened. A correction would tie each joint's stiffness to the thrust beside it, and so positions two
-        /// elements apart, which the block-tridiagonal matrix has no room for.</remarks>
+        /// elements apart, which the block-tridiagonal matrix cannot hold.</remarks>
         FourthOrder,
 
         /// <summary>Half an element, the trapezoidal rule: second order; a circular arc comes out exact.</summary>

@@ -15,8 +15,8 @@ namespace Guidewire.Core
         /// <summary>What touches a wall besides the spheres.</summary>
         public ElementContact ElementContact { get; set; } = ElementContact.Barycentric;
 
-        /// <summary>g0, the gap below which walls push a wire with a material, m; 0: by rule
-        /// (<see cref="BarrierDefaults"/>).</summary>
+        /// <summary>g0, the gap below which barriers act on a wire with a material, m; 0: by rule (<see
+        /// cref="BarrierDefaults"/>).</summary>
         public double ContactDistance { get; set; }
 
         /// <summary>Stiffness of the barrier, N/m; 0: by rule.</summary>

@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>How the proximal end is moved: by a drive, or by a hand in its place.</summary>
+    /// <summary>How the proximal end is moved: by a drive, or by user steering instead.</summary>
     public sealed class DriveParameters
     {
         /// <summary>What moves sphere 0.</summary>
@@ -20,30 +20,29 @@ namespace Guidewire.Core
         /// held.</summary>
         public double TwistPerStep { get; set; }
 
-        /// <summary>Speed of sphere 0 in m/s, with <see cref="Core.Drive.Displace"/> and <see
-        /// cref="Core.Drive.Push"/>: for a wire with a material in place of
-        /// <see cref="DisplacementPerStep"/>.</summary>
+        /// <summary>Speed of sphere 0 in m/s, with <see cref="Core.Drive.Displace"/> and <see cref="Core.Drive.Push"/>:
+        /// for a wire with a material instead of <see cref="DisplacementPerStep"/>.</summary>
         public double InsertionSpeed { get; set; }
 
-        /// <summary>Turning of the proximal clamp about its axis in rad/s, in place of <see
+        /// <summary>Turning of the proximal clamp about its axis in rad/s, instead of <see
         /// cref="TwistPerStep"/>.</summary>
         public double RotationSpeed { get; set; }
 
-        /// <summary>Way and turn of the proximal clamp over time, in place of the speeds, or null.</summary>
+        /// <summary>Displacement and turn of the proximal clamp over time, instead of the speeds, or null.</summary>
         public DriveTable? Table { get; set; }
 
-        /// <summary>The axial force in N at which the hub gives way to the wire; 0: it never does.</summary>
+        /// <summary>The axial force in N at which the hub slips; 0: never.</summary>
         public double HubForceLimit { get; set; }
 
         /// <summary>Force on sphere 0 in mass unit * unit / s^2; with <see cref="Core.Drive.Force"/>.</summary>
         public Vector3d ExternalForce { get; set; }
 
-        /// <summary>A hand that pushes and turns the wire as it goes, in place of the drive's motion, or
+        /// <summary>User steering that pushes and turns the wire interactively, instead of the drive's motion, or
         /// null.</summary>
         public Steering? Steering { get; set; }
 
-        /// <summary>The farthest that speeds or table move the hub within a time from the start, s; 0 where a hand
-        /// does. In m.</summary>
+        /// <summary>The farthest that speeds or table move the hub within a time from the start, s; 0 with user
+        /// steering. In m.</summary>
         internal double LargestInsertion(double duration)
         {
             if (Steering != null || Table == null)
@@ -58,7 +57,7 @@ namespace Guidewire.Core
             return largest;
         }
 
-        /// <summary>The farthest that it moves the hub in one step, m; 0 where a hand does.</summary>
+        /// <summary>The farthest that it moves the hub in one step, m; 0 with user steering.</summary>
         /// <param name="timeStep">s.</param>
         /// <param name="unitLength">m.</param>
         internal double LargestMove(double timeStep, double unitLength)

@@ -3,8 +3,8 @@ using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
-    /// <summary>What makes a wire of a material (solvers xpbd, direct, explicit), in SI units but for places along the
-    /// wire, which are in units of length.</summary>
+    /// <summary>What makes a wire of a material (solvers xpbd, direct, explicit), in SI units except for positions
+    /// along the wire, which are in units of length.</summary>
     public sealed class MaterialParameters
     {
         /// <summary>E, Pa.</summary>
@@ -13,7 +13,7 @@ namespace Guidewire.Core
         /// <summary>G, Pa.</summary>
         public double ShearModulus { get; set; } = 23e9;
 
-        /// <summary>EA, N, in place of E times the area; null: none.</summary>
+        /// <summary>EA, N, instead of E times the area; null: none.</summary>
         public double? AxialStiffness { get; set; }
 
         /// <summary>rho, kg/m^3.</summary>

@@ -3,7 +3,7 @@ namespace Guidewire.Core
     /// <summary>How a run is simulated: the method, its steps, and what ends it.</summary>
     public sealed class MethodParameters
     {
-        /// <summary>What keeps the wire together: gains (pbd) or a material (the others).</summary>
+        /// <summary>What holds the wire together: pbd stiffness (pbd) or a material (the others).</summary>
         public Solver Solver { get; set; } = Solver.Pbd;
 
         /// <summary>dt in s.</summary>
@@ -15,10 +15,10 @@ namespace Guidewire.Core
         /// <summary>How positions are predicted.</summary>
         public Integrator Integrator { get; set; } = Integrator.Verlet;
 
-        /// <summary>The order of one sweep.</summary>
+        /// <summary>The order of one iteration.</summary>
         public SweepOrder SweepOrder { get; set; } = SweepOrder.Naive;
 
-        /// <summary>d, the share of its velocity that a sphere loses a step, with gains.</summary>
+        /// <summary>d, the fraction of its velocity that a sphere loses a step, with pbd.</summary>
         public double Damping { get; set; }
 
         /// <summary>Parts into which the explicit and the compliant solver divide a time step.</summary>
@@ -34,22 +34,22 @@ namespace Guidewire.Core
         public double TimeStepError { get; set; }
 
         /// <summary>Newton iterations after which the direct solver gives up a stage; a rest shape gets ten times as
-        /// many. </summary>
+        /// many.</summary>
         public int MaxNewtonIterations { get; set; } = 50;
 
-        /// <summary>epsilon, in units: with gains, a steady state's prediction errors lie below it (<see
+        /// <summary>epsilon, in units: with pbd, a steady state's prediction errors lie below it (<see
         /// cref="PbdMonitor"/>); a wire with a material is no farther from rest (<see cref="RestMonitor"/>). 0 switches
         /// the test off.</summary>
         public double DeltaThreshold { get; set; } = 0.001;
 
-        /// <summary>Steps in a row that a steady state must last, with gains.</summary>
+        /// <summary>Steps in a row that a steady state must last, with pbd.</summary>
         public int SteadyStateHold { get; set; } = 100;
 
         /// <summary>Steps after which a run is finished.</summary>
         public int MaxSimulationSteps { get; set; } = 4000;
 
         /// <summary>Whether a run with a material states the support's force at the first sphere after each step; it
-        /// costs a little of each. With gains it is stated wherever there are walls.</summary>
+        /// costs a little of each. With pbd it is stated wherever there are walls.</summary>
         public bool StatesReactions { get; set; }
 
         /// <summary>The same values; lists and walls are shared.</summary>

@@ -6,7 +6,7 @@ namespace Guidewire.Core
     /// <summary>What every method takes, once.</summary>
     public static class MethodTable
     {
-        // Planes of contact are used again until the wire has gone some way, and sweeps leave a little.
+        // Planes of contact are used again until the wire has moved some distance, and iterations leave a residual.
         private const double CompliantDepth = 0.05;
 
         /// <summary>The methods in the order of <see cref="Solver"/>.</summary>
@@ -75,7 +75,7 @@ namespace Guidewire.Core
             throw new ArgumentException("unknown solver " + solver);
         }
 
-        // A material wire starts where it is; its sweeps, where it has any, are one a substep.
+        // A material wire starts where it is; its iterations, where it has any, are one a substep.
         private static void SetMaterialDefaults(SimulationParameters parameters)
         {
             parameters.Drive.Displacement = 0.0;

@@ -9,21 +9,21 @@ namespace Guidewire.Core
         /// <summary>The method.</summary>
         public Solver Solver { get; internal set; }
 
-        /// <summary>Whether its wire is a material in SI units; else it is gains in mass units, units and
+        /// <summary>Whether its wire is a material in SI units; else it has pbd stiffness, in mass units, units and
         /// seconds.</summary>
         public bool TakesMaterial { get; internal set; }
 
         /// <summary>Whether it meets walls.</summary>
         public bool MeetsWalls { get; internal set; }
 
-        /// <summary>Whether walls push by barriers, part of an energy: node 0 then follows its support on a
+        /// <summary>Whether walls act by barriers, part of an energy: node 0 then follows its support on a
         /// spring.</summary>
         public bool HasBarriers { get; internal set; }
 
         /// <summary>How far contact may let a wall into the wire, in its radii.</summary>
         public double DepthInRadii { get; internal set; }
 
-        /// <summary>Whether a hand may steer it.</summary>
+        /// <summary>Whether a user may steer it.</summary>
         public bool TakesSteering { get; internal set; }
 
         /// <summary>Whether its distal end can slide along the clamp's axis.</summary>

@@ -44,7 +44,7 @@ namespace Guidewire.Core
         public Quaterniond[] Orientations { get; }
 
         /// <summary>Frame of the proximal clamp of a material, normalised on use; that of the first element where it is
-        /// not set. With gains a clamp holds the first element itself.</summary>
+        /// not set. With pbd a clamp holds the first element itself.</summary>
         public Quaterniond ProximalFrame { get; set; }
 
         /// <summary>The same of the distal clamp and the last element.</summary>

@@ -11,7 +11,7 @@ namespace Guidewire.Core
         /// <summary>What moves it.</summary>
         public DriveParameters Drive { get; private set; } = new DriveParameters();
 
-        /// <summary>The wire as gains, for solver pbd.</summary>
+        /// <summary>The wire of solver pbd.</summary>
         public PbdParameters Pbd { get; private set; } = new PbdParameters();
 
         /// <summary>The wire as a material, for the other solvers.</summary>

@@ -1,9 +1,10 @@
 namespace Guidewire.Core
 {
-    /// <summary>What keeps the wire together. The first takes gains per iteration, the others a material.</summary>
+    /// <summary>What holds the wire together. The first takes pbd stiffness per iteration, the others a
+    /// material.</summary>
     public enum Solver
     {
-        /// <summary>Gauss-Seidel with gains (the thesis).</summary>
+        /// <summary>Gauss-Seidel with pbd stiffness (the thesis).</summary>
         Pbd,
 
         /// <summary>Gauss-Seidel with compliance, multipliers and substeps (Macklin 2016).</summary>

@@ -6,7 +6,7 @@ namespace Guidewire.Core
         /// <summary>Along z.</summary>
         Straight,
 
-        /// <summary>A closed circle through sphere 0 in the y-z plane; both ends have one place and one
+        /// <summary>A closed circle through sphere 0 in the y-z plane; both ends have one position and one
         /// frame.</summary>
         Ring,
 

@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>The order in which one Gauss-Seidel sweep visits the rod elements.</summary>
+    /// <summary>The order in which one Gauss-Seidel iteration visits the rod elements.</summary>
     public enum SweepOrder
     {
         /// <summary>From sphere 0 to the last.</summary>

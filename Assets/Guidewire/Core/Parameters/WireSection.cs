@@ -35,7 +35,7 @@ namespace Guidewire.Core
         /// <summary>Curvature and twist at rest, rad/m.</summary>
         public Vector3d? RestCurvature { get; set; }
 
-        /// <summary>EA, N, as all that follow in place of what material and radius make: of coiled or flat
+        /// <summary>EA, N, as all that follow instead of what material and radius give: of coiled or flat
         /// wires.</summary>
         public double? AxialStiffness { get; set; }
 

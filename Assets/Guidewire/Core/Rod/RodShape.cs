@@ -48,7 +48,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>A straight rod along d3 of <paramref name="frame"/>.</summary>
-        /// <param name="start">Place of node 0.</param>
+        /// <param name="start">Position of node 0.</param>
         /// <param name="frame">Orientation of every element.</param>
         /// <param name="stations">Distance of each of the n + 1 nodes from node 0.</param>
         public void SetStraight(in Vector3d start, in Quaterniond frame, double[] stations)

@@ -3,9 +3,9 @@ using System;
 namespace Guidewire.Core
 {
     /// <summary>A wire of n rod elements and n + 1 spheres at one moment: what a step reads and writes.</summary>
-    /// <remarks>Element j joins spheres j and j + 1. Its orientation q takes the body's z axis to the third director
-    /// d3 = q e3 q*, which lies along the element where nothing shears it. Arrays are made once; at the end of a step
-    /// previous, current and predicted ones change places, so take them from the properties anew each step.</remarks>
+    /// <remarks>Element j joins spheres j and j + 1. Its orientation q takes the body's z axis to the third director d3
+    /// = q e3 q*, which lies along the element where nothing shears it. Arrays are made once; at the end of a step
+    /// previous, current and predicted ones are swapped, so take them from the properties anew each step.</remarks>
     public sealed class RodState
     {
         /// <summary>A straight wire along z at rest: sphere i at z = offset + i l with l = L/n (thesis eq. 3.1), masses
@@ -77,7 +77,7 @@ namespace Guidewire.Core
         /// <summary>n + 1.</summary>
         public int SphereCount => ElementCount + 1;
 
-        /// <summary>l = L/n in units: the length of every element at rest with gains, the mean of them with a
+        /// <summary>l = L/n in units: the length of every element at rest with pbd, the mean of them with a
         /// material.</summary>
         public double ElementLength { get; }
 

@@ -5,9 +5,9 @@ namespace Guidewire.Core
 {
     /// <summary>How long each rod element is: L/n, but in sections with a number of elements of their own.</summary>
     /// <remarks>Such a section is cut into its own number of equal elements. What lies between these sections is the
-    /// rest of the wire; its elements are numberRodElements altogether, at least one in each piece, the others shared
-    /// out by length with the largest remainders first. Where nothing is left of the wire, that number does not
-    /// count.</remarks>
+    /// rest of the wire; its elements are numberRodElements altogether, at least one in each piece, the others
+    /// distributed out by length with the largest remainders first. Where nothing is left of the wire, that number does
+    /// not count.</remarks>
     public static class ElementLayout
     {
         private const int MostElements = 1_000_000;
@@ -178,7 +178,7 @@ namespace Guidewire.Core
             public double From;    // units
             public double To;
             public int Count;      // of elements; 0: not yet known
-            public double Wanted;  // its share of the rest's elements, not whole
+            public double Wanted;  // its part of the rest's elements, not whole
         }
     }
 }

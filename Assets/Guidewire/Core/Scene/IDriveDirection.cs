@@ -1,7 +1,7 @@
 namespace Guidewire.Core
 {
-    /// <summary>Which way a drive moves sphere 0, whatever the method: how far is the method's to say, in its own
-    /// lengths.</summary>
+    /// <summary>The direction in which a drive moves sphere 0, whatever the method: how far is the method's to say, in
+    /// its own lengths.</summary>
     internal interface IDriveDirection
     {
         /// <summary>A unit vector.</summary>

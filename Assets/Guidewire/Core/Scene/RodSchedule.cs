@@ -44,13 +44,13 @@ namespace Guidewire.Core
         /// <summary>Force on node 0 where it is free, N.</summary>
         public Vector3d ProximalForce { get; set; }
 
-        /// <summary>Place of node 0 at <see cref="ProximalTime"/>, m.</summary>
+        /// <summary>Position of node 0 at <see cref="ProximalTime"/>, m.</summary>
         public Vector3d ProximalPosition { get; set; }
 
         /// <summary>Its velocity, m/s.</summary>
         public Vector3d ProximalVelocity { get; set; }
 
-        /// <summary>The time, s, at which node 0 is at its place.</summary>
+        /// <summary>The time, s, at which node 0 is at that position.</summary>
         public double ProximalTime { get; set; }
 
         /// <summary>The proximal clamp's frame at time 0.</summary>
@@ -67,7 +67,7 @@ namespace Guidewire.Core
         /// sheathed part is a spring between hub and frame. Null: the frame is the hub.</summary>
         public double? HeldFrameTurn { get; set; }
 
-        /// <summary>Place of the last node before its displacement, m.</summary>
+        /// <summary>Position of the last node before its displacement, m.</summary>
         public Vector3d DistalPosition { get; set; }
 
         /// <summary>The distal clamp's frame before it turns.</summary>

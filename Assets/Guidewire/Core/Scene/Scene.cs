@@ -3,7 +3,7 @@ using System;
 namespace Guidewire.Core
 {
     /// <summary>What is simulated, the same for every method: the wire's start, what is prescribed in time, what drives
-    /// it, and the walls. Lengths are in the method's own: units with gains, metres with a material.</summary>
+    /// it, and the walls. Lengths are in the method's own: units with pbd, metres with a material.</summary>
     internal sealed class Scene
     {
         /// <summary>The scene of these parameters.</summary>
@@ -54,7 +54,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Length of one unit in the method's lengths: 1 with gains, metresPerUnit with a material.</summary>
+        /// <summary>Length of one unit in the method's lengths: 1 with pbd, metresPerUnit with a material.</summary>
         public double UnitLength { get; }
 
         /// <summary>The length of each of the n elements at rest; L/n (thesis eq. 3.1) but where sections have a
@@ -79,7 +79,7 @@ namespace Guidewire.Core
         /// <summary>What is prescribed in time: loads, and the motion of held ends.</summary>
         public RodSchedule Schedule { get; }
 
-        /// <summary>Which way the drive moves sphere 0 in every step, or null where it does not.</summary>
+        /// <summary>The direction in which the drive moves sphere 0 in every step, or null where it does not.</summary>
         public IDriveDirection? Drive { get; }
 
         /// <summary>Displacement of sphere 0 at the start; 0 but for <see cref="Core.Drive.Hold"/>.</summary>
@@ -88,7 +88,7 @@ namespace Guidewire.Core
         /// <summary>The vessel and what stands in it.</summary>
         public ContactShape[] Walls { get; }
 
-        /// <summary>A hand in place of the drive, or null.</summary>
+        /// <summary>User steering instead of the drive, or null.</summary>
         public Steering? Steering { get; }
 
         private static IDriveDirection? CreateDrive(DriveParameters drive)

@@ -40,13 +40,14 @@ namespace Guidewire.Io
 
         private static void WarnOfSelfIntersection(ContactShape vessel, string file, List<string> warnings)
         {
-            Vector3d place = Vector3d.Zero;
-            int count = vessel is MeshShape mesh ? mesh.CountSelfIntersections(out place) : 0;
+            Vector3d position = Vector3d.Zero;
+            int count = vessel is MeshShape mesh ? mesh.CountSelfIntersections(out position) : 0;
             if (count > 0)
             {
                 warnings.Add(string.Format(CultureInfo.InvariantCulture,
                     "{0}: the mesh goes through itself: {1} edges pierce a triangle, the first at ({2:G6}, {3:G6},"
-                    + " {4:G6}); what is inside there is not defined", file, count, place.X, place.Y, place.Z));
+                    + " {4:G6}); what is inside there is not defined", file, count, position.X, position.Y,
+                        position.Z));
             }
         }
 

@@ -82,14 +82,14 @@ namespace Guidewire.Io
                 foreach (Solver method in Methods)
                 {
                     string value = Default(method);
-                    int place = text.IndexOf(value);
-                    if (place < 0)
+                    int index = text.IndexOf(value);
+                    if (index < 0)
                     {
-                        place = text.Count;
+                        index = text.Count;
                         text.Add(value);
                         methods.Add(new List<string>());
                     }
-                    methods[place].Add(ChoiceEntry<Solver>.Word(method.ToString()));
+                    methods[index].Add(ChoiceEntry<Solver>.Word(method.ToString()));
                 }
                 for (int k = 1; k < text.Count; k++)
                 {

@@ -51,7 +51,7 @@ namespace Guidewire.Io
         /// <summary>The parameters of a file with overrides on top.</summary>
         /// <param name="file">A JSON file, or null for the defaults (thesis table 4.1).</param>
         /// <param name="overrides">Keys and values that count instead of the file's.</param>
-        /// <param name="isSteered">Whether a hand moves the wire in place of the drive.</param>
+        /// <param name="isSteered">Whether a user steers the wire instead of the drive.</param>
         /// <exception cref="ParameterException">A file that cannot be read, a key that is not known, a value that is
         /// not allowed, two keys that disagree.</exception>
         public static ParameterHandler Load(string? file, IEnumerable<KeyValuePair<string, JToken>> overrides,
@@ -253,7 +253,7 @@ namespace Guidewire.Io
                 }
                 if (shear != null)
                 {
-                    AddWarning("{0}: {1}", Values.StartFile, shear);    // gains may be that soft
+                    AddWarning("{0}: {1}", Values.StartFile, shear);    // pbd stiffness may be that soft
                 }
                 return start;
             }

@@ -77,32 +77,32 @@ namespace Guidewire.Io
                 return value.DeepClone();
             }
             JToken holder = root;
-            string place = Key;
+            string reached = Key;
             for (int k = 0; k < Depth; k++)
             {
                 bool isLast = k == Depth - 1;
                 if (_names[k].Length > 0)
                 {
-                    var map = holder as JObject ?? throw Nowhere(place, holder);
-                    place += "." + _names[k];
+                    var map = holder as JObject ?? throw Nowhere(reached, holder);
+                    reached += "." + _names[k];
                     if (isLast)
                     {
                         map[_names[k]] = value.DeepClone();
                         break;
                     }
                     holder = map[_names[k]]
-                        ?? throw new ParameterException(Text + " leads nowhere: there is no " + place);
+                        ?? throw new ParameterException(Text + " leads nowhere: there is no " + reached);
                 }
                 else
                 {
-                    var list = holder as JArray ?? throw Nowhere(place, holder);
+                    var list = holder as JArray ?? throw Nowhere(reached, holder);
                     int index = _indices[k] < 0 ? list.Count + _indices[k] : _indices[k];
                     if (index < 0 || index >= list.Count)
                     {
-                        throw Nowhere(place, holder);
+                        throw Nowhere(reached, holder);
                     }
                     _indices[k] = index;
-                    place += "[" + index.ToString(CultureInfo.InvariantCulture) + "]";
+                    reached += "[" + index.ToString(CultureInfo.InvariantCulture) + "]";
                     if (isLast)
                     {
                         list[index] = value.DeepClone();
@@ -111,17 +111,17 @@ namespace Guidewire.Io
                     holder = list[index];
                 }
             }
-            Text = place;
+            Text = reached;
             return root;
         }
 
-        private ParameterException Nowhere(string place, JToken holder)
+        private ParameterException Nowhere(string reached, JToken holder)
         {
             string there = holder is JArray list ? list.Count == 0 ? "an empty list" : "a list of " + list.Count + ", "
-                    + place + "[0]" + (list.Count > 1 ? " to " + place + "[" + (list.Count - 1) + "]" : "")
-                : holder is JObject ? "an object: " + place + ".NAME"
+                    + reached + "[0]" + (list.Count > 1 ? " to " + reached + "[" + (list.Count - 1) + "]" : "")
+                : holder is JObject ? "an object: " + reached + ".NAME"
                 : holder.Type == JTokenType.Null ? "null, give the whole of it" : "one value without parts";
-            return new ParameterException(Text + " leads nowhere: " + place + " is " + there);
+            return new ParameterException(Text + " leads nowhere: " + reached + " is " + there);
         }
 
         private static int EndOfName(string text, int start)

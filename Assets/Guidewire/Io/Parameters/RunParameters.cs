@@ -44,13 +44,13 @@ namespace Guidewire.Io
         /// <summary>File with a start other than the straight wire; empty for none.</summary>
         public string StartFile { get; set; } = "";
 
-        /// <summary>EI of the whole wire in place of its modulus, N m^2; null where the modulus says it.</summary>
+        /// <summary>EI of the whole wire instead of its modulus, N m^2; null where the modulus says it.</summary>
         public double? BendingStiffness { get; set; }
 
-        /// <summary>GJ of the whole wire in place of its modulus, N m^2; null where the modulus says it.</summary>
+        /// <summary>GJ of the whole wire instead of its modulus, N m^2; null where the modulus says it.</summary>
         public double? TorsionalStiffness { get; set; }
 
-        /// <summary>rho A of the whole wire in place of its density, kg/m; null where the density says it.</summary>
+        /// <summary>rho A of the whole wire instead of its density, kg/m; null where the density says it.</summary>
         public double? MassPerLength { get; set; }
 
         /// <summary>Where the vessel's origin lies, in units.</summary>
@@ -74,7 +74,7 @@ namespace Guidewire.Io
         /// <summary>The files of loads over time as their key has them, or null.</summary>
         public JToken? LoadTables { get; set; }
 
-        /// <summary>The file with the hub's way and turn over time; empty for none.</summary>
+        /// <summary>The file with the hub's displacement and turn over time; empty for none.</summary>
         public string DriveFile { get; set; } = "";
 
         /// <summary>Every k-th step is logged.</summary>

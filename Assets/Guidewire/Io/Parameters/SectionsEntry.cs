@@ -6,7 +6,7 @@ using Newtonsoft.Json.Linq;
 namespace Guidewire.Io
 {
     /// <summary>A list of wire sections: [{"from": 250, "to": 300, "wireRadius": 2e-4, "restCurvature": [10, 0, 0]},
-    /// ...]. </summary>
+    /// ...].</summary>
     internal sealed class SectionsEntry : ParameterEntry
     {
         // The keys of a section that are positive numbers.

@@ -82,7 +82,7 @@ namespace Guidewire.Io
             return root[key] is JToken value ? Orientation(file, key, value) : (Quaterniond?)null;
         }
 
-        private static Quaterniond Orientation(string file, string place, JToken value)
+        private static Quaterniond Orientation(string file, string key, JToken value)
         {
             var parts = new double[4];
             bool valid = value is JArray four && four.Count == 4;
@@ -92,7 +92,7 @@ namespace Guidewire.Io
             }
             var orientation = new Quaterniond(parts[0], parts[1], parts[2], parts[3]);
             return valid && orientation.LengthSquared > 1e-12 ? orientation
-                : throw new ParameterException(file, place, value.ToString(),
+                : throw new ParameterException(file, key, value.ToString(),
                     "four numbers [x, y, z, w], not all 0");
         }
 

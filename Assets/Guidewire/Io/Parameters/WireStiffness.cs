@@ -5,15 +5,15 @@ using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
-    /// <summary>Stiffness and mass of the whole wire, given in place of moduli and density: E = EI/I, G = GJ/(2 I),
-    /// rho = m/A, with A = pi (r^2 - a^2) and I = A (r^2 + a^2)/4; EA is by itself, as in a coiled wire, and then EI is
+    /// <summary>Stiffness and mass of the whole wire, given instead of moduli and density: E = EI/I, G = GJ/(2 I), rho
+    /// = m/A, with A = pi (r^2 - a^2) and I = A (r^2 + a^2)/4; EA is by itself, as in a coiled wire, and then EI is
     /// what E makes of it.</summary>
     internal static class WireStiffness
     {
         // Beyond it the two words disagree: who writes both rounds one of them.
         private const double Rounding = 1e-3;
 
-        // Below it they are the same number, and the modulus keeps its bits: a run's own parameters repeat it.
+        // Below it they are the same number, and the modulus stays bit for bit: a run's own parameters repeat it.
         private const double SameNumber = 1e-12;
 
         private static readonly (string Stiffness, string Modulus)[] Pairs =
@@ -48,7 +48,7 @@ namespace Guidewire.Io
             double second = material.SecondMomentOfArea;
             if (!(area > 0.0))
             {
-                return;    // a hollow as wide as the wire: refused where radii are looked at
+                return;    // a hollow as wide as the wire: refused where radii are checked
             }
             material.YoungsModulus = Said(
                 given, 0, values.BendingStiffness, second, material.YoungsModulus, "N m^2");

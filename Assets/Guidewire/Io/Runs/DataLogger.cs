@@ -7,9 +7,9 @@ namespace Guidewire.Io
     /// <summary>Writes positions.json (thesis 3.2.3) as the run goes, one entry a line, in constant memory: <c>{"0":
     /// {"totalTime": s, "elapsedMilliseconds": ms, "delta": units, "sphere": {"0": {"x","y","z","vx","vy","vz"}, ...}},
     /// "1": ...}</c>, and where asked for <c>"orientation": {"0": {"x","y","z","w"}, ...}</c> and <c>"contact":
-    /// {"total": {"x","y","z"}, "reaction": ..., "sphere": {"i": ..., spheres that no wall pushes left
-    /// out}}</c> and <c>"stress": {"kineticEnergy": J, .., "curvature": [[x, y, z], ...], ..}</c> as key logStrains
-    /// says, and <c>"hub": {"insertion": m, ..}</c> as key logHub does.</summary>
+    /// {"total": {"x","y","z"}, "reaction": ..., "sphere": {"i": ..., spheres without contact left out}}</c> and
+    /// <c>"stress": {"kineticEnergy": J, .., "curvature": [[x, y, z], ...], ..}</c> as key logStrains says, and
+    /// <c>"hub": {"insertion": m, ..}</c> as key logHub does.</summary>
     /// <remarks>Entry "k" is the state after k steps. Until <see cref="Close"/> the file is not whole JSON, but every
     /// line that ends is a whole entry. Numbers are round-trip exact; one that is not finite is null.</remarks>
     internal sealed class DataLogger : StateLog

@@ -9,7 +9,7 @@ namespace Guidewire.Io
     /// <summary>What a new run does with one that its folder holds already.</summary>
     public enum Existing
     {
-        /// <summary>The new run takes its place once it is done; until then, and where it is not, the earlier one
+        /// <summary>The new run replaces it once it is done; until then, and where it is not, the earlier one
         /// stays.</summary>
         Replace,
 

@@ -14,11 +14,11 @@ namespace Guidewire.Io
         /// <summary>Characters of the longest number, -2.2250738585072014E-308.</summary>
         public const int Longest = 24;
 
-        private const int SafeDigits = 15;    // so many digits survive their way through a normal double
-        private const int MostDigits = 17;    // every double survives its way through so many digits
+        private const int SafeDigits = 15;    // so many digits survive conversion to a normal double and back
+        private const int MostDigits = 17;    // every double survives conversion to so many digits and back
         private const double SmallestNormal = 2.2250738585072014e-308;
 
-        /// <summary>Writes a finite number as ASCII from a place on.</summary>
+        /// <summary>Writes a finite number as ASCII from an index on.</summary>
         /// <returns>Bytes written, at most <see cref="Longest"/>.</returns>
         public static int Write(double value, byte[] target, int start)
         {
@@ -89,17 +89,17 @@ namespace Guidewire.Io
         private static string Above(string text)
         {
             char[] letters = text.ToCharArray();
-            int place = text.IndexOf('E') - 1;
-            while (place >= 0 && (letters[place] == '9' || letters[place] == '.'))
+            int index = text.IndexOf('E') - 1;
+            while (index >= 0 && (letters[index] == '9' || letters[index] == '.'))
             {
-                letters[place] = letters[place] == '9' ? '0' : '.';
-                place--;
+                letters[index] = letters[index] == '9' ? '0' : '.';
+                index--;
             }
-            if (place < 0)
+            if (index < 0)
             {
                 return text;
             }
-            letters[place]++;
+            letters[index]++;
             return new string(letters);
         }
 
@@ -127,7 +127,7 @@ namespace Guidewire.Io
                 : digits.Substring(0, exponent + 1) + "." + digits.Substring(exponent + 1);
         }
 
-        /// <summary>Newtonsoft's writer, but for the text of a double; as there, a whole number keeps a ".0".</summary>
+        /// <summary>Newtonsoft's writer, but for the text of a double; as there, a whole number has a ".0".</summary>
         private sealed class Writer : JsonTextWriter
         {
             public Writer(TextWriter text)

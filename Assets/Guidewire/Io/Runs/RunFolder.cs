@@ -40,8 +40,7 @@ namespace Guidewire.Io
         /// <summary>Wall time since the run's start in ms.</summary>
         public double Elapsed => _clock.Elapsed.TotalMilliseconds;
 
-        /// <summary>Outcomes that take the place of no result that the folder held before; none where this is not
-        /// set.</summary>
+        /// <summary>Outcomes that replace no result that the folder held before; none where this is not set.</summary>
         public IReadOnlyList<Outcome> LeavesEarlierWhen { get; set; } = Array.Empty<Outcome>();
 
         /// <summary>Whether such a result is there still, after <see cref="Finish"/>.</summary>
@@ -99,7 +98,7 @@ namespace Guidewire.Io
         }
 
         /// <summary>Says in the summary that something other than the parameters made this run: it has no parameter
-        /// hash then, and no later run takes its place for granted.</summary>
+        /// hash then, and no later run relies on it.</summary>
         /// <param name="line">What it was, in one line.</param>
         public void Note(string line)
         {
@@ -147,7 +146,7 @@ namespace Guidewire.Io
             }
         }
 
-        /// <summary>Lets go of the log as it is; of one for which there was no room at all nothing stays.</summary>
+        /// <summary>Closes the log as it is; a log for which the disk had no space at all is deleted.</summary>
         public void Dispose()
         {
             _logger?.Dispose();

@@ -12,7 +12,7 @@ namespace Guidewire.Io
     /// for. Its host, such as a Unity scene, decides when to step.</summary>
     public sealed class SimulationSession : IDisposable
     {
-        private const double Smoothing = 0.02;     // share of the newest step in the step time shown
+        private const double Smoothing = 0.02;     // weight of the newest step in the step time shown
 
         private const string Magic = "guidewire-snapshot";
         private const int LongestHead = 256;       // bytes of the line before a snapshot's numbers
@@ -20,7 +20,7 @@ namespace Guidewire.Io
         private readonly string? _file;
         private readonly List<KeyValuePair<string, JToken>> _overrides;
         private ParameterHandler _handler;
-        private readonly Steering? _hand;
+        private readonly Steering? _steering;
         private readonly bool _statesReactions;
         private RunFolder? _results;
         private bool _isNoted;
@@ -29,9 +29,9 @@ namespace Guidewire.Io
         private SimulationSession(string? file, List<KeyValuePair<string, JToken>> overrides, ParameterHandler handler,
             bool isSteered)
         {
-            _hand = isSteered ? new Steering() : null;
+            _steering = isSteered ? new Steering() : null;
             _statesReactions = handler.Values.Simulation.Method.StatesReactions;
-            handler.Values.Simulation.Drive.Steering = _hand;
+            handler.Values.Simulation.Drive.Steering = _steering;
             _file = file;
             _overrides = overrides;
             _handler = handler;
@@ -60,15 +60,15 @@ namespace Guidewire.Io
         /// <summary>All effective values of the keys that the method takes.</summary>
         public JObject EffectiveParameters => _handler.ToJson();
 
-        /// <summary>Whether a hand holds the first element, in place of the drive.</summary>
-        public bool IsSteered => _hand != null;
+        /// <summary>Whether the user holds the first element, instead of the drive.</summary>
+        public bool IsSteered => _steering != null;
 
         /// <summary>A run at its start that is not logged, and states contact forces and reactions wherever its method
         /// has them.</summary>
         /// <param name="file">Parameter file, or null for the defaults.</param>
         /// <param name="overrides">Parameters that count instead of the file's.</param>
-        /// <param name="isSteered">Whether a hand holds the first element, in place of the drive; null: with
-        /// gains.</param>
+        /// <param name="isSteered">Whether the user holds the first element, instead of the drive; null: with
+        /// pbd.</param>
         /// <exception cref="ParameterException">The file or a value cannot be used.</exception>
         public static SimulationSession Open(string? file, IEnumerable<KeyValuePair<string, JToken>> overrides,
             bool? isSteered)
@@ -91,7 +91,7 @@ namespace Guidewire.Io
         /// <param name="file">Parameter file.</param>
         /// <param name="overrides">KEY=VALUE each: parameters that count instead of the file's.</param>
         /// <param name="logFolder">Folder that takes the results; empty for a run that is not logged.</param>
-        /// <param name="isSteered">Whether a hand holds the first element, in place of the drive.</param>
+        /// <param name="isSteered">Whether the user holds the first element, instead of the drive.</param>
         /// <exception cref="ParameterException">The file, a value or the folder cannot be used.</exception>
         public static SimulationSession Open(string file, IEnumerable<string> overrides,
             string logFolder, bool isSteered)
@@ -119,10 +119,10 @@ namespace Guidewire.Io
         /// <param name="turn">Turn of the first element about its axis in it, rad.</param>
         public void Step(double push, double turn)
         {
-            if (_hand != null)
+            if (_steering != null)
             {
-                _hand.Push = push;
-                _hand.Turn = turn;
+                _steering.Push = push;
+                _steering.Turn = turn;
             }
             long before = Stopwatch.GetTimestamp();
             if (_results != null)
@@ -215,10 +215,10 @@ namespace Guidewire.Io
                 changed.RemoveAll(pair => ParameterPath.IsWithin(pair.Key, value.Key));
                 changed.Add(value);
             }
-            ParameterHandler handler = ParameterHandler.Load(_file, changed, _hand != null);
+            ParameterHandler handler = ParameterHandler.Load(_file, changed, _steering != null);
             MethodParameters method = handler.Values.Simulation.Method;
             method.StatesReactions |= _statesReactions && CanStateReactions(method);
-            handler.Values.Simulation.Drive.Steering = _hand;
+            handler.Values.Simulation.Drive.Steering = _steering;
             Simulation = Simulation.Continue(handler.Values.Simulation);
             Note("parameters changed by hand");
             _handler = handler;
@@ -232,16 +232,16 @@ namespace Guidewire.Io
         {
             IReadOnlyList<string> choices = ParameterTable.Find(key)!.Choices;
             string now = (string?)Get(key) ?? "";
-            int place = 0;
-            while (place < choices.Count && choices[place] != now)
+            int index = 0;
+            while (index < choices.Count && choices[index] != now)
             {
-                place++;
+                index++;
             }
             for (int k = 1; k < choices.Count; k++)
             {
                 try
                 {
-                    Set(key, choices[(place + k) % choices.Count]);
+                    Set(key, choices[(index + k) % choices.Count]);
                     return true;
                 }
                 catch (Exception error) when (error is ParameterException || error is ArgumentException)

@@ -3,7 +3,7 @@ using System;
 namespace Guidewire.Io
 {
     /// <summary>Sum and median of step times in constant memory: the median from classes 1 % wide, so it is within 0.5
-    /// %. </summary>
+    /// %.</summary>
     internal sealed class StepTimes
     {
         private const double Smallest = 1e-5;         // ms
@@ -22,8 +22,8 @@ namespace Guidewire.Io
         {
             Sum += milliseconds;
             _count++;
-            double place = Math.Log(Math.Max(milliseconds, Smallest) / Smallest) / Math.Log(Ratio);
-            _classes[(int)Math.Min(place, _classes.Length - 1)]++;
+            double bin = Math.Log(Math.Max(milliseconds, Smallest) / Smallest) / Math.Log(Ratio);
+            _classes[(int)Math.Min(bin, _classes.Length - 1)]++;
         }
 
         /// <summary>Median in ms; 0 without steps.</summary>

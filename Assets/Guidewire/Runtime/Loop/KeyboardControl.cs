@@ -8,7 +8,7 @@ namespace Guidewire.Runtime
     {
         /// <summary>The keys, one a line, as the HUD shows them.</summary>
         public const string Help = "W / S  or up / down: push / pull\nA / D  or left / right: turn\n"
-            + "space: pause     N: one step     R: reset     M: gains or material\n"
+            + "space: pause     N: one step     R: reset     M: pbd or material\n"
             + "C: colour     B: spheres     G: directors\nF: contact forces     H: this text\n"
             + "right mouse button: orbit     wheel: zoom     T: look at the tip";
 

@@ -26,7 +26,7 @@ namespace Guidewire.Runtime
         [Tooltip("Folder that takes positions.json, parameters.json and summary.json; empty: the run is not logged.")]
         [SerializeField] private string _logFolder = "";
 
-        [Tooltip("Parameter file that a key takes in this one's place, and back; empty: none.")]
+        [Tooltip("Parameter file that a key swaps with this one, and back; empty: none.")]
         [SerializeField] private string _alternativeFile = "";
 
         [Tooltip("KEY=VALUE, one a line: parameters that count instead of that file's.")]
@@ -43,7 +43,7 @@ namespace Guidewire.Runtime
         [SerializeField, Range(1f, 100f)] private float _frameBudget = 12f;
 
         [Header("Steering")]
-        [Tooltip("Whether keys push and turn the wire, in place of the parameter file's drive.")]
+        [Tooltip("Whether keys push and turn the wire, instead of the parameter file's drive.")]
         [SerializeField] private bool _isSteered;
 
         [Tooltip("Speed of sphere 0 while a push or pull key is down, in units a second of in-game time.")]
@@ -86,11 +86,11 @@ namespace Guidewire.Runtime
         /// <summary>Folder that paths in the Inspector start from.</summary>
         public static string Root => Path.GetDirectoryName(Application.dataPath) ?? ".";
 
-        /// <summary>Names what the next <see cref="Load"/> reads, in place of the Inspector.</summary>
+        /// <summary>Names what the next <see cref="Load"/> reads, instead of the Inspector.</summary>
         /// <param name="parameterFile">Parameter file, from <see cref="Root"/>.</param>
         /// <param name="overrides">KEY=VALUE each.</param>
         /// <param name="logFolder">Folder of the results; empty for a run that is not logged.</param>
-        /// <param name="isSteered">Whether keys steer the wire in place of the drive.</param>
+        /// <param name="isSteered">Whether keys steer the wire instead of the drive.</param>
         public void Choose(string parameterFile, string[] overrides, string logFolder, bool isSteered)
         {
             _isSteered = isSteered;
@@ -99,7 +99,7 @@ namespace Guidewire.Runtime
             _logFolder = logFolder;
         }
 
-        /// <summary>Takes the alternative's parameters in place of the present ones, and builds the wire anew; does
+        /// <summary>Takes the alternative's parameters instead of the present ones, and builds the wire anew; does
         /// nothing where there is no alternative.</summary>
         public void TakeAlternative()
         {

@@ -2,22 +2,22 @@ using UnityEngine;
 
 namespace Guidewire.Runtime
 {
-    /// <summary>Blue to grey to red, as a texture of one row: a material that takes it is lit and coloured by place,
-    /// with Unity's own shader.</summary>
+    /// <summary>Blue to grey to red, as a texture of one row: a material that takes it is lit and coloured by texture
+    /// coordinate, with Unity's own shader.</summary>
     internal static class ColourMap
     {
-        /// <summary>The place of the value 0: grey.</summary>
+        /// <summary>The texture coordinate of the value 0: grey.</summary>
         public const float Middle = 0.5f;
 
         private const int Width = 256;
 
-        /// <summary>The place of a value.</summary>
+        /// <summary>The texture coordinate of a value.</summary>
         /// <param name="value">Any number; beyond the range it takes the end's colour.</param>
         /// <param name="range">The value of the last colour, positive.</param>
-        public static float Place(double value, float range)
+        public static float Coordinate(double value, float range)
         {
-            float place = Middle + 0.5f * (float)value / range;
-            return float.IsNaN(place) ? Middle : Mathf.Clamp(place, 0.5f / Width, 1f - 0.5f / Width);
+            float coordinate = Middle + 0.5f * (float)value / range;
+            return float.IsNaN(coordinate) ? Middle : Mathf.Clamp(coordinate, 0.5f / Width, 1f - 0.5f / Width);
         }
 
         /// <summary>The texture.</summary>
@@ -29,8 +29,8 @@ namespace Guidewire.Runtime
             var red = new Color(0.9f, 0.15f, 0.1f);
             for (int i = 0; i < Width; i++)
             {
-                float place = 2f * i / (Width - 1) - 1f;
-                pixels[i] = Color.Lerp(grey, place < 0f ? blue : red, Mathf.Abs(place));
+                float coordinate = 2f * i / (Width - 1) - 1f;
+                pixels[i] = Color.Lerp(grey, coordinate < 0f ? blue : red, Mathf.Abs(coordinate));
             }
             var texture = new Texture2D(Width, 1) { wrapMode = TextureWrapMode.Clamp, name = "Colours" };
             texture.SetPixels32(pixels);

@@ -8,7 +8,7 @@ namespace Guidewire.Runtime
     /// stick has a fixed length; what it stands for is the largest force of late.</summary>
     public sealed class ContactView : MonoBehaviour
     {
-        private const double Fading = 0.99;    // share of the largest force that is left a frame later
+        private const double Fading = 0.99;    // fraction of the largest force that is left a frame later
 
         [SerializeField] private SimulationLoop _loop = null!;
 

@@ -125,7 +125,7 @@ namespace Guidewire.Runtime
             ContactRecord? contacts = simulation.Contacts;
             if (contacts != null)
             {
-                Append("walls push with {0:0.00e+0}, the hand with {1:0.00e+0} {2}", contacts.Total.Length,
+                Append("walls: force {0:0.00e+0}, user: force {1:0.00e+0} {2}", contacts.Total.Length,
                     contacts.Reaction.Length, HasMaterial(session) ? "N" : "mass unit unit/s\u00b2");
                 Append("asked of sphere 0: {0:0.0} units, not given: {1:0.0}   passages {2}", contacts.DriveAsked,
                     contacts.DriveShortfall, contacts.Passages);

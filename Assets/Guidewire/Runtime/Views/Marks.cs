@@ -14,7 +14,7 @@ namespace Guidewire.Runtime
         {
             var normals = new Vector3[(Rows + 1) * Columns];
             var triangles = new int[6 * Rows * Columns];
-            int place = 0;
+            int index = 0;
             for (int a = 0; a < normals.Length; a++)
             {
                 float latitude = Mathf.PI * (a / Columns) / Rows;
@@ -24,12 +24,12 @@ namespace Guidewire.Runtime
                 if (a / Columns < Rows)
                 {
                     int b = a % Columns == Columns - 1 ? a + 1 - Columns : a + 1;
-                    triangles[place++] = a;
-                    triangles[place++] = b;
-                    triangles[place++] = a + Columns;
-                    triangles[place++] = b;
-                    triangles[place++] = b + Columns;
-                    triangles[place++] = a + Columns;
+                    triangles[index++] = a;
+                    triangles[index++] = b;
+                    triangles[index++] = a + Columns;
+                    triangles[index++] = b;
+                    triangles[index++] = b + Columns;
+                    triangles[index++] = a + Columns;
                 }
             }
             var mesh = new Mesh { name = "Ball" };
@@ -45,7 +45,7 @@ namespace Guidewire.Runtime
             return new Material(from) { mainTexture = null, color = new Color(red, green, blue) };
         }
 
-        /// <summary>Draws a ball; nothing where its place is not finite.</summary>
+        /// <summary>Draws a ball; nothing where its position is not finite.</summary>
         public static void DrawBall(Mesh ball, Vector3 centre, float radius, Material material)
         {
             if (centre.IsFinite())
@@ -54,7 +54,7 @@ namespace Guidewire.Runtime
             }
         }
 
-        /// <summary>Draws a ball drawn out to a stick from a place along a vector.</summary>
+        /// <summary>Draws a ball drawn out to a stick from a point along a vector.</summary>
         public static void DrawStick(Mesh ball, Vector3 from, Vector3 along, float radius, Material material)
         {
             float half = 0.5f * along.magnitude;

@@ -7,10 +7,9 @@ namespace Guidewire.Runtime
     /// <summary>The surface of a wire: rings around a smooth curve through all spheres, with round ends. Its arrays are
     /// made once and rewritten in place.</summary>
     /// <remarks>Between spheres j and j + 1 runs the cubic with the tangents m_i = (x_{i+1} - x_{i-1})/2 (Catmull-Rom,
-    /// one-sided at the ends), so the surface goes through the spheres and has no kinks. Rings keep their direction
-    /// from
-    /// one to the next (the last ring's normal, made perpendicular to the new tangent), so the surface does not twist
-    /// where the wire does not bend; the first ring takes the first director.</remarks>
+    /// one-sided at the ends), so the surface goes through the spheres and has no kinks. Rings preserve their direction
+    /// from one to the next (the last ring's normal, made perpendicular to the new tangent), so the surface does not
+    /// twist where the wire does not bend; the first ring takes the first director.</remarks>
     internal sealed class TubeMesh
     {
         private const int Cap = 3;    // rings of a round end, beside its pole
@@ -52,7 +51,7 @@ namespace Guidewire.Runtime
         /// <summary>Outward unit normals.</summary>
         public Vector3[] Normals { get; }
 
-        /// <summary>Places in the colour map, x in [0, 1].</summary>
+        /// <summary>Coordinates in the colour map, x in [0, 1].</summary>
         public Vector2[] Colours { get; }
 
         /// <summary>Three indices a triangle, clockwise from outside as Unity has it.</summary>
@@ -67,7 +66,7 @@ namespace Guidewire.Runtime
         /// <summary>Rewrites the surface; leaves it as it is where a position is not finite.</summary>
         /// <param name="state">The wire.</param>
         /// <param name="radius">Units.</param>
-        /// <param name="colours">A place in the colour map for each sphere, in [0, 1].</param>
+        /// <param name="colours">A coordinate in the colour map for each sphere, in [0, 1].</param>
         public bool Write(RodState state, float radius, float[] colours)
         {
             Vector3d[] x = state.Positions;
@@ -172,19 +171,19 @@ namespace Guidewire.Runtime
 
         private void WriteTriangles(int rings)
         {
-            int place = 0;
+            int index = 0;
             for (int ring = 0; ring + 1 < rings; ring++)
             {
                 for (int k = 0; k < _sides; k++)
                 {
                     int a = ring * _sides + k;
                     int b = ring * _sides + (k + 1) % _sides;
-                    Triangles[place++] = a;
-                    Triangles[place++] = b;
-                    Triangles[place++] = a + _sides;
-                    Triangles[place++] = b;
-                    Triangles[place++] = b + _sides;
-                    Triangles[place++] = a + _sides;
+                    Triangles[index++] = a;
+                    Triangles[index++] = b;
+                    Triangles[index++] = a + _sides;
+                    Triangles[index++] = b;
+                    Triangles[index++] = b + _sides;
+                    Triangles[index++] = a + _sides;
                 }
             }
         }

@@ -5,8 +5,8 @@ using UnityEngine.Rendering;
 
 namespace Guidewire.Runtime
 {
-    /// <summary>Shows the walls, translucent: from outside one looks through the near wall onto the far one, because a
-    /// wall's front is the side that the wire sees.</summary>
+    /// <summary>Shows the walls, translucent: from outside the far wall is seen through the near one, because a wall's
+    /// front is the side that the wire sees.</summary>
     public sealed class VesselView : MonoBehaviour
     {
         [SerializeField] private SimulationLoop _loop = null!;

@@ -83,7 +83,7 @@ namespace Guidewire.Runtime
             }
             for (int i = 0; i < _colours.Length; i++)
             {
-                _colours[i] = ColourMap.Place(Value(state, i), Range);
+                _colours[i] = ColourMap.Coordinate(Value(state, i), Range);
             }
             if (_tube.Write(state, ShowsSpheres ? 0.5f * radius : radius, _colours))
             {

@@ -49,7 +49,7 @@ namespace Guidewire.Core
             Refit(corners);
         }
 
-        /// <summary>Takes over new corners of the same triangles; the tree keeps its shape.</summary>
+        /// <summary>Takes over new corners of the same triangles; the topology of the tree stays.</summary>
         public void Refit(Vector3d[] corners)
         {
             for (int k = 0; k < _order.Length; k++)
@@ -94,7 +94,7 @@ namespace Guidewire.Core
             }
             else
             {
-                // From the hint's leaf up: what is nearest is found first, and each level costs one look at the branch
+                // From the hint's leaf up: what is nearest is found first, and each level costs one test of the branch
                 // that is not yet searched.
                 int node = _leaf[hint];
                 TestLeaf(_nodes[node], ref search);
@@ -257,21 +257,22 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Fraction of the motion of segment a b during which it stays at least <paramref name="keep"/> from
-        /// every triangle, <see cref="ContactShape.NoImpact"/> for all of it. <paramref name="hint"/>: a triangle that
-        /// may be near, -1 for none.</summary>
-        /// <remarks>Once something is met, only what the segment may come to before then is looked at.</remarks>
-        public double Sweep(
-            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep, double resolution,
+        /// <summary>Fraction of the motion of segment a b during which it stays at least <paramref name="clearance"/>
+        /// from every triangle, <see cref="ContactShape.NoImpact"/> for all of it. <paramref name="hint"/>: a triangle
+        /// that may be near, -1 for none.</summary>
+        /// <remarks>After an impact is found, only what the segment may meet before then is tested.</remarks>
+        public double TimeOfImpact(
+            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance, double resolution,
             int hint)
         {
-            var swept = new SweptSegment(a0, b0, a1, b1, keep);
+            var swept = new SweptSegment(a0, b0, a1, b1, clearance);
             double impact = ContactShape.NoImpact;
             double motion = swept.Motion;
             var search = new SegmentSearch(a0, b0, swept.Range);
             if (hint >= 0)
             {
-                SweepLeaf(_nodes[_leaf[hint]], a0, b0, a1, b1, keep, resolution, motion, ref search, ref impact);
+                ImpactWithLeaf(_nodes[_leaf[hint]], a0, b0, a1, b1, clearance, resolution, motion, ref search,
+                    ref impact);
             }
             Span<int> stack = stackalloc int[StackSize];
             int depth = 0;
@@ -289,61 +290,61 @@ namespace Guidewire.Core
                     stack[depth++] = node.First + 1;
                     continue;
                 }
-                SweepLeaf(node, a0, b0, a1, b1, keep, resolution, motion, ref search, ref impact);
+                ImpactWithLeaf(node, a0, b0, a1, b1, clearance, resolution, motion, ref search, ref impact);
             }
             return impact;
         }
 
-        private void SweepLeaf(
-            in BvhNode leaf, in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
+        private void ImpactWithLeaf(
+            in BvhNode leaf, in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance,
             double resolution, double motion, ref SegmentSearch search, ref double impact)
         {
             for (int k = leaf.First; k < leaf.First + leaf.Count; k++)
             {
-                double time = SweepTriangle(_corners[3 * k], _corners[3 * k + 1], _corners[3 * k + 2],
-                    a0, b0, a1, b1, keep, resolution, motion, ref impact);
+                double time = ImpactWithTriangle(_corners[3 * k], _corners[3 * k + 1], _corners[3 * k + 2],
+                    a0, b0, a1, b1, clearance, resolution, motion, ref impact);
                 if (time < ContactShape.NoImpact)
                 {
-                    double range = RoundedUp * (keep + time * motion);
+                    double range = RoundedUp * (clearance + time * motion);
                     search.Squared = range * range;
                 }
             }
         }
 
-        /// <summary>Lowers the fraction of the motion of segment a b during which it stays at least
-        /// <paramref name="keep"/> from a triangle, where the triangle asks for it; returns the lower one, or
-        /// <see cref="ContactShape.NoImpact"/>.</summary>
+        /// <summary>Lowers the fraction of the motion of segment a b during which it stays at least <paramref
+        /// name="clearance"/> from a triangle, if the triangle requires it; returns the lower one, or <see
+        /// cref="ContactShape.NoImpact"/>.</summary>
         /// <param name="motion">No end of the segment goes farther.</param>
-        public static double SweepTriangle(in Vector3d v0, in Vector3d v1, in Vector3d v2, in Vector3d a0,
-            in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep, double resolution, double motion,
+        public static double ImpactWithTriangle(in Vector3d v0, in Vector3d v1, in Vector3d v2, in Vector3d a0,
+            in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance, double resolution, double motion,
             ref double impact)
         {
-            if (StaysOnOneSide(a0, b0, a1, b1, v0, v1, v2, keep))
+            if (StaysOnOneSide(a0, b0, a1, b1, v0, v1, v2, clearance))
             {
                 return ContactShape.NoImpact;
             }
             Vector3d middle = (1.0 / 3.0) * (v0 + v1 + v2);
             double ball = Math.Sqrt(Math.Max(
                 (v0 - middle).LengthSquared, Math.Max((v1 - middle).LengthSquared, (v2 - middle).LengthSquared)));
-            return SweepBody(
-                new TriangleBody(v0, v1, v2), middle, ball, a0, b0, a1, b1, keep, resolution, motion, ref impact);
+            return ImpactWithBody(
+                new TriangleBody(v0, v1, v2), middle, ball, a0, b0, a1, b1, clearance, resolution, motion, ref impact);
         }
 
         /// <summary>The same for any convex body in a ball.</summary>
-        public static double SweepBody<TBody>(in TBody body, in Vector3d middle, double ball, in Vector3d a0,
-            in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep, double resolution, double motion,
+        public static double ImpactWithBody<TBody>(in TBody body, in Vector3d middle, double ball, in Vector3d a0,
+            in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance, double resolution, double motion,
             ref double impact)
             where TBody : struct, IConvexBody
         {
             double limit = Math.Min(1.0, impact);
-            double range = RoundedUp * (keep + limit * motion);
-            if (!MayReach(a0, b0, range + ball, middle, out double from, out double to))
+            double range = RoundedUp * (clearance + limit * motion);
+            if (!PartWithin(a0, b0, range + ball, middle, out double from, out double to))
             {
                 return ContactShape.NoImpact;
             }
             double time = SweptTest.Impact(
                 body, Vector3d.Lerp(a0, b0, from), Vector3d.Lerp(a0, b0, to),
-                Vector3d.Lerp(a1, b1, from), Vector3d.Lerp(a1, b1, to), keep, resolution, limit);
+                Vector3d.Lerp(a1, b1, from), Vector3d.Lerp(a1, b1, to), clearance, resolution, limit);
             if (time < impact)
             {
                 impact = time;
@@ -387,22 +388,22 @@ namespace Guidewire.Core
             }
         }
 
-        // The part of the segment that may come to a body: what lies within reach of the middle of the ball around it.
-        // Of a long segment that turns about its touching place, that part moves little.
-        private static bool MayReach(in Vector3d a, in Vector3d b, double reach, in Vector3d middle, out double from,
+        // The part of the segment that may meet a body: what lies within the range of the centre of the ball around it.
+        // Of a long segment that turns about its contact point, that part moves little.
+        private static bool PartWithin(in Vector3d a, in Vector3d b, double range, in Vector3d middle, out double from,
             out double to)
         {
             from = 0.0;
             to = 1.0;
             Vector3d along = b - a;
             double lengthSquared = along.LengthSquared;
-            double reachSquared = reach * reach;
+            double rangeSquared = range * range;
             if (!(lengthSquared > 0.0))
             {
-                return (middle - a).LengthSquared <= reachSquared;
+                return (middle - a).LengthSquared <= rangeSquared;
             }
             double foot = Vector3d.Dot(middle - a, along) / lengthSquared;
-            double left = reachSquared - (middle - a - foot * along).LengthSquared;
+            double left = rangeSquared - (middle - a - foot * along).LengthSquared;
             if (left < 0.0)
             {
                 return false;
@@ -418,13 +419,13 @@ namespace Guidewire.Core
             in Vector3d v0, in Vector3d v1, in Vector3d v2, double distance)
         {
             Vector3d n = Vector3d.Cross(v1 - v0, v2 - v0);
-            double keep = distance * n.Length;
+            double clearance = distance * n.Length;
             double w = Vector3d.Dot(n, a0 - v0);
             double x = Vector3d.Dot(n, b0 - v0);
             double y = Vector3d.Dot(n, a1 - v0);
             double z = Vector3d.Dot(n, b1 - v0);
-            return (w > keep && x > keep && y > keep && z > keep)
-                || (w < -keep && x < -keep && y < -keep && z < -keep);
+            return (w > clearance && x > clearance && y > clearance && z > clearance)
+                || (w < -clearance && x < -clearance && y < -clearance && z < -clearance);
         }
     }
 }

@@ -1,21 +1,21 @@
 namespace Guidewire.Core
 {
-    /// <summary>All places of a mesh within a range of a point.</summary>
+    /// <summary>All contact points of a mesh within a range of a point.</summary>
     /// <remarks>By inclusion and exclusion: the surface is the union of its closed triangles, two neighbours share an
     /// edge, all around an inner corner share that corner. So triangles count 1, inner edges -1, inner corners 1, each
-    /// with the place of it that is nearest to the point; an edge or corner of an open rim is shared by nobody and
-    /// counts 0 of itself. That place lies inside a face, inside an edge or at a corner, and a feature's weight is what
-    /// the triangles, edges and corners whose nearest place it holds count together. Where the wall is flat all but the
-    /// foot cancel, however finely it is cut; an edge that bulges into the free side is left with 1, the edge of a
-    /// valley between two feet with -1. Each triangle's distance changes continuously with the point, and so does the
-    /// sum of any function of the distances over all of them.</remarks>
+    /// at its point nearest to the query point; an edge or corner of an open rim is shared by no two triangles and
+    /// counts 0. That nearest point lies inside a face, inside an edge or at a corner, and a feature's weight is the
+    /// sum of the counts of all triangles, edges and corners whose nearest point lies on it. Where the wall is flat all
+    /// but the foot cancel, however finely it is cut; an edge that bulges into the free side is left with 1, the edge
+    /// of a valley between two feet with -1. Each triangle's distance changes continuously with the point, and so does
+    /// the sum of any function of the distances over all of them.</remarks>
     internal sealed class MeshContactPoints
     {
         private const int Touched = 1 << 20;    // added to the weight of what has one, so that 0 means untouched
         private readonly MeshGeometry _mesh;
         private readonly StructList<int> _triangles = new StructList<int>(64);
         private readonly StructList<int> _features = new StructList<int>(64);
-        private readonly int[] _weight;         // of edges, by their place, then of vertices
+        private readonly int[] _weight;         // of edges, by half-edge, then of vertices
         private double _nearest;
         private bool _isBehind;
 
@@ -26,16 +26,16 @@ namespace Guidewire.Core
             _weight = new int[mesh.Corners.Length + mesh.VertexCount];
         }
 
-        /// <summary>Adds the places within <paramref name="range"/> of a point: first faces in the order of the
+        /// <summary>Adds the contact points within <paramref name="range"/> of a point: first faces in the order of the
         /// triangles, then edges and corners in the order in which those faces and their neighbours lead to
         /// them.</summary>
         /// <param name="x">The point, units.</param>
         /// <param name="range">Units.</param>
         /// <param name="nearby">Chooses from the features.</param>
         /// <param name="among">The triangles near the point; all are searched where they are not known.</param>
-        /// <param name="places">Receives the places.</param>
+        /// <param name="contactPoints">Receives the contact points.</param>
         public void Find(in Vector3d x, double range, MeshNearby nearby, FeatureRange among,
-            StructList<ContactPoint> places)
+            StructList<ContactPoint> contactPoints)
         {
             _triangles.Clear();
             if (among.IsKnown)
@@ -46,7 +46,7 @@ namespace Guidewire.Core
             {
                 _mesh.Tree.Within(x, x, range, _triangles);
             }
-            int first = places.Count;
+            int first = contactPoints.Count;
             _triangles.Sort(0);
             _nearest = double.PositiveInfinity;
             _isBehind = false;
@@ -54,7 +54,7 @@ namespace Guidewire.Core
             double limit = range * range;
             for (int i = 0; i < _triangles.Count; i++)
             {
-                CountTriangle(x, limit, _triangles[i], places);
+                CountTriangle(x, limit, _triangles[i], contactPoints);
             }
             for (int i = 0; i < _features.Count; i++)
             {
@@ -63,17 +63,17 @@ namespace Guidewire.Core
                 _weight[feature] = 0;
                 if (weight != 0)
                 {
-                    AddFeature(x, feature, weight, places);
+                    AddFeature(x, feature, weight, contactPoints);
                 }
             }
-            for (int i = first; i < places.Count && _isBehind; i++)
+            for (int i = first; i < contactPoints.Count && _isBehind; i++)
             {
-                places[i] = places[i].FromBehind();
+                contactPoints[i] = contactPoints[i].FromBehind();
             }
         }
 
         // The triangle, and those of its edges and corners that are counted with it.
-        private void CountTriangle(in Vector3d x, double limit, int triangle, StructList<ContactPoint> places)
+        private void CountTriangle(in Vector3d x, double limit, int triangle, StructList<ContactPoint> contactPoints)
         {
             ref readonly Vector3d v0 = ref _mesh.Corners[3 * triangle];
             ref readonly Vector3d v1 = ref _mesh.Corners[3 * triangle + 1];
@@ -86,7 +86,7 @@ namespace Guidewire.Core
             if (feature == ClosestPoints.Face)
             {
                 SurfaceContact contact = Unsigned(x, point, triangle, feature);
-                places.Add(ContactPoint.Flat(contact, 1));
+                contactPoints.Add(ContactPoint.Flat(contact, 1));
             }
             else if (feature >= ClosestPoints.Corner)
             {
@@ -96,16 +96,17 @@ namespace Guidewire.Core
             {
                 Count(_mesh.EdgeOf(3 * triangle + feature - ClosestPoints.Edge), 1);
             }
-            for (int place = 3 * triangle; place < 3 * triangle + 3; place++)
+            for (int halfEdge = 3 * triangle; halfEdge < 3 * triangle + 3; halfEdge++)
             {
-                if (_mesh.EdgeOf(place) == place && !_mesh.IsRimEdge(place))
+                if (_mesh.EdgeOf(halfEdge) == halfEdge && !_mesh.IsRimEdge(halfEdge))
                 {
-                    CountEdge(x, limit, place);
+                    CountEdge(x, limit, halfEdge);
                 }
-                if (_mesh.PlaceOfVertex(_mesh.VertexAt(place)) == place && !_mesh.IsRimVertex(_mesh.VertexAt(place))
-                    && (x - _mesh.Corners[place]).LengthSquared <= limit)
+                if (_mesh.HalfEdgeOfVertex(_mesh.VertexAt(halfEdge)) == halfEdge
+                    && !_mesh.IsRimVertex(_mesh.VertexAt(halfEdge))
+                    && (x - _mesh.Corners[halfEdge]).LengthSquared <= limit)
                 {
-                    Count(VertexOf(place), 1);
+                    Count(VertexOf(halfEdge), 1);
                 }
             }
         }
@@ -120,9 +121,9 @@ namespace Guidewire.Core
             }
         }
 
-        private int VertexOf(int place)
+        private int VertexOf(int halfEdge)
         {
-            return _mesh.Corners.Length + _mesh.VertexAt(place);
+            return _mesh.Corners.Length + _mesh.VertexAt(halfEdge);
         }
 
         private void Count(int feature, int weight)
@@ -135,14 +136,14 @@ namespace Guidewire.Core
             _weight[feature] += weight;
         }
 
-        private void AddFeature(in Vector3d x, int feature, int weight, StructList<ContactPoint> places)
+        private void AddFeature(in Vector3d x, int feature, int weight, StructList<ContactPoint> contactPoints)
         {
             if (feature >= _mesh.Corners.Length)
             {
-                int place = _mesh.PlaceOfVertex(feature - _mesh.Corners.Length);
-                Vector3d corner = _mesh.Corners[place];
-                SurfaceContact contact = Unsigned(x, corner, place / 3, ClosestPoints.Corner + place % 3);
-                places.Add(ContactPoint.Corner(contact, weight, contact.Distance));
+                int halfEdge = _mesh.HalfEdgeOfVertex(feature - _mesh.Corners.Length);
+                Vector3d corner = _mesh.Corners[halfEdge];
+                SurfaceContact contact = Unsigned(x, corner, halfEdge / 3, ClosestPoints.Corner + halfEdge % 3);
+                contactPoints.Add(ContactPoint.Corner(contact, weight, contact.Distance));
             }
             else
             {
@@ -152,7 +153,8 @@ namespace Guidewire.Core
                 double t = ClosestPoints.PointSegment(x, start, end);
                 SurfaceContact contact = Unsigned(
                     x, Vector3d.Lerp(start, end, t), feature / 3, ClosestPoints.Edge + feature % 3);
-                places.Add(ContactPoint.Edge(contact, weight, Vector3d.Normalize(end - start), contact.Distance));
+                contactPoints.Add(ContactPoint.Edge(contact, weight, Vector3d.Normalize(end - start),
+                    contact.Distance));
             }
         }
 

@@ -3,7 +3,7 @@ using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
-    /// <summary>The ridges of a mesh: edges at which its two faces turn towards the free side, and edges of open
+    /// <summary>The convex edges of a mesh: edges at which its two faces turn towards the free side, and edges of open
     /// rims.</summary>
     /// <remarks>The weight of an edge goes with the angle between its faces, and is 1 at a rim.</remarks>
     internal sealed class MeshEdges
@@ -11,7 +11,7 @@ namespace Guidewire.Core
         private const double LeastAngle = 1e-6;   // radians
         private const double RimWeight = 1.0;
         private readonly MeshGeometry _mesh;
-        private readonly double[] _weight;        // of the edge that starts at a place, 0 for all but its own
+        private readonly double[] _weight;        // of the edge that a half-edge represents, else 0
         private readonly StructList<int> _edges = new StructList<int>(64);
 
         /// <summary>For this mesh where it stands.</summary>
@@ -19,36 +19,36 @@ namespace Guidewire.Core
         {
             _mesh = mesh;
             _weight = new double[mesh.Corners.Length];
-            for (int place = 0; place < _weight.Length; place++)
+            for (int halfEdge = 0; halfEdge < _weight.Length; halfEdge++)
             {
-                int edge = mesh.EdgeOf(place);
+                int edge = mesh.EdgeOf(halfEdge);
                 if (mesh.IsRimEdge(edge))
                 {
                     _weight[edge] = RimWeight;
                 }
-                else if (place != edge)
+                else if (halfEdge != edge)
                 {
-                    _weight[edge] = ConvexEdge.Weight(Angle(edge, place));
+                    _weight[edge] = ConvexEdge.Weight(Angle(edge, halfEdge));
                 }
             }
         }
 
-        /// <summary>Places of the edges that are ridges.</summary>
+        /// <summary>Half-edges of the convex edges.</summary>
         public int[] Edges()
         {
             var edges = new List<int>();
-            for (int place = 0; place < _weight.Length; place++)
+            for (int halfEdge = 0; halfEdge < _weight.Length; halfEdge++)
             {
-                if (_weight[place] > 0.0)
+                if (_weight[halfEdge] > 0.0)
                 {
-                    edges.Add(place);
+                    edges.Add(halfEdge);
                 }
             }
             return edges.ToArray();
         }
 
-        /// <summary>Adds the ridges within <paramref name="range"/> of segment a b, in the order of their
-        /// places.</summary>
+        /// <summary>Adds the edge contacts within <paramref name="range"/> of segment a b, in the order of the
+        /// half-edges.</summary>
         public void Find(in Vector3d a, in Vector3d b, double range, MeshNearby nearby, FeatureRange among,
             StructList<EdgeContact> edgeContacts)
         {

@@ -3,14 +3,14 @@ using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
-    /// <summary>A mesh at its place: the hierarchy over its triangles and the normals of its faces, edges and
+    /// <summary>A placed mesh: the hierarchy over its triangles and the normals of its faces, edges and
     /// corners.</summary>
     internal sealed class MeshGeometry
     {
         private readonly Vector3d[] _rest;
         private readonly int[] _triangles;
-        private readonly int[] _twin;             // place where the edge is entered from the other side, -1 at a rim
-        private readonly int[] _placeOfVertex;
+        private readonly int[] _twin;             // half-edge in the opposite direction, -1 at a rim
+        private readonly int[] _halfEdgeOfVertex;
         private readonly bool[] _isRimVertex;
         private readonly Vector3d[] _vertices;
         private readonly Vector3d[] _corners;
@@ -34,10 +34,10 @@ namespace Guidewire.Core
             _triangles = triangles.ToArray();
             _isRimVertex = new bool[_rest.Length];
             _twin = FindTwins(_triangles, _isRimVertex);
-            _placeOfVertex = new int[_rest.Length];
-            for (int place = _triangles.Length - 1; place >= 0; place--)
+            _halfEdgeOfVertex = new int[_rest.Length];
+            for (int halfEdge = _triangles.Length - 1; halfEdge >= 0; halfEdge--)
             {
-                _placeOfVertex[_triangles[place]] = place;
+                _halfEdgeOfVertex[_triangles[halfEdge]] = halfEdge;
             }
             _vertices = new Vector3d[_rest.Length];
             _corners = new Vector3d[_triangles.Length];
@@ -59,16 +59,17 @@ namespace Guidewire.Core
         /// <summary>Number of vertices.</summary>
         public int VertexCount => _rest.Length;
 
-        /// <summary>The vertex at a place: that of corner k of triangle t is 3 t + k.</summary>
-        public int VertexAt(int place)
+        /// <summary>The vertex at which a half-edge starts: half-edge 3 t + k starts at corner k of triangle
+        /// t.</summary>
+        public int VertexAt(int halfEdge)
         {
-            return _triangles[place];
+            return _triangles[halfEdge];
         }
 
-        /// <summary>The first place at which a vertex stands.</summary>
-        public int PlaceOfVertex(int vertex)
+        /// <summary>The first half-edge that starts at a vertex.</summary>
+        public int HalfEdgeOfVertex(int vertex)
         {
-            return _placeOfVertex[vertex];
+            return _halfEdgeOfVertex[vertex];
         }
 
         /// <summary>True for a vertex of an open rim.</summary>
@@ -77,11 +78,11 @@ namespace Guidewire.Core
             return _isRimVertex[vertex];
         }
 
-        /// <summary>The edge that starts at a place of a triangle, by the lower of the places at which its two
-        /// triangles have it.</summary>
-        public int EdgeOf(int place)
+        /// <summary>The edge of a half-edge, by the lower of the two half-edges at which its two triangles have
+        /// it.</summary>
+        public int EdgeOf(int halfEdge)
         {
-            return _twin[place] < 0 ? place : Math.Min(place, _twin[place]);
+            return _twin[halfEdge] < 0 ? halfEdge : Math.Min(halfEdge, _twin[halfEdge]);
         }
 
         /// <summary>True for an edge of an open rim.</summary>
@@ -97,19 +98,19 @@ namespace Guidewire.Core
             return FeatureNormal(edge / 3, ClosestPoints.Edge + edge % 3, out _);
         }
 
-        /// <summary>Places of an edge's two ends, that of the lower vertex first, so that the edge runs one way
+        /// <summary>Corners of an edge's two ends, that of the lower vertex first, so that the edge has one direction
         /// whatever its triangles do.</summary>
         public void EndsOf(int edge, out int from, out int to)
         {
             from = edge;
-            to = EndPlace(edge);
+            to = NextHalfEdge(edge);
             if (_triangles[from] > _triangles[to])
             {
                 (from, to) = (to, from);
             }
         }
 
-        /// <summary>Moves everything to its new place.</summary>
+        /// <summary>Moves everything by a new placement.</summary>
         public void Place(in Placement placement)
         {
             Update(placement);
@@ -198,39 +199,39 @@ namespace Guidewire.Core
             }
         }
 
-        // The place at which each edge is entered from its other side, -1 at a rim.
+        // The half-edge in the opposite direction of each, -1 at a rim.
         private static int[] FindTwins(int[] triangles, bool[] isRimVertex)
         {
             var twins = new int[triangles.Length];
             var entered = new Dictionary<(int, int), int>(triangles.Length);
-            for (int place = 0; place < triangles.Length; place++)
+            for (int halfEdge = 0; halfEdge < triangles.Length; halfEdge++)
             {
-                twins[place] = -1;
-                entered[(triangles[place], End(triangles, place))] = place;
+                twins[halfEdge] = -1;
+                entered[(triangles[halfEdge], End(triangles, halfEdge))] = halfEdge;
             }
-            for (int place = 0; place < triangles.Length; place++)
+            for (int halfEdge = 0; halfEdge < triangles.Length; halfEdge++)
             {
-                if (entered.TryGetValue((End(triangles, place), triangles[place]), out int other))
+                if (entered.TryGetValue((End(triangles, halfEdge), triangles[halfEdge]), out int other))
                 {
-                    twins[place] = other;
+                    twins[halfEdge] = other;
                 }
                 else
                 {
-                    isRimVertex[triangles[place]] = true;
-                    isRimVertex[End(triangles, place)] = true;
+                    isRimVertex[triangles[halfEdge]] = true;
+                    isRimVertex[End(triangles, halfEdge)] = true;
                 }
             }
             return twins;
         }
 
-        private static int End(int[] triangles, int place)
+        private static int End(int[] triangles, int halfEdge)
         {
-            return triangles[EndPlace(place)];
+            return triangles[NextHalfEdge(halfEdge)];
         }
 
-        private static int EndPlace(int place)
+        private static int NextHalfEdge(int halfEdge)
         {
-            return place % 3 == 2 ? place - 2 : place + 1;
+            return halfEdge % 3 == 2 ? halfEdge - 2 : halfEdge + 1;
         }
     }
 }

@@ -3,24 +3,23 @@ using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
-    /// <summary>What of a mesh is near a wire, found once in the hierarchies and then asked as the wire moves: near
-    /// nodes triangles, near elements ridges.</summary>
-    /// <remarks>The inside of an element can only be nearer to the wall than its ends where the wall bulges: at the
-    /// nearest place of a valley, of a flat wall or of a hollow corner the distance is a concave function along the
-    /// element. So triangles are for points, and the edges for elements are ridges; corners are ends of ridges.
-    /// </remarks>
+    /// <summary>The features of a mesh near a wire, found once in the hierarchies and then queried as the wire moves:
+    /// triangles near nodes, convex edges near elements.</summary>
+    /// <remarks>The interior of an element can only be nearer to the wall than its ends where the wall bulges: at the
+    /// nearest point of a valley, a flat wall or a concave corner the distance is a concave function along the element.
+    /// So points need the triangles, and elements only the convex edges; corners are ends of those.</remarks>
     internal sealed class MeshNearby
     {
         private const double RoundedUp = 1.0 + 1e-9;
         private readonly MeshGeometry _mesh;
         private readonly Vector3d[] _centre;     // of the triangles
         private readonly double[] _radius;       // of the balls around them
-        private readonly int[] _convexEdge;           // places of the edges that are ridges
+        private readonly int[] _convexEdge;           // half-edges of the convex edges
         private readonly Vector3d[] _edgeNormal; // between those of an edge's faces, unit vectors
         private readonly Bvh? _edgeTree;
         private readonly StructList<int> _found = new StructList<int>(256);
 
-        /// <summary>For this mesh where it stands.</summary>
+        /// <summary>For this mesh at its placement.</summary>
         public MeshNearby(MeshGeometry mesh, MeshEdges edgeContacts)
         {
             _mesh = mesh;
@@ -79,7 +78,7 @@ namespace Guidewire.Core
             return nearest;
         }
 
-        /// <summary>Adds the ridges within a range of segment a b, nearest first.</summary>
+        /// <summary>Adds the edge contacts within a range of segment a b, nearest first.</summary>
         /// <returns>The distance of the nearest; infinite where there is none.</returns>
         public double FindEdgeContacts(in Vector3d a, in Vector3d b, double range, StructList<WallFeature> edgeContacts)
         {
@@ -111,7 +110,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Adds the ridges that may be within a distance of segment a b.</summary>
+        /// <summary>Adds the convex edges that may be within a distance of segment a b.</summary>
         public void ChooseEdges(in Vector3d a, in Vector3d b, double distance, StructList<int> edgeContacts)
         {
             int from = edgeContacts.Count;
@@ -122,35 +121,35 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Lowers the fraction of a point's motion during which it stays at least <paramref name="keep"/> from
-        /// every triangle, as <see cref="Bvh.Sweep"/> has it, but for ridges.</summary>
-        public void SweepPoint(in Vector3d from, in Vector3d to, double keep, double resolution, FeatureRange among,
-            ref double impact)
+        /// <summary>Lowers the fraction of a point's motion during which it stays at least <paramref name="clearance"/>
+        /// from every triangle, as <see cref="Bvh.TimeOfImpact"/> does, but without convex edges.</summary>
+        public void ImpactOfPoint(in Vector3d from, in Vector3d to, double clearance, double resolution,
+            FeatureRange among, ref double impact)
         {
             if (!among.IsKnown)
             {
-                SweepPoint(from, to, keep, resolution, ref impact);
+                ImpactOfPoint(from, to, clearance, resolution, ref impact);
                 return;
             }
             double motion = Vector3d.Distance(from, to);
-            if (motion <= keep && Keeps(to, keep, motion, among))
+            if (motion <= clearance && KeepsClearance(to, clearance, motion, among))
             {
                 return;
             }
-            double reach = (keep + motion) * RoundedUp;
-            for (int k = among.From; k < among.To && among.LeastDistance(k) <= reach; k++)
+            double limit = (clearance + motion) * RoundedUp;
+            for (int k = among.From; k < among.To && among.LeastDistance(k) <= limit; k++)
             {
                 int i = among[k];
-                if (MayBeWithin(from, reach, i))
+                if (MayBeWithin(from, limit, i))
                 {
-                    Bvh.SweepTriangle(_mesh.Corners[3 * i], _mesh.Corners[3 * i + 1], _mesh.Corners[3 * i + 2],
-                        from, from, to, to, keep, resolution, motion, ref impact);
+                    Bvh.ImpactWithTriangle(_mesh.Corners[3 * i], _mesh.Corners[3 * i + 1], _mesh.Corners[3 * i + 2],
+                        from, from, to, to, clearance, resolution, motion, ref impact);
                 }
             }
         }
 
-        /// <summary>The same for a segment and the ridges.</summary>
-        public void SweepSegment(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
+        /// <summary>The same for a segment and the convex edges.</summary>
+        public void ImpactOfSegment(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance,
             double resolution, FeatureRange among, ref double impact)
         {
             Vector3d stepA = a1 - a0;
@@ -158,49 +157,50 @@ namespace Guidewire.Core
             double motion = Math.Sqrt(Math.Max(stepA.LengthSquared, stepB.LengthSquared));
             if (among.IsKnown)
             {
-                double reach = (keep + motion) * RoundedUp;
-                for (int k = among.From; k < among.To && among.LeastDistance(k) <= reach; k++)
+                double limit = (clearance + motion) * RoundedUp;
+                for (int k = among.From; k < among.To && among.LeastDistance(k) <= limit; k++)
                 {
-                    SweepEdge(among[k], a0, b0, a1, b1, keep, resolution, motion, ref impact);
+                    ImpactWithEdge(among[k], a0, b0, a1, b1, clearance, resolution, motion, ref impact);
                 }
                 return;
             }
             _found.Clear();
-            var swept = new SweptSegment(a0, b0, a1, b1, keep);
+            var swept = new SweptSegment(a0, b0, a1, b1, clearance);
             _edgeTree?.Within(swept, _found);
             for (int k = 0; k < _found.Count; k++)
             {
                 if (!IsBeside(_found[k], swept))
                 {
-                    SweepEdge(_convexEdge[_found[k]], a0, b0, a1, b1, keep, resolution, motion, ref impact);
+                    ImpactWithEdge(_convexEdge[_found[k]], a0, b0, a1, b1, clearance, resolution, motion, ref impact);
                 }
             }
         }
 
-        // All that the point comes to is near its way.
-        private void SweepPoint(in Vector3d from, in Vector3d to, double keep, double resolution, ref double impact)
+        // All that the point may meet is near its path.
+        private void ImpactOfPoint(in Vector3d from, in Vector3d to, double clearance, double resolution,
+            ref double impact)
         {
             double motion = Vector3d.Distance(from, to);
             _found.Clear();
-            _mesh.Tree.Within(from, to, keep * RoundedUp, _found);
+            _mesh.Tree.Within(from, to, clearance * RoundedUp, _found);
             for (int k = 0; k < _found.Count; k++)
             {
                 int i = 3 * _found[k];
-                Bvh.SweepTriangle(_mesh.Corners[i], _mesh.Corners[i + 1], _mesh.Corners[i + 2],
-                    from, from, to, to, keep, resolution, motion, ref impact);
+                Bvh.ImpactWithTriangle(_mesh.Corners[i], _mesh.Corners[i + 1], _mesh.Corners[i + 2],
+                    from, from, to, to, clearance, resolution, motion, ref impact);
             }
         }
 
-        // Whether a point that has come here, on a way too short to have crossed a wall and be as far behind it, keeps
-        // a distance. Where no ridge is near, the distance along a straight way is a concave function, so that of
-        // its ends says it all; ridges are met by the segments on both sides of the point.
-        private bool Keeps(in Vector3d x, double keep, double motion, FeatureRange among)
+        // Whether a point at its end position, after a displacement too short to have crossed a wall and be as far
+        // behind it, has the clearance. Where no convex edge is near, the distance along a straight path is a concave
+        // function, so the values at its ends suffice; convex edges are met by the segments on both sides of the point.
+        private bool KeepsClearance(in Vector3d x, double clearance, double motion, FeatureRange among)
         {
-            double limit = keep * keep;
-            for (int k = among.From; k < among.To && among.LeastDistance(k) <= keep + motion; k++)
+            double limit = clearance * clearance;
+            for (int k = among.From; k < among.To && among.LeastDistance(k) <= clearance + motion; k++)
             {
                 int i = 3 * among[k];
-                if (MayBeWithin(x, keep, among[k]) && ClosestPoints.PointTriangle(
+                if (MayBeWithin(x, clearance, among[k]) && ClosestPoints.PointTriangle(
                     x, _mesh.Corners[i], _mesh.Corners[i + 1], _mesh.Corners[i + 2], out _, out _) < limit)
                 {
                     return false;
@@ -209,7 +209,7 @@ namespace Guidewire.Core
             return true;
         }
 
-        // Whether the motion stays on one side of a plane, or a thin slab, that a ridge lies in.
+        // Whether the motion stays on one side of a plane, or a thin slab, that a convex edge lies in.
         private bool IsBeside(int edgeContact, in SweptSegment swept)
         {
             _mesh.EndsOf(_convexEdge[edgeContact], out int from, out int to);
@@ -218,14 +218,14 @@ namespace Guidewire.Core
             return swept.IsBeside(_edgeNormal[edgeContact], Math.Min(start, end), Math.Max(start, end));
         }
 
-        private void SweepEdge(int edge, in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
-            double resolution, double motion, ref double impact)
+        private void ImpactWithEdge(int edge, in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
+            double clearance, double resolution, double motion, ref double impact)
         {
             _mesh.EndsOf(edge, out int from, out int to);
             ref readonly Vector3d start = ref _mesh.Corners[from];
             ref readonly Vector3d end = ref _mesh.Corners[to];
-            Bvh.SweepBody(new EdgeBody(start, end), 0.5 * (start + end), 0.5 * Vector3d.Distance(start, end),
-                a0, b0, a1, b1, keep, resolution, motion, ref impact);
+            Bvh.ImpactWithBody(new EdgeBody(start, end), 0.5 * (start + end), 0.5 * Vector3d.Distance(start, end),
+                a0, b0, a1, b1, clearance, resolution, motion, ref impact);
         }
 
         private double Distance(in Vector3d a, in Vector3d b, int edge)
@@ -238,8 +238,8 @@ namespace Guidewire.Core
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         private bool MayBeWithin(in Vector3d x, double distance, int triangle)
         {
-            double reach = distance + _radius[triangle];
-            return (x - _centre[triangle]).LengthSquared <= reach * reach;
+            double limit = distance + _radius[triangle];
+            return (x - _centre[triangle]).LengthSquared <= limit * limit;
         }
 
         private double LeastDistance(in Vector3d x, int triangle)

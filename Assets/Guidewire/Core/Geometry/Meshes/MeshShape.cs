@@ -14,13 +14,13 @@ namespace Guidewire.Core
         private readonly TriangleMesh _mesh;
         private readonly MeshGeometry _wall;
         private readonly MeshGeometry _closed;
-        private MeshContactPoints? _places;
+        private MeshContactPoints? _contactPoints;
         private MeshEdges? _edgeContacts;
         private MeshNearby? _nearby;
-        private FeatureCache? _cells;         // with the reach that was asked for last
+        private FeatureCache? _cache;         // with the skin of the last request
         private (double Above, double Radius)? _narrowest;    // what was asked for last
 
-        /// <summary>The wall at the place where its file has it.</summary>
+        /// <summary>The wall where its file has it.</summary>
         public MeshShape(TriangleMesh mesh)
             : this(mesh, Placement.Identity)
         {
@@ -49,9 +49,9 @@ namespace Guidewire.Core
 
         /// <summary>How many times an edge of the wall pierces one of its triangles, and where it does first, units.
         /// </summary>
-        public int CountSelfIntersections(out Vector3d place)
+        public int CountSelfIntersections(out Vector3d position)
         {
-            return SelfIntersection.Count(_wall, out place);
+            return SelfIntersection.Count(_wall, out position);
         }
 
         /// <summary>Moves, turns and scales the wall; its hierarchy is refitted, not built again.</summary>
@@ -59,7 +59,7 @@ namespace Guidewire.Core
         {
             _wall.Place(placement);
             _nearby = null;
-            _cells = null;
+            _cache = null;
             _narrowest = null;
             if (_closed != _wall)
             {
@@ -76,7 +76,7 @@ namespace Guidewire.Core
             if (triangle < 0)
             {
                 // Beyond the wall by more than the range is seen only by the sign, which a wire that the swept test
-                // keeps inside never needs.
+                // inside never needs.
                 contact = default;
                 return false;
             }
@@ -85,15 +85,14 @@ namespace Guidewire.Core
             return true;
         }
 
-        /// <summary>The nearest places of all triangles, edges and corners, less those that cancel each other: feet
+        /// <summary>The nearest points of all triangles, edges and corners, less those that cancel each other: feet
         /// inside faces, and what of edges and corners is left over; see <see cref="MeshContactPoints"/>. All have the
-        /// sign of the nearest. On an edge or corner itself, at
-        /// distance 0, no curvature is stated.</summary>
+        /// sign of the nearest. On an edge or corner itself, at distance 0, no curvature is stated.</summary>
         internal override void FindContactPoints(in Vector3d x, double range, FeatureRange features,
-            StructList<ContactPoint> places)
+            StructList<ContactPoint> contactPoints)
         {
-            _places ??= new MeshContactPoints(_wall);
-            _places.Find(x, range, Nearby, features, places);
+            _contactPoints ??= new MeshContactPoints(_wall);
+            _contactPoints.Find(x, range, Nearby, features, contactPoints);
         }
 
         /// <summary>Edges that bulge into the lumen, and those of open rims; see <see cref="MeshEdges"/>.</summary>
@@ -107,13 +106,13 @@ namespace Guidewire.Core
         internal override bool HasPointFeatures => true;
 
         /// <inheritdoc/>
-        internal override FeatureCache? CellsFor(double reach)
+        internal override FeatureCache? FeatureCacheFor(double skin)
         {
-            if (_cells == null || _cells.Reach != reach)
+            if (_cache == null || _cache.Skin != skin)
             {
-                _cells = new FeatureCache(this, reach);
+                _cache = new FeatureCache(this, skin);
             }
-            return _cells;
+            return _cache;
         }
 
         /// <summary>The triangles within the range.</summary>
@@ -122,8 +121,8 @@ namespace Guidewire.Core
             return Nearby.FindTriangles(x, range, features);
         }
 
-        /// <summary>The ridges within the range.</summary>
-        internal override double FindFeatures(in Vector3d a, in Vector3d b, double range, double reach, ref int hint,
+        /// <summary>The convex edges within the range.</summary>
+        internal override double FindFeatures(in Vector3d a, in Vector3d b, double range, double skin, ref int hint,
             StructList<WallFeature> features)
         {
             return Nearby.FindEdgeContacts(a, b, range, features);
@@ -136,14 +135,14 @@ namespace Guidewire.Core
             EdgeContacts.Find(a, b, range, Nearby, features, edgeContacts);
         }
 
-        /// <summary>Of both ends and the triangles, and of what is between them and the ridges.</summary>
-        internal override double FreeShare(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double keep,
-            double resolution, int hint, in ElementFeatures features)
+        /// <summary>For both ends against the triangles, and for the interior against the convex edges.</summary>
+        internal override double ConservativeTimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1,
+            in Vector3d b1, double clearance, double resolution, int hint, in ElementFeatures features)
         {
             double impact = NoImpact;
-            Nearby.SweepPoint(a0, a1, keep, resolution, features.AtA, ref impact);
-            Nearby.SweepPoint(b0, b1, keep, resolution, features.AtB, ref impact);
-            Nearby.SweepSegment(a0, b0, a1, b1, keep, resolution, features.Between, ref impact);
+            Nearby.ImpactOfPoint(a0, a1, clearance, resolution, features.AtA, ref impact);
+            Nearby.ImpactOfPoint(b0, b1, clearance, resolution, features.AtB, ref impact);
+            Nearby.ImpactOfSegment(a0, b0, a1, b1, clearance, resolution, features.Between, ref impact);
             return impact;
         }
 
@@ -177,9 +176,9 @@ namespace Guidewire.Core
         }
 
         private protected override double TimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
-            double keep, double resolution, int hint)
+            double clearance, double resolution, int hint)
         {
-            return _wall.Tree.Sweep(a0, b0, a1, b1, keep, resolution, hint);
+            return _wall.Tree.TimeOfImpact(a0, b0, a1, b1, clearance, resolution, hint);
         }
     }
 }

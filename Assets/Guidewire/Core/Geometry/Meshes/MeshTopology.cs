@@ -4,13 +4,13 @@ using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>Makes one oriented surface of a file's triangles: vertices that are one up to rounding become one (see
-    /// <see cref="VertexWeld"/>), collapsed and repeated triangles go, neighbours are turned the same way round, open
-    /// rims are found. What has no single answer is refused: an edge of three triangles, a surface of one side only,
-    /// several surfaces, a hole that nobody named.</summary>
+    /// <summary>Makes one oriented surface of a file's triangles: vertices that are equal up to rounding are merged
+    /// (see <see cref="VertexWeld"/>), degenerate and repeated triangles are removed, neighbours are oriented
+    /// consistently, open rims are found. What is ambiguous is refused: an edge of three triangles, a surface of one
+    /// side only, several surfaces, a hole that is not declared.</summary>
     internal sealed class MeshTopology
     {
-        // Beyond it squares and volumes lose their last digits, and nothing there is a vessel; units.
+        // Beyond it squares and volumes lose digits, and no vessel is that large; units.
         private const double FarthestCoordinate = 1e9;
 
         private readonly Dictionary<(int, int), EdgeUse> _edges = new Dictionary<(int, int), EdgeUse>();
@@ -24,7 +24,7 @@ namespace Guidewire.Core
         /// <summary>Different vertices.</summary>
         public Vector3d[] Vertices { get; private set; }
 
-        /// <summary>Three vertices a triangle, all triangles the same way round.</summary>
+        /// <summary>Three vertices a triangle, consistently oriented.</summary>
         public int[] Triangles { get; private set; }
 
         /// <summary>Open rims, each a closed chain of vertices in the direction of its triangles' edges.</summary>
@@ -49,7 +49,7 @@ namespace Guidewire.Core
             return topology;
         }
 
-        /// <summary>Turns every triangle and rim round.</summary>
+        /// <summary>Reverses every triangle and rim.</summary>
         public void TurnAll()
         {
             for (int t = 0; t < Triangles.Length; t += 3)
@@ -69,7 +69,7 @@ namespace Guidewire.Core
             {
                 bad += vertex.IsFinite ? 0 : 1;
             }
-            int far = Array.FindIndex(vertices, vertex => Reach(vertex) > FarthestCoordinate);
+            int far = Array.FindIndex(vertices, vertex => LargestCoordinate(vertex) > FarthestCoordinate);
             int wild = 0;
             foreach (int index in triangles)
             {
@@ -87,7 +87,7 @@ namespace Guidewire.Core
             }
         }
 
-        private static double Reach(in Vector3d vertex)
+        private static double LargestCoordinate(in Vector3d vertex)
         {
             return Math.Max(Math.Abs(vertex.X), Math.Max(Math.Abs(vertex.Y), Math.Abs(vertex.Z)));
         }
@@ -266,7 +266,7 @@ namespace Guidewire.Core
             (Triangles[triangle + 1], Triangles[triangle + 2]) = (Triangles[triangle + 2], Triangles[triangle + 1]);
         }
 
-        // An edge's triangles, each by the place in Triangles where it enters the edge.
+        // An edge's triangles, each by its half-edge, an index into Triangles.
         private readonly struct EdgeUse
         {
             public readonly int Count;
@@ -280,14 +280,14 @@ namespace Guidewire.Core
                 _second = second;
             }
 
-            public EdgeUse With(int place)
+            public EdgeUse With(int halfEdge)
             {
-                return Count == 0 ? new EdgeUse(1, place, -1) : new EdgeUse(2, _first, place);
+                return Count == 0 ? new EdgeUse(1, halfEdge, -1) : new EdgeUse(2, _first, halfEdge);
             }
 
-            public int Other(int place)
+            public int Other(int halfEdge)
             {
-                return Count < 2 ? -1 : place == _first ? _second : _first;
+                return Count < 2 ? -1 : halfEdge == _first ? _second : _first;
             }
         }
     }

@@ -2,17 +2,17 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>How narrow the lumen of a mesh is: at the narrowest of the places to which walks along it
-    /// (<see cref="LumenWalk"/>) come from balls that touch the wall.</summary>
-    /// <remarks>The balls are those of the shrinking ball (Ma, Bae and Choi 2012): from one that is too large, the
-    /// nearest place q to its centre gives the one through p and q with the same normal, of radius
-    /// |p - q|^2/(2 n . (q - p)), until no place is nearer than p. They begin at places p that are spread evenly over
-    /// the wall's area, and those that are no smaller than the narrowest so far are not walked from: so the same
-    /// surface has the same width however it is cut into triangles.</remarks>
+    /// <summary>How narrow the lumen of a mesh is: at the narrowest position found by walks along it (<see
+    /// cref="LumenWalk"/>) that start from balls touching the wall.</summary>
+    /// <remarks>The balls are those of the shrinking ball (Ma, Bae and Choi 2012): starting with one that is too large,
+    /// the wall point q nearest to its centre gives the ball through p and q with the same normal, of radius |p -
+    /// q|^2/(2 n . (q - p)), until no point is nearer than p. The points p are spread evenly over the wall's area, and
+    /// no walk starts from balls no smaller than the narrowest so far: so the same surface has the same width however
+    /// it is triangulated.</remarks>
     internal static class MeshWidth
     {
-        private const int MostPlaces = 10_000;
-        private const int LeastPlaces = 2_000;
+        private const int MostSamples = 10_000;
+        private const int LeastSamples = 2_000;
         private const int MostShrinks = 30;
         private const double Converged = 2e-3;    // of a ball's radius squared
         private const double Least = 1e-6;    // of the mesh's size, for a radius
@@ -28,7 +28,7 @@ namespace Guidewire.Core
                 size = Math.Max(size, Vector3d.Distance(mesh.Corners[3 * t], mesh.Corners[0]));
             }
             double least = Math.Max(above, Least * size);
-            double cell = area / Math.Min(Math.Max(area / (2.0 * least * least), LeastPlaces), MostPlaces);
+            double cell = area / Math.Min(Math.Max(area / (2.0 * least * least), LeastSamples), MostSamples);
             var walk = new LumenWalk(wall, least);
             double narrowest = double.PositiveInfinity;
             double covered = 0.5 * cell;
@@ -60,8 +60,8 @@ namespace Guidewire.Core
             return 0.5 * Vector3d.Cross(mesh.Corners[3 * triangle + 1] - a, mesh.Corners[3 * triangle + 2] - a).Length;
         }
 
-        // The middle of the k-th of rows^2 equal parts of a triangle: in row i 2 i + 1 of them, upright and inverted by
-        // turns.
+        // The middle of the k-th of rows^2 equal parts of a triangle: in row i 2 i + 1 of them, alternately upright and
+        // inverted.
         private static Vector3d PlaceOn(MeshGeometry mesh, int triangle, int k, int rows)
         {
             int i = (int)Math.Sqrt(k + 0.5);

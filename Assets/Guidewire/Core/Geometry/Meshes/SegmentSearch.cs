@@ -3,8 +3,8 @@ using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
-    /// <summary>What a search for the triangle nearest to a segment has found so far, and the test by which it leaves
-    /// out nodes that cannot hold a nearer one.</summary>
+    /// <summary>What a search for the triangle nearest to a segment has found so far, and the test by which it skips
+    /// nodes that cannot hold a nearer one.</summary>
     internal struct SegmentSearch
     {
         public readonly Vector3d A;
@@ -30,7 +30,7 @@ namespace Guidewire.Core
             double lengthSquared = _along.LengthSquared;
             _inverseLengthSquared = lengthSquared > 0.0 ? 1.0 / lengthSquared : 0.0;
 
-            // A triangle exactly at the range counts: the smallest step up keeps "less than" enough below.
+            // A triangle exactly at the range counts: the next larger number makes "less than" sufficient below.
             Squared = range * range * (1.0 + 1e-15);
             Slot = -1;
             S = 0.0;
@@ -53,8 +53,8 @@ namespace Guidewire.Core
 
         /// <summary>False when the node is farther than the best so far, by its box against the segment's box or by its
         /// slab against the segment. The bound is the larger squared distance of the two.</summary>
-        /// <remarks>No branches but the answer: which bound is the larger cannot be foretold, and a wrong guess costs
-        /// more than both.</remarks>
+        /// <remarks>No branches except the result: which bound is larger cannot be predicted, and a mispredicted branch
+        /// costs more than both.</remarks>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public readonly bool MayHold(in BvhNode node, out double bound)
         {
@@ -68,7 +68,8 @@ namespace Guidewire.Core
             return bound < Squared;
         }
 
-        /// <summary>Squared distance of the node's centre from the segment: which of two to look at first.</summary>
+        /// <summary>Squared distance of the node's centre from the segment: decides which of two is searched
+        /// first.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public readonly double Order(in BvhNode node)
         {

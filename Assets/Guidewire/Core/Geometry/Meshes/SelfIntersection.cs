@@ -10,9 +10,9 @@ namespace Guidewire.Core
         private const double RelativeDepth = 1e-9;
 
         /// <summary>How many times an edge pierces a triangle, and where it does first.</summary>
-        public static int Count(MeshGeometry wall, out Vector3d place)
+        public static int Count(MeshGeometry wall, out Vector3d position)
         {
-            place = Vector3d.Zero;
+            position = Vector3d.Zero;
             double depth = RelativeDepth * Extents.Of(wall.Corners).LargestSide;
             var near = new StructList<int>(64);
             int count = 0;
@@ -30,7 +30,7 @@ namespace Guidewire.Core
                     if (!SharesVertex(wall, from, to, near[k])
                         && Pierces(wall, wall.Corners[from], wall.Corners[to], near[k], depth, out Vector3d point))
                     {
-                        place = count == 0 ? point : place;
+                        position = count == 0 ? point : position;
                         count++;
                     }
                 }

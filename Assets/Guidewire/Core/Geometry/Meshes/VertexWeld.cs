@@ -3,21 +3,23 @@ using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
-    /// <summary>Makes one vertex of those that a file states more than once: equal ones, and ones that differ by no
-    /// more than rounding may make them differ.</summary>
+    /// <summary>Merges vertices that a file states more than once: equal ones, and ones that differ by rounding
+    /// only.</summary>
     internal static class VertexWeld
     {
-        /// <summary>Distance within which two vertices are one, over the largest side of the box around all.</summary>
+        /// <summary>Distance within which two vertices are merged, over the largest side of the box around
+        /// all.</summary>
         /// <remarks>Programs that write each triangle's corners anew agree to some 1e-9 of the mesh's size where
         /// they print 9 to 10 digits. Single precision, 6e-8, makes equal numbers of equal ones: no more is
         /// needed.</remarks>
         public const double RelativeTolerance = 1e-8;
 
         // A direction along which hardly any two vertices of a regular mesh are level.
-        private static readonly Vector3d Sweep = Vector3d.Normalize(new Vector3d(0.6180339887, 0.3819660113, 1.0));
+        private static readonly Vector3d SortDirection =
+            Vector3d.Normalize(new Vector3d(0.6180339887, 0.3819660113, 1.0));
 
-        /// <summary>Which of the vertices that are kept stands for each; the earliest of those that are one stands for
-        /// all, with its own coordinates.</summary>
+        /// <summary>The index of the remaining vertex for each; the earliest of those merged represents all, with its
+        /// own coordinates.</summary>
         public static int[] Join(Vector3d[] vertices, out Vector3d[] kept)
         {
             int[] index = JoinEqual(vertices, out kept);
@@ -26,18 +28,18 @@ namespace Guidewire.Core
             {
                 return index;
             }
-            var place = new int[kept.Length];
+            var merged = new int[kept.Length];
             var different = new List<Vector3d>(kept.Length);
             for (int i = 0; i < kept.Length; i++)
             {
-                place[i] = group[i] < 0 ? different.Count : place[First(group, i)];
+                merged[i] = group[i] < 0 ? different.Count : merged[First(group, i)];
                 if (group[i] < 0)
                 {
                     different.Add(kept[i]);
                 }
             }
             kept = different.ToArray();
-            return Array.ConvertAll(index, i => place[i]);
+            return Array.ConvertAll(index, i => merged[i]);
         }
 
         private static int[] JoinEqual(Vector3d[] vertices, out Vector3d[] kept)
@@ -60,8 +62,8 @@ namespace Guidewire.Core
             return index;
         }
 
-        // For each vertex an earlier one that it is joined to, -1 for none. Vertices within the tolerance of each other
-        // are within it along the sweep too.
+        // For each vertex an earlier one that it is merged with, -1 for none. Vertices within the tolerance of each
+        // other are within it along the sort direction too.
         private static int[] JoinNear(Vector3d[] vertices)
         {
             double tolerance = RelativeTolerance * Extents.Of(vertices).LargestSide;
@@ -69,7 +71,7 @@ namespace Guidewire.Core
             var order = new int[vertices.Length];
             for (int i = 0; i < order.Length; i++)
             {
-                along[i] = Vector3d.Dot(Sweep, vertices[i]);
+                along[i] = Vector3d.Dot(SortDirection, vertices[i]);
                 order[i] = i;
             }
             Array.Sort(along, order);

@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>Forces on the nodes that keep their direction in the world: weight, force per length, tip force, axial
+    /// <summary>Forces on the nodes of constant direction in the world: weight, force per length, tip force, axial
     /// force. Energy -sum f_i . x_i.</summary>
     internal sealed class DeadLoads : EnergyTerm
     {

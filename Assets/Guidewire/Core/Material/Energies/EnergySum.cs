@@ -71,7 +71,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>The largest share of a step, at most 1, that no term forbids.</summary>
+        /// <summary>The largest fraction of a step, at most 1, that no term forbids.</summary>
         public static double MaxStep(EnergyTerm[] terms, RodShape shape, RodVector[] direction, double scale)
         {
             double fraction = 1.0;

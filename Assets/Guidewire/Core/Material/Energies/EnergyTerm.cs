@@ -3,14 +3,14 @@ namespace Guidewire.Core
     /// <summary>One part of the energy that a rod's shape minimises: its value, its gradient and its second
     /// derivatives by blocks. Derivatives are taken along x_i + dx and q_j exp(dtheta_j), with dtheta along the
     /// element's own axes.</summary>
-    /// <remarks>A term may couple x_i, theta_i, x_(i+1) and theta_i, theta_(i+1), which is what keeps the matrix block-
-    /// tridiagonal: stretch, bending, weight, inertia; a sphere's contact touches one A block, an element's contact
-    /// x_i and x_(i+1). Terms work on ranges, so that a long rod is assembled and eliminated while its blocks are in
-    /// the cache. What only some terms need has a neutral default here. A load without a potential (a couple or a
-    /// force that turns with the tip) is entered by its work since <see cref="Anchor"/>.</remarks>
+    /// <remarks>A term may couple x_i, theta_i, x_(i+1) and theta_i, theta_(i+1), so that the matrix stays
+    /// block-tridiagonal: stretch, bending, weight, inertia; a sphere's contact touches one A block, an element's
+    /// contact x_i and x_(i+1). Terms work on ranges, so that a long rod is assembled and eliminated while its blocks
+    /// are in the cache. What only some terms need has a neutral default here. A load without a potential (a couple or
+    /// a force that turns with the tip) is entered by its work since <see cref="Anchor"/>.</remarks>
     internal abstract class EnergyTerm
     {
-        /// <summary>Whether the value is a true energy, the same on every way to a shape.</summary>
+        /// <summary>Whether the value is a true energy, the same on every path to a shape.</summary>
         public virtual bool HasPotential => true;
 
         /// <summary>Whether the value is energy that rod and loads have; else only its slope counts, a force.</summary>
@@ -20,7 +20,7 @@ namespace Guidewire.Core
         public abstract double Value(RodShape shape);
 
         /// <summary>Adds the gradient of what belongs to indices from (inclusive) to to (exclusive).</summary>
-        /// <param name="measured">Takes what the term finds on the way.</param>
+        /// <param name="measured">Takes what the term finds in passing.</param>
         public abstract void AddGradient(RodShape shape, RodVector[] gradient, int from, int to,
             ref GradientMeasures measured);
 
@@ -54,7 +54,7 @@ namespace Guidewire.Core
         {
         }
 
-        /// <summary>A step of dt (s) begins in this shape: a term keeps of it what it needs until the step's end.
+        /// <summary>A step of dt (s) begins in this shape: a term stores of it what it needs until the step's end.
         /// Called by motions with implicit stages.</summary>
         public virtual void BeginStep(RodShape shape, double dt)
         {
@@ -65,15 +65,15 @@ namespace Guidewire.Core
         {
         }
 
-        /// <summary>How far a step may go: the largest share, above 0 and at most 1, of <paramref name="scale"/> times
-        /// <paramref name="direction"/> that leaves the term's energy finite on the whole way, which is that of
+        /// <summary>How far a step may go: the largest fraction, above 0 and at most 1, of <paramref name="scale"/>
+        /// times <paramref name="direction"/> that leaves the term's energy finite on the whole path, which is that of
         /// <see cref="RodStep.Apply"/>.</summary>
         public virtual double MaxStep(RodShape shape, RodVector[] direction, double scale)
         {
             return 1.0;
         }
 
-        /// <summary>Writes into a snapshot, or takes over from one, what the term keeps from step to step.</summary>
+        /// <summary>Writes into a snapshot, or takes over from one, the term's state between steps.</summary>
         public virtual void Serialize(Snapshot snapshot)
         {
         }

@@ -2,8 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>What the terms found on the way while they added their gradients, over all of them and all
-    /// ranges.</summary>
+    /// <summary>What the terms measured while they added their gradients, over all of them and all ranges.</summary>
     internal struct GradientMeasures
     {
         /// <summary>The largest force in an element, N.</summary>

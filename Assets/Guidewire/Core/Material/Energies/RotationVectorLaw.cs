@@ -102,9 +102,9 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>What a stiffness about d2 other than that about d1 adds: d p p^T to C_b, d r r^T to C_a and
-        /// -d p r^T to F with p = T^T e2, r = T e2 and d the difference. Theta by value: a reference would keep it out
-        /// of registers in an even wire too.</summary>
+        /// <summary>What a stiffness about d2 other than that about d1 adds: d p p^T to C_b, d r r^T to C_a and -d p
+        /// r^T to F with p = T^T e2, r = T e2 and d the difference. Theta by value: a reference would exclude it of
+        /// registers in an even wire too.</summary>
         private static void AddUneven(double difference, Vector3d theta, double tb, double c, ref RodBlock blockA,
             ref RodBlock blockB)
         {

@@ -2,15 +2,15 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Keeps a wire straight in its sheath: of the wire that a joint stands for only what is beyond the exit
+    /// <summary>Holds a wire straight in its sheath: of the wire that a joint stands for only what is beyond the exit
     /// bends. It cuts the joints of <see cref="BendTwistTerm"/> where the exit is, and has the energy of what is kept
     /// straight.</summary>
     /// <remarks>With a and f compliance and turn at rest beyond the exit (<see cref="JointPieces"/>), and W the energy
-    /// of what is before it, a joint has |theta - f|^2/(2 a) + W. The exit lies at a place along the wire that follows
-    /// from the hub's, not from the nodes: so the energy depends on the hub, and its slope,
-    /// -sum over joints of the hat function at the exit times |m + B kappa|^2/(2 B), is the force by which a bent wire
-    /// is driven out of a sheath without friction. It acts on the hub, at any speed. A joint wholly inside keeps 1e-6
-    /// of its compliance.</remarks>
+    /// of what is before it, a joint has |theta - f|^2/(2 a) + W. The exit lies at a position along the wire that
+    /// follows from the hub's, not from the nodes: so the energy depends on the hub, and its slope, -sum over joints of
+    /// the hat function at the exit times |m + B kappa|^2/(2 B), is the force by which a bent wire is driven out of a
+    /// sheath without friction. It acts on the hub, at any speed. A joint wholly inside retains 1e-6 of its
+    /// compliance.</remarks>
     internal sealed class SheathEnergy : EnergyTerm
     {
         private const double LeastFraction = 1e-6;
@@ -18,7 +18,7 @@ namespace Guidewire.Core
         private readonly SheathWindow _window;
         private readonly BendTwistTerm _bending;
         private readonly Joint[] _cutJoint;     // of the first joints, as they are cut
-        private readonly double[] _outside;     // shares of their lengths
+        private readonly double[] _outside;     // fractions of their lengths
         private int _cutCount;
         private double _exit;                   // along the wire, m from node 0 of the whole
         private double _held;                   // J
@@ -33,8 +33,8 @@ namespace Guidewire.Core
             _exit = double.NaN;
         }
 
-        /// <summary>The share of joint k that is outside: 0 where none of it is, above 0 to 1 elsewhere.</summary>
-        public double Share(int k)
+        /// <summary>The fraction of joint k that is outside: 0 where none of it is, above 0 to 1 elsewhere.</summary>
+        public double FractionOutside(int k)
         {
             return k < _cutCount ? _outside[k] : 1.0;
         }
@@ -46,9 +46,9 @@ namespace Guidewire.Core
         }
 
         /// <summary>The hub is where it would have the window's node 0 here, m, were nothing compressed.</summary>
-        public void SetHub(in Vector3d place)
+        public void SetHub(in Vector3d position)
         {
-            SetExit(_window.ExitFrom(place));
+            SetExit(_window.ExitFrom(position));
         }
 
         /// <summary>Force that the hub has to exert along the axis besides that of its spring, N: dE/dp. Negative where
@@ -58,13 +58,13 @@ namespace Guidewire.Core
             return -ReleaseAt(shape, _exit);
         }
 
-        /// <summary>Work of the hub, J, against what drives the wire out, while the exit's place along the wire goes on
-        /// to where a place of the hub has it, by the moments of a shape.</summary>
-        /// <param name="place">As of <see cref="SetHub"/>.</param>
+        /// <summary>Work of the hub, J, against what drives the wire out, while the exit's position along the wire
+        /// advances to where a position of the hub puts it, by the moments of a shape.</summary>
+        /// <param name="position">As of <see cref="SetHub"/>.</param>
         /// <param name="from">Where the exit was, m from node 0 of the whole.</param>
-        public double WorkTo(RodShape shape, in Vector3d place, double from)
+        public double WorkTo(RodShape shape, in Vector3d position, double from)
         {
-            double to = _window.ExitFrom(place);
+            double to = _window.ExitFrom(position);
             double end = Math.Max(from, to);
             double work = 0.0;
             for (double at = Math.Min(from, to); at < end;)

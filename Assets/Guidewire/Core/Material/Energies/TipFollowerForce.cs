@@ -2,15 +2,15 @@ namespace Guidewire.Core
 {
     /// <summary>A force on the last node that turns with the last element: constant along the element's own axes.
     /// </summary>
-    /// <remarks>F = R f has no potential, not even in a plane: its work depends on the way. It enters by its work on
-    /// the straight way since the anchor, -1/2 (F_anchor + F) . (x - x_anchor), whose second derivative at the anchor
+    /// <remarks>F = R f has no potential, not even in a plane: its work depends on the path. It enters by its work on
+    /// the straight path since the anchor, -1/2 (F_anchor + F) . (x - x_anchor), whose second derivative at the anchor
     /// is the symmetric half of the true tangent, d(-F)/dtheta = R [f]: half of it on (x, theta), half on (theta, x).
-    /// The other half, R [f]/2 less its transpose, no energy carries: rest shapes put it in exactly
-    /// (<see cref="FollowerTangent"/>); the stages of a motion leave it to Newton's iteration, which finds the force
-    /// anew for each iterate and is judged by what is then out of balance.</remarks>
+    /// The other half, R [f]/2 less its transpose, no energy carries: rest shapes put it in exactly (<see
+    /// cref="FollowerTangent"/>); the stages of a motion leave it to Newton's iteration, which finds the force anew for
+    /// each iterate and is judged by what is then out of balance.</remarks>
     internal sealed class TipFollowerForce : EnergyTerm
     {
-        private Vector3d _anchorPlace;
+        private Vector3d _anchorPosition;
         private Vector3d _anchorForce;
 
         /// <summary>f along the axes of the last element, N.</summary>
@@ -31,7 +31,7 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void Anchor(RodShape shape)
         {
-            _anchorPlace = shape.X[shape.ElementCount];
+            _anchorPosition = shape.X[shape.ElementCount];
             _anchorForce = Along(shape);
         }
 
@@ -42,7 +42,7 @@ namespace Guidewire.Core
             {
                 return 0.0;
             }
-            return -0.5 * Vector3d.Dot(_anchorForce + Along(shape), shape.X[shape.ElementCount] - _anchorPlace);
+            return -0.5 * Vector3d.Dot(_anchorForce + Along(shape), shape.X[shape.ElementCount] - _anchorPosition);
         }
 
         /// <inheritdoc/>

@@ -9,11 +9,11 @@ namespace Guidewire.Core
     ///   W = E L'^-T, G = W R^-1, A+ -= W G^T, W = F L'^-T, H = W R^-1, B+ -= W G^T, C+ -= W H^T (the rotation theta).
     /// </summary>
     /// <remarks>x of one node never meets theta of the next element but one, so the elimination fills nothing in: 228
-    /// multiplications a block against some 400 of a dense 6x6 sweep. The pivots of a 3x3 block are ratios of its
+    /// multiplications a block against some 400 of a dense 6x6 elimination. The pivots of a 3x3 block are ratios of its
     /// leading minors m1, m2, m3: P^-1 = diag(1/m1, m1/m2, m2/m3), so its three divisions do not wait for each other,
     /// nor do the products with L^-1, whose three entries are formed first; the minors' signs count the negative
-    /// eigenvalues (Sylvester's law of inertia). A row is finished before the next is begun, and finished rows are
-    /// read back from the block: the few numbers at work then fit the registers.</remarks>
+    /// eigenvalues (Sylvester's law of inertia). A row is finished before the next is begun, and finished rows are read
+    /// back from the block: the few numbers at work then fit the registers.</remarks>
     internal static class BlockElimination
     {
         /// <summary>Eliminates one block, with its right-hand side, from the block after it. The block is overwritten:
@@ -31,11 +31,11 @@ namespace Guidewire.Core
             double pMixed = a11 * a32 - a21 * a31;
             double pDet = a33 * pMinor + a31 * (a21 * a32 - a22 * a31) - a32 * pMixed;
             double p1 = 1.0 / a11;
-            double pShare = 1.0 / pMinor;
-            double p2 = a11 * pShare;
+            double pInverse = 1.0 / pMinor;
+            double p2 = a11 * pInverse;
             double p3 = pMinor / pDet;
             double p21 = a21 * p1;
-            double p32 = pMixed * pShare;
+            double p32 = pMixed * pInverse;
             double p31 = p21 * p32 - a31 * p1;
             block.A11 = p1;
             block.A21 = p21; block.A22 = p2;
@@ -92,11 +92,11 @@ namespace Guidewire.Core
             double rMixed = c11 * c32 - c21 * c31;
             double rDet = c33 * rMinor + c31 * (c21 * c32 - c22 * c31) - c32 * rMixed;
             double r1 = 1.0 / c11;
-            double rShare = 1.0 / rMinor;
-            double r2 = c11 * rShare;
+            double rInverse = 1.0 / rMinor;
+            double r2 = c11 * rInverse;
             double r3 = rMinor / rDet;
             double r21 = c21 * r1;
-            double r32 = rMixed * rShare;
+            double r32 = rMixed * rInverse;
             double r31 = r21 * r32 - c31 * r1;
             block.C11 = r1;
             block.C21 = r21; block.C22 = r2;

@@ -103,8 +103,8 @@ namespace Guidewire.Core
             return negative;
         }
 
-        /// <summary>y := -gradient with the supports taken out; gradient itself keeps the reactions.</summary>
-        /// <returns>What the terms found on the way.</returns>
+        /// <summary>y := -gradient with the supports removed; gradient itself retains the reactions.</summary>
+        /// <returns>What the terms measured in passing.</returns>
         public GradientMeasures Gradient(EnergyTerm[] terms, RodShape shape, RodVector[] gradient, RodVector[] y)
         {
             var measured = default(GradientMeasures);
@@ -118,7 +118,7 @@ namespace Guidewire.Core
             return measured;
         }
 
-        /// <summary>y := A^-1 y with the factorisation at hand.</summary>
+        /// <summary>y := A^-1 y with the current factorisation.</summary>
         public void Solve(RodVector[] y)
         {
             y[_count] = default;

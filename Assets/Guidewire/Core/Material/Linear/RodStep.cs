@@ -7,7 +7,7 @@ namespace Guidewire.Core
     /// 0.</summary>
     /// <remarks>Moving positions along straight lines would stretch a turning element in second order, by EA times the
     /// angle squared, and a line search would have to creep. To first order both are the same step. Where the distal
-    /// end is held, what the sum misses of its place, of second order too, is spread over the rod.</remarks>
+    /// end is held, what the sum misses of its position, of second order too, is spread over the rod.</remarks>
     internal static class RodStep
     {
         /// <summary>Sets <paramref name="to"/>, which may be <paramref name="shape"/> itself, to
@@ -71,7 +71,7 @@ namespace Guidewire.Core
         /// <summary>Turns the elements of a shape and lays them end to end from node 0, each with the strain that it
         /// has along its own axes.</summary>
         /// <param name="orientations">The elements' new orientations.</param>
-        /// <param name="start">New place of node 0.</param>
+        /// <param name="start">New position of node 0.</param>
         /// <param name="end">Where the last node is held, if it is.</param>
         public static void PlaceElements(RodSupports supports, RodShape shape, Quaterniond[] orientations,
             in Vector3d start, in Vector3d end)
@@ -94,7 +94,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Spreads over the rod what the last node misses of the place where it is held.</summary>
+        /// <summary>Spreads over the rod what the last node misses of the position where it is held.</summary>
         private static void Close(RodSupports supports, RodShape shape, in Vector3d end)
         {
             int n = shape.ElementCount;

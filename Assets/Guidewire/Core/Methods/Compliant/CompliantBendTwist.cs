@@ -65,10 +65,10 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>One Gauss-Seidel sweep over all joints.</summary>
+        /// <summary>One Gauss-Seidel iteration over all joints.</summary>
         /// <param name="shape">The wire, turned in place.</param>
         /// <param name="substep">h, s.</param>
-        public void Sweep(RodShape shape, double substep)
+        public void Iterate(RodShape shape, double substep)
         {
             int n = shape.ElementCount;
             double perSquare = 1.0 / (substep * substep);
@@ -89,7 +89,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Adds what C + alpha lambda/h^2 and C have come to.</summary>
-        public void AddResidual(RodShape shape, double substep, ref SweepResidual sum)
+        public void AddResidual(RodShape shape, double substep, ref IterationResidual sum)
         {
             int n = shape.ElementCount;
             double perSquare = 1.0 / (substep * substep);

@@ -7,19 +7,20 @@ namespace Guidewire.Core
     /// least 0, with compliance 1/k where a contact has a stiffness k and none where it is rigid (Macklin 2016).
     /// Coulomb friction as a second multiplier f along the wall, |f| at most mu lambda, against the slip of the wire's
     /// surface since the substep began (Macklin 2020).</summary>
-    /// <remarks>Per sweep and contact, with W = a_j^2 w_j + a_{j+1}^2 w_{j+1}: dlambda = -(C + lambda/(k h^2))/(W +
+    /// <remarks>Per iteration and contact, with W = a_j^2 w_j + a_{j+1}^2 w_{j+1}: dlambda = -(C + lambda/(k h^2))/(W +
     /// 1/(k h^2)), the sum held at 0 or more; then f - u/V, shortened to mu lambda, with the slip u = P (a_j (x_j -
     /// x_j0) + a_{j+1} (x_{j+1} - x_{j+1,0}) + r n x R_0 phi), P = 1 - n n^T, phi the element's turn since the substep
-    /// began along its axes there. What a force f does to the surface includes the couple r f x n on the element. V =
-    /// W + r^2 max(1/I) is at least as much as f moves the surface in any direction, and the same in all of them: so
-    /// where the sweeps have converged f is against u, which it would not be with what f moves it by in its own.
-    /// A slip of 0 is held by any f within the limit. What sweeps leave of the slip of a contact is kept with f and
-    /// added to that of the next substep, so that what sticks goes back to where it was: no more than V mu lambda, by
-    /// which a force at the limit moves it in a substep, because a contact beyond its limit slips.
+    /// began along its axes there. What a force f does to the surface includes the couple r f x n on the element. V = W
+    /// + r^2 max(1/I) is at least as much as f moves the surface in any direction, and the same in all of them: so
+    /// where the iterations have converged f is against u, which it would not be with the motion by f in its own
+    /// direction alone. A slip of 0 is held by any f within the limit. The slip of a contact that the iterations leave
+    /// is stored with f and added to that of the next substep, so that a sticking contact returns to where it was: no
+    /// more than V mu lambda, by which a force at the limit moves it in a substep, because a contact beyond its limit
+    /// slips.
     ///
-    /// A rigid contact that finds itself in the wall, because a plane is the wall only near the place that it was found
-    /// for, is taken out of it by no more than its own way in the substep, or a share of the depth: all at once would
-    /// be a speed of depth over h, and what moves over an edge of the wall comes out of it as fast as it
+    /// A rigid contact that is inside the wall, because its plane approximates the wall only near the point where it
+    /// was found, is moved out by no more than its own displacement in the substep, or a fraction of the depth: all at
+    /// once would be a speed of depth over h, and what moves over an edge of the wall comes out of it as fast as it
     /// moves.</remarks>
     internal sealed class CompliantContacts
     {
@@ -76,17 +77,17 @@ namespace Guidewire.Core
         /// wall, turned into the new normal's direction.</summary>
         public void Renew(StructList<WireContact> found)
         {
-            Keep();
+            StoreImpulses();
             _count = 0;
             _heldCount = 0;
             int n = _radius.Length;
             for (int k = 0; k < found.Count; k++)
             {
                 ref readonly WireContact contact = ref found[k];
-                SurfaceContact place = contact.Nearest;
+                SurfaceContact nearest = contact.Nearest;
                 bool isTip = !contact.IsElement && contact.Index == n;
                 int j = isTip ? n - 1 : contact.Index;
-                double s = contact.IsElement ? place.Position : isTip ? 1.0 : 0.0;
+                double s = contact.IsElement ? nearest.Position : isTip ? 1.0 : 0.0;
                 double inverse = (1.0 - s) * (1.0 - s) * _inverseMass[j] + s * s * _inverseMass[j + 1];
                 bool isHeld = !(inverse > 0.0);
                 if (isHeld && _heldCount == _held.Length)
@@ -99,17 +100,17 @@ namespace Guidewire.Core
                 to.Element = j;
                 to.Position = s;
                 to.Node = s == 1.0 ? j + 1 : j;
-                to.Normal = place.Normal;
-                to.Offset = _metres * Vector3d.Dot(place.Point, place.Normal);
+                to.Normal = nearest.Normal;
+                to.Offset = _metres * Vector3d.Dot(nearest.Point, nearest.Normal);
                 to.Radius = contact.IsElement ? _radius[j] : _nodeRadius[contact.Index];
                 to.Inverse = inverse;
                 Vector3d turning = _inverseInertia[j];
                 to.InverseOfSlip = inverse
                     + to.Radius * to.Radius * Math.Max(turning.X, Math.Max(turning.Y, turning.Z));
                 Vector3d kept = _kept[to.Slot];
-                to.Push = Math.Max(0.0, Vector3d.Dot(kept, to.Normal));
-                to.Rub = Shortened(kept - Vector3d.Dot(kept, to.Normal) * to.Normal,
-                    _friction[to.Wall] * to.Push);
+                to.NormalImpulse = Math.Max(0.0, Vector3d.Dot(kept, to.Normal));
+                to.FrictionImpulse = Shortened(kept - Vector3d.Dot(kept, to.Normal) * to.Normal,
+                    _friction[to.Wall] * to.NormalImpulse);
                 Vector3d slip = _keptSlip[to.Slot];
                 to.Slip = slip - Vector3d.Dot(slip, to.Normal) * to.Normal;
             }
@@ -118,7 +119,7 @@ namespace Guidewire.Core
 
         /// <summary>A substep begins; a held node that would come nearer than its radius is kept off.</summary>
         /// <param name="old">The wire where it begins; it stays so until the next.</param>
-        /// <param name="shape">The wire, not swept yet, with its held nodes placed.</param>
+        /// <param name="shape">The wire, before the iterations, with its held nodes placed.</param>
         /// <param name="substep">h, s.</param>
         public void Begin(RodShape old, RodShape shape, double substep)
         {
@@ -137,11 +138,12 @@ namespace Guidewire.Core
             {
                 ref Contact contact = ref _contacts[k];
                 double distance = Distance(contact, old);
-                contact.Reach = contact.Radius;
+                contact.Clearance = contact.Radius;
                 if (_compliance == 0.0 && distance < contact.Radius)
                 {
                     double depth = contact.Radius - distance;
-                    contact.Reach = distance + Math.Min(depth, Math.Max(Recovered * depth, Way(contact, shape)));
+                    contact.Clearance = distance
+                        + Math.Min(depth, Math.Max(Recovered * depth, DisplacementOf(contact, shape)));
                 }
             }
         }
@@ -151,8 +153,8 @@ namespace Guidewire.Core
         {
             for (int k = 0; k < _count; k++)
             {
-                _contacts[k].Push = 0.0;
-                _contacts[k].Rub = Vector3d.Zero;
+                _contacts[k].NormalImpulse = 0.0;
+                _contacts[k].FrictionImpulse = Vector3d.Zero;
                 _contacts[k].Slip = Vector3d.Zero;
             }
         }
@@ -160,7 +162,7 @@ namespace Guidewire.Core
         /// <summary>Writes or takes over the multipliers; where they act is found anew.</summary>
         public void Serialize(Snapshot snapshot)
         {
-            Keep();
+            StoreImpulses();
             snapshot.Serialize(_kept);
             snapshot.Serialize(_keptSlip);
             if (snapshot.IsWritten)
@@ -182,40 +184,40 @@ namespace Guidewire.Core
             for (int k = 0; k < _count; k++)
             {
                 ref readonly Contact contact = ref _contacts[k];
-                if (contact.Push == 0.0)
+                if (contact.NormalImpulse == 0.0)
                 {
                     continue;
                 }
                 int j = contact.Element;
-                Vector3d impulse = contact.Push * contact.Normal + contact.Rub;
+                Vector3d impulse = contact.NormalImpulse * contact.Normal + contact.FrictionImpulse;
                 shift[j] += ((1.0 - contact.Position) * _inverseMass[j]) * impulse;
                 shift[j + 1] += (contact.Position * _inverseMass[j + 1]) * impulse;
-                turn[j] += Turn(contact, shape.Q[j], contact.Rub);
+                turn[j] += Turn(contact, shape.Q[j], contact.FrictionImpulse);
             }
         }
 
-        /// <summary>One Gauss-Seidel sweep over all contacts.</summary>
+        /// <summary>One Gauss-Seidel iteration over all contacts.</summary>
         /// <param name="shape">The wire, moved and turned in place.</param>
-        public void Sweep(RodShape shape)
+        public void Iterate(RodShape shape)
         {
             for (int k = 0; k < _count; k++)
             {
                 ref Contact contact = ref _contacts[k];
-                double push = PushIn(contact, shape);
-                double change = push - contact.Push;
-                if (push == 0.0 && contact.Push == 0.0)
+                double impulse = NormalImpulseIn(contact, shape);
+                double change = impulse - contact.NormalImpulse;
+                if (impulse == 0.0 && contact.NormalImpulse == 0.0)
                 {
                     continue;
                 }
                 int j = contact.Element;
-                contact.Push = push;
+                contact.NormalImpulse = impulse;
                 shape.X[j] += ((1.0 - contact.Position) * _inverseMass[j] * change) * contact.Normal;
                 shape.X[j + 1] += (contact.Position * _inverseMass[j + 1] * change) * contact.Normal;
                 if (_friction[contact.Wall] > 0.0)
                 {
-                    Vector3d rub = RubIn(contact, shape);
-                    Vector3d more = rub - contact.Rub;
-                    contact.Rub = rub;
+                    Vector3d friction = FrictionImpulseIn(contact, shape);
+                    Vector3d more = friction - contact.FrictionImpulse;
+                    contact.FrictionImpulse = friction;
                     shape.X[j] += ((1.0 - contact.Position) * _inverseMass[j]) * more;
                     shape.X[j + 1] += (contact.Position * _inverseMass[j + 1]) * more;
                     shape.Q[j] = Quaterniond.Normalize(
@@ -224,49 +226,51 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>A substep has come to this shape: keeps what is left of the slips.</summary>
+        /// <summary>A substep has come to this shape: stores the remaining slips.</summary>
         public void End(RodShape shape)
         {
             for (int k = 0; k < _count; k++)
             {
                 ref Contact contact = ref _contacts[k];
-                double limit = _friction[contact.Wall] * contact.Push;
+                double limit = _friction[contact.Wall] * contact.NormalImpulse;
                 contact.Slip = limit > 0.0 ? Shortened(SlipIn(contact, shape), contact.InverseOfSlip * limit)
                     : Vector3d.Zero;
             }
         }
 
-        /// <summary>Takes the largest way, in radii, by which one more sweep would move a contact's point.</summary>
-        public void AddResidual(RodShape shape, ref SweepResidual sum)
+        /// <summary>Takes the largest displacement, in radii, by which one more iteration would move a contact's
+        /// point.</summary>
+        public void AddResidual(RodShape shape, ref IterationResidual sum)
         {
             for (int k = 0; k < _count; k++)
             {
                 ref readonly Contact contact = ref _contacts[k];
-                double push = PushIn(contact, shape);
-                double way = contact.Inverse * Math.Abs(push - contact.Push);
+                double impulse = NormalImpulseIn(contact, shape);
+                double displacement = contact.Inverse * Math.Abs(impulse - contact.NormalImpulse);
                 if (_friction[contact.Wall] > 0.0)
                 {
-                    way = Math.Max(way,
-                        contact.InverseOfSlip * Vector3d.Distance(RubIn(contact, shape), contact.Rub));
+                    displacement = Math.Max(displacement,
+                        contact.InverseOfSlip * Vector3d.Distance(FrictionImpulseIn(contact, shape),
+                        contact.FrictionImpulse));
                 }
-                sum.Contact = Math.Max(sum.Contact, way / contact.Radius);
+                sum.Contact = Math.Max(sum.Contact, displacement / contact.Radius);
             }
         }
 
         /// <summary>Adds the multipliers to the nodes on which they act, lambda n + f, and along the normals to their
         /// walls, kg m.</summary>
-        public void AddPushes(Vector3d[] nodes, Vector3d[] walls)
+        public void AddMultipliers(Vector3d[] nodes, Vector3d[] walls)
         {
             for (int k = 0; k < _count; k++)
             {
                 ref readonly Contact contact = ref _contacts[k];
-                if (contact.Push > 0.0)
+                if (contact.NormalImpulse > 0.0)
                 {
-                    Vector3d push = contact.Push * contact.Normal;
-                    walls[contact.Wall] += push;
-                    push += contact.Rub;
-                    nodes[contact.Element] += (1.0 - contact.Position) * push;
-                    nodes[contact.Element + 1] += contact.Position * push;
+                    Vector3d impulse = contact.NormalImpulse * contact.Normal;
+                    walls[contact.Wall] += impulse;
+                    impulse += contact.FrictionImpulse;
+                    nodes[contact.Element] += (1.0 - contact.Position) * impulse;
+                    nodes[contact.Element + 1] += contact.Position * impulse;
                 }
             }
         }
@@ -277,12 +281,13 @@ namespace Guidewire.Core
             Array.Clear(_keptSlip, 0, _keptSlip.Length);
         }
 
-        private void Keep()
+        private void StoreImpulses()
         {
             for (int k = 0; k < _count; k++)
             {
                 _keptSlip[_contacts[k].Slot] = _contacts[k].Slip;
-                _kept[_contacts[k].Slot] = _contacts[k].Push * _contacts[k].Normal + _contacts[k].Rub;
+                _kept[_contacts[k].Slot] = _contacts[k].NormalImpulse * _contacts[k].Normal
+                    + _contacts[k].FrictionImpulse;
             }
         }
 
@@ -294,26 +299,26 @@ namespace Guidewire.Core
                 + contact.Position * Vector3d.Dot(shape.X[j + 1], contact.Normal) - contact.Offset;
         }
 
-        // That the point has gone since the substep began, m.
-        private double Way(in Contact contact, RodShape shape)
+        // Displacement of the point since the substep began, m.
+        private double DisplacementOf(in Contact contact, RodShape shape)
         {
             int j = contact.Element;
             return ((1.0 - contact.Position) * (shape.X[j] - _old.X[j])
                 + contact.Position * (shape.X[j + 1] - _old.X[j + 1])).Length;
         }
 
-        // What lambda should be by this shape.
-        private double PushIn(in Contact contact, RodShape shape)
+        // The value of lambda for this shape.
+        private double NormalImpulseIn(in Contact contact, RodShape shape)
         {
-            double error = Distance(contact, shape) - contact.Reach + _perSquare * contact.Push;
-            return Math.Max(0.0, contact.Push - error / (contact.Inverse + _perSquare));
+            double error = Distance(contact, shape) - contact.Clearance + _perSquare * contact.NormalImpulse;
+            return Math.Max(0.0, contact.NormalImpulse - error / (contact.Inverse + _perSquare));
         }
 
-        // What f should be.
-        private Vector3d RubIn(in Contact contact, RodShape shape)
+        // The value of f for this shape.
+        private Vector3d FrictionImpulseIn(in Contact contact, RodShape shape)
         {
-            return Shortened(contact.Rub - (1.0 / contact.InverseOfSlip) * SlipIn(contact, shape),
-                _friction[contact.Wall] * contact.Push);
+            return Shortened(contact.FrictionImpulse - (1.0 / contact.InverseOfSlip) * SlipIn(contact, shape),
+                _friction[contact.Wall] * contact.NormalImpulse);
         }
 
         // u.
@@ -328,27 +333,27 @@ namespace Guidewire.Core
             return contact.Slip + move - Vector3d.Dot(move, n) * n;
         }
 
-        // What a force along the wall turns the element by, along the element's axes.
-        private Vector3d Turn(in Contact contact, in Quaterniond q, in Vector3d rub)
+        // Turn of the element by a force along the wall, along the element's axes.
+        private Vector3d Turn(in Contact contact, in Quaterniond q, in Vector3d friction)
         {
-            Vector3d couple = contact.Couple(q, rub);
+            Vector3d couple = contact.Couple(q, friction);
             Vector3d inverse = _inverseInertia[contact.Element];
             return new Vector3d(inverse.X * couple.X, inverse.Y * couple.Y, inverse.Z * couple.Z);
         }
 
-        private static Vector3d Shortened(in Vector3d rub, double most)
+        private static Vector3d Shortened(in Vector3d friction, double most)
         {
-            double size = rub.Length;
-            return size > most ? (most / size) * rub : rub;
+            double size = friction.Length;
+            return size > most ? (most / size) * friction : friction;
         }
 
         /// <summary>A contact and its multipliers.</summary>
         internal struct Contact
         {
-            /// <summary>Where its multipliers are kept while contacts are found anew.</summary>
+            /// <summary>Where its multipliers are stored while contacts are searched again.</summary>
             public int Slot;
 
-            /// <summary>By its place in the scene's list.</summary>
+            /// <summary>Index in the scene's list.</summary>
             public int Wall;
 
             /// <summary>j.</summary>
@@ -369,8 +374,8 @@ namespace Guidewire.Core
             /// <summary>r, m.</summary>
             public double Radius;
 
-            /// <summary>What the substep asks for of the distance, r or less, m.</summary>
-            public double Reach;
+            /// <summary>Distance that the substep requires, r or less, m.</summary>
+            public double Clearance;
 
             /// <summary>W, 1/kg.</summary>
             public double Inverse;
@@ -379,10 +384,10 @@ namespace Guidewire.Core
             public double InverseOfSlip;
 
             /// <summary>lambda, kg m.</summary>
-            public double Push;
+            public double NormalImpulse;
 
             /// <summary>f, kg m.</summary>
-            public Vector3d Rub;
+            public Vector3d FrictionImpulse;
 
             /// <summary>What the substeps before have left of the slip, m.</summary>
             public Vector3d Slip;
@@ -390,13 +395,13 @@ namespace Guidewire.Core
             /// <summary>r f x n along the axes of an element of this orientation: the couple of f, kg m^2.</summary>
             public readonly Vector3d Couple(in Quaterniond q)
             {
-                return Couple(q, Rub);
+                return Couple(q, FrictionImpulse);
             }
 
             /// <summary>The same of another f.</summary>
-            public readonly Vector3d Couple(in Quaterniond q, in Vector3d rub)
+            public readonly Vector3d Couple(in Quaterniond q, in Vector3d friction)
             {
-                return Quaterniond.Rotate(q.Conjugate, Radius * Vector3d.Cross(rub, Normal));
+                return Quaterniond.Rotate(q.Conjugate, Radius * Vector3d.Cross(friction, Normal));
             }
         }
     }

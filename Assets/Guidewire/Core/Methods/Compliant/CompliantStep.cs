@@ -4,30 +4,30 @@ using System.Globalization;
 namespace Guidewire.Core
 {
     /// <summary>One step of extended position-based dynamics (Macklin 2016): the time step is divided into substeps,
-    /// each a prediction and m sweeps over all constraints with compliance.</summary>
-    /// <remarks>Where the sweeps have converged a substep is one of implicit Euler, whatever m is.
+    /// each a prediction and m iterations over all constraints with compliance.</summary>
+    /// <remarks>Where the iterations have converged a substep is one of implicit Euler, whatever m is.
     ///
-    /// Multipliers start from those of the last substep, not from 0, and move the wire before the first sweep, all in
-    /// the predicted shape. There are two reasons. A wire at rest then needs no correction at all, so its shape does
-    /// not depend on m. And a sweep from 0 passes through shapes in which the first joints already pull and the last
-    /// do not yet: elements are turned by h^2 K theta/J on the way, and their pulls keep the directions that they had
-    /// there. No number of sweeps takes that out again; such forces have no potential, and a twisted ring that should
-    /// hold left its plane at 0.96 of its critical twist. Multipliers that would turn an element, or shift a node over
-    /// its length, by more than 0.1 belong to a wave that a substep does not resolve, and are dropped.
+    /// Multipliers start from those of the last substep, not from 0, and move the wire before the first iteration, all
+    /// in the predicted shape. There are two reasons. A wire at rest then needs no correction at all, so its shape does
+    /// not depend on m. And an iteration from 0 passes through shapes in which the first joints already pull and the
+    /// last do not yet: elements are turned by h^2 K theta/J in between, and their forces retain the directions that
+    /// they had there. No number of iterations takes that out again; such forces have no potential, and a twisted ring
+    /// that should hold left its plane at 0.96 of its critical twist. Multipliers that would turn an element, or shift
+    /// a node over its length, by more than 0.1 belong to a wave that a substep does not resolve, and are dropped.
     ///
-    /// Orientations carry the wire's own rotary inertia rho I l (2 rho I l about the axis), 4 (l/r)^2 times less than
-    /// a sphere's mass times l^2: 1,600 times in an element 20 radii long. So bending, shear and twist move as they do
+    /// Orientations carry the wire's own rotary inertia rho I l (2 rho I l about the axis), 4 (l/r)^2 times less than a
+    /// sphere's mass times l^2: 1,600 times in an element 20 radii long. So bending, shear and twist move as they do
     /// under every other solver, and waves of twist run at sqrt(G/rho). What an element does against its own shear, at
     /// 2 sqrt(G/rho)/r, is too fast for a substep and is damped away, as implicit Euler does; it does not bound the
-    /// substep. What bounds it is sound along the wire, because a sweep brings a correction one element back: on wires
-    /// with l/r from 2 to 100 runs converge up to h sqrt(E/rho)/l = 0.5 with m = 1, 1 with 3, 2 with 10, and diverge
-    /// soon after.
+    /// substep. What bounds it is sound along the wire, because an iteration brings a correction one element back: on
+    /// wires with l/r from 2 to 100 runs converge up to h sqrt(E/rho)/l = 0.5 with m = 1, 1 with 3, 2 with 10, and
+    /// diverge soon after.
     ///
     /// Between walls <see cref="CompliantWalls"/> stands around each substep, and <see cref="CompliantContacts"/> has a
-    /// part in every sweep.
+    /// part in every iteration.
     ///
-    /// How far the sweeps were from convergence is measured in substeps 1, 2, 4, 8 .. and the last of each step, each
-    /// for the time since the one before, because what a step changes is over in its first substeps; see <see
+    /// How far the iterations were from convergence is measured in substeps 1, 2, 4, 8 .. and the last of each step,
+    /// each for the time since the one before, because what a step changes is over in its first substeps; see <see
     /// cref="ConvergenceRecord"/>.</remarks>
     internal sealed class CompliantStep : TimeStepper
     {
@@ -49,7 +49,7 @@ namespace Guidewire.Core
         private readonly double _timeStep;
         private readonly double _remainingVelocity;
         private readonly int _substeps;
-        private readonly int _sweeps;
+        private readonly int _iterations;
         private readonly DirectionError _directions;
         private readonly ConvergenceRecord _convergence;
         private readonly HeldEnds _ends;
@@ -58,7 +58,7 @@ namespace Guidewire.Core
         private readonly SolverReport _report;
         private readonly CompliantWalls? _walls;
         private readonly double _contactStiffness;    // N/m
-        private Vector3d _supportPush;    // sum over the substeps, N
+        private Vector3d _supportForce;    // sum over the substeps, N
         private StressRecord? _stress;
         private Vector3d _predictedTip;
         private double _time;
@@ -84,7 +84,7 @@ namespace Guidewire.Core
             _timeStep = method.TimeStep;
             _remainingVelocity = Math.Exp(-scene.Rod.MassDamping * method.TimeStep / method.Substeps);
             _substeps = method.Substeps;
-            _sweeps = method.ConstraintSolverSteps;
+            _iterations = method.ConstraintSolverSteps;
             _contactStiffness = contactStiffness;
             _walls = scene.Walls.Length > 0 ? new CompliantWalls(scene, _inertia, contactStiffness) : null;
             _directions = new DirectionError(scene, _inertia, _stretch, _bendTwist, _walls?.Contacts);
@@ -106,7 +106,7 @@ namespace Guidewire.Core
         public override void Advance(RodState state)
         {
             double h = _timeStep / _substeps;
-            var residual = default(SweepResidual);
+            var residual = default(IterationResidual);
             int measured = 0;
             _drive.Prepare(_shape, _time);
             _ends.Carry(_scene.Schedule.ProximalVelocity.Length, Math.Abs(_scene.Schedule.ProximalTwistRate));
@@ -141,7 +141,7 @@ namespace Guidewire.Core
             _scene.Write(state, _shape, _velocities, _spins);
         }
 
-        // Between walls: forces, and what the drive asked of node 0 and did not get.
+        // Between walls: forces, and the displacement of node 0 that the drive asked for and walls prevented.
         private void EndStep(CompliantWalls walls, double h, in Vector3d start, in Vector3d velocity)
         {
             walls.EndStep(h, _substeps);
@@ -151,18 +151,18 @@ namespace Guidewire.Core
             }
             ContactRecord record = walls.Record;
             Vector3d inertia = (_terms.Mass.Nodal[0] / _timeStep) * (_velocities[0] - velocity);
-            record.Reaction = inertia + (1.0 / _substeps) * _supportPush - record.Forces[0];
-            _supportPush = Vector3d.Zero;
-            // A drive goes on from where node 0 is; what is held is asked for until it is there.
-            Vector3d place = _scene.Schedule.ProximalPositionAt(_time);
+            record.Reaction = inertia + (1.0 / _substeps) * _supportForce - record.Forces[0];
+            _supportForce = Vector3d.Zero;
+            // A drive continues from where node 0 is; a held node is asked for until it has arrived.
+            Vector3d position = _scene.Schedule.ProximalPositionAt(_time);
             if (_drive.Axis == Vector3d.Zero)
             {
                 double owed = record.DriveShortfall;
-                record.AddDrive(Vector3d.Distance(place, start) / _scene.Metres - owed,
-                    Vector3d.Distance(place, _shape.X[0]) / _scene.Metres - owed);
+                record.AddDrive(Vector3d.Distance(position, start) / _scene.Metres - owed,
+                    Vector3d.Distance(position, _shape.X[0]) / _scene.Metres - owed);
                 return;
             }
-            // Of the way that node 0 has gone only what is along the drive's counts: walls may push it aside.
+            // Of the displacement of node 0 only the component along the drive counts: walls may move it aside.
             double asked = _drive.Asked / _scene.Metres;
             record.AddDrive(asked, asked - _drive.Gone(start, _shape.X[0]) / _scene.Metres);
         }
@@ -252,17 +252,17 @@ namespace Guidewire.Core
             }
             _walls?.BeginSubstep(_old, _shape, h);
             StartFromMultipliers();
-            for (int m = 0; m < _sweeps; m++)
+            for (int m = 0; m < _iterations; m++)
             {
-                _stretch.Sweep(_shape, h);
-                _bendTwist.Sweep(_shape, h);
-                _walls?.Contacts.Sweep(_shape);
+                _stretch.Iterate(_shape, h);
+                _bendTwist.Iterate(_shape, h);
+                _walls?.Contacts.Iterate(_shape);
             }
             if (_walls != null)
             {
                 _walls.EndSubstep(_shape);
                 RodVector g = _loadGradient[0];
-                _supportPush += new Vector3d(g.X1, g.X2, g.X3) + (1.0 / (h * h)) * _stretch.FirstPush(_shape);
+                _supportForce += new Vector3d(g.X1, g.X2, g.X3) + (1.0 / (h * h)) * _stretch.FirstMultiplier(_shape);
             }
             double rate = 1.0 / h;
             for (int i = 0; i <= last; i++)
@@ -275,9 +275,9 @@ namespace Guidewire.Core
             }
         }
 
-        private SweepResidual Residual(double h)
+        private IterationResidual Residual(double h)
         {
-            var sum = default(SweepResidual);
+            var sum = default(IterationResidual);
             _stretch.AddResidual(_shape, h, ref sum);
             _bendTwist.AddResidual(_shape, h, ref sum);
             _walls?.Contacts.AddResidual(_shape, ref sum);

@@ -42,7 +42,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>What element 0 gives node 1, and takes from node 0, in this shape, kg m.</summary>
-        public Vector3d FirstPush(RodShape shape)
+        public Vector3d FirstMultiplier(RodShape shape)
         {
             return (1.0 / _length[0]) * Quaterniond.Rotate(shape.Q[0], _multiplier[0]);
         }
@@ -58,19 +58,19 @@ namespace Guidewire.Core
                 double perLength = 1.0 / _length[j];
                 Quaterniond q = shape.Q[j];
                 Vector3d p = perLength * Quaterniond.Rotate(q.Conjugate, shape.X[j + 1] - shape.X[j]);
-                Vector3d push = perLength * Quaterniond.Rotate(q, _multiplier[j]);
-                shift[j] -= _inverseMass[j] * push;
-                shift[j + 1] += _inverseMass[j + 1] * push;
+                Vector3d impulse = perLength * Quaterniond.Rotate(q, _multiplier[j]);
+                shift[j] -= _inverseMass[j] * impulse;
+                shift[j + 1] += _inverseMass[j + 1] * impulse;
                 Vector3d couple = Vector3d.Cross(_multiplier[j], p);
                 Vector3d inertia = _inverseInertia[j];
                 turn[j] += new Vector3d(inertia.X * couple.X, inertia.Y * couple.Y, inertia.Z * couple.Z);
             }
         }
 
-        /// <summary>One Gauss-Seidel sweep over all elements.</summary>
+        /// <summary>One Gauss-Seidel iteration over all elements.</summary>
         /// <param name="shape">The wire, moved and turned in place.</param>
         /// <param name="substep">h, s.</param>
-        public void Sweep(RodShape shape, double substep)
+        public void Iterate(RodShape shape, double substep)
         {
             double perSquare = 1.0 / (substep * substep);
             for (int j = 0; j < _length.Length; j++)
@@ -92,9 +92,9 @@ namespace Guidewire.Core
                 Vector3d change = matrix.Solve(new Vector3d(
                     -p.X - alpha.X * old.X, -p.Y - alpha.Y * old.Y, 1.0 - p.Z - alpha.Z * old.Z));
                 _multiplier[j] = old + change;
-                Vector3d push = perLength * Quaterniond.Rotate(q, change);
-                shape.X[j] -= w0 * push;
-                shape.X[j + 1] += w1 * push;
+                Vector3d impulse = perLength * Quaterniond.Rotate(q, change);
+                shape.X[j] -= w0 * impulse;
+                shape.X[j + 1] += w1 * impulse;
                 Vector3d couple = Vector3d.Cross(change, p);
                 var turn = new Vector3d(inertia.X * couple.X, inertia.Y * couple.Y, inertia.Z * couple.Z);
                 shape.Q[j] = Quaterniond.Normalize(q * RotationVector.Exp(turn));
@@ -102,7 +102,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Adds what l |C + alpha lambda/h^2| and l |C| have come to.</summary>
-        public void AddResidual(RodShape shape, double substep, ref SweepResidual sum)
+        public void AddResidual(RodShape shape, double substep, ref IterationResidual sum)
         {
             double perSquare = 1.0 / (substep * substep);
             for (int j = 0; j < _length.Length; j++)

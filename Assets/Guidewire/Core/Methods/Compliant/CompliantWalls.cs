@@ -2,13 +2,14 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Walls around the substeps of a wire with compliance: looks for contacts, lets no substep pass a wall,
-    /// and takes down what contact came to.</summary>
-    /// <remarks>Contacts are looked for where a step begins, and again where a node has gone farther than
-    /// <see cref="Reuse"/> of the wire's radius since; a substep is much shorter than a search needs. What is nearer
-    /// than half a radius to touching is found. Until a node has gone as far as the core line of any element was from
-    /// the wall, nothing can have passed it; a substep that goes farther is looked at by the swept search, and
-    /// shortened where it would. A core line keeps a thousandth of the radius. All places are in units here.</remarks>
+    /// <summary>Walls around the substeps of a wire with compliance: finds contacts, lets no substep pass a wall, and
+    /// takes down what contact came to.</summary>
+    /// <remarks>Contacts are found where a step begins, and again where a node has moved farther than <see
+    /// cref="Reuse"/> of the wire's radius since; a substep is much shorter than a search needs. What is nearer than
+    /// half a radius to touching is found. Until a node has gone as far as the core line of any element was from the
+    /// wall, nothing can have passed it; a substep that goes farther is tested by the swept search, and shortened where
+    /// it would. The clearance of the core line is a thousandth of the radius. All positions are in units
+    /// here.</remarks>
     internal sealed class CompliantWalls
     {
         private const double Reuse = 0.02;
@@ -20,14 +21,14 @@ namespace Guidewire.Core
         private readonly WireDepth _depth;
         private readonly double _metres;       // per unit
         private readonly double _clearance;
-        private readonly double _reused;       // way within which contacts are used again
+        private readonly double _reused;       // displacement within which contacts are used again
         private readonly Vector3d[] _start;    // of the step
-        private Vector3d[] _from;              // where contacts were looked for
+        private Vector3d[] _from;              // where contacts were found
         private Vector3d[] _at;                // where the substep begins
         private Vector3d[] _to;
         private readonly Vector3d[] _asked;    // of a substep that is shortened
-        private double _room;                  // way from there that passes no wall
-        private bool _isNew;                   // contacts are to be looked for
+        private double _freeTravel;                  // displacement from there that passes no wall
+        private bool _isNew;                   // contacts are to be found
 
         /// <summary>The walls of a scene, around its wire as it is.</summary>
         /// <param name="stiffness">Of a contact, N/m; 0 for rigid contacts.</param>
@@ -82,17 +83,17 @@ namespace Guidewire.Core
 
         /// <summary>A substep begins.</summary>
         /// <param name="old">The wire where it begins, kept until its end.</param>
-        /// <param name="predicted">Where it would go without constraints, but for what walls keep held nodes
-        /// from.</param>
+        /// <param name="predicted">Where it would go without constraints, except for the motion of held nodes
+        /// that walls prevent.</param>
         /// <param name="substep">h, s.</param>
         public void BeginSubstep(RodShape old, RodShape predicted, double substep)
         {
             SetUnits(predicted, _to);
-            double way = LongestDisplacement(_from, _to);
-            if ((_isNew || way > _reused) && way <= double.MaxValue)
+            double displacement = LongestDisplacement(_from, _to);
+            if ((_isNew || displacement > _reused) && displacement <= double.MaxValue)
             {
                 _passages.AddPart(_from, _at);
-                Look();
+                FindContacts();
                 Contacts.Renew(_search.Contacts);
                 _isNew = false;
             }
@@ -103,11 +104,11 @@ namespace Guidewire.Core
         public void EndSubstep(RodShape shape)
         {
             SetUnits(shape, _to);
-            double way = LongestDisplacement(_from, _to);
-            if (way >= _room && way <= double.MaxValue)
+            double displacement = LongestDisplacement(_from, _to);
+            if (displacement >= _freeTravel && displacement <= double.MaxValue)
             {
                 _passages.AddPart(_from, _at);
-                Look();
+                FindContacts();
                 _isNew = true;
                 if (_swept.Find(_at, _to))
                 {
@@ -121,7 +122,7 @@ namespace Guidewire.Core
             }
             (_at, _to) = (_to, _at);
             Contacts.End(shape);
-            Contacts.AddPushes(Record.Forces, Record.WallForces);
+            Contacts.AddMultipliers(Record.Forces, Record.WallForces);
         }
 
         /// <summary>The step has come to its end.</summary>
@@ -154,8 +155,8 @@ namespace Guidewire.Core
             Record.Serialize(snapshot);
         }
 
-        // For contacts on the way from where the substep begins, and how far nothing passes a wall.
-        private void Look()
+        // Finds contacts along the motion from the start of the substep, and how far nothing passes a wall.
+        private void FindContacts()
         {
             _search.Find(_at, _to);
             Array.Copy(_at, _from, _at.Length);
@@ -167,10 +168,10 @@ namespace Guidewire.Core
                     nearest = Math.Min(nearest, _search.ClearanceOf(w, j));
                 }
             }
-            _room = nearest - _clearance;
+            _freeTravel = nearest - _clearance;
         }
 
-        // Infinite where a place is no number.
+        // Infinite where a position is not a number.
         private static double LongestDisplacement(Vector3d[] from, Vector3d[] to)
         {
             double longest = 0.0;

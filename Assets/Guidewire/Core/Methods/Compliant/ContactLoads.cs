@@ -2,10 +2,10 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>The walls' pushes on a wire with compliance, as they were at the end of the last substep, for what
-    /// looks for a rest shape beside it: forces that stay, each on a stiff spring along its normal.</summary>
+    /// <summary>The contact forces on a wire with compliance at the end of the last substep, for the search of a rest
+    /// shape near it: forces that stay, each on a stiff spring along its normal.</summary>
     /// <remarks>The spring is the contact's own, or where that is rigid 10 EA/l of the stiffest element, as that on
-    /// which <see cref="SupportSpring"/> holds a node. What rubs is a force alone.</remarks>
+    /// which <see cref="SupportSpring"/> holds a node. Friction is a force alone.</remarks>
     internal sealed class ContactLoads : EnergyTerm
     {
         private const double OverAxialSpring = 10.0;
@@ -14,7 +14,7 @@ namespace Guidewire.Core
         private readonly double _stiffness;    // N/m
         private readonly double _perSquare;    // 1/h^2
 
-        /// <summary>Pushes of these contacts.</summary>
+        /// <summary>Forces of these contacts.</summary>
         /// <param name="stiffness">Of a contact, N/m; 0 for rigid ones.</param>
         /// <param name="substep">h, s.</param>
         public ContactLoads(CompliantContacts contacts, MaterialRod rod, double stiffness, double substep)
@@ -44,7 +44,7 @@ namespace Guidewire.Core
             for (int k = 0; k < _contacts.Count; k++)
             {
                 CompliantContacts.Contact contact = _contacts[k];
-                if (contact.Push > 0.0 && contact.Element >= from && contact.Element < to)
+                if (contact.NormalImpulse > 0.0 && contact.Element >= from && contact.Element < to)
                 {
                     Add(contact, shape, gradient);
                 }
@@ -58,7 +58,7 @@ namespace Guidewire.Core
             {
                 CompliantContacts.Contact contact = _contacts[k];
                 int j = contact.Element;
-                if (contact.Push > 0.0 && j >= from && j < to)
+                if (contact.NormalImpulse > 0.0 && j >= from && j < to)
                 {
                     Add(contact, shape, gradient);
                     RodBlock.AddAt(ref blocks[j], ref blocks[j + 1], contact.Position,
@@ -70,7 +70,7 @@ namespace Guidewire.Core
         private void Add(in CompliantContacts.Contact contact, RodShape shape, RodVector[] gradient)
         {
             int j = contact.Element;
-            Vector3d force = _perSquare * (contact.Push * contact.Normal + contact.Rub);
+            Vector3d force = _perSquare * (contact.NormalImpulse * contact.Normal + contact.FrictionImpulse);
             Add(ref gradient[j], 1.0 - contact.Position, force);
             Add(ref gradient[j + 1], contact.Position, force);
             Vector3d couple = _perSquare * contact.Couple(shape.Q[j]);

@@ -3,8 +3,8 @@ using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>How far the sweeps of a run were from convergence.</summary>
-    /// <remarks>After any number of sweeps the wire has moved by exactly the impulses lambda, that is by the forces
+    /// <summary>How far the iterations of a run were from convergence.</summary>
+    /// <remarks>After any number of iterations the wire has moved by exactly the impulses lambda, that is by the forces
     /// lambda/h^2 = -(C - r)/alpha with the residual r = C + alpha lambda/h^2: it moved as a wire whose shape at rest
     /// differs by r (and whose pulls have directions that are off by <see cref="DirectionError"/>). Bends, turns and
     /// strains that are wrong by r add up along the wire, so the sum of |r| over all joints, over the sum of |C|, is
@@ -78,7 +78,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Takes one step's residual.</summary>
-        public void Add(in SweepResidual step)
+        public void Add(in IterationResidual step)
         {
             _steps++;
             double perLength = 1.0 / _totalLength;
@@ -113,8 +113,8 @@ namespace Guidewire.Core
 
         private static int ClassOf(double residual)
         {
-            double place = Math.Log(Math.Max(residual, Smallest) / Smallest) / Math.Log(Ratio);
-            return (int)Math.Min(place, ClassCount - 1);
+            double bin = Math.Log(Math.Max(residual, Smallest) / Smallest) / Math.Log(Ratio);
+            return (int)Math.Min(bin, ClassCount - 1);
         }
 
         private int Worst()

@@ -2,9 +2,9 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>What the sweeps of a substep got wrong in the directions of their pulls: each moved the wire along the
-    /// gradient of C where it was just then, and implicit Euler wants that of the final shape, x - x~ = M^-1 grad C^T
-    /// lambda.</summary>
+    /// <summary>What the iterations of a substep got wrong in the directions of their impulses: each moved the wire
+    /// along the gradient of C where it was just then, and implicit Euler wants that of the final shape, x - x~ = M^-1
+    /// grad C^T lambda.</summary>
     /// <remarks>The difference d of the two sides is what forces M d/h^2 and couples J d/h^2 from nowhere would do.
     /// Their moment about joint k, summed from the distal end, over the joint's stiffness is an angle that counts like
     /// a residual of that joint.</remarks>
@@ -40,8 +40,8 @@ namespace Guidewire.Core
             _predicted.CopyFrom(shape);
         }
 
-        /// <summary>Adds the angles of all joints, after the sweeps.</summary>
-        public void Add(RodShape shape, double substep, ref SweepResidual sum)
+        /// <summary>Adds the angles of all joints, after the iterations.</summary>
+        public void Add(RodShape shape, double substep, ref IterationResidual sum)
         {
             Array.Clear(_shift, 0, _shift.Length);
             Array.Clear(_turn, 0, _turn.Length);

@@ -30,7 +30,7 @@ namespace Guidewire.Core
         private readonly HalvedSteps _halved;
         private readonly WallSteps? _walls;
         private readonly WallMonitor? _monitor;
-        private readonly ElementContactForces? _pushes;
+        private readonly ElementContactForces? _elementForces;
         private readonly JamReport? _jam;
         private readonly RunExtremes _extremes;
         private double _hubWork;            // J
@@ -55,10 +55,10 @@ namespace Guidewire.Core
             WallTerms? walls = dynamics.Terms.Walls();
             if (walls != null)
             {
-                walls.Spring.Place = scene.Schedule.ProximalPositionAt(dynamics.Time);
+                walls.Spring.Position = scene.Schedule.ProximalPositionAt(dynamics.Time);
                 _monitor = new WallMonitor(scene.Rod, walls, scene.Metres);
                 _walls = new WallSteps(dynamics, _halved, scene.Schedule, _monitor);
-                _pushes = new ElementContactForces(scene.Rod, walls.Barrier);
+                _elementForces = new ElementContactForces(scene.Rod, walls.Barrier);
                 _jam = new JamReport(dynamics.Terms, scene.Metres);
                 if (record != null)
                 {
@@ -110,7 +110,7 @@ namespace Guidewire.Core
             _hubWork += 0.5 * SheathWork(exit);
             Vector3d free = _dynamics.Shape.X[last] + _timeStep * _dynamics.Velocities[last]
                 + (_timeStep * _timeStep) * _scene.Schedule.Gravity;
-            Vector3d held = spring == null ? Vector3d.Zero : spring.HeldPlace(_dynamics.Shape);
+            Vector3d held = spring == null ? Vector3d.Zero : spring.HeldPosition(_dynamics.Shape);
             double dissipated = Dissipated;
             long innerSteps = _dynamics.Control.Steps;
             string? failure = _walls == null ? _halved.Step(_timeStep) : _walls.Step(_timeStep);
@@ -149,8 +149,8 @@ namespace Guidewire.Core
                 _monitor?.EndStep(_dynamics.Shape, Contacts);
                 if (spring != null && _dynamics.Terms.Walls()!.HoldsStart)
                 {
-                    GiveWay(spring);
-                    CountDrive(held, spring.HeldPlace(_dynamics.Shape));
+                    SlipHub(spring);
+                    CountDrive(held, spring.HeldPosition(_dynamics.Shape));
                     Failure ??= FindOverdriven();
                 }
             }
@@ -158,8 +158,9 @@ namespace Guidewire.Core
             return true;
         }
 
-        // What drives the wire out of a sheath changes with the hub's place: so it gives way once more, by much less.
-        private void GiveWay(SupportSpring spring)
+        // The force that drives the wire out of a sheath depends on the hub's position: so the hub slips once more, by
+        // much less.
+        private void SlipHub(SupportSpring spring)
         {
             RodTerms terms = _dynamics.Terms;
             double asked = _drive.Insertion;
@@ -169,7 +170,7 @@ namespace Guidewire.Core
             {
                 before = _drive.Insertion;
                 spring.Besides = terms.Sheath == null ? 0.0 : terms.Sheath.HubForce(_dynamics.Shape);
-                _drive.GiveWay(spring.TakeSlip(_dynamics.Shape));
+                _drive.SlipHub(spring.TakeSlip(_dynamics.Shape));
                 if (_drive.Insertion != before)
                 {
                     terms.SetTime(_scene.Schedule, _dynamics.Time);
@@ -201,13 +202,13 @@ namespace Guidewire.Core
             _spinLoss?.Take(terms.Rod, shape, _dynamics.Spins, _timeStep,
                 Math.Max(1, _dynamics.Control.Steps - innerSteps));
             _extremes.TakeShape(terms, _joints, _jointLengths, shape);
-            if (_pushes == null)
+            if (_elementForces == null)
             {
                 return;
             }
-            _pushes.Take(shape, Contacts!.ElementForces);
-            Contacts.Pressure = _pushes.LargestPressure;
-            _extremes.TakeWalls(_pushes.LargestForce, _pushes.LargestPressure);
+            _elementForces.Take(shape, Contacts!.ElementForces);
+            Contacts.Pressure = _elementForces.LargestPressure;
+            _extremes.TakeWalls(_elementForces.LargestForce, _elementForces.LargestPressure);
             if (terms.Walls()!.HoldsStart)
             {
                 _extremes.TakeHub(terms.HubForce(shape), _dynamics.HubTorque);
@@ -259,8 +260,8 @@ namespace Guidewire.Core
             return _hub;
         }
 
-        /// <summary>A hub that gives way does less than it is asked; a free wire that spins far in a step
-        /// loses angular momentum.</summary>
+        /// <summary>A hub that slips moves less than asked; a free wire that spins fast loses angular
+        /// momentum.</summary>
         public override string? AccuracyWarning => _drive.Slip != 0.0 ? string.Format(
             CultureInfo.InvariantCulture,
             "the hub lost {0:G3} m of its way: it gave way at hubForceLimit, or the wire in its sheath came to"
@@ -383,7 +384,7 @@ namespace Guidewire.Core
             Contacts.DriveShortfall += (_drive.Asked - _drive.Gone(before, after)) / _scene.Metres;
         }
 
-        // A hub that misses its place by a tenth of an element pulls at node 0 with EA, the force under which a wire
+        // A hub that misses its position by a tenth of an element pulls at node 0 with EA, the force under which a wire
         // would have no length left: then what the drive asks and what walls allow do not go together.
         private string? FindOverdriven()
         {
@@ -395,7 +396,7 @@ namespace Guidewire.Core
             double most = _scene.Rod.StretchStiffness[0];
             return force <= most ? null : string.Format(CultureInfo.InvariantCulture,
                 "the walls do not let sphere 0 to where the drive has it at t = {0:G6} s, {1:G3} units on: the hub"
-                + " would need {2:G3} N, more than the wire's EA, {3:G3} N; {4}; a shorter way (displacementPerStep,"
+                + " would need {2:G3} N, more than the wire's EA, {3:G3} N; {4}; a smaller motion (displacementPerStep,"
                 + " insertionSpeed, maxSimulationSteps) may do, or a hubForceLimit", _dynamics.Time,
                 Contacts.DriveShortfall, force, most, _jam!.Text(_dynamics.Shape));
         }

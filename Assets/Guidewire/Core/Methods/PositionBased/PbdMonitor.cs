@@ -3,16 +3,17 @@ using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>Decides after each step of a wire with gains whether it is lost, or in a steady state.</summary>
+    /// <summary>Decides after each step of a pbd wire whether it is lost, or in a steady state.</summary>
     /// <remarks>Steady state: the prediction error has stayed below epsilon for a number of steps in a row, after it
     /// was once above (it oscillates, and is 0 before the disturbance arrives at the last sphere). Lost: a sphere
-    /// farther than 10 L from the start, or elements that are wrong in length and do not recover. The last finds gains
-    /// beyond their limit, where all positions stay near. It compares the largest |length/l - 1| of two successive
-    /// windows of 100 steps: both above 0.2 and not falling. A stable sweep with few iterations swings, so its windows
-    /// do not fall one by one, but it never holds more strain than was put in: with S the root of the sum of |C|^2 over
-    /// all stretch constraints at the start plus the drive's way over l, a wire whose sum of strains squared is within
-    /// S^2 is compared over windows of 1,000 steps only. None of this holds for a material, where a strain may be what
-    /// the load asks for: see <see cref="EnergyMonitor"/> and <see cref="RestMonitor"/>.</remarks>
+    /// farther than 10 L from the start, or elements that are wrong in length and do not recover. The last finds pbd
+    /// stiffness beyond their limit, where all positions stay near. It compares the largest |length/l - 1| of two
+    /// successive windows of 100 steps: both above 0.2 and not falling. A stable solve with few iterations oscillates,
+    /// so its windows do not fall one by one, but it never holds more strain than was put in: with S the root of the
+    /// sum of |C|^2 over all stretch constraints at the start plus the drive's displacement over l, a wire whose sum of
+    /// strains squared is within S^2 is compared over windows of 1,000 steps only. None of this holds for a material,
+    /// where a strain may be what the load asks for: see <see cref="EnergyMonitor"/> and <see
+    /// cref="RestMonitor"/>.</remarks>
     internal sealed class PbdMonitor
     {
         private const double LostDistance = 10.0;     // wire lengths
@@ -61,10 +62,10 @@ namespace Guidewire.Core
         public string? LostTurn => _turns.Warning;
 
         /// <summary>Takes the wire after one more step.</summary>
-        public void Look(RodState state, double predictionError)
+        public void Update(RodState state, double predictionError)
         {
             _step++;
-            _turns.Look(state, _step);
+            _turns.Update(state, _step);
             Loss = FindLoss(state, out double strain);
             if (Loss == null)
             {
@@ -93,7 +94,7 @@ namespace Guidewire.Core
             {
                 return null;
             }
-            // A wire that hardly moves because its gains are tiny is not at rest while its elements are wrong in
+            // A wire that hardly moves because its pbd stiffness is tiny is not at rest while its elements are wrong in
             // length.
             if (!(predictionError < _threshold) || strain > LostStrain)
             {

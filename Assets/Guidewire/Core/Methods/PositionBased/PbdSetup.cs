@@ -2,7 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Builds a run with gains, once, from its parameters.</summary>
+    /// <summary>Builds a run with pbd, once, from its parameters.</summary>
     internal static class PbdSetup
     {
         /// <summary>The wire at its start, sphere 0 displaced, and its stepper.</summary>
@@ -38,31 +38,31 @@ namespace Guidewire.Core
             out ContactRecord? record)
         {
             MethodParameters method = parameters.Method;
-            PbdParameters gains = parameters.Pbd;
+            PbdParameters pbd = parameters.Pbd;
             ContactParameters contact = parameters.Contact;
             record = null;
             int iterations = method.ConstraintSolverSteps;
-            var scalar = new ScalarSweeps(new StretchConstraint(state, gains.StretchStiffness),
-                new BendTwistConstraint(state, gains.BendStiffness), method.SweepOrder);
-            ISweeps fastest = SweepChoice.Fastest(scalar, iterations);
+            var scalar = new ScalarIterations(new StretchConstraint(state, pbd.StretchStiffness),
+                new BendTwistConstraint(state, pbd.BendStiffness), method.SweepOrder);
+            IIterations fastest = IterationChoice.Fastest(scalar, iterations);
             if (scene.Walls.Length == 0)
             {
                 return new GaussSeidelSolver(iterations, scalar, fastest, null);
             }
             int walls = scene.Walls.Length;
             double radius = contact.SphereRadius;
-            double reach = radius + contact.CollisionMargin;
+            double clearance = radius + contact.CollisionMargin;
             bool asPublished = contact.ElementContact == ElementContact.Thesis;
             IContactSearch search = asPublished
                 ? (IContactSearch)new ThesisContactSearch(scene.Walls, state.ElementCount, radius)
-                : new ContactSearch(scene.Walls, state.ElementCount, state.ElementLength, radius, reach,
+                : new ContactSearch(scene.Walls, state.ElementCount, state.ElementLength, radius, clearance,
                     contact.ElementContact == ElementContact.Barycentric);
             IContactResponse response = asPublished
-                ? (IContactResponse)new ThesisContactResponse(state, walls, reach, contact.CollisionStiffness)
-                : new ContactResponse(state, scene.Walls, radius, reach, contact.CollisionStiffness, iterations);
-            var sweeps = new GaussSeidelSolver(iterations, scalar, fastest, response);
+                ? (IContactResponse)new ThesisContactResponse(state, walls, clearance, contact.CollisionStiffness)
+                : new ContactResponse(state, scene.Walls, radius, clearance, contact.CollisionStiffness, iterations);
+            var constraints = new GaussSeidelSolver(iterations, scalar, fastest, response);
             record = new ContactRecord(state.SphereCount);
-            return new ContactSolver(state, method.TimeStep, sweeps, search, response, record);
+            return new ContactSolver(state, method.TimeStep, constraints, search, response, record);
         }
 
         private static IPositionPrediction CreatePrediction(SimulationParameters parameters)
@@ -129,7 +129,7 @@ namespace Guidewire.Core
             return drive;
         }
 
-        // A weight of 0 keeps the sweeps from turning a frame; a spin would go on turning it.
+        // A weight of 0 prevents the iterations from turning a frame; a spin would go on turning it.
         private static void HoldFrame(RodState state, int element)
         {
             state.OrientationWeights[element] = 0.0;
@@ -145,8 +145,8 @@ namespace Guidewire.Core
             double part = 1.0;
             foreach (ContactShape wall in walls)
             {
-                double own = wall.Sweep(from, from, asked, asked, clearance, out _);
-                double shared = wall.Sweep(from, next, asked, next, clearance, out _);
+                double own = wall.TimeOfImpact(from, from, asked, asked, clearance, out _);
+                double shared = wall.TimeOfImpact(from, next, asked, next, clearance, out _);
                 part = Math.Min(part, Math.Min(own, shared));
             }
             return part >= 1.0 ? asked : Vector3d.Lerp(from, asked, part);

@@ -39,13 +39,13 @@ namespace Guidewire.Core
         public override string? AccuracyWarning => Contacts == null || Contacts.StuckSteps < StepsThatAreStuck
             ? _monitor?.LostTurn
             : "the drive is stuck: in the last " + Contacts.StuckSteps.ToString(CultureInfo.InvariantCulture)
-                + " steps the walls gave sphere 0 less than 1 % of its way";
+                + " steps the walls gave sphere 0 less than 1 % of its displacement";
 
         /// <summary>Sets what ends the run before its last step; without it nothing does.</summary>
-        public void EndBy(PbdMonitor watch)
+        public void EndBy(PbdMonitor monitor)
         {
-            _monitor = watch;
-            SteadySteps = watch.Hold;
+            _monitor = monitor;
+            SteadySteps = monitor.Hold;
         }
 
         /// <inheritdoc/>
@@ -60,7 +60,7 @@ namespace Guidewire.Core
             VelocityUpdate.Apply(state, _timeStep);
             if (_monitor != null)
             {
-                _monitor.Look(state, PredictionError);
+                _monitor.Update(state, PredictionError);
                 Divergence = _monitor.Loss;
                 SteadyState = _monitor.SteadyState;
             }

@@ -2,11 +2,11 @@ using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>Finds a joint of a wire with gains that has gone over half a turn: it then unwinds the other way, and
+    /// <summary>Finds a joint of a pbd wire that has gone over half a turn: it then unwinds in the other direction, and
     /// the wire has lost a turn.</summary>
     /// <remarks>What a joint is given back goes as the sine of its angle: the most at a quarter of a turn, nothing at
     /// half of one. Orientations follow the double cover of the rotations, so that Re(q_j* q_{j+1}) = cos(angle/2)
-    /// changes its sign there and keeps it until another turn is lost.</remarks>
+    /// changes its sign there and stays so until another turn is lost.</remarks>
     internal sealed class TurnMonitor
     {
         private readonly bool[] _wasBeyond;    // per joint, of the wire as it started
@@ -31,7 +31,7 @@ namespace Guidewire.Core
         /// <summary>Takes the wire after a step.</summary>
         /// <param name="state">The wire.</param>
         /// <param name="step">Number of the step, from 1.</param>
-        public void Look(RodState state, int step)
+        public void Update(RodState state, int step)
         {
             for (int j = 0; _joint < 0 && j < _wasBeyond.Length; j++)
             {

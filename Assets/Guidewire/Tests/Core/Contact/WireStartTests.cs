@@ -62,7 +62,7 @@ namespace Guidewire.Core.Tests
                 var lumen = new LumenWidth(p.Scene.Walls[0], radius);
                 Assert.That(lumen.IsTooNarrow(scene.Shape.X, 200.0), Is.True);
                 Assert.That(lumen.Width, Is.EqualTo(1.0).Within(0.02));
-                Assert.That(lumen.Place.Z, Is.EqualTo(150.0).Within(1.0));
+                Assert.That(lumen.Centre.Z, Is.EqualTo(150.0).Within(1.0));
                 Assert.That(problem, Does.Contain("sphereRadius = 1.15 is larger than the lumen"));
             }
         }

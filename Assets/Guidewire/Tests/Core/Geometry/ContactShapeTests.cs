@@ -116,7 +116,7 @@ namespace Guidewire.Core.Tests
                 }
                 Vector3d a1 = a0 + random.Number(0.0, 2.0) * random.Point();
                 Vector3d b1 = b0 + random.Number(0.0, 2.0) * random.Point();
-                double impact = shape.Sweep(a0, b0, a1, b1, Clearance, out SurfaceContact contact);
+                double impact = shape.TimeOfImpact(a0, b0, a1, b1, Clearance, out SurfaceContact contact);
                 double until = Math.Min(1.0, impact);
                 double kept = ContactShape.Kept(Smallest(shape, a0, b0), Clearance) - 1e-9;
                 double onTheWay = Math.Min(kept, 0.5 * Clearance - 1e-9);
@@ -181,7 +181,7 @@ namespace Guidewire.Core.Tests
         public void Sweep_AlongAFlatWall_IsFreeHoweverFar()
         {
             ContactShape cube = TestShapes.Make("cube");
-            double impact = cube.Sweep(
+            double impact = cube.TimeOfImpact(
                 new Vector3d(-0.9, 0.1, -0.999), new Vector3d(-0.8, 0.1, -0.999), new Vector3d(0.8, -0.3, -0.999),
                 new Vector3d(0.9, -0.3, -0.999), 1e-2, out _);
             Assert.That(impact, Is.EqualTo(ContactShape.NoImpact));
@@ -192,7 +192,7 @@ namespace Guidewire.Core.Tests
         {
             // From z = 0 towards the wall at z = -1 with speed 4: contact at 1/4, less the clearance.
             ContactShape cube = TestShapes.Make("cube");
-            double impact = cube.Sweep(
+            double impact = cube.TimeOfImpact(
                 new Vector3d(0.1, 0.2, 0.0), new Vector3d(0.4, 0.2, 0.0), new Vector3d(0.1, 0.2, -4.0),
                 new Vector3d(0.4, 0.2, -4.0), 1e-3, out SurfaceContact contact);
             Assert.That(impact, Is.EqualTo(0.25 * (1.0 - 1e-3)).Within(1e-9));

@@ -3,29 +3,28 @@ using System;
 namespace Guidewire.Core
 {
     /// <summary>Contact with walls: the <see cref="Barrier"/> of every gap between the wire's surface and a wall, over
-    /// all places of the walls near each node, and all ridges of the walls that an element crosses.</summary>
+    /// all contact points of the walls near each node, and all edge contacts of each element.</summary>
     /// <remarks>The wire's surface is that of capsules, of each element's own radius; at a node the larger of its two
     /// elements'. Nodes meet walls that are flat or hollow before the elements between them do; what bulges into the
-    /// free side may come between two nodes, and the elements meet it there. An element's contact at s acts on its two
-    /// nodes with weights 1 - s and s. A node's second derivative is exact, without its negative part; an element's
-    /// has b'' times the square of the gap's derivative and, where asked for, all but that of the ridge's
+    /// free side may lie between two nodes, and the elements meet it there. An element's contact at s acts on its two
+    /// nodes with weights 1 - s and s. A node's second derivative is exact, without its negative part; an element's is
+    /// b'' times the square of the gap's derivative and, where asked for, everything but the derivative of the edge's
     /// weight.
     ///
     /// Walls do not act in a sheath: for them the nodes in it are at its exit, and the element that leaves it begins
     /// there.
     ///
-    /// Walls are in units, all else in metres. Elements that are far from walls are passed over
-    /// (<see cref="NeighbourList"/>); that changes no value. What one shape comes to is kept until another is asked
-    /// for.</remarks>
+    /// Walls are in units, all else in metres. Elements far from walls are skipped (<see cref="NeighbourList"/>); that
+    /// changes no value. The result for one shape is cached until another is evaluated.</remarks>
     internal sealed class BarrierEnergy : EnergyTerm
     {
-        private const double LeftOfGap = 0.3;     // that a step leaves at least
+        private const double LeftOfGap = 0.3;     // the least that a step leaves
         private const double MostLeft = 0.2;      // of the barrier's distance
-        private const double LongSkin = 20.0;    // of the barrier's distance, between looks for walls
-        private const double SkinInMesh = 0.5;   // of the wire's radius, the same at least
-        private const double Resolved = 1e-3;     // of the distance that is kept: an approach that is none
-        private const double ResolvedOfWay = 0.05;    // the same, of the way to it
-        private const double QuickFraction = 0.9;    // of a gap that is only about right
+        private const double LongSkin = 20.0;    // of the barrier's distance, the skin without point features
+        private const double SkinInMesh = 0.5;   // of the wire's radius, the least skin
+        private const double Resolved = 1e-3;     // of the clearance: approaches below it are ignored
+        private const double ResolvedOfGap = 0.05;    // the same, of the gap to close
+        private const double QuickFraction = 0.9;    // of a gap known only approximately
 
         private readonly ContactShape[] _walls;
         private readonly double _units;           // per metre
@@ -34,14 +33,14 @@ namespace Guidewire.Core
         private readonly Barrier _barrier;
         private readonly NeighbourList _near;
         private readonly SheathWindow? _sheath;
-        private int _inside;                      // nodes in the sheath in the shape at hand
-        private readonly Vector3d[] _x;           // of the shape at hand, units
-        private readonly Vector3d[] _to;          // where its nodes go, units
+        private int _inside;                      // nodes in the sheath in the current shape
+        private readonly Vector3d[] _x;           // of the current shape, units
+        private readonly Vector3d[] _to;          // where its nodes move to, units
         private readonly double[] _nodeGap;       // by wall and node, m, no more than the barrier's distance
         private readonly double[] _edgeGap;      // by wall and element, between its nodes
-        private readonly ContactSums _sums;       // of the shape at hand
+        private readonly ContactSums _sums;       // of the current shape
         private readonly Vector3d[] _resultant;   // of each wall on the wire, N
-        private readonly StructList<ContactPoint> _places = new StructList<ContactPoint>(16);
+        private readonly StructList<ContactPoint> _contactPoints = new StructList<ContactPoint>(16);
         private readonly StructList<EdgeContact> _edgeContacts = new StructList<EdgeContact>(16);
         private double _leastGap;                 // of all of these
         private bool _hasBending = true;
@@ -76,18 +75,18 @@ namespace Guidewire.Core
             {
                 range[j] = _units * (Math.Max(_nodeRadius[j], _nodeRadius[j + 1]) + barrier.Distance);
             }
-            // Lists of features of points grow with the square of the reach, all others hardly.
-            double reach = Array.Exists(walls, wall => wall.HasPointFeatures)
+            // Lists of features of points grow with the square of the skin, all others hardly grow.
+            double skin = Array.Exists(walls, wall => wall.HasPointFeatures)
                 ? Math.Max(barrier.Distance, SkinInMesh * rod.Radius[n - 1])
                 : Math.Max(LongSkin * barrier.Distance, rod.Radius[n - 1]);
-            _near = new NeighbourList(walls, range, _units * reach);
+            _near = new NeighbourList(walls, range, _units * skin);
             _nodeGap = new double[walls.Length * (n + 1)];
             _edgeGap = new double[walls.Length * n];
             _sums = new ContactSums(n);
             _resultant = new Vector3d[walls.Length];
         }
 
-        /// <summary>Leaves the part of elements' contacts out that goes with their force.</summary>
+        /// <summary>Leaves out the part of elements' contacts that is proportional to their force.</summary>
         public override void Stiffen(bool isOn)
         {
             _hasBending = !isOn;
@@ -118,13 +117,13 @@ namespace Guidewire.Core
             return inside;
         }
 
-        /// <summary>Whether a wall pushes the wire in the shape last looked at.</summary>
+        /// <summary>Whether a wall touches the wire in the shape last evaluated.</summary>
         public bool Touches => _sums.Contacts.Count > 0;
 
-        /// <summary>Where walls push the wire in a shape, wall by wall and along the wire.</summary>
+        /// <summary>The contacts with walls in a shape, wall by wall and along the wire.</summary>
         public StructList<WallContact> ContactsOf(RodShape shape)
         {
-            Look(shape);
+            Update(shape);
             return _sums.Contacts;
         }
 
@@ -143,18 +142,18 @@ namespace Guidewire.Core
             return _elementRadius[j];
         }
 
-        /// <summary>Force of each wall on the wire, N, in the shape last looked at.</summary>
+        /// <summary>Force of each wall on the wire, N, in the shape last evaluated.</summary>
         public Vector3d[] Resultants => _resultant;
 
-        /// <summary>Force of the walls on a node, its share of those on the elements among it, N.</summary>
+        /// <summary>Force of the walls on a node, its fraction of those on its elements included, N.</summary>
         public Vector3d ForceOn(RodShape shape, int node)
         {
-            Look(shape);
+            Update(shape);
             return -_sums.GradientAt(node);
         }
 
-        /// <summary>A distance in units by which element j is farther from all walls than 0 at least, in the shape last
-        /// looked at.</summary>
+        /// <summary>Lower bound of the distance of element j from all walls in the shape last evaluated,
+        /// units.</summary>
         public double ClearanceOf(int j)
         {
             return _near.ClearanceOf(_x, j);
@@ -163,7 +162,7 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override double Value(RodShape shape)
         {
-            Look(shape);
+            Update(shape);
             return _value;
         }
 
@@ -171,7 +170,7 @@ namespace Guidewire.Core
         public override void AddGradient(RodShape shape, RodVector[] gradient, int from, int to,
             ref GradientMeasures measured)
         {
-            Look(shape);
+            Update(shape);
             _sums.AddGradient(gradient, from, to, ref measured);
         }
 
@@ -183,12 +182,12 @@ namespace Guidewire.Core
             _sums.AddBlocks(blocks, from, to, _hasBending);
         }
 
-        /// <summary>Leaves at least 30 % of every gap, or a fifth of the barrier's distance, on the straight way of all
-        /// nodes, to elements too. From a gap that is left too small Newton's method comes back by doubling it.
+        /// <summary>Leaves at least 30 % of every gap, or a fifth of the barrier's distance, on the straight path of
+        /// all nodes, for elements too. From a gap that became too small Newton's method recovers by doubling it.
         /// </summary>
         public override double MaxStep(RodShape shape, RodVector[] direction, double scale)
         {
-            Look(shape);
+            Update(shape);
             double step = scale * _units;
             double longest = 0.0;
             bool isInside = _sheath != null;
@@ -228,23 +227,23 @@ namespace Guidewire.Core
             return fraction;
         }
 
-        /// <summary>What is near a shape; gaps are those of another.</summary>
+        /// <summary>The neighbours of a shape; gaps are those of another.</summary>
         public NeighbourList Near(RodShape shape, RodShape other)
         {
-            Look(other);
+            Update(other);
             SetNodes(shape, _to);
             _near.Follow(_to);
             return _near;
         }
 
-        /// <summary>Gap between node i and wall w in the shape last looked at, m, no more than the barrier's
+        /// <summary>Gap between node i and wall w in the shape last evaluated, m, no more than the barrier's
         /// distance.</summary>
         public double NodeGap(int w, int i)
         {
             return _nodeGap[w * _x.Length + i];
         }
 
-        /// <summary>The same between the inside of element j and ridges of the wall.</summary>
+        /// <summary>The same between the interior of element j and convex edges of the wall.</summary>
         public double EdgeGap(int w, int j)
         {
             return _edgeGap[w * _elementRadius.Length + j];
@@ -275,14 +274,14 @@ namespace Guidewire.Core
         private double MaxStepOf(int w, int j, double radius, double gap, int hint)
         {
             double left = Math.Min(LeftOfGap * gap, MostLeft * _units * _barrier.Distance);
-            double keep = radius + left;
-            double resolution = Math.Min(Resolved * keep, ResolvedOfWay * (gap - left));
-            return gap > 0.0 ? _walls[w].FreeShare(_x[j], _x[j + 1], _to[j], _to[j + 1], keep, resolution, hint,
-                _near.FeaturesAlong(w, j, _x, _to)) : 0.0;
+            double clearance = radius + left;
+            double resolution = Math.Min(Resolved * clearance, ResolvedOfGap * (gap - left));
+            return gap > 0.0 ? _walls[w].ConservativeTimeOfImpact(_x[j], _x[j + 1], _to[j], _to[j + 1], clearance,
+                resolution, hint, _near.FeaturesAlong(w, j, _x, _to)) : 0.0;
         }
 
-        // Finds what the shape comes to, unless it is that of the last call.
-        private void Look(RodShape shape)
+        // Evaluates the shape, unless it is that of the last call.
+        private void Update(RodShape shape)
         {
             int inside = NodesInside(shape);
             bool isSame = _isKnown && _near.IsCurrent && inside == _inside;
@@ -337,17 +336,17 @@ namespace Guidewire.Core
         private void AddNode(int w, int i)
         {
             double radius = _nodeRadius[i];
-            _places.Clear();
+            _contactPoints.Clear();
             _walls[w].FindContactPoints(
-                _x[i], _units * (radius + _barrier.Distance), _near.FeaturesOfNode(w, i, _x[i]), _places);
+                _x[i], _units * (radius + _barrier.Distance), _near.FeaturesOfNode(w, i, _x[i]), _contactPoints);
             Vector3d gradient = Vector3d.Zero;
             Symmetric3 second = default;
             bool mayBeNegative = false;
             ref double nearest = ref _nodeGap[w * _x.Length + i];
-            for (int k = 0; k < _places.Count; k++)
+            for (int k = 0; k < _contactPoints.Count; k++)
             {
-                ref ContactPoint place = ref _places[k];
-                double gap = place.Contact.Distance / _units - radius;
+                ref ContactPoint point = ref _contactPoints[k];
+                double gap = point.Contact.Distance / _units - radius;
                 nearest = Math.Min(nearest, gap);
                 _leastGap = Math.Min(_leastGap, gap);
                 double value = _barrier.At(gap, out double slope, out double curvature);
@@ -355,15 +354,15 @@ namespace Guidewire.Core
                 {
                     continue;
                 }
-                _value += place.Weight * value;
-                slope *= place.Weight;
-                Vector3d n = place.Contact.Normal;
-                double along = slope * place.Curvature * _units;
-                double across = slope * place.CrossCurvature * _units;
-                mayBeNegative |= place.Weight < 0 || along < 0.0 || across < 0.0;
+                _value += point.Weight * value;
+                slope *= point.Weight;
+                Vector3d n = point.Contact.Normal;
+                double along = slope * point.Curvature * _units;
+                double across = slope * point.CrossCurvature * _units;
+                mayBeNegative |= point.Weight < 0 || along < 0.0 || across < 0.0;
                 gradient += slope * n;
-                second += Symmetric3.Outer(place.Weight * curvature, n) + Symmetric3.Outer(along, place.Direction)
-                    + Symmetric3.Outer(across, Vector3d.Cross(n, place.Direction));
+                second += Symmetric3.Outer(point.Weight * curvature, n) + Symmetric3.Outer(along, point.Direction)
+                    + Symmetric3.Outer(across, Vector3d.Cross(n, point.Direction));
                 if (double.IsPositiveInfinity(value))
                 {
                     _value = double.PositiveInfinity;

@@ -2,10 +2,11 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>What the contacts of a wire with walls come to in one shape: where they are, and the first and second
-    /// derivatives of their energy by the nodes' places.</summary>
-    /// <remarks>An element's contact at s acts on its two nodes with weights 1 - s and s. What its second derivative
-    /// owes to its force is kept apart. Most of a long wire touches nothing, and is passed over.</remarks>
+    /// <summary>The contacts of a wire with walls in one shape: their positions, and the first and second derivatives
+    /// of their energy by the nodes' positions.</summary>
+    /// <remarks>An element's contact at s acts on its two nodes with weights 1 - s and s. The part of its second
+    /// derivative that is proportional to its force is stored apart. Most of a long wire touches nothing and is
+    /// skipped.</remarks>
     internal sealed class ContactSums
     {
         private readonly Vector3d[] _gradient;    // by node, N
@@ -32,13 +33,13 @@ namespace Guidewire.Core
         /// <summary>Wall by wall and along the wire.</summary>
         public StructList<WallContact> Contacts { get; } = new StructList<WallContact>(64);
 
-        /// <summary>By the place of node i, N.</summary>
+        /// <summary>By the position of node i, N.</summary>
         public Vector3d GradientAt(int i)
         {
             return _gradient[i];
         }
 
-        /// <summary>Nothing touches.</summary>
+        /// <summary>Removes all contacts.</summary>
         public void Clear()
         {
             for (int k = 0; k < Contacts.Count; k++)
@@ -71,10 +72,10 @@ namespace Guidewire.Core
             _own[i] += second;
         }
 
-        /// <summary>A contact of the inside of element j with a ridge.</summary>
+        /// <summary>A contact of the interior of element j with a convex edge.</summary>
         /// <param name="w">Which wall.</param>
         /// <param name="j">Which element.</param>
-        /// <param name="ridge">In units.</param>
+        /// <param name="edge">In units.</param>
         /// <param name="chord">x_j+1 - x_j, units.</param>
         /// <param name="units">Per metre.</param>
         /// <param name="value">b of the gap, J.</param>
@@ -133,7 +134,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Adds the second derivatives of nodes from one (inclusive) to another (exclusive), with or without
-        /// what goes with the forces of elements' contacts.</summary>
+        /// the part proportional to the forces of elements' contacts.</summary>
         public void AddBlocks(RodBlock[] blocks, int from, int to, bool hasBending)
         {
             int end = Math.Min(to, _gradient.Length);
@@ -165,7 +166,7 @@ namespace Guidewire.Core
             _isTouched[j + 1] = true;
         }
 
-        // The force of a ridge times the second derivative of its distance.
+        // The force of an edge contact times the second derivative of its distance.
         private void AddBending(int j, in EdgeContact edge, in Vector3d chord, double force)
         {
             double s = edge.Position;

@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>What friction keeps from step to step: by wall and node, and by wall and element that ridges of the
-    /// wall meet, the elastic force F along the wall, the stiffness k with which it has grown, and so the elastic
+    /// <summary>The state of friction between steps: by wall and node, and by wall and element that edges of the wall
+    /// meet, the elastic force F along the wall, the stiffness k with which it has grown, and so the elastic
     /// displacement F/k between the wire's surface and its anchor on the wall.</summary>
     /// <remarks>Kept by what the wire consists of, not by features of a wall: these come and go as a wire moves over a
     /// mesh. A contact that has ended has k = 0.</remarks>

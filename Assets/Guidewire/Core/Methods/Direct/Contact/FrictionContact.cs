@@ -1,7 +1,7 @@
 namespace Guidewire.Core
 {
-    /// <summary>Friction at one place of contact in the step at hand: where the wall pushes element j at s, how hard,
-    /// and what elastic displacement the contact set out with.</summary>
+    /// <summary>Friction at one contact point in the current step: the wall presses on element j at s; how hard, and
+    /// what elastic displacement the contact set out with.</summary>
     internal struct FrictionContact
     {
         /// <summary>Of the anchor.</summary>

@@ -10,15 +10,16 @@ namespace Guidewire.Core
     /// <remarks>At the end of an accepted step the anchor follows what is beyond the limit (return mapping; Simo and
     /// Hughes, Computational Inelasticity, 1998; in contact Wriggers, Computational Contact Mechanics, 2006): d is
     /// force/k, no longer than mu N/k. What sticks is held by its force without slipping, and does not creep. The heat
-    /// of the step is mu N (|z| - mu N/k). k = mu N/s with s the elastic slip that is allowed, N the largest push since
-    /// the contact began: a push that rises or falls leaves the force of what sticks as it is, and energy is only lost.
+    /// of the step is mu N (|z| - mu N/k). k = mu N/s with s the elastic slip that is allowed, N the largest normal
+    /// force since the contact began: a normal force that rises or falls leaves the force of a sticking contact
+    /// unchanged, and energy is only lost.
     ///
-    /// Pushes N and normals n are lagged: those of the shape that was last given to <see cref="Lag"/>. Contacts of
-    /// one element with several ridges of a wall share one anchor by their pushes. The surface of element j at s
-    /// slips by u = P ((1 - s) (x_j - x_j0) + s (x_j+1 - x_j+1,0) + r n x R_0 phi), P = 1 - n n^T, phi the turn of the
-    /// element since the step's start along its axes there: what turns about its own axis rubs, too, and takes a
-    /// couple. With u' = W theta, W = r [n] R_0 J^-1(phi), the second derivative leaves out that of phi, of order
-    /// |phi|.</remarks>
+    /// Normal forces N and normals n are lagged: those of the shape last given to <see cref="Lag"/>. Contacts of one
+    /// element with several edges of a wall share one anchor in proportion to their normal forces. The surface of
+    /// element j at s slips by u = P ((1 - s) (x_j - x_j0) + s (x_j+1 - x_j+1,0) + r n x R_0 phi), P = 1 - n n^T, phi
+    /// the turn of the element since the step's start along its axes there: an element that turns about its own axis
+    /// has friction too, and takes a couple. With u' = W theta, W = r [n] R_0 J^-1(phi), the second derivative leaves
+    /// out that of phi, of order |phi|.</remarks>
     internal sealed class FrictionEnergy : EnergyTerm
     {
         private const double OfRadius = 1e-2;
@@ -26,7 +27,7 @@ namespace Guidewire.Core
         private readonly BarrierEnergy _barrier;
         private readonly double _elasticSlip;     // s, m
         private readonly StructList<FrictionContact> _contacts = new StructList<FrictionContact>(64);
-        private readonly double[] _push;          // sum of the limits by anchor, N
+        private readonly double[] _limitSum;          // sum of the limits by anchor, N
         private readonly Vector3d[] _start;       // x_0, m
         private readonly Quaterniond[] _frames;   // q_0
 
@@ -40,7 +41,7 @@ namespace Guidewire.Core
             _frames = new Quaterniond[elementCount];
             Array.Fill(_frames, Quaterniond.Identity);
             Anchors = new FrictionAnchors(barrier.Walls.Length, elementCount);
-            _push = new double[Anchors.Count];
+            _limitSum = new double[Anchors.Count];
         }
 
         /// <summary>s by rule, m: a hundredth of the thinnest element's radius, by which a surface turns about the
@@ -55,7 +56,7 @@ namespace Guidewire.Core
             return OfRadius * thinnest;
         }
 
-        /// <summary>What is kept from step to step.</summary>
+        /// <summary>The state between steps.</summary>
         public FrictionAnchors Anchors { get; }
 
         /// <summary>Its slope is a force; its value over a step holds the heat too. What contacts store is
@@ -69,12 +70,12 @@ namespace Guidewire.Core
             Array.Copy(shape.Q, _frames, _frames.Length);
         }
 
-        /// <summary>Takes over pushes and normals from a shape.</summary>
+        /// <summary>Takes over normal forces and normals from a shape.</summary>
         public void Lag(RodShape shape)
         {
             for (int k = 0; k < _contacts.Count; k++)
             {
-                _push[_contacts[k].Index] = 0.0;
+                _limitSum[_contacts[k].Index] = 0.0;
             }
             _contacts.Clear();
             StructList<WallContact> contacts = _barrier.ContactsOf(shape);
@@ -85,7 +86,7 @@ namespace Guidewire.Core
                 if (limit > 0.0)
                 {
                     int index = Anchors.IndexOf(contact);
-                    _push[index] += limit;
+                    _limitSum[index] += limit;
                     _contacts.Add(new FrictionContact
                     {
                         Index = index, Element = contact.Element, Position = contact.Position,
@@ -97,9 +98,9 @@ namespace Guidewire.Core
             {
                 ref FrictionContact contact = ref _contacts[k];
                 ref FrictionAnchors.Anchor anchor = ref Anchors[contact.Index];
-                double push = _push[contact.Index];
-                double stiffness = Math.Max(anchor.Stiffness, push / _elasticSlip);
-                contact.Stiffness = contact.Limit / push * stiffness;
+                double limitSum = _limitSum[contact.Index];
+                double stiffness = Math.Max(anchor.Stiffness, limitSum / _elasticSlip);
+                contact.Stiffness = contact.Limit / limitSum * stiffness;
                 contact.Start = Turned((1.0 / stiffness) * anchor.Force, contact.Normal);
             }
         }
@@ -115,12 +116,12 @@ namespace Guidewire.Core
                 contact.Start = Math.Min(1.0, contact.Limit / (contact.Stiffness * z.Length)) * z;
                 lost += contact.Limit * Math.Max(0.0, z.Length - contact.Start.Length);
             }
-            for (int index = 0; index < _push.Length; index++)
+            for (int index = 0; index < _limitSum.Length; index++)
             {
                 ref FrictionAnchors.Anchor anchor = ref Anchors[index];
-                double push = _push[index];
-                double stiffness = push > 0.0 ? Math.Max(anchor.Stiffness, push / _elasticSlip) : 0.0;
-                // What the stiffer contact does not store, or one that has ended.
+                double limitSum = _limitSum[index];
+                double stiffness = limitSum > 0.0 ? Math.Max(anchor.Stiffness, limitSum / _elasticSlip) : 0.0;
+                // The energy that a stiffer contact does not store, or one that has ended.
                 lost += stiffness == anchor.Stiffness || anchor.Stiffness == 0.0 ? 0.0
                     : anchor.StoredEnergy * (1.0 - (stiffness > 0.0 ? anchor.Stiffness / stiffness : 0.0));
                 anchor = new FrictionAnchors.Anchor { Stiffness = stiffness };
@@ -193,7 +194,7 @@ namespace Guidewire.Core
             return contact.Stiffness * size <= contact.Limit ? contact.Stiffness : contact.Limit / size;
         }
 
-        // A vector in the plane across a normal, as long as it was.
+        // A vector in the plane across a normal, of unchanged length.
         private static Vector3d Turned(in Vector3d v, in Vector3d normal)
         {
             Vector3d flat = v - Vector3d.Dot(v, normal) * normal;

@@ -2,38 +2,38 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Which walls the nodes and elements of a wire may come near while each stays within a reach of where it
-    /// was looked for them, and the walls' features there. Lengths in units.</summary>
-    /// <remarks>What leaves its reach is looked for anew, alone: its features are added at the end of the list, which
-    /// is begun anew where it has grown too long.</remarks>
+    /// <summary>Neighbour list (Verlet list): the walls near each node and element of a wire, valid while it moves no
+    /// farther than the skin from where the query was made, and the walls' features there. Lengths in units.</summary>
+    /// <remarks>A node or element that has moved farther than the skin is queried again, alone: its features are added
+    /// at the end of the list, which is rebuilt when it has grown too long.</remarks>
     internal sealed class NeighbourList
     {
-        private const double SureOfQuick = 0.9;   // of a quick distance there is surely room
-        private const int MostLists = 8;          // of the features of all, before the list is begun anew
+        private const double SureOfQuick = 0.9;   // of a quick distance: the part that is certain
+        private const int MostLists = 8;          // of the features of all, before the list is rebuilt
         private readonly ContactShape[] _walls;
         private readonly double[] _range;         // by element: its radius and the barrier's distance
-        private readonly double _reach;
+        private readonly double _skin;
         private readonly Neighbour[] _element;    // by wall and element
         private readonly Neighbour[] _node;       // by wall and node, where the wall has features of points
         private readonly int[] _hint;             // by wall and element
         private readonly StructList<WallFeature> _features = new StructList<WallFeature>(1024);
-        private readonly FeatureCache?[] _cells;  // of nodes, by wall
-        private readonly int[] _version;          // of these when the nodes were found
+        private readonly FeatureCache?[] _caches;  // of nodes, by wall
+        private readonly int[] _version;          // of the caches when the nodes were queried
         private int _mostFeatures;
 
-        /// <summary>For a wire that has not been looked for.</summary>
+        /// <summary>A list without any query made.</summary>
         /// <param name="walls">The walls.</param>
         /// <param name="range">By element: what is farther does not count.</param>
-        /// <param name="reach">Nothing is looked for anew before it has gone this far.</param>
-        public NeighbourList(ContactShape[] walls, double[] range, double reach)
+        /// <param name="skin">The skin: nothing is queried again before it has moved this far.</param>
+        public NeighbourList(ContactShape[] walls, double[] range, double skin)
         {
             int n = range.Length;
             _walls = walls;
             _range = range;
-            _reach = reach;
+            _skin = skin;
             _element = new Neighbour[walls.Length * n];
             _node = new Neighbour[walls.Length * (n + 1)];
-            _cells = Array.ConvertAll(walls, wall => wall.CellsFor(reach));
+            _caches = Array.ConvertAll(walls, wall => wall.FeatureCacheFor(skin));
             _version = new int[walls.Length];
             _hint = new int[walls.Length * n];
             Array.Fill(_hint, -1);
@@ -41,21 +41,22 @@ namespace Guidewire.Core
             Forget(_node);
         }
 
-        /// <summary>Whether what was found still holds where it was: others may have made a wall forget it.</summary>
+        /// <summary>Whether the entries are still valid where they were found: another user may have cleared a wall's
+        /// cache.</summary>
         public bool IsCurrent
         {
             get
             {
                 bool isCurrent = true;
-                for (int w = 0; w < _cells.Length; w++)
+                for (int w = 0; w < _caches.Length; w++)
                 {
-                    isCurrent &= _cells[w] == null || _cells[w]!.Version == _version[w];
+                    isCurrent &= _caches[w] == null || _caches[w]!.Version == _version[w];
                 }
                 return isCurrent;
             }
         }
 
-        /// <summary>Looks for what has left its reach.</summary>
+        /// <summary>Queries again what has moved farther than the skin.</summary>
         /// <param name="x">The wire's n + 1 nodes.</param>
         public void Follow(Vector3d[] x)
         {
@@ -84,18 +85,18 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Whether element j may come near wall w within reach.</summary>
+        /// <summary>Whether element j may come near wall w within the skin.</summary>
         public bool IsNear(int w, int j)
         {
             return _element[w * _range.Length + j].IsNear
-                || (_cells[w] != null && (IsNodeNear(w, j) || IsNodeNear(w, j + 1)));
+                || (_caches[w] != null && (IsNodeNear(w, j) || IsNodeNear(w, j + 1)));
         }
 
         /// <summary>Whether node i may.</summary>
         public bool IsNodeNear(int w, int i)
         {
             int n = _range.Length;
-            return _cells[w] != null ? _node[w * (n + 1) + i].IsNear
+            return _caches[w] != null ? _node[w * (n + 1) + i].IsNear
                 : (i < n && _element[w * n + i].IsNear) || (i > 0 && _element[w * n + i - 1].IsNear);
         }
 
@@ -110,22 +111,22 @@ namespace Guidewire.Core
         public FeatureRange FeaturesOfNode(int w, int i, in Vector3d x)
         {
             int n = _range.Length;
-            if (_cells[w] != null)
+            if (_caches[w] != null)
             {
-                return _node[w * (n + 1) + i].Features(_cells[w]!.Features, x, x);
+                return _node[w * (n + 1) + i].Features(_caches[w]!.Features, x, x);
             }
             int j = w * n + i;
             return i < n && _element[j].IsNear ? _element[j].FeaturesAtA(_features, x)
                 : _element[j - 1].FeaturesAtB(_features, x);
         }
 
-        /// <summary>Features about the way of element j, as far as they are known on all of it.</summary>
+        /// <summary>Features about the motion of element j, where they are known for all of it.</summary>
         public ElementFeatures FeaturesAlong(int w, int j, Vector3d[] x, Vector3d[] to)
         {
             FeatureRange between = _element[w * _range.Length + j].Covers(to[j], to[j + 1])
                 ? FeaturesOf(w, j, x[j], x[j + 1]) : default;
-            return _cells[w] != null
-                ? new ElementFeatures(between, OnWay(w, j, x, to), OnWay(w, j + 1, x, to))
+            return _caches[w] != null
+                ? new ElementFeatures(between, AlongMotion(w, j, x, to), AlongMotion(w, j + 1, x, to))
                 : new ElementFeatures(between, between, between);
         }
 
@@ -135,37 +136,37 @@ namespace Guidewire.Core
             return ref _hint[w * _range.Length + j];
         }
 
-        /// <summary>By how much element j of a wire is farther from all walls than 0 at least.</summary>
+        /// <summary>Lower bound of the distance of element j from all walls.</summary>
         /// <param name="x">Nodes of the wire.</param>
         public double ClearanceOf(Vector3d[] x, int j)
         {
-            double room = double.PositiveInfinity;
+            double clearance = double.PositiveInfinity;
             for (int w = 0; w < _walls.Length; w++)
             {
-                room = Math.Min(room, ClearanceOf(w, x, j));
+                clearance = Math.Min(clearance, ClearanceOf(w, x, j));
             }
-            return room;
+            return clearance;
         }
 
         /// <summary>The same from wall w.</summary>
         public double ClearanceOf(int w, Vector3d[] x, int j)
         {
             int n = _range.Length;
-            double room = _element[w * n + j].Clearance(x[j], x[j + 1]);
-            return _cells[w] == null ? room
-                : Math.Min(room, Math.Min(_node[w * (n + 1) + j].Clearance(x[j], x[j]),
+            double clearance = _element[w * n + j].Clearance(x[j], x[j + 1]);
+            return _caches[w] == null ? clearance
+                : Math.Min(clearance, Math.Min(_node[w * (n + 1) + j].Clearance(x[j], x[j]),
                     _node[w * (n + 1) + j + 1].Clearance(x[j + 1], x[j + 1])));
         }
 
-        private FeatureRange OnWay(int w, int i, Vector3d[] x, Vector3d[] to)
+        private FeatureRange AlongMotion(int w, int i, Vector3d[] x, Vector3d[] to)
         {
             ref Neighbour node = ref _node[w * (_range.Length + 1) + i];
-            return node.Covers(to[i], to[i]) ? node.Features(_cells[w]!.Features, x[i], x[i]) : default;
+            return node.Covers(to[i], to[i]) ? node.Features(_caches[w]!.Features, x[i], x[i]) : default;
         }
 
         private void FollowNodes(int w, Vector3d[] x)
         {
-            FeatureCache? cells = _cells[w];
+            FeatureCache? cells = _caches[w];
             if (cells == null)
             {
                 return;
@@ -185,20 +186,20 @@ namespace Guidewire.Core
             }
         }
 
-        private static void Forget(Neighbour[] places)
+        private static void Forget(Neighbour[] neighbours)
         {
-            for (int k = 0; k < places.Length; k++)
+            for (int k = 0; k < neighbours.Length; k++)
             {
-                places[k].Forget();
+                neighbours[k].Forget();
             }
         }
 
         private void FindAtElement(int w, int j, Vector3d[] x, ref Neighbour element)
         {
-            element.Begin(x[j], x[j + 1], _reach, _features.Count);
-            double range = _reach + _range[j];
+            element.Begin(x[j], x[j + 1], _skin, _features.Count);
+            double range = _skin + _range[j];
             double distance = SureOfQuick * Math.Abs(_walls[w].FindFeatures(
-                x[j], x[j + 1], range / SureOfQuick, _reach, ref _hint[w * _range.Length + j], _features));
+                x[j], x[j + 1], range / SureOfQuick, _skin, ref _hint[w * _range.Length + j], _features));
             element.End(distance, range, _features.Count);
         }
     }

@@ -2,11 +2,11 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>A stiff spring between node 0 and the place where its support has it, 1/2 k |x_0 - p|^2: between walls
-    /// the support's motion is then part of the energy that a step minimises.</summary>
-    /// <remarks>k = 10 EA/l of the first element: a push that would buckle the wire moves node 0 off its place by less
-    /// than a ten thousandth of the wire's radius. A hub that gives way at an axial force F has the same energy up to F
-    /// and a straight line beyond: 1/2 k d^2 - 1/2 (|k d_a + b| - F)^2/k, d_a along the axis, b what the hub exerts
+    /// <summary>A stiff spring between node 0 and the position of its support p, 1/2 k |x_0 - p|^2: between walls the
+    /// support's motion is then part of the energy that a step minimises.</summary>
+    /// <remarks>k = 10 EA/l of the first element: a force that would buckle the wire displaces node 0 by less than a
+    /// ten thousandth of the wire's radius. A hub that slips at an axial force F has the same energy up to F and a
+    /// straight line beyond: 1/2 k d^2 - 1/2 (|k d_a + b| - F)^2/k, d_a along the axis, b what the hub exerts
     /// besides.</remarks>
     internal sealed class SupportSpring : EnergyTerm
     {
@@ -16,7 +16,7 @@ namespace Guidewire.Core
         private readonly double _limit;      // N
 
         /// <summary>The spring of a rod, without force.</summary>
-        /// <param name="limit">The axial force at which the hub gives way, N; 0: it never does.</param>
+        /// <param name="limit">The axial force at which the hub slips, N; 0: never.</param>
         public SupportSpring(MaterialRod rod, double limit)
         {
             _stiffness = OverAxialSpring * rod.StretchStiffness[0] / rod.Length[0];
@@ -31,24 +31,24 @@ namespace Guidewire.Core
             _limit = hub._limit;
         }
 
-        /// <summary>Whether the hub gives way at a force.</summary>
+        /// <summary>Whether the hub has a force at which it slips.</summary>
         public bool HasLimit => _limit < double.PositiveInfinity;
 
-        /// <summary>The hub's axis, a unit vector, along which it gives way.</summary>
+        /// <summary>The hub's axis, a unit vector, along which it slips.</summary>
         public Vector3d Axis { get; set; }
 
         /// <summary>b, the force that the hub exerts along the axis besides that of the spring, N.</summary>
         public double Besides { get; set; }
 
         /// <summary>p, m.</summary>
-        public Vector3d Place { get; set; }
+        public Vector3d Position { get; set; }
 
         /// <summary>Force of the support on node 0, N.</summary>
         public Vector3d Force(RodShape shape)
         {
-            Vector3d force = _stiffness * (Place - shape.X[0]);
+            Vector3d force = _stiffness * (Position - shape.X[0]);
             double less = _axial == _stiffness ? 0.0
-                : (_stiffness - _axial) * Vector3d.Dot(Place - shape.X[0], Axis);
+                : (_stiffness - _axial) * Vector3d.Dot(Position - shape.X[0], Axis);
             less += Excess(shape);
             return less == 0.0 ? force : force - less * Axis;
         }
@@ -59,37 +59,36 @@ namespace Guidewire.Core
             return new SupportSpring(this, compliance);
         }
 
-        /// <summary>How far node 0 is behind its place on a spring that is soft along the axis, m; 0 on one that is
+        /// <summary>How far node 0 is behind its support on a spring that is soft along the axis, m; 0 on one that is
         /// not.</summary>
         public Vector3d LagOf(RodShape shape)
         {
-            return _axial == _stiffness ? Vector3d.Zero : Vector3d.Dot(Place - shape.X[0], Axis) * Axis;
+            return _axial == _stiffness ? Vector3d.Zero : Vector3d.Dot(Position - shape.X[0], Axis) * Axis;
         }
 
-        /// <summary>Where the hub has the wire, m: node 0, or the end of what is before it, as long as the force leaves
-        /// that.</summary>
-        public Vector3d HeldPlace(RodShape shape)
+        /// <summary>Where the hub has the wire, m: node 0, or the end of what is before it, as long as it is under the
+        /// force.</summary>
+        public Vector3d HeldPosition(RodShape shape)
         {
-            return Place - (Vector3d.Dot(Force(shape), Axis) / _stiffness) * Axis;
+            return Position - (Vector3d.Dot(Force(shape), Axis) / _stiffness) * Axis;
         }
 
-        /// <summary>Takes the place back, once a step is done, to where the axial force is no more than the
-        /// hub's.</summary>
+        /// <summary>Moves the support back, after a step, to where the axial force is no more than the hub's.</summary>
         /// <returns>By how much along the axis, m.</returns>
         public double TakeSlip(RodShape shape)
         {
             double slip = Excess(shape) / _axial;
-            Place -= slip * Axis;
+            Position -= slip * Axis;
             return slip;
         }
 
         /// <inheritdoc/>
         public override double Value(RodShape shape)
         {
-            double value = _stiffness * (shape.X[0] - Place).LengthSquared;
+            double value = _stiffness * (shape.X[0] - Position).LengthSquared;
             if (_axial != _stiffness)
             {
-                double along = Vector3d.Dot(shape.X[0] - Place, Axis);
+                double along = Vector3d.Dot(shape.X[0] - Position, Axis);
                 value -= (_stiffness - _axial) * along * along;
             }
             double excess = Excess(shape);
@@ -132,17 +131,17 @@ namespace Guidewire.Core
             }
         }
 
-        // What the axial force would have beyond the limit, N, with its sign.
+        // Excess of the axial force over the limit, N, with its sign.
         private double Excess(RodShape shape)
         {
-            double force = _axial * Vector3d.Dot(Place - shape.X[0], Axis) + Besides;
+            double force = _axial * Vector3d.Dot(Position - shape.X[0], Axis) + Besides;
             return Math.Abs(force) > _limit ? force - Math.Sign(force) * _limit : 0.0;
         }
 
         /// <inheritdoc/>
         public override void Serialize(Snapshot snapshot)
         {
-            Place = snapshot.Serialize(Place);
+            Position = snapshot.Serialize(Position);
             Besides = snapshot.Serialize(Besides);
         }
     }

@@ -1,10 +1,10 @@
 namespace Guidewire.Core
 {
-    /// <summary>Where a wall pushes the wire, and how hard: on element j at s, which is one of its nodes at 0 and
+    /// <summary>A contact force of a wall on the wire: on element j at s, which is one of its nodes at 0 and
     /// 1.</summary>
     internal readonly struct WallContact
     {
-        /// <summary>Its place in the list of walls.</summary>
+        /// <summary>Index in the list of walls.</summary>
         public readonly int Wall;
 
         /// <summary>j.</summary>
@@ -13,24 +13,24 @@ namespace Guidewire.Core
         /// <summary>s.</summary>
         public readonly double Position;
 
-        /// <summary>Whether a node touches, else the inside of the element.</summary>
+        /// <summary>Whether a node touches, else the interior of the element.</summary>
         public readonly bool IsNode;
 
-        /// <summary>Unit vector of the push.</summary>
+        /// <summary>Unit normal, the direction of the force.</summary>
         public readonly Vector3d Normal;
 
         /// <summary>N.</summary>
         public readonly double Force;
 
         /// <summary>A contact with these values.</summary>
-        public WallContact(int wall, int element, double position, in Vector3d push, bool isNode)
+        public WallContact(int wall, int element, double position, in Vector3d force, bool isNode)
         {
             IsNode = isNode;
             Wall = wall;
             Element = element;
             Position = position;
-            Force = push.Length;
-            Normal = Vector3d.Normalize(push);
+            Force = force.Length;
+            Normal = Vector3d.Normalize(force);
         }
     }
 }

@@ -10,7 +10,7 @@ namespace Guidewire.Core
         private readonly Func<string?>? _advice;
 
         /// <summary>Those of a rod.</summary>
-        /// <param name="friction">Null where no wall rubs.</param>
+        /// <param name="friction">Null where no wall has friction.</param>
         /// <param name="holdsStart">Whether a support holds node 0.</param>
         /// <param name="advice">See <see cref="Advice"/>.</param>
         public WallTerms(BarrierEnergy barrier, FrictionEnergy? friction, SupportSpring spring, bool holdsStart,
@@ -39,10 +39,10 @@ namespace Guidewire.Core
         /// <summary>Contact.</summary>
         public BarrierEnergy Barrier { get; }
 
-        /// <summary>Friction; null where no wall rubs.</summary>
+        /// <summary>Friction; null where no wall has friction.</summary>
         public FrictionEnergy? Friction { get; }
 
-        /// <summary>The spring; of no effect where nothing holds node 0.</summary>
+        /// <summary>The spring; without effect where nothing holds node 0.</summary>
         public SupportSpring Spring { get; }
 
         /// <summary>Whether a support holds node 0.</summary>

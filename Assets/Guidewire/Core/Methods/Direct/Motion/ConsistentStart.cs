@@ -7,7 +7,7 @@ namespace Guidewire.Core
     /// support.</summary>
     /// <remarks>The consistent mass is tridiagonal and the same for all components of v'; elements' spins decouple. A
     /// held node's acceleration is its support's, 0, because supports move evenly between jumps. Where a support's
-    /// velocity jumps, M dv = 0 on the free nodes gives what the mass that they share makes of it.</remarks>
+    /// velocity jumps, M dv = 0 on the free nodes gives the effect of the mass that they share.</remarks>
     internal sealed class ConsistentStart
     {
         private readonly RodTerms _terms;

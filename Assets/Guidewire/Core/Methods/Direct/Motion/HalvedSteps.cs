@@ -5,8 +5,8 @@ namespace Guidewire.Core
     /// <summary>Steps of a motion that are halved where they have no solution, and those halves again, down to 1/4096:
     /// a snap or a violent release goes far in one step, and where it ends depends on what came between.</summary>
     /// <remarks>A wire that snaps between walls is far from where it was after however short a piece: Newton's method
-    /// then descends a long way, energy falling in every iteration. So there the shortest piece has
-    /// <see cref="MoreIterations"/> times as many iterations before it counts as one without a solution.</remarks>
+    /// then descends far, energy falling in every iteration. So there the shortest piece has <see
+    /// cref="MoreIterations"/> times as many iterations before it counts as one without a solution.</remarks>
     internal sealed class HalvedSteps
     {
         private const int MostHalvings = 12;

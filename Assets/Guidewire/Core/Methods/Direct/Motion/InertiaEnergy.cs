@@ -23,7 +23,7 @@ namespace Guidewire.Core
         private double _nodes;                // energy of the nodes in the shape whose value was asked last, J
         private readonly Quaterniond[] _seen;      // orientations whose couples are known in this stage
         private readonly Vector3d[] _seenCouple;
-        private readonly Vector3d[] _countedTurn;  // phi with its full turns, in the shape that was last looked at
+        private readonly Vector3d[] _countedTurn;  // phi with its full turns, in the shape that was last evaluated
         private readonly Vector3d[] _keptTurn;
 
         /// <summary>The inertia of a rod.</summary>
@@ -71,7 +71,7 @@ namespace Guidewire.Core
             Array.Clear(_countedTurn, 0, _countedTurn.Length);
         }
 
-        /// <summary>Keeps the full turns of the shape that was last looked at.</summary>
+        /// <summary>Stores the full turns of the shape that was last evaluated.</summary>
         public void KeepTurns()
         {
             Array.Copy(_countedTurn, _keptTurn, _keptTurn.Length);
@@ -132,7 +132,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>How far a turn phi of element j is from that of the shape last looked at, square radians.</summary>
+        /// <summary>How far a turn phi of element j is from that of the shape last evaluated, square radians.</summary>
         public double SquaredChange(in Vector3d turn, int j)
         {
             return (turn - _countedTurn[j]).LengthSquared;

@@ -19,7 +19,7 @@ namespace Guidewire.Core
     {
         private const double LargestStart = 0.5;  // radians, or L, by which rates at the start may move the rod
         private const double SameTime = 1e-9;     // of a step
-        private const double SamePlace = 1e-9;    // radians, or of L
+        private const double SamePosition = 1e-9;    // radians, or of L
 
         private readonly RodTerms _terms;
         private readonly RodSchedule _schedule;
@@ -41,7 +41,7 @@ namespace Guidewire.Core
         private double _lastStep;             // s
         private bool _hasStepped;
         private bool _hasRates;               // the last stage has the rates of the next step's start
-        private bool _hasPast;                // stages of the step before are at hand, to predict from
+        private bool _hasPast;                // stages of the step before are known, to predict from
         private Vector3d _proximalVelocity;   // of the supports in the last step, m/s
         private Vector3d _distalVelocity;
         private StageForces _meanForces;
@@ -146,7 +146,7 @@ namespace Guidewire.Core
         public Vector3d MomentumRate { get; private set; }
 
         /// <summary>Force that the supports exert on node 0, N, the mean over the last step by the scheme's weights
-        /// (BDF2: at the step's end): the first element's stress, less the node's own share of weight and
+        /// (BDF2: at the step's end): the first element's stress, less the node's own fraction of weight and
         /// inertia.</summary>
         public Vector3d MeanReaction => _meanForces.Proximal;
 
@@ -392,8 +392,8 @@ namespace Guidewire.Core
             double after = time + SameTime * dt;
             Vector3d proximal = _schedule.ProximalVelocity;
             Vector3d distal = _schedule.DistalVelocityAt(after);
-            bool isInPlace = _start.IsHeldAt(Shape, _schedule, time, SamePlace * _length)
-                && _frames.AreInPlace(time, SamePlace);
+            bool isInPlace = _start.IsHeldAt(Shape, _schedule, time, SamePosition * _length)
+                && _frames.AreInPlace(time, SamePosition);
             bool jumps = proximal != _proximalVelocity || distal != _distalVelocity;
             if (_hasRates && isInPlace && !jumps && _schedule.NextJump(time - SameTime * dt) > after)
             {

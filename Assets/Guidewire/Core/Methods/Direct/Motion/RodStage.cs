@@ -101,7 +101,7 @@ namespace Guidewire.Core
         /// rates.</summary>
         /// <param name="jump">When a load jumps next: a stage at that time is before the jump.</param>
         /// <param name="stage">Its index among the rates.</param>
-        /// <param name="hasPast">Whether stages of the step before are at hand.</param>
+        /// <param name="hasPast">Whether stages of the step before are known.</param>
         /// <param name="predictor">Which stages before it is predicted from.</param>
         /// <returns>Null, or why it has no solution; the shape is then not to be used.</returns>
         public string? Solve(double time, double jump, int stage, bool hasPast, in StagePredictor predictor)
@@ -247,7 +247,7 @@ namespace Guidewire.Core
             double largest = 0.0;
             Vector3d[] first = Rates.SpinRate[predictor.First];
             Vector3d[] second = Rates.SpinRate[predictor.Second];
-            double fraction = predictor.Share;
+            double fraction = predictor.Fraction;
             for (int j = 0; j < _predicted.Length; j++)
             {
                 Vector3d rate = first[j] + fraction * (second[j] - first[j]);

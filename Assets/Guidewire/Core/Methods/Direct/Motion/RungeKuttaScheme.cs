@@ -5,8 +5,8 @@ namespace Guidewire.Core
     /// <summary>The coefficients of a diagonally implicit Runge-Kutta scheme, all L-stable and stiffly accurate: the
     /// last stage is the end of the step, so what is stiff (stretch, shear) is at rest there.</summary>
     /// <remarks>All but the simplest have an explicit first stage, whose rates are those at the step's start: their
-    /// other stages are of order 2, and where a turning wire drives its stiff stretch all the time the step keeps at
-    /// least that order. With implicit stages alone, which are of order 1, it does not.</remarks>
+    /// other stages are of order 2, and where rotation excites the stiff stretch all the time the step stays at least
+    /// that order. With implicit stages alone, which are of order 1, it does not.</remarks>
     internal sealed class RungeKuttaScheme
     {
         private RungeKuttaScheme(double[][] rows, double[]? embedded)
@@ -149,9 +149,9 @@ namespace Guidewire.Core
             };
         }
 
-        /// <summary>The line through two of the stages at hand, those before this one and, one step earlier, the
-        /// others, that is least wrong at this stage's time: of the pairs, the one with the smallest product of the
-        /// two distances, which goes with the second derivative, and the weights' magnitudes, which go with
+        /// <summary>The line through two of the known stages, those before this one and, one step earlier, the others,
+        /// that is least wrong at this stage's time: of the pairs, the one with the smallest product of the two
+        /// distances, which goes with the second derivative, and the weights' magnitudes, which go with
         /// noise.</summary>
         private StagePredictor PredictorOf(int stage)
         {
@@ -174,7 +174,7 @@ namespace Guidewire.Core
                     if (Math.Abs(first) < Math.Abs(second) && wrong < least)
                     {
                         least = wrong;
-                        best = new StagePredictor { First = i, Second = k, Share = fraction };
+                        best = new StagePredictor { First = i, Second = k, Fraction = fraction };
                     }
                 }
             }

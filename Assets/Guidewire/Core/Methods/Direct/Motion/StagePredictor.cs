@@ -1,11 +1,11 @@
 namespace Guidewire.Core
 {
-    /// <summary>How the accelerations of a stage are predicted: a_First + Share (a_Second - a_First).</summary>
+    /// <summary>How the accelerations of a stage are predicted: a_First + Fraction (a_Second - a_First).</summary>
     internal struct StagePredictor
     {
         public int First;
         public int Second;
-        public double Share;
+        public double Fraction;
 
         /// <summary>That of one stage alone.</summary>
         public static StagePredictor Of(int stage)
@@ -13,7 +13,7 @@ namespace Guidewire.Core
             return new StagePredictor { First = stage, Second = stage };
         }
 
-        /// <summary>2 a - a_old, for a scheme of one stage that keeps the step before in a second place.</summary>
-        public static StagePredictor OneStage => new StagePredictor { First = 0, Second = 1, Share = -1.0 };
+        /// <summary>2 a - a_old, for a scheme of one stage that stores the step before as second.</summary>
+        public static StagePredictor OneStage => new StagePredictor { First = 0, Second = 1, Fraction = -1.0 };
     }
 }

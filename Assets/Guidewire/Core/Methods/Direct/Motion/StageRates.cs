@@ -43,7 +43,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Takes the rates at a step's start as those of the first stage.</summary>
-        /// <param name="fromLast">Whether v' and w' are those of the last stage; else they are in their place.</param>
+        /// <param name="fromLast">Whether v' and w' are those of the last stage; else they are already set.</param>
         public void SetFirst(Vector3d[] velocities, Vector3d[] spins, bool fromLast)
         {
             Array.Copy(velocities, _velocity[0], velocities.Length);

@@ -5,18 +5,18 @@ namespace Guidewire.Core
     /// <summary>Solves one implicit stage from a prediction: Newton's method with a factorisation that is kept as long
     /// as it contracts, and where it does not, the slower search that minimises the stage's energy.</summary>
     /// <remarks>A stage is solved when no piece of the rod, from its start to any node, is out of balance by more than
-    /// a force S, nor the couples on its elements by S L in all. S is the share that is asked for of the largest force
-    /// in the rod, and at most tolerance EI/L^2, because a force S at the tip of a cantilever moves it by S L^3/(3 EI)
-    /// and turns it by S L^2/(2 EI): the balance then bounds the error of the shape too. A bound on the last step
-    /// alone does not do: stretching costs EA, and a step of 1e-6 L along the rod is 1e-6 EA of force, more than the
-    /// weight of the wire. What rounding of the positions leaves in the balance, one unit in the last place times
-    /// EA/l and M/h^2, is added to S.
+    /// a force S, nor the couples on its elements by S L in all. S is the prescribed fraction of the largest force in
+    /// the rod, and at most tolerance EI/L^2, because a force S at the tip of a cantilever moves it by S L^3/(3 EI) and
+    /// turns it by S L^2/(2 EI): the balance then bounds the error of the shape too. A bound on the last step alone
+    /// does not do: stretching costs EA, and a step of 1e-6 L along the rod is 1e-6 EA of force, more than the weight
+    /// of the wire. What rounding of the positions leaves in the balance, one unit in the last place times EA/l and
+    /// M/h^2, is added to S.
     ///
     /// After a full step d1 the force left is of second order, and of first where the tangent leaves something out (the
     /// turning of fast spins): from the last that was measured it is expected to grow with |d1|^2 and to fall with
     /// |d1|. Where that promises S with a margin it is trusted, but for every 16th stage. A correction d2 with the
-    /// factorisation that is kept takes the stiff direction of each element where it was a turn d1 ago, so it leaves
-    /// EA |d1| |d2|: where that is below S, and |d2| below the tolerance, nothing more is looked at. A step that a term
+    /// factorisation that is kept takes the stiff direction of each element where it was a turn d1 ago, so it leaves EA
+    /// |d1| |d2|: where that is below S, and |d2| below the tolerance, nothing more is evaluated. A step that a term
     /// cuts promises nothing: the next one begins anew.</remarks>
     internal sealed class StageSolver
     {
@@ -73,7 +73,7 @@ namespace Guidewire.Core
         /// <summary>Error that a stage's shape may have: radians, or displacement over L.</summary>
         public double Tolerance { get; set; } = 1e-6;
 
-        /// <summary>Share of the largest force that a stage may leave unbalanced.</summary>
+        /// <summary>Fraction of the largest force that a stage may leave unbalanced.</summary>
         public double Balance { get; set; } = 1e-7;
 
         /// <summary>Newton iterations of the slower search.</summary>
@@ -161,7 +161,7 @@ namespace Guidewire.Core
             return false;
         }
 
-        /// <summary>The slower search, from the shape as it is; it looks at the error of the shape alone.</summary>
+        /// <summary>The slower search, from the shape as it is; it judges the error of the shape alone.</summary>
         /// <returns>Null, or why there is no solution.</returns>
         public string? Search(RodShape shape)
         {
@@ -240,7 +240,7 @@ namespace Guidewire.Core
             return Math.Max(force, couples / _totalLength);
         }
 
-        /// <summary>Takes the step, or the share of it that the terms allow; returns its full size.</summary>
+        /// <summary>Takes the step, or the fraction of it that the terms allow; returns its full size.</summary>
         private double Move(RodShape shape, out double fraction)
         {
             double size = RodStep.Size(_direction, _rod.ElementCount, _totalLength, out _);

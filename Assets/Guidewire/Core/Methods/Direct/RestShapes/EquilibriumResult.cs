@@ -6,7 +6,7 @@ namespace Guidewire.Core
         /// <summary>True only where the last Newton step was below the tolerance and the shape is stable.</summary>
         public bool Converged;
 
-        /// <summary>How the rest shape was looked for, in one line; null where that is not a choice.</summary>
+        /// <summary>How the rest shape was found, in one line; null where that is not a choice.</summary>
         public string? Method;
 
         /// <summary>Why not, in one line; empty when converged.</summary>

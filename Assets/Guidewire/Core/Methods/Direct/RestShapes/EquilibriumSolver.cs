@@ -9,10 +9,10 @@ namespace Guidewire.Core
     /// along the direction of most negative curvature. Converged means: the second derivative as it is has no negative
     /// eigenvalue but those of neutral motions, and the full step is below the tolerance. Whatever else happens ends
     /// with a reason. A shape that may turn without any change of energy (a buckled rod about its thrust) has an
-    /// eigenvalue 0, which rounding makes one of either sign: on the way eigenvalues above -1e-4 EI/L^2 of the stiffest
-    /// element do not stand in Newton's way, and at its end <see cref="EquilibriumStability"/> looks at each that is
-    /// negative; where one is not neutral the search leaves the saddle. Every direction is found with 1e-6 EI/L^2
-    /// added, and with no more than 0.01 EI/L^2 of the softest element, which would hold that.</remarks>
+    /// eigenvalue 0, which rounding makes one of either sign: during the iteration eigenvalues above -1e-4 EI/L^2 of
+    /// the stiffest element are left in Newton's matrix, and at its end <see cref="EquilibriumStability"/> examines
+    /// each that is negative; where one is not neutral the search leaves the saddle. Every direction is found with 1e-6
+    /// EI/L^2 added, and with no more than 0.01 EI/L^2 of the softest element, which would hold that.</remarks>
     internal sealed class EquilibriumSolver
     {
         private const double LargestTurn = 1.0;          // rad an iteration, of one element where forces act
@@ -234,7 +234,7 @@ namespace Guidewire.Core
             return false;
         }
 
-        /// <summary>Leaves in the work vector the eigenvector of the matrix at hand whose eigenvalue is
+        /// <summary>Leaves in the work vector the eigenvector of the current matrix whose eigenvalue is
         /// smallest.</summary>
         private void InverseIteration(out double eigenvalue)
         {

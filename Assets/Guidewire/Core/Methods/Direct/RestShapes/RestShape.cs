@@ -5,7 +5,7 @@ namespace Guidewire.Core
     /// <summary>Brings a scene's rod to its rest shape at time 0. Displacements and turns of the ends are taken in
     /// parts, each solved before the next, so that a rod turned by many turns is wound up and not turned the shorter
     /// way. A rod with rest curvature and one free end sets out from where it is free of stress: a coil of many turns
-    /// does not find its way there from the straight.</summary>
+    /// does not get there from the straight shape.</summary>
     internal sealed class RestShape
     {
         private const double LargestShift = 0.01;  // of L a part

@@ -2,10 +2,10 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>A material rod at rest: between its supports, under dead loads and what turns with the tip. Chooses
-    /// the way to the rest shape: minimisation where the loads have a potential (all but a force that turns with the
-    /// tip, and a couple in space), a minimisation kept in the plane for a couple in a plane problem, else
-    /// minimisation without what turns with the tip and then creeping under it.</summary>
+    /// <summary>A material rod at rest: between its supports, under dead loads and what turns with the tip. Chooses the
+    /// path to the rest shape: minimisation where the loads have a potential (all but a force that turns with the tip,
+    /// and a couple in space), a minimisation kept in the plane for a couple in a plane problem, else minimisation
+    /// without what turns with the tip and then creeping under it.</summary>
     internal sealed class RodStatics
     {
         private const double PlaneTolerance = 1e-12;

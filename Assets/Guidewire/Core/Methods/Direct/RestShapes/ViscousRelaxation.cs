@@ -46,8 +46,8 @@ namespace Guidewire.Core
             _bendForce = rod.BendForce;
         }
 
-        /// <summary>Moves <paramref name="shape"/> to the rest shape that it creeps to, and looks whether it
-        /// is stable.</summary>
+        /// <summary>Moves <paramref name="shape"/> to the rest shape that it creeps to, and checks whether it is
+        /// stable.</summary>
         /// <param name="tolerance">On the last Newton step, radians or displacement over L.</param>
         /// <param name="mostIterations">Steps, after which the search gives up.</param>
         public EquilibriumResult Solve(RodShape shape, double tolerance, int mostIterations)

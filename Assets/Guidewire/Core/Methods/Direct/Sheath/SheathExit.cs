@@ -75,12 +75,12 @@ namespace Guidewire.Core
                 return problem + "; the sheath ends at " + Text(exit)
                     + ", and the wire from there on has to be inside the vessel";
             }
-            double room = whole.Metres * Vector3d.Dot(exit - units * whole.Shape.X[0], axis);
+            double available = whole.Metres * Vector3d.Dot(exit - units * whole.Shape.X[0], axis);
             double asked = parameters.Drive.LargestInsertion(
                 parameters.Method.MaxSimulationSteps * parameters.Method.TimeStep);
-            return asked <= room * (1.0 + Rounding) ? null : string.Format(CultureInfo.InvariantCulture,
+            return asked <= available * (1.0 + Rounding) ? null : string.Format(CultureInfo.InvariantCulture,
                 "sheath: an insertion of {0:G4} m is longer than the wire: {1:G4} m of it are in the sheath", asked,
-                room);
+                available);
         }
 
         // One element inside the first node from which on the wire is free of the walls.
@@ -103,8 +103,8 @@ namespace Guidewire.Core
 
         private static bool IsWithin(MaterialScene whole, int node)
         {
-            Vector3d place = (1.0 / whole.Metres) * whole.Shape.X[node];
-            return Array.TrueForAll(whole.Walls, wall => wall.IsWithin(place));
+            Vector3d position = (1.0 / whole.Metres) * whole.Shape.X[node];
+            return Array.TrueForAll(whole.Walls, wall => wall.IsWithin(position));
         }
 
         private static string Text(in Vector3d v)

@@ -102,8 +102,8 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override StressRecord? Stress()
         {
-            double push = AxialForce();
-            _stress.Take(_inner.Stress()!, _window, push, Torque());
+            double thrust = AxialForce();
+            _stress.Take(_inner.Stress()!, _window, thrust, Torque());
             return _stress;
         }
 
@@ -177,13 +177,13 @@ namespace Guidewire.Core
             Build(_dynamics.Time, old);
         }
 
-        // Where a sheathed element is when it comes in: on the axis, as long as the push leaves it.
+        // Where a sheathed element enters: on the axis, as long as the axial force leaves it.
         private void Enter(int j)
         {
             Vector3d next = _shape.X[j + 1];
             double length = _whole.Rod.Length[j] * (1.0 - AxialForce() / _whole.Rod.StretchStiffness[j]);
-            double place = _window.Outside(next) - length;
-            _shape.X[j] = _setup.Exit + place * _setup.Axis;
+            double position = _window.Outside(next) - length;
+            _shape.X[j] = _setup.Exit + position * _setup.Axis;
             _velocities[j] = Vector3d.Dot(_velocities[j + 1], _setup.Axis) * _setup.Axis;
             _spins[j] = new Vector3d(0.0, 0.0, _spins[j + 1].Z);
         }
@@ -227,13 +227,13 @@ namespace Guidewire.Core
             Array.Copy(_dynamics.Velocities, 0, _velocities, first, shape.X.Length);
             Array.Copy(_dynamics.Spins, 0, _spins, first, shape.Q.Length);
             TakeAnchors();
-            double push = AxialForce();
+            double thrust = AxialForce();
             double torque = Torque();
-            double place = _window.Outside(_shape.X[first]);
+            double position = _window.Outside(_shape.X[first]);
             for (int j = first - 1; j >= 0; j--)
             {
-                place -= _whole.Rod.Length[j] * (1.0 - push / _whole.Rod.StretchStiffness[j]);
-                _shape.X[j] = _setup.Exit + place * _setup.Axis;
+                position -= _whole.Rod.Length[j] * (1.0 - thrust / _whole.Rod.StretchStiffness[j]);
+                _shape.X[j] = _setup.Exit + position * _setup.Axis;
                 _velocities[j] = Vector3d.Dot(_velocities[first], _setup.Axis) * _setup.Axis;
                 _spins[j] = new Vector3d(0.0, 0.0, _spins[first].Z);
             }

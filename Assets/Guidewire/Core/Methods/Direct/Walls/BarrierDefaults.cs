@@ -6,33 +6,33 @@ namespace Guidewire.Core
     /// <summary>Distance and stiffness of the barrier where the parameters do not say, from wire, walls and
     /// drive.</summary>
     /// <remarks>The distance g0 is a tenth of the wire's radius, or a twentieth of what the drive moves in a step where
-    /// that is more: a wire that moves farther than 20 g0 in a step leaves its barriers behind. It is at most half of
+    /// that is more: a wire that moves farther than 20 g0 in a step would jump past its barriers. It is at most half of
     /// the clearance where the walls are narrowest and still wider than the wire, because two barriers that overlap
-    /// would hold the wire back; in a mesh at most 0.3 of the radius, because the triangles that are looked at grow
-    /// with its square; and at least a hundredth of the radius.
+    /// would hold the wire back; in a mesh at most 0.3 of the radius, because the number of triangles tested grows with
+    /// its square; and at least a hundredth of the radius.
     ///
     /// The stiffness is F/g0 with F of the size of the forces that walls exert: EI/(90 r)^2, of a wire that bends
-    /// between places that hold it 45 diameters apart, or EI k/l, of an element of rest curvature k that they hold
-    /// straight; of the element for which it is largest. Contacts then keep about half of g0. Stiffer ones work where
-    /// all but a little of it is left and hardly push until they push too much; softer ones close their gaps to
-    /// nothing. Of a straight wire it does not depend on the division, as EI/l^3 would.</remarks>
+    /// between supports 45 diameters apart, or EI k/l, of an element of rest curvature k that supports hold straight;
+    /// of the element for which it is largest. Contacts then have gaps of about half of g0. Stiffer ones act only near
+    /// g0, where the force rises abruptly; softer ones close their gaps to nothing. For a straight wire it does not
+    /// depend on the division into elements, as EI/l^3 would.</remarks>
     internal static class BarrierDefaults
     {
-        /// <summary>Ways in g0 that the drive may move in one step.</summary>
+        /// <summary>Largest displacement of the drive in one step, in g0.</summary>
         public const double MostMove = 20.0;
 
         private const double OfRadius = 0.1;
         private const double LeastOfRadius = 0.01;
         private const double InMesh = 0.3;
         private const double OfClearance = 0.5;
-        private const double Span = 90.0;           // times the radius, between places that hold a wire
+        private const double Span = 90.0;           // times the radius, between supports of a wire
         private const double LeastOfRule = 0.01;    // below, gaps close to nothing
         private const double MostOfRule = 1e8;
-        private const double MostDistance = 2.0;    // times the rule's: what it leaves of a clearance is used up
+        private const double MostDistance = 2.0;    // times the rule's: it leaves no clearance
 
         /// <summary>What to change about a barrier with which a step has no solution, in one phrase, or null where the
         /// barrier is as good as that of the rule.</summary>
-        /// <param name="given">That at hand.</param>
+        /// <param name="given">The given one.</param>
         /// <param name="ruled">That of the rule.</param>
         public static string? Advice(in Barrier given, in Barrier ruled)
         {
@@ -57,10 +57,10 @@ namespace Guidewire.Core
         }
 
         /// <summary>The barrier of a rod between walls.</summary>
-        /// <param name="contact">What is not 0 there counts.</param>
+        /// <param name="contact">Values other than 0 take precedence.</param>
         /// <param name="walls">In units.</param>
         /// <param name="metresPerUnit">m.</param>
-        /// <param name="move">Largest way of the drive in a step, m.</param>
+        /// <param name="move">Largest displacement of the drive in a step, m.</param>
         public static Barrier Of(MaterialRod rod, ContactParameters contact, ContactShape[] walls,
             double metresPerUnit, double move)
         {

@@ -5,12 +5,12 @@ namespace Guidewire.Core
 {
     /// <summary>Solves one implicit stage between walls: Newton's method on one energy, that of inertia, wire, loads
     /// and barriers, from a shape whose gaps are all open to one whose forces balance.</summary>
-    /// <remarks>A step goes no farther than every gap allows on the straight way of the nodes, and is cut until the
-    /// energy falls by a part of what the slope promises; so no iterate is outside a wall. Where the second derivative
-    /// is not positive definite, a wire under thrust away from the solution, a multiple of the metric is added, kept
-    /// from one time to the next. A stage is solved when no piece of the rod, from its start to any node, is out of
-    /// balance by more than S, as in <see cref="StageSolver"/>; where the energy's own rounding hides the decrease the
-    /// balance decides alone.</remarks>
+    /// <remarks>A step goes no farther than every gap allows on the straight path of the nodes, and is shortened until
+    /// the energy falls by a fraction of what the slope predicts (Armijo); so no iterate is outside a wall. Where the
+    /// second derivative is not positive definite, a wire under thrust away from the solution, a multiple of the metric
+    /// is added, kept from one iteration to the next. A stage is solved when no piece of the rod, from its start to any
+    /// node, is out of balance by more than S, as in <see cref="StageSolver"/>; where the energy's own rounding hides
+    /// the decrease the balance decides alone.</remarks>
     internal sealed class BarrierNewton
     {
         private const double LargestTurn = 1.0;          // rad an iteration
@@ -19,7 +19,7 @@ namespace Guidewire.Core
         private const double Rounding = 1e-13;           // of the energies' magnitudes
         private const double LastPlace = 1.0 / (1L << 52);
         private const double LeastShift = 1e-4;          // of EI/L^2
-        private const double Far = 1e4;                  // times what may be unbalanced: not there after one iteration
+        private const double Far = 1e4;                  // times what may be unbalanced: not reached in one iteration
         private const int MostStiffened = 4;             // iterations of a stage
         private const double FreeParts = 5.0;            // L over what is free of a wire that touches walls
         private const int MostCuts = 30;
@@ -31,7 +31,7 @@ namespace Guidewire.Core
         private readonly RodVector[] _gradient;
         private readonly RodVector[] _direction;
         private readonly RodVector[] _forces;
-        private readonly double[] _values;        // of the terms in the shape that was looked at last, J
+        private readonly double[] _values;        // of the terms in the shape evaluated last, J
         private readonly RodShape _trial;
         private readonly double _totalLength;
         private readonly double _mass;
@@ -64,7 +64,7 @@ namespace Guidewire.Core
         /// L.</summary>
         public double Tolerance { get; set; } = 1e-6;
 
-        /// <summary>Share of the largest force that a stage may leave unbalanced.</summary>
+        /// <summary>Fraction of the largest force that a stage may leave unbalanced.</summary>
         public double Balance { get; set; } = 1e-7;
 
         /// <summary>Newton iterations of a stage.</summary>
@@ -86,8 +86,8 @@ namespace Guidewire.Core
         /// <param name="shape">In: its gaps are open. Out: the stage's.</param>
         /// <param name="stageLength">h, s.</param>
         /// <param name="loads">Sum of the loads' magnitudes, N.</param>
-        /// <param name="isFar">Whether the shape is surely not the stage's yet.</param>
-        /// <returns>Null, or why it has not come to an end; the shape is then not to be used.</returns>
+        /// <param name="isFar">Whether the shape is certainly not the solution yet.</param>
+        /// <returns>Null, or why it has not converged; the shape is then not to be used.</returns>
         public string? Solve(RodShape shape, double stageLength, double loads, bool isFar)
         {
             double rounding = LastPlace * (shape.X[0].Length + _totalLength)
@@ -123,7 +123,7 @@ namespace Guidewire.Core
                 {
                     if (wasFar)
                     {
-                        // It was not, and rounding hides that the energy is as low as it gets.
+                        // It was not, and rounding hides that the energy is at its minimum.
                         isFar = false;
                         hasValues = false;
                         continue;
@@ -132,7 +132,7 @@ namespace Guidewire.Core
                 }
                 shape.CopyFrom(_trial);
                 hasValues = true;
-                // A full step that no longer lowers the force left has come to what rounding leaves.
+                // A full step that no longer lowers the residual force is at the limit of rounding.
                 if (isHidden && scale == 1.0 && left >= 0.5 * before && size <= Tolerance)
                 {
                     return null;
@@ -163,11 +163,11 @@ namespace Guidewire.Core
             Factorisations = snapshot.Serialize(Factorisations);
         }
 
-        // Where small forces balance, N: by the wire's free length, which is less where it touches walls.
+        // Scale of small forces, N: by the wire's free length, which is less where it touches walls.
         private double MostUnbalanced =>
             (_barrier.Touches ? FreeParts * FreeParts : 1.0) * Tolerance * _bendForce;
 
-        // Far from balance without what goes with forces that need not be there; nearer only walls' forces do.
+        // Far from balance without the terms of forces that may vanish; nearer only those of walls are left out.
         private void FindDirection(RodShape shape, bool isStiffened)
         {
             Factorisations++;
@@ -222,7 +222,7 @@ namespace Guidewire.Core
             _system.Back(_direction);
         }
 
-        // How much of the direction may be tried.
+        // The largest step along the direction.
         private double Scale(RodShape shape, out double size)
         {
             size = RodStep.Size(_direction, _rod.ElementCount, _totalLength, out double relative);
@@ -230,7 +230,7 @@ namespace Guidewire.Core
             return scale * EnergySum.MaxStep(_terms, shape, _direction, scale);
         }
 
-        // Cuts the step until the energy falls enough; the accepted shape is left in the trial.
+        // Shortens the step until the energy falls enough; the accepted shape is left in the trial.
         private bool Search(RodShape shape, bool isNew, ref double scale, double size, out bool isHidden)
         {
             double slope = RodVectors.Dot(_gradient, _direction);

@@ -2,23 +2,23 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>What walls push each element of a wire with, along their normals. What pushes a node between two
-    /// elements is shared by both; what pushes an end is its element's.</summary>
-    /// <remarks>Pressure is the sum of an element's pushes, whatever their directions, over its length and its
-    /// diameter: what it would be if it were spread over the element's shadow. So it does not depend on n where a wire
-    /// lies along a wall; where one place pushes, such as the tip, it grows with n.</remarks>
+    /// <summary>Normal force of the walls on each element of a wire. A force on a node between two elements is shared
+    /// by both; a force on an end belongs to its element.</summary>
+    /// <remarks>Pressure is the sum of an element's normal forces, regardless of their directions, over its length and
+    /// its diameter: what it would be if it were spread over the element's shadow. So it does not depend on n where a
+    /// wire lies along a wall; at a single contact point, such as the tip, it grows with n.</remarks>
     internal sealed class ElementContactForces
     {
         private readonly BarrierEnergy _barrier;
         private readonly double[] _shadow;   // 2 r l, m^2
-        private readonly double[] _push;     // N
+        private readonly double[] _force;     // N
 
         /// <summary>Those of a rod's contacts.</summary>
         public ElementContactForces(MaterialRod rod, BarrierEnergy barrier)
         {
             _barrier = barrier;
             _shadow = new double[rod.ElementCount];
-            _push = new double[rod.ElementCount];
+            _force = new double[rod.ElementCount];
             for (int j = 0; j < _shadow.Length; j++)
             {
                 _shadow[j] = 2.0 * rod.Radius[j] * rod.Length[j];
@@ -36,7 +36,7 @@ namespace Guidewire.Core
         public void Take(RodShape shape, Vector3d[] forces)
         {
             Array.Clear(forces, 0, forces.Length);
-            Array.Clear(_push, 0, _push.Length);
+            Array.Clear(_force, 0, _force.Length);
             StructList<WallContact> contacts = _barrier.ContactsOf(shape);
             for (int k = 0; k < contacts.Count; k++)
             {
@@ -54,14 +54,14 @@ namespace Guidewire.Core
             for (int j = 0; j < forces.Length; j++)
             {
                 LargestForce = Math.Max(LargestForce, forces[j].Length);
-                LargestPressure = Math.Max(LargestPressure, _push[j] / _shadow[j]);
+                LargestPressure = Math.Max(LargestPressure, _force[j] / _shadow[j]);
             }
         }
 
         private void Add(int j, double fraction, in WallContact contact, Vector3d[] forces)
         {
             forces[j] += (fraction * contact.Force) * contact.Normal;
-            _push[j] += fraction * contact.Force;
+            _force[j] += fraction * contact.Force;
         }
     }
 }

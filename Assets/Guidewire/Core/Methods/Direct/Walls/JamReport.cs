@@ -3,12 +3,12 @@ using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>What holds a wire between walls whose step has no solution: the force of its hub, and the contact that
-    /// pushes hardest.</summary>
-    /// <remarks>A hub that does not give way jams a wire with more thrust than buckles a clamped length of 90 of its
-    /// diameters, 4 pi^2 EI/(180 r)^2: what is pushed harder bends until walls hold it on both sides at every such
-    /// length, and its shape is one of many. Then a hub with a limit ends the jam; below that thrust a shorter step may
-    /// follow the wire round.</remarks>
+    /// <summary>Reports what holds a wire between walls whose step has no solution: the force of its hub, and the
+    /// largest contact force.</summary>
+    /// <remarks>A hub that does not slip jams a wire when its thrust exceeds the buckling load of a clamped length of
+    /// 90 diameters, 4 pi^2 EI/(180 r)^2: under a larger thrust it bends until walls hold it on both sides at every
+    /// such length, and its shape is one of many. Then a hub with a limit ends the jam; below that thrust a shorter
+    /// step may follow the wire.</remarks>
     internal sealed class JamReport
     {
         private const double FreeLength = 180.0;  // radii
@@ -37,13 +37,13 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Whether the hub pushes or pulls a wire harder than it bears without being jammed.</summary>
+        /// <summary>Whether the hub pushes or pulls harder than a wire that is not jammed can bear.</summary>
         public bool IsJammed(RodShape shape)
         {
             return Math.Abs(HubForce(shape)) > _thrust;
         }
 
-        /// <summary>The hub's force and the largest contact force with its place, in one phrase.</summary>
+        /// <summary>The hub's force and the largest contact force with its position, in one phrase.</summary>
         public string Text(RodShape shape)
         {
             StructList<WallContact> contacts = _terms.Walls()!.Barrier.ContactsOf(shape);
@@ -52,7 +52,7 @@ namespace Guidewire.Core
                 : "no hub holds the wire";
             if (contacts.Count == 0)
             {
-                return hub + ", no wall pushes";
+                return hub + ", no wall touches";
             }
             int most = 0;
             for (int k = 1; k < contacts.Count; k++)

@@ -2,11 +2,11 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Counts, from the positions alone and apart from what the solver knows, what of a wire passes walls, and
-    /// takes down the forces of contact.</summary>
+    /// <summary>Counts passages through walls from the positions alone, independent of the solver, and records contact
+    /// forces.</summary>
     internal sealed class WallMonitor : IWallClearance
     {
-        private const double Near = 1.02;      // in radii, where a distance is asked for exactly
+        private const double Near = 1.02;      // in radii, below which the exact distance is evaluated
 
         private readonly WallTerms _walls;
         private readonly BarrierEnergy _barrier;
@@ -16,11 +16,11 @@ namespace Guidewire.Core
         private readonly int[] _hint;
         private readonly PassageCount _passages;
         private readonly Vector3d[] _start;    // of the step, units
-        private readonly Vector3d[] _from;     // of its part at hand
+        private readonly Vector3d[] _from;     // of the current part
         private readonly Vector3d[] _to;
         private readonly double[] _clearance;  // of elements from all walls at least, where a part begins, units
 
-        /// <summary>A watch on a rod between walls.</summary>
+        /// <summary>A monitor of a rod between walls.</summary>
         public WallMonitor(MaterialRod rod, WallTerms walls, double metresPerUnit)
         {
             BarrierEnergy barrier = walls.Barrier;

@@ -2,41 +2,41 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Where a wire between walls would come to in a stage: it goes on along itself as far as its first node
-    /// does, changes its shape as in the time before, and is moved along the walls' normals: off where it would come
-    /// too near, back to where it touched.</summary>
-    /// <remarks>With c(s) the curve through the nodes and p the way along it, x_i -> c(s_i + p) + x_i - c'(s_i + p'),
-    /// where ' was a stage before, x' = 2 x - x~ with x~ where the nodes would go without forces: where p is 0, that is
-    /// free flight, and a wire that slides along its walls keeps its shape. Free flight alone would leave the curve by
-    /// p^2/2 of its curvature, and lengthen elements that turn. Each element turns with its chord, and about it by its
-    /// spin.</remarks>
+    /// <summary>Prediction of a stage of a wire between walls: it advances along itself as far as its first node,
+    /// changes its shape as in the stage before, and is moved along the walls' normals: off where it would come too
+    /// near, back where it touched.</summary>
+    /// <remarks>With c(s) the curve through the nodes and p the travel along it, x_i -> c(s_i + p) + x_i - c'(s_i +
+    /// p'), where ' was a stage before, x' = 2 x - x~ with x~ where the nodes would go without forces: where p is 0,
+    /// that is free flight, and a wire that slides along its walls preserves its shape. Free flight alone would leave
+    /// the curve by p^2/2 of its curvature, and lengthen elements that turn. Each element turns with its chord, and
+    /// about it by its spin.</remarks>
     internal sealed class WallPrediction
     {
         private const int MostParts = 16;
         private const double OfElement = 0.5;
         private readonly RodSupports _supports;
-        private readonly WallProjection _push;
+        private readonly WallProjection _projection;
         private readonly InertiaEnergy _inertia;
         private readonly Vector3d[] _past;       // x'
         private readonly Vector3d[] _before;     // x
         private readonly Vector3d[] _change;     // x - c'(s + p')
-        private readonly Vector3d[] _place;
+        private readonly Vector3d[] _point;
         private readonly double[] _at;           // s_i, m
         private readonly double _shortest;       // element, m
         private Vector3d _start;
         private bool _isHeld;
-        private double _way;                     // p, m
+        private double _travel;                     // p, m
 
         /// <summary>For a rod under terms that hold walls.</summary>
         public WallPrediction(RodTerms terms, InertiaEnergy inertia)
         {
             _supports = terms.Supports;
-            _push = new WallProjection(terms.Walls()!.Barrier);
+            _projection = new WallProjection(terms.Walls()!.Barrier);
             _inertia = inertia;
             _past = new Vector3d[terms.Rod.ElementCount + 1];
             _before = new Vector3d[_past.Length];
             _change = new Vector3d[_past.Length];
-            _place = new Vector3d[_past.Length];
+            _point = new Vector3d[_past.Length];
             _at = new double[_past.Length];
             _shortest = double.PositiveInfinity;
             for (int j = 0; j < terms.Rod.ElementCount; j++)
@@ -46,11 +46,11 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Looks at a shape from which predictions set out.</summary>
+        /// <summary>Takes a shape from which predictions start.</summary>
         /// <param name="shape">Where the wire is.</param>
         /// <param name="start">Where node 0 is to be, m.</param>
-        /// <returns>In how many parts the way should be taken: in each a node goes less than half an element along the
-        /// curve, so that straight ways of the nodes do not leave it by much.</returns>
+        /// <returns>In how many parts the motion should be divided: in each a node moves less than half an element
+        /// along the curve, so that straight paths of the nodes stay near it.</returns>
         public int Begin(RodShape shape, in Vector3d start)
         {
             int n = shape.ElementCount;
@@ -62,18 +62,18 @@ namespace Guidewire.Core
             Vector3d along = shape.Q[0].Director3;
             _isHeld = _supports.Proximal != ProximalEnd.Free;
             _start = start;
-            _way = Vector3d.Dot((_isHeld ? start : _inertia.FreePositions[0]) - shape.X[0], along);
+            _travel = Vector3d.Dot((_isHeld ? start : _inertia.FreePositions[0]) - shape.X[0], along);
             int at = 0;
-            double wayBefore = Vector3d.Dot(shape.X[0] - _past[0], along);
+            double travelBefore = Vector3d.Dot(shape.X[0] - _past[0], along);
             for (int i = 0; i <= n; i++)
             {
-                _change[i] = shape.X[i] - PlaceOn(_past, _at[i] + wayBefore, ref at);
+                _change[i] = shape.X[i] - PointOn(_past, _at[i] + travelBefore, ref at);
             }
-            return (int)Math.Min(MostParts, Math.Ceiling(Math.Max(1.0, Math.Abs(_way) / (OfElement * _shortest))));
+            return (int)Math.Min(MostParts, Math.Ceiling(Math.Max(1.0, Math.Abs(_travel) / (OfElement * _shortest))));
         }
 
         /// <summary>Sets the prediction.</summary>
-        /// <param name="share">Of the stage's time.</param>
+        /// <param name="fraction">Of the stage's time.</param>
         /// <param name="orientations">The elements' by their spins, of which the turn about the element counts.</param>
         /// <param name="shape">Where the wire is now.</param>
         /// <param name="predicted">Receives it; its last node, where that is held, and its frames are kept.</param>
@@ -84,13 +84,13 @@ namespace Guidewire.Core
             int at = 0;
             for (int i = 0; i <= last; i++)
             {
-                _place[i] = PlaceOn(_before, _at[i] + fraction * _way, ref at) + fraction * _change[i];
+                _point[i] = PointOn(_before, _at[i] + fraction * _travel, ref at) + fraction * _change[i];
             }
-            predicted.X[0] = _isHeld ? Vector3d.Lerp(_before[0], _start, fraction) : _place[0];
-            Lay(_place, predicted.X, last);
-            _push.Apply(shape, predicted, last);
-            Array.Copy(predicted.X, _place, last + 1);
-            Lay(_place, predicted.X, last);
+            predicted.X[0] = _isHeld ? Vector3d.Lerp(_before[0], _start, fraction) : _point[0];
+            Lay(_point, predicted.X, last);
+            _projection.Apply(shape, predicted, last);
+            Array.Copy(predicted.X, _point, last + 1);
+            Lay(_point, predicted.X, last);
             for (int j = 0; j < n; j++)
             {
                 Vector3d before = shape.X[j + 1] - shape.X[j];
@@ -101,8 +101,8 @@ namespace Guidewire.Core
             }
         }
 
-        // Nodes 1 to last one after the other, in the directions of a curve, as far from each other as they were: what
-        // would be compressed has no stable shape to begin with.
+        // Nodes 1 to last one after the other, in the directions of a curve, at unchanged distances: a compressed wire
+        // would be an unstable start.
         private void Lay(Vector3d[] curve, Vector3d[] x, int last)
         {
             for (int i = 1; i <= last; i++)
@@ -112,10 +112,9 @@ namespace Guidewire.Core
             }
         }
 
-        // The place at s on the curve through nodes, from the element on that was looked at last: cubic between two of
-        // them, with the slopes of parabolas through three; behind the ends on the parabola there, at most an element
-        // or two.
-        private Vector3d PlaceOn(Vector3d[] x, double s, ref int j)
+        // The point at s on the curve through nodes, from the element found last: cubic between two of them, with the
+        // slopes of parabolas through three; behind the ends on the parabola there, at most an element or two.
+        private Vector3d PointOn(Vector3d[] x, double s, ref int j)
         {
             int n = x.Length - 1;
             while (j + 1 < n && s > _at[j + 1])

@@ -3,18 +3,18 @@ using System;
 namespace Guidewire.Core
 {
     /// <summary>Moves nodes of a shape along the walls' normals, until those that touched a wall in the shape before
-    /// have the gap that they had, and no other gap is less than half of the barrier's distance, but for what one push
-    /// does to the next.</summary>
+    /// have the gap that they had, and no other gap is less than half of the barrier's distance, up to the effect of
+    /// one projection on the next.</summary>
     /// <remarks>A node that touched is pulled back too: where it would leave the wall in the first iteration of a step,
-    /// nothing would hold it there, and it is hit again in the next.</remarks>
+    /// nothing would hold it there, and it would hit the wall again in the next.</remarks>
     internal sealed class WallProjection
     {
-        private const double PushedTo = 0.5;      // of the barrier's distance
+        private const double ProjectedTo = 0.5;      // of the barrier's distance
         private const double LeastLever = 0.1;
         private const double Pulled = 5.0;        // barrier's distances, from where a node is still pulled back
         private readonly BarrierEnergy _barrier;
         private readonly double _units;           // per metre
-        private readonly StructList<ContactPoint> _places = new StructList<ContactPoint>(16);
+        private readonly StructList<ContactPoint> _contactPoints = new StructList<ContactPoint>(16);
         private readonly StructList<EdgeContact> _edgeContacts = new StructList<EdgeContact>(16);
 
         /// <summary>Off the walls of a barrier.</summary>
@@ -39,46 +39,46 @@ namespace Guidewire.Core
                 {
                     if (near.IsNodeNear(w, i))
                     {
-                        PushNode(w, i, near.FeaturesOfNode(w, i, _units * shape.X[i]), ref shape.X[i]);
+                        ProjectNode(w, i, near.FeaturesOfNode(w, i, _units * shape.X[i]), ref shape.X[i]);
                     }
                 }
                 for (int j = first; j < n; j++)
                 {
                     if (near.IsNear(w, j))
                     {
-                        PushElement(w, j, near, shape, last);
+                        ProjectElement(w, j, near, shape, last);
                     }
                 }
             }
         }
 
-        private void PushNode(int w, int i, FeatureRange features, ref Vector3d x)
+        private void ProjectNode(int w, int i, FeatureRange features, ref Vector3d x)
         {
             double radius = _barrier.RadiusOfNode(i);
             double distance = _barrier.Barrier.Distance;
             double before = _barrier.NodeGap(w, i);
             bool touched = before < distance;
-            double asked = touched ? before : PushedTo * distance;
+            double asked = touched ? before : ProjectedTo * distance;
             double nearest = touched ? Pulled * distance : asked;
-            _places.Clear();
-            _barrier.Walls[w].FindContactPoints(_units * x, _units * (radius + nearest), features, _places);
+            _contactPoints.Clear();
+            _barrier.Walls[w].FindContactPoints(_units * x, _units * (radius + nearest), features, _contactPoints);
             Vector3d normal = Vector3d.Zero;
-            for (int k = 0; k < _places.Count; k++)
+            for (int k = 0; k < _contactPoints.Count; k++)
             {
-                double gap = _places[k].Contact.Distance / _units - radius;
-                if (gap < nearest && _places[k].Weight > 0)
+                double gap = _contactPoints[k].Contact.Distance / _units - radius;
+                if (gap < nearest && _contactPoints[k].Weight > 0)
                 {
                     nearest = gap;
-                    normal = _places[k].Contact.Normal;
+                    normal = _contactPoints[k].Contact.Normal;
                 }
             }
             x += (asked - nearest) * normal;
         }
 
-        private void PushElement(int w, int j, NeighbourList near, RodShape shape, int last)
+        private void ProjectElement(int w, int j, NeighbourList near, RodShape shape, int last)
         {
             double radius = _barrier.RadiusOf(j);
-            double asked = Math.Min(_barrier.EdgeGap(w, j), PushedTo * _barrier.Barrier.Distance);
+            double asked = Math.Min(_barrier.EdgeGap(w, j), ProjectedTo * _barrier.Barrier.Distance);
             _edgeContacts.Clear();
             Vector3d start = _units * shape.X[j];
             Vector3d end = _units * shape.X[j + 1];

@@ -1,11 +1,11 @@
 namespace Guidewire.Core
 {
-    /// <summary>One implicit stage of a wire between walls: from where the wire is, as far towards the prediction as
-    /// the walls let it, to the minimum of the stage's energy.</summary>
+    /// <summary>One implicit stage of a wire between walls: starts where the wire is, moves as far towards the
+    /// prediction as the walls allow, and goes on to the minimum of the stage's energy.</summary>
     internal sealed class WallStage
     {
-        private const int FrictionLagIterations = 1;       // of the pushes that friction goes with
-        private const double Far = 1e3;     // of the error that a stage may have: after such a way it is not done
+        private const int FrictionLagIterations = 1;       // of the normal forces in friction
+        private const double Far = 1e3;     // of the error of a stage: farther moved, not converged
 
         private readonly RodTerms _terms;
         private readonly RodSupports _supports;
@@ -43,7 +43,7 @@ namespace Guidewire.Core
         {
             SupportSpring spring = _terms.Walls()!.Spring;
             Vector3d lag = spring.LagOf(shape);
-            spring.Place = start;
+            spring.Position = start;
             spring.Besides = _terms.Sheath == null ? 0.0 : _terms.Sheath.StartForce;
             _terms.Walls()!.Friction?.Lag(shape);
             PlaceEnd(shape, end);

@@ -2,13 +2,13 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Steps of a wire between walls: a step that moves or turns the proximal end farther than the barriers
-    /// reach is made in parts, each of which is halved where it has no solution.</summary>
+    /// <summary>Steps of a wire between walls: a step that moves or turns the proximal end farther than the range of
+    /// the barriers is made in parts, each of which is halved where it has no solution.</summary>
     internal sealed class WallSteps
     {
         private const int MostParts = 64;
         private const double LargestTurn = 0.5;   // radians a part
-        private const double SmallExcess = 0.01;  // over the longest part that does not make two of it
+        private const double SmallExcess = 0.01;  // over the longest part without dividing it
 
         private readonly RodDynamics _dynamics;
         private readonly RodSchedule _schedule;
@@ -18,13 +18,13 @@ namespace Guidewire.Core
         private readonly double _longestMove;     // m
 
         /// <summary>For this motion.</summary>
-        public WallSteps(RodDynamics dynamics, HalvedSteps halved, RodSchedule schedule, WallMonitor watch)
+        public WallSteps(RodDynamics dynamics, HalvedSteps halved, RodSchedule schedule, WallMonitor monitor)
         {
             _dynamics = dynamics;
             _schedule = schedule;
-            _monitor = watch;
+            _monitor = monitor;
             _halved = halved;
-            halved.PieceDone = () => watch.AddPart(dynamics.Shape);
+            halved.PieceDone = () => monitor.AddPart(dynamics.Shape);
             _longestMove = BarrierDefaults.MostMove * dynamics.Terms.Walls()!.Barrier.Barrier.Distance;
         }
 
@@ -57,7 +57,7 @@ namespace Guidewire.Core
                 - _dynamics.Terms.Walls()!.Spring.LagOf(_dynamics.Shape), _dynamics.Shape.X[0]);
             double turn = Math.Abs(_schedule.FrameTurnAt(_dynamics.Time + dt) - _dynamics.ProximalTurn)
                 + Math.Abs(_schedule.DistalTurnAt(_dynamics.Time + dt) - _dynamics.DistalTurn);
-            // Rounding, and the little that node 0 is off its support, must not make a part more.
+            // Rounding, and the small distance of node 0 from its support, must not add a part.
             double parts = Math.Ceiling(Math.Max(move / _longestMove, turn / LargestTurn) * (1.0 - SmallExcess));
             return (int)Math.Min(Math.Max(parts, 1.0), MostParts);
         }

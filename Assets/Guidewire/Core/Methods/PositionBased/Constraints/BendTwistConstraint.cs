@@ -4,10 +4,10 @@ namespace Guidewire.Core
 {
     /// <summary>Turns neighbouring elements towards their rest angle (Kugelstadt and Schoemer 2016, eqs. 39 and 40):
     /// C = E = Omega - s Omega_0 with the Darboux vector Omega = (2/l) Im(q_j* q_{j+1}) in 1/unit.</summary>
-    /// <remarks>q and -q are one orientation, so s = +1 or -1 is whichever makes E shorter. One projection adds
-    /// w_j q_{j+1} (0, E)/(w_j + w_{j+1}) to q_j and -w_{j+1} q_j (0, E)/(w_j + w_{j+1}) to q_{j+1}, times the gain.
-    /// The correction does not take the factor 2/l of Omega out again: the gain has the dimension of a length, acts as
-    /// 2 gain/l, and the sweep breaks down at gain = l.</remarks>
+    /// <remarks>q and -q are one orientation, so s = +1 or -1 is whichever makes E shorter. One projection adds w_j
+    /// q_{j+1} (0, E)/(w_j + w_{j+1}) to q_j and -w_{j+1} q_j (0, E)/(w_j + w_{j+1}) to q_{j+1}, times the gain. The
+    /// correction does not take the factor 2/l of Omega out again: the gain has the dimension of a length, acts as 2
+    /// gain/l, and the iteration diverges at gain = l.</remarks>
     internal sealed class BendTwistConstraint
     {
         private readonly double _darbouxScale;    // 2/l, 1/units
@@ -50,8 +50,9 @@ namespace Guidewire.Core
 
         /// <summary>Projects all joints once, in the given order.</summary>
         /// <param name="q">n orientations, corrected in place and of unit length again.</param>
-        /// <param name="order">The joints in the order of the sweep; joint j is between elements j and j + 1.</param>
-        public void Sweep(Quaterniond[] q, int[] order)
+        /// <param name="order">The joints in the order of the iteration; joint j is between elements j and j +
+        /// 1.</param>
+        public void Iterate(Quaterniond[] q, int[] order)
         {
             foreach (int j in order)
             {
@@ -84,8 +85,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Omega of joint j in 1/unit, element j's frame: what tests and views look at, never the
-        /// sweep.</summary>
+        /// <summary>Omega of joint j in 1/unit, element j's frame: for tests and views, not for the solver.</summary>
         public static Vector3d DarbouxVector(RodState state, int j)
         {
             Quaterniond difference = state.Orientations[j].Conjugate * state.Orientations[j + 1];

@@ -2,12 +2,12 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Keeps each element at its length and along its third director (Kugelstadt and Schoemer 2016, eqs. 37
+    /// <summary>Holds each element at its length and along its third director (Kugelstadt and Schoemer 2016, eqs. 37
     /// and 38): C = G = (x_{j+1} - x_j)/l - d3.</summary>
     /// <remarks>With D = w_j + w_{j+1} + 4 w_q l^2 one projection moves x_j by w_j l G/D, x_{j+1} by -w_{j+1} l G/D and
     /// q_j by 2 w_q l^2/D (0, G) q_j e3*, each times the gain. The gain in [0, 1] is dimensionless and counts per
-    /// iteration. A sweep is successive over-relaxation: transversal motion breaks down at a gain of 2, purely
-    /// longitudinal motion at 2 (1 + 2 w_q l^2/w), because there the orientations' share of D moves nothing.</remarks>
+    /// iteration. An iteration is successive over-relaxation: transversal motion diverges at a gain of 2, purely
+    /// longitudinal motion at 2 (1 + 2 w_q l^2/w), because there the orientations' part of D moves nothing.</remarks>
     internal sealed class StretchConstraint
     {
         private readonly double _length;           // l, units
@@ -58,8 +58,8 @@ namespace Guidewire.Core
         /// <summary>Projects all elements once, in the given order.</summary>
         /// <param name="x">n + 1 positions in units, corrected in place.</param>
         /// <param name="q">n orientations, corrected in place and of unit length again.</param>
-        /// <param name="order">The elements in the order of the sweep.</param>
-        public void Sweep(Vector3d[] x, Quaterniond[] q, int[] order)
+        /// <param name="order">The elements in the order of the iteration.</param>
+        public void Iterate(Vector3d[] x, Quaterniond[] q, int[] order)
         {
             double inverseLength = 1.0 / _length;
             foreach (int j in order)
@@ -91,7 +91,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>G of element j, dimensionless: what tests and views look at, never the sweep.</summary>
+        /// <summary>G of element j, dimensionless: for tests and views, not for the solver.</summary>
         public static Vector3d Residual(RodState state, int j)
         {
             Vector3d d = (state.Positions[j + 1] - state.Positions[j]) / state.ElementLength;

@@ -4,14 +4,14 @@ using System.Runtime.CompilerServices;
 namespace Guidewire.Core
 {
     /// <summary>Contact of spheres and of rod elements by the lever rule, with hard stops where the swept test met a
-    /// wall; see <see cref="SphereContactConstraint"/> and <see cref="ElementContactConstraint"/>. Walls rub, see
+    /// wall; see <see cref="SphereContactConstraint"/> and <see cref="ElementContactConstraint"/>. With friction, see
     /// <see cref="WallFriction"/>.</summary>
     internal sealed class ContactResponse : IContactResponse
     {
         private const int ContactsPerSphere = 8;
-        private readonly double _reach;
+        private readonly double _clearance;
         private readonly double _gain;
-        private readonly double _stop;    // what a stop keeps between core line and wall, units
+        private readonly double _stop;    // clearance of a stop between core line and wall, units
         private readonly double[] _friction;    // mu, per wall
         private readonly SphereContactConstraint _spheres;
         private readonly ElementContactConstraint _elements;
@@ -21,15 +21,15 @@ namespace Guidewire.Core
         /// <param name="state">The wire, with its final masses.</param>
         /// <param name="walls">Walls of the scene.</param>
         /// <param name="radius">r in units.</param>
-        /// <param name="reach">r + margin in units: the distance that contacts keep.</param>
+        /// <param name="clearance">r + margin in units: the clearance of contacts.</param>
         /// <param name="gain">k_C in [0, 1], per iteration.</param>
         /// <param name="iterations">m of a solve.</param>
-        public ContactResponse(RodState state, ContactShape[] walls, double radius, double reach, double gain,
+        public ContactResponse(RodState state, ContactShape[] walls, double radius, double clearance, double gain,
             int iterations)
         {
             int capacity = ContactsPerSphere * walls.Length * state.SphereCount;
             _friction = Array.ConvertAll(walls, wall => wall.FrictionCoefficient);
-            _reach = reach;
+            _clearance = clearance;
             _gain = gain;
             _stop = 2.0 * SweptSearch.ClearanceFor(radius);
             _spheres = new SphereContactConstraint(state, capacity, iterations);
@@ -48,7 +48,7 @@ namespace Guidewire.Core
             _elements.Clear(from);
             _sphereStops.Clear(from);
             _elementStops.Clear(from);
-            Add(found.Contacts, _spheres, _elements, _reach, _gain);
+            Add(found.Contacts, _spheres, _elements, _clearance, _gain);
             Stop(found.Impacts);
         }
 
@@ -59,19 +59,19 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public void Sweep(Vector3d[] x)
+        public void Iterate(Vector3d[] x)
         {
-            _spheres.Sweep(x);
-            _elements.Sweep(x);
-            _elementStops.Sweep(x);
-            _sphereStops.Sweep(x);
+            _spheres.Iterate(x);
+            _elements.Iterate(x);
+            _elementStops.Iterate(x);
+            _sphereStops.Iterate(x);
         }
 
         /// <inheritdoc/>
-        public void SweepStops(Vector3d[] x)
+        public void IterateStops(Vector3d[] x)
         {
-            _elementStops.Sweep(x);
-            _sphereStops.Sweep(x);
+            _elementStops.Iterate(x);
+            _sphereStops.Iterate(x);
         }
 
         /// <inheritdoc/>
@@ -99,7 +99,7 @@ namespace Guidewire.Core
             _sphereStops.AddImpulses(impulses);
         }
 
-        // Where contact k of a sweep stands, and which it is there: spheres, or where that is null, elements.
+        // Where contact k of an iteration is stored, and which it is there: spheres, or where that is null, elements.
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         private SphereContactConstraint? At(ref int k, out ElementContactConstraint? elements)
         {
@@ -125,7 +125,7 @@ namespace Guidewire.Core
         }
 
         private void Add(StructList<WireContact> contacts, SphereContactConstraint spheres,
-            ElementContactConstraint elements, double reach, double gain)
+            ElementContactConstraint elements, double clearance, double gain)
         {
             for (int k = 0; k < contacts.Count; k++)
             {
@@ -133,11 +133,11 @@ namespace Guidewire.Core
                 double friction = _friction[contact.Wall];
                 if (contact.IsElement)
                 {
-                    elements.Add(contact.Index, contact.Nearest, reach, gain, friction);
+                    elements.Add(contact.Index, contact.Nearest, clearance, gain, friction);
                 }
                 else
                 {
-                    spheres.Add(contact.Index, contact.Nearest, reach, gain, friction);
+                    spheres.Add(contact.Index, contact.Nearest, clearance, gain, friction);
                 }
             }
         }

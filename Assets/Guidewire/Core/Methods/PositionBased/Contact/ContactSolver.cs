@@ -4,21 +4,21 @@ namespace Guidewire.Core
 {
     /// <summary>Corrects a predicted state between walls (thesis 2.1.3, 3.1.2): collision detection, constraint solver
     /// with contacts, swept test.</summary>
-    /// <remarks>A contact plane holds near the place where it was found. So a step whose drive moves farther than half
-    /// an element or a radius is done in P parts, each with its own detection and solve. A part after which something
-    /// would have passed a wall is solved again against the places where it met it, twice; then it and those that
-    /// follow are halved, once; then it is pushed off those places without regard to the other constraints, and
-    /// shortened. What the drive did not get is reported. So a step takes no more than 2 P + 1 tries of three solves
-    /// each, however the wire lies.</remarks>
+    /// <remarks>A contact plane is valid near the point where it was found. So a step whose drive moves farther than
+    /// half an element or a radius is done in P parts, each with its own detection and solve. A part after which
+    /// something would have passed a wall is solved again against the points of impact, twice; then it and those that
+    /// follow are halved, once; then it is projected off those points without regard to the other constraints, and
+    /// shortened. The displacement that the drive did not reach is reported. So a step takes at most 2 P + 1 attempts
+    /// of three solves each, whatever the shape of the wire.</remarks>
     internal sealed class ContactSolver : IConstraintSolver
     {
-        /// <summary>Of what it keeps in a snapshot.</summary>
+        /// <summary>Of its snapshot.</summary>
         public const string SectionKey = "contact";
 
         private const int Resolves = 2;
         private const int MostParts = 4096;     // of a step; a drive that asks for more gets no more
         private const int Slides = 6;
-        private const int SweepsASlide = 8;
+        private const int SlideIterations = 8;
         private const double SmallerStep = 0.25;
         private readonly double _timeStep;
         private readonly IConstraintSolver _solver;
@@ -38,10 +38,10 @@ namespace Guidewire.Core
 
         /// <param name="state">The wire.</param>
         /// <param name="timeStep">dt in s.</param>
-        /// <param name="solver">What corrects each part; its sweeps include the response.</param>
-        /// <param name="search">Which contacts there are.</param>
-        /// <param name="response">What they do.</param>
-        /// <param name="record">Takes down what they came to.</param>
+        /// <param name="solver">What corrects each part; its iterations include the response.</param>
+        /// <param name="search">Finds the contacts.</param>
+        /// <param name="response">The effect of contacts.</param>
+        /// <param name="record">Receives forces and counts.</param>
         public ContactSolver(RodState state, double timeStep, IConstraintSolver solver, IContactSearch search,
             IContactResponse response, ContactRecord record)
         {
@@ -174,8 +174,8 @@ namespace Guidewire.Core
             }
         }
 
-        // Pushed off what it met, the wire may slide along it; what is held keeps to its way. What the wall took of a
-        // sphere's motion is a push of the wall.
+        // Projected off the wall, the wire may slide along it; held spheres follow their prescribed motion. The part of
+        // a sphere's motion that the wall removed is an impulse of the wall.
         private void ShortenPart(RodState state, Vector3d[] p)
         {
             bool isFree = false;
@@ -183,9 +183,9 @@ namespace Guidewire.Core
             {
                 _response.Stop(_swept.Impacts);
                 ShortenHeld(state, p);
-                for (int sweep = 0; sweep < SweepsASlide; sweep++)
+                for (int iteration = 0; iteration < SlideIterations; iteration++)
                 {
-                    _response.SweepStops(p);
+                    _response.IterateStops(p);
                 }
                 isFree = !_swept.Find(_safe, p);
                 if (!isFree)
@@ -208,7 +208,8 @@ namespace Guidewire.Core
             }
         }
 
-        // Along a curved wall a long way leaves the plane of a stop by its square: a quarter, by a sixteenth of it.
+        // Along a curved wall a long displacement leaves the plane of a stop by its square: a quarter of it, by a
+        // sixteenth.
         private void TakeSmallerSteps(Vector3d[] p)
         {
             for (int k = 0; k < _swept.Impacts.Count; k++)

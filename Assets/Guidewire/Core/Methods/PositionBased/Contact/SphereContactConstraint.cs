@@ -2,25 +2,25 @@ using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
-    /// <summary>Keeps a sphere's centre p at a distance from a wall: with contact point c and unit normal n,
-    /// g = max(0, reach - (p - c).n), dp = gain g n, per iteration (thesis 3.1.2 for a sphere, without its drag along
+    /// <summary>Holds a sphere's centre p at a clearance from a wall: with contact point c and unit normal n, g =
+    /// max(0, clearance - (p - c).n), dp = gain g n, per iteration (thesis 3.1.2 for a sphere, without its drag along
     /// the wall). It never attracts; along the wall it pulls by <see cref="WallFriction"/> alone.</summary>
-    /// <remarks>reach is r + margin and the gain k_C in [0, 1], or a bare clearance with gain 1 where the swept test
-    /// met the wall. A sphere of inverse mass 0 is not moved.</remarks>
+    /// <remarks>The clearance is r + margin and the gain k_C in [0, 1], or a bare clearance with gain 1 where the swept
+    /// test met the wall. A sphere of inverse mass 0 is not moved.</remarks>
     internal sealed class SphereContactConstraint
     {
         private readonly double[] _inverseMasses;
         private readonly int[] _sphere;
         private readonly Vector3d[] _normal;
-        private readonly double[] _offset;     // (c.n + reach), units
+        private readonly double[] _offset;     // (c.n + clearance), units
         private readonly double[] _gain;
-        private readonly double[] _pushed;     // sum of gain g over the iterations, units
+        private readonly double[] _correction;     // sum of gain g over the iterations, units
         private readonly WallFriction _friction;
         private Vector3d[] _from;              // where the solve began, units
 
         /// <param name="state">The wire, with its final masses.</param>
         /// <param name="capacity">Contacts that fit; what comes on top is left out.</param>
-        /// <param name="iterations">m of a solve, for what walls rub.</param>
+        /// <param name="iterations">m of a solve, for friction.</param>
         public SphereContactConstraint(RodState state, int capacity, int iterations = 1)
         {
             _inverseMasses = state.InverseMasses;
@@ -28,7 +28,7 @@ namespace Guidewire.Core
             _normal = new Vector3d[capacity];
             _offset = new double[capacity];
             _gain = new double[capacity];
-            _pushed = new double[capacity];
+            _correction = new double[capacity];
             _friction = new WallFriction(capacity, iterations);
             _from = state.Positions;
         }
@@ -36,7 +36,8 @@ namespace Guidewire.Core
         /// <summary>Contacts at present.</summary>
         public int Count { get; private set; }
 
-        /// <summary>Forgets all contacts; those to come rub on what moves from these n + 1 positions.</summary>
+        /// <summary>Forgets all contacts; friction of those to come acts on the motion from these n + 1
+        /// positions.</summary>
         public void Clear(Vector3d[] from)
         {
             _from = from;
@@ -44,7 +45,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Adds the contact of a sphere.</summary>
-        public void Add(int sphere, in SurfaceContact contact, double reach, double gain, double friction = 0.0)
+        public void Add(int sphere, in SurfaceContact contact, double clearance, double gain, double friction = 0.0)
         {
             if (Count == _sphere.Length || _inverseMasses[sphere] == 0.0)
             {
@@ -52,9 +53,9 @@ namespace Guidewire.Core
             }
             _sphere[Count] = sphere;
             _normal[Count] = contact.Normal;
-            _offset[Count] = Vector3d.Dot(contact.Point, contact.Normal) + reach;
+            _offset[Count] = Vector3d.Dot(contact.Point, contact.Normal) + clearance;
             _gain[Count] = gain;
-            _pushed[Count] = 0.0;
+            _correction[Count] = 0.0;
             _friction.Add(Count, friction);
             Count++;
         }
@@ -67,7 +68,7 @@ namespace Guidewire.Core
 
         /// <summary>Projects all contacts once, in the order in which they were added.</summary>
         /// <param name="x">n + 1 positions in units, corrected in place.</param>
-        public void Sweep(Vector3d[] x)
+        public void Iterate(Vector3d[] x)
         {
             for (int k = 0; k < Count; k++)
             {
@@ -84,13 +85,13 @@ namespace Guidewire.Core
             double gap = _offset[k] - Vector3d.Dot(x[i], n);
             if (gap > 0.0)
             {
-                double push = _gain[k] * gap;
-                _pushed[k] += push;
-                x[i] += push * n;
+                double correction = _gain[k] * gap;
+                _correction[k] += correction;
+                x[i] += correction * n;
             }
-            if (_friction.Rubs(k, _pushed[k]))
+            if (_friction.HasFriction(k, _correction[k]))
             {
-                x[i] += _friction.Correct(k, x[i] - _from[i], n, _pushed[k]);
+                x[i] += _friction.Correct(k, x[i] - _from[i], n, _correction[k]);
                 return true;
             }
             return gap > 0.0;
@@ -102,8 +103,8 @@ namespace Guidewire.Core
         {
             for (int k = 0; k < Count; k++)
             {
-                impulses[_sphere[k]] += (_pushed[k] / _inverseMasses[_sphere[k]]) * _normal[k];
-                if (_friction.Rubs(k, _pushed[k]))
+                impulses[_sphere[k]] += (_correction[k] / _inverseMasses[_sphere[k]]) * _normal[k];
+                if (_friction.HasFriction(k, _correction[k]))
                 {
                     impulses[_sphere[k]] += (1.0 / _inverseMasses[_sphere[k]]) * _friction.Taken(k);
                 }

@@ -13,7 +13,7 @@ namespace Guidewire.Core
     {
         private const double WeightScale = 0.01;
         private readonly double[] _inverseMasses;
-        private readonly double _reach;
+        private readonly double _clearance;
         private readonly double _gain;
         private readonly int[] _sphere;
         private readonly Vector3d[] _target;
@@ -21,12 +21,12 @@ namespace Guidewire.Core
 
         /// <param name="state">The wire, with its final masses.</param>
         /// <param name="capacity">Contacts that fit; what comes on top is left out.</param>
-        /// <param name="reach">r + margin in units.</param>
+        /// <param name="clearance">r + margin in units.</param>
         /// <param name="gain">k_C.</param>
-        public ThesisContactConstraint(RodState state, int capacity, double reach, double gain)
+        public ThesisContactConstraint(RodState state, int capacity, double clearance, double gain)
         {
             _inverseMasses = state.InverseMasses;
-            _reach = reach;
+            _clearance = clearance;
             _gain = gain;
             _sphere = new int[capacity];
             _target = new Vector3d[capacity];
@@ -67,7 +67,7 @@ namespace Guidewire.Core
 
         /// <summary>Draws all spheres once, in the order in which contacts were added.</summary>
         /// <param name="x">n + 1 positions in units, corrected in place.</param>
-        public void Sweep(Vector3d[] x)
+        public void Iterate(Vector3d[] x)
         {
             for (int k = 0; k < Count; k++)
             {
@@ -80,9 +80,9 @@ namespace Guidewire.Core
         public void Project(int k, Vector3d[] x)
         {
             int i = _sphere[k];
-            Vector3d push = _gain * (_target[k] - x[i]);
-            _moved[k] += push;
-            x[i] += push;
+            Vector3d correction = _gain * (_target[k] - x[i]);
+            _moved[k] += correction;
+            x[i] += correction;
         }
 
         /// <summary>Adds to each sphere the momentum over dt, in mass unit * unit, that its contacts gave it.</summary>
@@ -101,7 +101,7 @@ namespace Guidewire.Core
                 return;
             }
             _sphere[Count] = sphere;
-            _target[Count] = c + _reach * weightedNormal;
+            _target[Count] = c + _clearance * weightedNormal;
             _moved[Count] = Vector3d.Zero;
             Count++;
         }

@@ -3,8 +3,8 @@ using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
-    /// <summary>Contact as published (thesis 3.1.2); see <see cref="ThesisContactConstraint"/>. Nothing keeps the wire
-    /// from passing a wall.</summary>
+    /// <summary>Contact as published (thesis 3.1.2); see <see cref="ThesisContactConstraint"/>. Nothing prevents the
+    /// wire from passing a wall.</summary>
     internal sealed class ThesisContactResponse : IContactResponse
     {
         private const int ContactsPerSphere = 4;
@@ -12,12 +12,12 @@ namespace Guidewire.Core
 
         /// <param name="state">The wire, with its final masses.</param>
         /// <param name="wallCount">Walls of the scene.</param>
-        /// <param name="reach">r + margin in units.</param>
+        /// <param name="clearance">r + margin in units.</param>
         /// <param name="gain">k_C, per iteration.</param>
-        public ThesisContactResponse(RodState state, int wallCount, double reach, double gain)
+        public ThesisContactResponse(RodState state, int wallCount, double clearance, double gain)
         {
             _contacts = new ThesisContactConstraint(
-                state, ContactsPerSphere * wallCount * state.SphereCount, reach, gain);
+                state, ContactsPerSphere * wallCount * state.SphereCount, clearance, gain);
         }
 
         /// <inheritdoc/>
@@ -48,14 +48,14 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public void SweepStops(Vector3d[] x)
+        public void IterateStops(Vector3d[] x)
         {
         }
 
         /// <inheritdoc/>
-        public void Sweep(Vector3d[] x)
+        public void Iterate(Vector3d[] x)
         {
-            _contacts.Sweep(x);
+            _contacts.Iterate(x);
         }
 
         /// <inheritdoc/>

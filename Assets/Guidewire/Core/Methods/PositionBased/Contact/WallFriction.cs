@@ -2,23 +2,23 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Coulomb friction of contacts with gains, at the level of positions: in each iteration, after its push
-    /// off the wall, a contact takes back what of its point's motion is along the wall, by no more in all than mu times
-    /// what it was pushed off in all.</summary>
-    /// <remarks>In a solve a contact's point is moved by P n along its normal, P the sum of its pushes, and by t along
-    /// the wall. Both are impulses of the wall, P/W and t/W times 1/dt, over the same inverse mass W of the point. A
-    /// wall that rubs gives |t| &lt;= mu P (Coulomb): within that it brings the point back to where the solve began,
-    /// which is no slip, and beyond it pulls against the slip that is left, with |t| = mu P. An iteration therefore
-    /// asks for t - s, with s the motion along the wall since the solve began, t included; shortens that to what t may
-    /// be; and moves the point by the change of t. That is projected Gauss-Seidel on the total, not on each correction:
-    /// what an early iteration held too much is given back by a later one, and a contact that pushes in small portions,
-    /// as gains below 1 do, has in the end the friction of their sum.
-    /// With gains a force in the wire is a correction in every iteration. Friction balances it only where it comes in
-    /// the same way: in iteration i of m, t may be mu P i/m. Given all at once it would be spent in the first
-    /// iterations, and the wire would slip without friction in those that are left: it creeps under less than mu times
-    /// its weight. Past iteration m, where a part is solved again, t may be mu P.
-    /// A solve begins where a part of a step does. The parts of a step hold no slip each, so none in the step, and
-    /// their sums of t are at most mu times their sums of P. Turning about its own axis costs a wire nothing.</remarks>
+    /// <summary>Coulomb friction of pbd contacts, at the level of positions: in each iteration, after its normal
+    /// correction off the wall, a contact takes back what of its point's motion is along the wall, by no more in all
+    /// than mu times its total normal correction.</summary>
+    /// <remarks>In a solve a contact's point is moved by P n along its normal, P the sum of its normal corrections, and
+    /// by t along the wall. Both are impulses of the wall, P/W and t/W times 1/dt, over the same inverse mass W of the
+    /// point. A wall with friction gives |t| &lt;= mu P (Coulomb): within that it brings the point back to where the
+    /// solve began, which is no slip, and beyond it pulls against the slip that is left, with |t| = mu P. An iteration
+    /// therefore asks for t - s, with s the motion along the wall since the solve began, t included; shortens that to
+    /// what t may be; and moves the point by the change of t. That is projected Gauss-Seidel on the total, not on each
+    /// correction: what an early iteration held too much is given back by a later one, and a contact that corrects in
+    /// small portions, as stiffness below 1 does, has in the end the friction of their sum. With pbd a force in the
+    /// wire is a correction in every iteration. Friction balances it only if it is applied likewise: in iteration i of
+    /// m, t may be mu P i/m. Given all at once it would be spent in the first iterations, and the wire would slip
+    /// without friction in those that are left: it creeps under less than mu times its weight. Past iteration m, where
+    /// a part is solved again, t may be mu P. A solve begins where a part of a step does. The parts of a step hold no
+    /// slip each, so none in the step, and their sums of t are at most mu times their sums of P. Turning about its own
+    /// axis costs a wire nothing.</remarks>
     internal sealed class WallFriction
     {
         private readonly double _iterations;
@@ -44,10 +44,10 @@ namespace Guidewire.Core
             _taken[k] = Vector3d.Zero;
         }
 
-        /// <summary>True where contact k rubs, once it was pushed.</summary>
-        public bool Rubs(int k, double pushed)
+        /// <summary>True where contact k has friction and a normal correction so far.</summary>
+        public bool HasFriction(int k, double correction)
         {
-            return pushed > 0.0 && _coefficient[k] > 0.0;
+            return correction > 0.0 && _coefficient[k] > 0.0;
         }
 
         /// <summary>t of contact k in units: how far friction has moved its point in this solve.</summary>
@@ -60,13 +60,13 @@ namespace Guidewire.Core
         /// <param name="k">The contact.</param>
         /// <param name="motion">Its point's motion since the solve began, units.</param>
         /// <param name="normal">Its normal n.</param>
-        /// <param name="pushed">P, units.</param>
-        public Vector3d Correct(int k, in Vector3d motion, in Vector3d normal, double pushed)
+        /// <param name="correction">P, units.</param>
+        public Vector3d Correct(int k, in Vector3d motion, in Vector3d normal, double correction)
         {
             Vector3d slip = motion - Vector3d.Dot(motion, normal) * normal;
             Vector3d taken = _taken[k] - slip;
             _done[k]++;
-            double most = _coefficient[k] * pushed * Math.Min(1.0, _done[k] / _iterations);
+            double most = _coefficient[k] * correction * Math.Min(1.0, _done[k] / _iterations);
             double size = taken.Length;
             if (size > most)
             {

@@ -2,7 +2,7 @@ namespace Guidewire.Core
 {
     /// <summary>Holds the last sphere and the frame of the last element, beside another drive's motion of sphere 0:
     /// where they are at the start, displaced along the frame's d3 and turned about it as prescribed in time.</summary>
-    /// <remarks>They must be of inverse mass and orientation weight 0, or the sweeps take them along.</remarks>
+    /// <remarks>They must be of inverse mass and orientation weight 0, or the iterations move them.</remarks>
     internal sealed class DistalClampDrive : IDriveMotion
     {
         private readonly IDriveMotion? _motion;
@@ -10,7 +10,7 @@ namespace Guidewire.Core
         private readonly StepClock _clock;
 
         /// <param name="motion">What moves sphere 0, or null.</param>
-        /// <param name="schedule">The clamp's place, frame and motion in time.</param>
+        /// <param name="schedule">The clamp's position, frame and motion in time.</param>
         /// <param name="timeStep">dt, s.</param>
         public DistalClampDrive(IDriveMotion? motion, RodSchedule schedule, double timeStep)
         {

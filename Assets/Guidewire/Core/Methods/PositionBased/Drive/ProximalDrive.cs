@@ -7,8 +7,8 @@ namespace Guidewire.Core
         private readonly IDriveDirection _direction;
         private readonly double _perStep;
 
-        /// <param name="direction">Which way.</param>
-        /// <param name="perStep">Units a step; negative values go the other way.</param>
+        /// <param name="direction">The direction.</param>
+        /// <param name="perStep">Units a step; negative values move backwards.</param>
         public ProximalDrive(IDriveDirection direction, double perStep)
         {
             _direction = direction;

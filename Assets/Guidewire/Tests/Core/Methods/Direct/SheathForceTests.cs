@@ -192,12 +192,12 @@ namespace Guidewire.Core.Tests
             double ahead = run.Hub()!.Turn - run.Dynamics.ProximalTurn;
             RodTerms terms = run.Dynamics.Terms;
             SupportSpring spring = terms.Walls()!.Spring;
-            Vector3d place = spring.Place;
-            spring.Place = place + on * spring.Axis;
-            terms.Sheath!.SetHub(spring.Place);
+            Vector3d place = spring.Position;
+            spring.Position = place + on * spring.Axis;
+            terms.Sheath!.SetHub(spring.Position);
             terms.Bending.TurnProximal(ahead + turn);
             double energy = terms.Potential(run.Dynamics.Shape);
-            spring.Place = place;
+            spring.Position = place;
             terms.Sheath.SetHub(place);
             terms.Bending.TurnProximal(ahead);
             return energy;

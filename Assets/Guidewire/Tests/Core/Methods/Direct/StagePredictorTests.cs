@@ -17,7 +17,7 @@ namespace Guidewire.Core.Tests
                 StagePredictor predictor = scheme.Predictors[stage];
                 double first = TimeOf(scheme, predictor.First, stage);
                 double second = TimeOf(scheme, predictor.Second, stage);
-                double predicted = first + predictor.Share * (second - first);
+                double predicted = first + predictor.Fraction * (second - first);
                 Assert.That(predicted, Is.EqualTo(scheme.Times[stage]).Within(1e-14), "stage " + stage);
             }
         }

@@ -24,7 +24,7 @@ namespace Guidewire.Core.Tests
             // For a small angle phi one projection leaves phi (1 - 2 gain/l): at gain = l it is thrown to -phi.
             const double Angle = 1e-4;
             RodState state = Bent(Vector3d.Normalize(new Vector3d(1.0, 2.0, -3.0)), Angle);
-            new BendTwistConstraint(state, gain).Sweep(state.Orientations, OneJoint);
+            new BendTwistConstraint(state, gain).Iterate(state.Orientations, OneJoint);
             double left = Length * BendTwistConstraint.DarbouxVector(state, 0).Length;
             Assert.That(left / Angle, Is.EqualTo(1.0 - 2.0 * gain / Length).Within(1e-7));
         }
@@ -38,7 +38,7 @@ namespace Guidewire.Core.Tests
             foreach (double sign in new[] { 1.0, -1.0 })
             {
                 state.Orientations[1] = sign * rest;
-                new BendTwistConstraint(state, 1.0).Sweep(state.Orientations, OneJoint);
+                new BendTwistConstraint(state, 1.0).Iterate(state.Orientations, OneJoint);
                 Quaterniond turn = state.Orientations[1].Conjugate * (sign * rest);
                 Assert.That(turn.Imaginary.Length, Is.LessThan(1e-15), "sign " + sign);
             }
@@ -49,7 +49,7 @@ namespace Guidewire.Core.Tests
         {
             RodState state = Bent(Vector3d.UnitX, 0.3);
             state.OrientationWeights[0] = 0.0;
-            new BendTwistConstraint(state, 0.5).Sweep(state.Orientations, OneJoint);
+            new BendTwistConstraint(state, 0.5).Iterate(state.Orientations, OneJoint);
             Assert.That(state.Orientations[0], Is.EqualTo(Quaterniond.Identity));
             Assert.That(state.Orientations[1].X, Is.LessThan(Math.Sin(0.15)));
         }

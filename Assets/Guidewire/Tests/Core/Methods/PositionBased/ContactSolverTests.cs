@@ -80,7 +80,7 @@ namespace Guidewire.Core.Tests
                 for (int k = 0; k < 200; k++)
                 {
                     Vector3d way = new Vector3d(0.0, -0.1, 0.0);
-                    double free = wall.Sweep(at, end, at + way, end + way, Clearance, out _);
+                    double free = wall.TimeOfImpact(at, end, at + way, end + way, Clearance, out _);
                     Assert.That(free, Is.LessThanOrEqualTo(1.0));
                     at += free * way;
                     end += free * way;
@@ -88,7 +88,7 @@ namespace Guidewire.Core.Tests
                 Assert.That(at.Y, Is.GreaterThan(0.99 * Clearance));
                 foreach (Vector3d way in new[] { 0.5 * Vector3d.UnitZ, 0.5 * Vector3d.UnitY })
                 {
-                    Assert.That(wall.Sweep(at, end, at + way, end + way, Clearance, out _),
+                    Assert.That(wall.TimeOfImpact(at, end, at + way, end + way, Clearance, out _),
                         Is.EqualTo(ContactShape.NoImpact), "along " + way);
                 }
             }

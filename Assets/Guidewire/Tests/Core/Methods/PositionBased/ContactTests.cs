@@ -73,13 +73,13 @@ namespace Guidewire.Core.Tests
                 var before = new[] { random.Point(), random.Point() };
                 double gap = reach - Vector3d.Dot(Vector3d.Lerp(before[0], before[1], s) - c, n);
                 var x = (Vector3d[])before.Clone();
-                elements.Sweep(x);
+                elements.Iterate(x);
                 double moved = Vector3d.Dot(Vector3d.Lerp(x[0], x[1], s) - Vector3d.Lerp(before[0], before[1], s), n);
                 Assert.That(moved, Is.EqualTo(gain * Math.Max(0.0, gap)).Within(1e-12), "element, case " + i);
                 AssertAlong(x[0] - before[0], n);
                 AssertAlong(x[1] - before[1], n);
                 x = (Vector3d[])before.Clone();
-                spheres.Sweep(x);
+                spheres.Iterate(x);
                 gap = reach - Vector3d.Dot(before[0] - c, n);
                 moved = Vector3d.Dot(x[0] - before[0], n);
                 Assert.That(moved, Is.EqualTo(gain * Math.Max(0.0, gap)).Within(1e-12), "sphere, case " + i);

@@ -64,9 +64,9 @@ namespace Guidewire.Core.Tests
             CountingSweeps? counting)
         {
             state.InverseMasses[0] = 0.0;
-            var scalar = new ScalarSweeps(
+            var scalar = new ScalarIterations(
                 new StretchConstraint(state, 0.3), new BendTwistConstraint(state, 0.2), SweepOrder.Naive);
-            ISweeps sweeps = counting == null ? scalar : (ISweeps)counting.Of(scalar);
+            IIterations sweeps = counting == null ? scalar : (IIterations)counting.Of(scalar);
             ContactParameters contact = parameters.Contact;
             ContactShape[] walls = parameters.Scene.Walls;
             double radius = contact.SphereRadius;
@@ -87,10 +87,10 @@ namespace Guidewire.Core.Tests
         }
 
         // Counts the solves with contacts that lanes took.
-        private sealed class CountingSweeps : ISweeps
+        private sealed class CountingSweeps : IIterations
         {
             private readonly int _lanes;
-            private ISweeps? _sweeps;
+            private IIterations? _sweeps;
 
             public CountingSweeps(int lanes)
             {
@@ -99,9 +99,9 @@ namespace Guidewire.Core.Tests
 
             public int WithContacts { get; private set; }
 
-            public CountingSweeps Of(ScalarSweeps scalar)
+            public CountingSweeps Of(ScalarIterations scalar)
             {
-                _sweeps = SweepChoice.WithLanes(scalar, _lanes);
+                _sweeps = IterationChoice.WithLanes(scalar, _lanes);
                 if (_sweeps == null)
                 {
                     Assert.Ignore("no registers of " + _lanes + " lanes here");

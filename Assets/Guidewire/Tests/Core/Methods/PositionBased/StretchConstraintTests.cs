@@ -19,7 +19,7 @@ namespace Guidewire.Core.Tests
                 state.Positions[0] = Vector3d.Zero;
                 state.Positions[1] = new Vector3d(3.0 * size, -2.0 * size, 10.0);
                 state.Orientations[0] = Quaterniond.Normalize(new Quaterniond(size, 0.0, -size, 1.0));
-                new StretchConstraint(state, 1.0).Sweep(state.Positions, state.Orientations, OneElement);
+                new StretchConstraint(state, 1.0).Iterate(state.Positions, state.Orientations, OneElement);
                 Assert.That(StretchConstraint.Residual(state, 0).Length, Is.LessThan(20.0 * size * size),
                     "size " + size);
             }
@@ -31,8 +31,8 @@ namespace Guidewire.Core.Tests
             var state = new RodState(12, 300.0, 0.5, 0.0);
             Wires.Load(state, Wires.Random(12, 300.0, 5));
             Vector3d before = Sum(state.Positions);
-            new StretchConstraint(state, 0.7).Sweep(state.Positions, state.Orientations,
-                SweepOrders.Indices(SweepOrder.Naive, 12));
+            new StretchConstraint(state, 0.7).Iterate(state.Positions, state.Orientations,
+                IterationOrders.Indices(SweepOrder.Naive, 12));
             Assert.That(Vector3d.Distance(before, Sum(state.Positions)), Is.LessThan(1e-10 * before.Length));
         }
 
@@ -44,7 +44,7 @@ namespace Guidewire.Core.Tests
             state.InverseMasses[0] = 3.0;
             state.InverseMasses[1] = 5.0;
             state.Positions[1] = new Vector3d(0.0, 0.0, 12.0);
-            new StretchConstraint(state, 0.5).Sweep(state.Positions, state.Orientations, OneElement);
+            new StretchConstraint(state, 0.5).Iterate(state.Positions, state.Orientations, OneElement);
             double fraction = 0.5 * 10.0 * 0.2 / (3.0 + 5.0 + 400.0);
             Assert.That(state.Positions[0].Z, Is.EqualTo(3.0 * fraction).Within(1e-15));
             Assert.That(state.Positions[1].Z, Is.EqualTo(12.0 - 5.0 * fraction).Within(1e-14));
@@ -56,8 +56,8 @@ namespace Guidewire.Core.Tests
         {
             var state = new RodState(20, 300.0, 0.01, 0.0);
             Wires.Load(state, Wires.Random(20, 300.0, 9));
-            new StretchConstraint(state, 0.9).Sweep(state.Positions, state.Orientations,
-                SweepOrders.Indices(SweepOrder.Naive, 20));
+            new StretchConstraint(state, 0.9).Iterate(state.Positions, state.Orientations,
+                IterationOrders.Indices(SweepOrder.Naive, 20));
             foreach (Quaterniond q in state.Orientations)
             {
                 Assert.That(Math.Abs(q.LengthSquared - 1.0), Is.LessThan(1e-14));

@@ -14,7 +14,7 @@ namespace Guidewire.Core.Tests
             for (int step = 1; step <= 10; step++)
             {
                 TurnDistalPart(state, 0.1 * halves * Math.PI);
-                watch.Look(state, step);
+                watch.Update(state, step);
             }
             Assert.That(watch.Warning != null, Is.EqualTo(start.Length > 0));
             Assert.That(watch.Warning ?? "", Does.StartWith(start));
@@ -26,9 +26,9 @@ namespace Guidewire.Core.Tests
             RodState state = Straight();
             var watch = new TurnMonitor(state);
             TurnDistalPart(state, 1.1 * Math.PI);
-            watch.Look(state, 1);
+            watch.Update(state, 1);
             TurnDistalPart(state, -1.1 * Math.PI);
-            watch.Look(state, 2);
+            watch.Update(state, 2);
             Assert.That(watch.Warning, Does.Contain("in step 1,"));
         }
 
@@ -38,7 +38,7 @@ namespace Guidewire.Core.Tests
             RodState state = Straight();
             state.Orientations[1] = -1.0 * state.Orientations[1];
             var watch = new TurnMonitor(state);
-            watch.Look(state, 1);
+            watch.Update(state, 1);
             Assert.That(watch.Warning, Is.Null);
         }
 

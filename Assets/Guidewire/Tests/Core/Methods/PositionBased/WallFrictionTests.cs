@@ -12,7 +12,7 @@ namespace Guidewire.Core.Tests
     {
         private const double Coefficient = 0.3;
         private const double Share = 0.02;    // of mu times the weight
-        private const double FreeShare = 10.0 / 11.0;    // of the spheres: the first is held
+        private const double ConservativeTimeOfImpact = 10.0 / 11.0;    // of the spheres: the first is held
 
         [Test]
         public void WirePushedAlongAPlane_NeedsMuTimesItsWeight(
@@ -26,8 +26,8 @@ namespace Guidewire.Core.Tests
             Vector3d reaction = MeanReaction(simulation, 1000, 500, out Vector3d wall);
 
             // The held sphere carries a little of the wire, which at a gain of 0.01 sinks in by a hundredth of a unit.
-            double weight = gain < 0.1 ? wall.Y : Weight(p) * FreeShare;
-            Assert.That(wall.Y, Is.EqualTo(Weight(p) * FreeShare).Within(0.06 * Weight(p)));
+            double weight = gain < 0.1 ? wall.Y : Weight(p) * ConservativeTimeOfImpact;
+            Assert.That(wall.Y, Is.EqualTo(Weight(p) * ConservativeTimeOfImpact).Within(0.06 * Weight(p)));
             Assert.That(reaction.Z - Drag(p), Is.EqualTo(Coefficient * weight).Within(Share * Coefficient * weight));
             Assert.That(wall.Z, Is.EqualTo(-Coefficient * wall.Y).Within(1e-3 * Coefficient * wall.Y));
             Assert.That(simulation.State.Velocities[10].Z, Is.GreaterThan(0.0));
@@ -107,7 +107,7 @@ namespace Guidewire.Core.Tests
                 elements.Add(0, new SurfaceContact(s, Vector3d.Lerp(from[0], from[1], s), n, 0.0), reach, 0.3, mu);
                 for (int sweep = 0; sweep < iterations; sweep++)
                 {
-                    elements.Sweep(x);
+                    elements.Iterate(x);
                 }
                 Vector3d moved = Vector3d.Lerp(x[0], x[1], s) - start;
                 double pushed = Vector3d.Dot(moved, n);
@@ -182,7 +182,7 @@ namespace Guidewire.Core.Tests
         private static double Drag(SimulationParameters p)
         {
             double speed = p.Drive.DisplacementPerStep / p.Method.TimeStep;
-            return p.Method.Damping * p.Pbd.TotalMass * FreeShare * speed / p.Method.TimeStep;
+            return p.Method.Damping * p.Pbd.TotalMass * ConservativeTimeOfImpact * speed / p.Method.TimeStep;
         }
 
         private static double Weight(SimulationParameters p)

@@ -2,9 +2,9 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>What the sweeps of a substep left undone, beside the strain that the wire holds. Sums over the whole
-    /// wire: radians for bending and twist, m for stretch and shear; of contacts the largest.</summary>
-    internal struct SweepResidual
+    /// <summary>What the iterations of a substep left undone, besides the strain that the wire holds. Sums over the
+    /// whole wire: radians for bending and twist, m for stretch and shear; of contacts the largest.</summary>
+    internal struct IterationResidual
     {
         /// <summary>Sum of |C + alpha lambda/h^2| over the joints, about d1 and d2.</summary>
         public double Bend;
@@ -15,7 +15,8 @@ namespace Guidewire.Core
         /// <summary>Sum of l |C + alpha lambda/h^2| over the elements.</summary>
         public double Stretch;
 
-        /// <summary>The largest way by which one more sweep would move the point of a contact, in radii.</summary>
+        /// <summary>The largest displacement by which one more iteration would move the point of a contact, in
+        /// radii.</summary>
         public double Contact;
 
         /// <summary>Sum of |C| over the joints, about d1 and d2.</summary>
@@ -27,9 +28,9 @@ namespace Guidewire.Core
         /// <summary>Sum of l |C| over the elements.</summary>
         public double StretchStrain;
 
-        /// <summary>Takes in a later moment: residuals add up, weighed by the share of time that this one stands for,
-        /// of strains the largest stays.</summary>
-        public void Include(in SweepResidual other, double fraction)
+        /// <summary>Takes in a later moment: residuals add up, weighted by the fraction of time that this one stands
+        /// for, of strains the largest stays.</summary>
+        public void Include(in IterationResidual other, double fraction)
         {
             Bend += fraction * other.Bend;
             Twist += fraction * other.Twist;

@@ -10,7 +10,7 @@ namespace Guidewire.Core
         static abstract int Count { get; }
 
         /// <summary>About how long an element and a joint in all lanes take, counted in elements of a scalar
-        /// sweep.</summary>
+        /// iteration.</summary>
         static abstract double TickCost { get; }
 
         static abstract T operator +(T a, T b);
@@ -44,7 +44,7 @@ namespace Guidewire.Core
         /// <summary>Successive numbers in memory, the first in lane 0.</summary>
         static abstract T Load(ref double first);
 
-        /// <summary>Writes the numbers to successive places in memory, lane 0's first.</summary>
+        /// <summary>Writes the numbers to successive positions in memory, lane 0's first.</summary>
         static abstract void Store(T a, ref double first);
 
         /// <summary>Each lane's number in the next lane; lane 0 gets the entering one.</summary>

@@ -1,21 +1,21 @@
 namespace Guidewire.Core
 {
-    /// <summary>One sweep after the other, one constraint after the other.</summary>
-    internal sealed class ScalarSweeps : ISweeps
+    /// <summary>One iteration after the other, one constraint after the other.</summary>
+    internal sealed class ScalarIterations : IIterations
     {
         private readonly int[] _elements;
         private readonly int[] _joints;
 
         /// <param name="stretch">The elements' constraints.</param>
         /// <param name="bendTwist">The joints' constraints.</param>
-        /// <param name="order">The order of each sweep.</param>
-        public ScalarSweeps(StretchConstraint stretch, BendTwistConstraint bendTwist, SweepOrder order)
+        /// <param name="order">The order of each iteration.</param>
+        public ScalarIterations(StretchConstraint stretch, BendTwistConstraint bendTwist, SweepOrder order)
         {
             Stretch = stretch;
             BendTwist = bendTwist;
             Order = order;
-            _elements = SweepOrders.Indices(order, stretch.Count);
-            _joints = SweepOrders.Indices(order, bendTwist.Count);
+            _elements = IterationOrders.Indices(order, stretch.Count);
+            _joints = IterationOrders.Indices(order, bendTwist.Count);
         }
 
         /// <summary>The elements' constraints.</summary>
@@ -24,7 +24,7 @@ namespace Guidewire.Core
         /// <summary>The joints' constraints.</summary>
         public BendTwistConstraint BendTwist { get; }
 
-        /// <summary>The order of each sweep.</summary>
+        /// <summary>The order of each iteration.</summary>
         public SweepOrder Order { get; }
 
         /// <inheritdoc/>
@@ -32,9 +32,9 @@ namespace Guidewire.Core
         {
             for (int iteration = 0; iteration < iterations; iteration++)
             {
-                Stretch.Sweep(x, q, _elements);
-                BendTwist.Sweep(q, _joints);
-                contacts?.Sweep(x);
+                Stretch.Iterate(x, q, _elements);
+                BendTwist.Iterate(q, _joints);
+                contacts?.Iterate(x);
             }
             return true;
         }

@@ -4,29 +4,30 @@ using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
-    /// <summary>Successive iterations of <see cref="ScalarSweeps"/> in the naive order, one in each lane of a vector
-    /// register, each three elements behind the one before: bit for bit what they give one after the other.</summary>
-    /// <remarks>A sweep is a chain: a scalar loop waits for its own results most of the time. But stretch constraint j
-    /// touches x_j, x_{j+1} and q_j only, bend-twist constraint j only q_j and q_{j+1}. While lane 0 is at place p,
-    /// lane k does stretch p - 3 k and bend-twist p - 3 k - 2: nothing is touched twice, and whatever depends on each
-    /// other comes in the order of the scalar sweeps. What a lane is done with, one sphere and one frame a place, goes
-    /// to the next lane; the first takes from memory, the last gives back to it. A sweep has n + 1 places, the last to
-    /// hand on x_n, and at least three a lane, so that nothing is taken before it is given back. A lane at the end
-    /// starts its next sweep at once: lanes fill once a call. A lane that has no constraint at its place or no sweep
-    /// left to do hands on what it was given. That is selected, not multiplied by 0: 0 times infinity is not a number,
-    /// and -0 + 0 is not -0.</remarks>
-    internal sealed class PipelinedSweeps<T> : ISweeps
+    /// <summary>Successive iterations of <see cref="ScalarIterations"/> in the naive order, one in each lane of a
+    /// vector register, each three elements behind the one before: bit for bit what they give one after the
+    /// other.</summary>
+    /// <remarks>An iteration is a chain: a scalar loop waits for its own results most of the time. But stretch
+    /// constraint j touches x_j, x_{j+1} and q_j only, bend-twist constraint j only q_j and q_{j+1}. While lane 0 is at
+    /// slot p, lane k does stretch p - 3 k and bend-twist p - 3 k - 2: nothing is touched twice, and whatever depends
+    /// on each other comes in the order of the scalar iterations. What a lane is done with, one sphere and one frame a
+    /// slot, goes to the next lane; the first takes from memory, the last gives back to it. An iteration has n + 1
+    /// slots, the last to pass on x_n, and at least three a lane, so that nothing is taken before it is given back. A
+    /// lane at the end starts its next iteration at once: lanes fill once a call. A lane that has no constraint at its
+    /// slot or no iteration left to do passes on what it was given. That is selected, not multiplied by 0: 0 times
+    /// infinity is not a number, and -0 + 0 is not -0.</remarks>
+    internal sealed class PipelinedIterations<T> : IIterations
         where T : struct, ILanes<T>
     {
         private const int Lag = LaneTable.Lag;
 
-        // In elements of a scalar sweep: a node in and out; a contact more than it costs there.
+        // In elements of a scalar iteration: a node in and out; a contact more than it costs there.
         private const double CopyCost = 0.5;
         private const double ContactCost = 0.5;
 
-        private const int JointLag = 2;    // places from a frame's stretch to the joint before it
+        private const int JointLag = 2;    // slots from a frame's stretch to the joint before it
 
-        // Columns of the table. The first two mark places that have an element, and places that have a joint.
+        // Columns of the table. The first two mark slots that have an element, and slots that have a joint.
         private const int IsElement = 0;
         private const int IsJoint = 1;
         private const int Lower = 2;
@@ -39,7 +40,7 @@ namespace Guidewire.Core
         private const int RestZ = 9;
         private const int Columns = 10;
 
-        // At place p of the nodes: x_{p+1} and q_p, which lane 0 needs there; x_0 at the last.
+        // At slot p of the nodes: x_{p+1} and q_p, which lane 0 needs there; x_0 at the last.
         private const int Node = 8;
         private const int NodeFrame = 4;
 
@@ -50,10 +51,10 @@ namespace Guidewire.Core
         private readonly LaneTable _table;
         private readonly double[] _nodes;
         private readonly PipelinedContacts _contacts;
-        private readonly double[] _end;      // ticks after which each lane has no sweep left
+        private readonly double[] _end;      // ticks after which each lane has no iteration left
 
-        /// <param name="scalar">The sweeps to do, in the naive order.</param>
-        public PipelinedSweeps(ScalarSweeps scalar)
+        /// <param name="scalar">The iterations to do, in the naive order.</param>
+        public PipelinedIterations(ScalarIterations scalar)
         {
             StretchConstraint stretch = scalar.Stretch;
             BendTwistConstraint bendTwist = scalar.BendTwist;
@@ -88,8 +89,8 @@ namespace Guidewire.Core
             }
             for (int lane = 0; lane < T.Count; lane++)
             {
-                long sweeps = (iterations - lane + T.Count - 1L) / T.Count;
-                _end[lane] = Lag * lane + sweeps * _period;
+                long laneIterations = (iterations - lane + T.Count - 1L) / T.Count;
+                _end[lane] = Lag * lane + laneIterations * _period;
             }
             Take(x, q);
             Run(Ticks(iterations), x);
@@ -103,8 +104,9 @@ namespace Guidewire.Core
             return T.TickCost * Ticks(iterations) + CopyCost * _elements;
         }
 
-        // The joint's block has the lines of BendTwistConstraint.Sweep, the element's those of StretchConstraint.Sweep.
-        // A frame rests one place between the two, so that at one place neither waits for the other.
+        // The joint's block has the lines of BendTwistConstraint.Iterate, the element's those of
+        // StretchConstraint.Iterate. A frame rests one slot between the two, so that at one slot neither waits for the
+        // other.
         [MethodImpl(Compiled.AtOnce)]
         private void Run(long ticks, Vector3d[] x)
         {
@@ -124,23 +126,23 @@ namespace Guidewire.Core
             ref double nodes = ref _nodes[0];
             ref double start = ref Unsafe.Add(ref nodes, Node * (period - 1));
 
-            // u, v: the spheres a, b of the element at each lane's place, r its frame; a, b: the frames of the joint.
+            // u, v: the spheres a, b of the element at each lane's slot, r its frame; a, b: the frames of the joint.
             T uX = T.Fill(start), uY = T.Fill(Unsafe.Add(ref start, 1)), uZ = T.Fill(Unsafe.Add(ref start, 2));
             T rX = zero, rY = zero, rZ = zero, rW = zero;
             T aX = zero, aY = zero, aZ = zero, aW = zero;
             T bX = zero, bY = zero, bZ = zero, bW = zero;
 
-            // Spheres that lanes are done with since the last place, and since the one before: v of the next lane.
+            // Spheres that lanes are done with since the last slot, and since the one before: v of the next lane.
             T doneX = zero, doneY = zero, doneZ = zero;
             T lateX = zero, lateY = zero, lateZ = zero;
 
             int[] lanesInContact = _contacts.Lanes;
             ref double held = ref _contacts.Held[0];
-            int place = 0;
-            int leaving = -Lag * (T.Count - 1) - JointLag;    // the place of what leaves the last lane
+            int slot = 0;
+            int leaving = -Lag * (T.Count - 1) - JointLag;    // the slot of what leaves the last lane
             for (long tick = 0; tick < ticks; tick++)
             {
-                ref double entering = ref Unsafe.Add(ref nodes, Node * place);
+                ref double entering = ref Unsafe.Add(ref nodes, Node * slot);
                 T vX = T.Shift(lateX, entering);
                 T vY = T.Shift(lateY, Unsafe.Add(ref entering, 1));
                 T vZ = T.Shift(lateZ, Unsafe.Add(ref entering, 2));
@@ -152,7 +154,7 @@ namespace Guidewire.Core
                 lateY = doneY;
                 lateZ = doneZ;
                 T going = time < end;
-                ref double row = ref Unsafe.Add(ref table, rows[place]);
+                ref double row = ref Unsafe.Add(ref table, rows[slot]);
                 T turnedX, turnedY, turnedZ, turnedW;
                 {
                     T isJoint = going & T.Load(ref Unsafe.Add(ref row, IsJoint * column));
@@ -223,7 +225,7 @@ namespace Guidewire.Core
                 rY = turnedY;
                 rZ = turnedZ;
                 rW = turnedW;
-                if (lanesInContact[place] != 0)
+                if (lanesInContact[slot] != 0)
                 {
                     T.Store(doneX, ref held);
                     T.Store(doneY, ref Unsafe.Add(ref held, T.Count));
@@ -231,7 +233,7 @@ namespace Guidewire.Core
                     T.Store(lateX, ref Unsafe.Add(ref held, 3 * T.Count));
                     T.Store(lateY, ref Unsafe.Add(ref held, 4 * T.Count));
                     T.Store(lateZ, ref Unsafe.Add(ref held, 5 * T.Count));
-                    if (_contacts.Project(place, tick, _end, x))
+                    if (_contacts.Project(slot, tick, _end, x))
                     {
                         doneX = T.Load(ref held);
                         doneY = T.Load(ref Unsafe.Add(ref held, T.Count));
@@ -252,7 +254,7 @@ namespace Guidewire.Core
                     Unsafe.Add(ref node, NodeFrame + 2) = T.Last(rZ);
                     Unsafe.Add(ref node, NodeFrame + 3) = T.Last(rW);
                 }
-                place = Next(place);
+                slot = Next(slot);
                 leaving = Next(leaving);
                 time += one;
             }
@@ -288,16 +290,16 @@ namespace Guidewire.Core
             x[0] = new Vector3d(start[0], start[1], start[2]);
         }
 
-        // From the first lane's first place to the last lane's last, and one for x_n and q_{n-1}, which leave late.
+        // From the first lane's first slot to the last lane's last, and one for x_n and q_{n-1}, which leave late.
         private long Ticks(int iterations)
         {
             long rounds = (iterations + T.Count - 1L) / T.Count;
             return rounds * _period + Lag * (T.Count - 1) + 1;
         }
 
-        private int Next(int place)
+        private int Next(int slot)
         {
-            return place + 1 == _period ? 0 : place + 1;
+            return slot + 1 == _period ? 0 : slot + 1;
         }
 
         private static double[] Marks(int count)

@@ -3,13 +3,13 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>The contacts of a solve among sweeps in lanes: which follow at each place of a sweep, in the order of
-    /// the scalar sweeps.</summary>
-    /// <remarks>A contact of a sweep needs its spheres after the sweep's stretch constraints and after earlier contacts
-    /// of the same spheres. A lane at place p has just finished x_p and still holds x_{p-1}, so a sphere's contact can
-    /// follow at its own place or one later, an element's at that of its second sphere. Spheres first, then elements in
-    /// their order always fits; where contacts would have to wait longer, as some of several walls at one element,
-    /// they cannot take part.</remarks>
+    /// <summary>The contacts of a solve among iterations in lanes: which follow at each slot of an iteration, in the
+    /// order of the scalar iterations.</summary>
+    /// <remarks>A contact of an iteration needs its spheres after the iteration's stretch constraints and after earlier
+    /// contacts of the same spheres. A lane at slot p has just finished x_p and still holds x_{p-1}, so a sphere's
+    /// contact can follow at its own slot or one later, an element's at that of its second sphere. Spheres first, then
+    /// elements in their order always fits; where contacts would have to wait longer, as some of several walls at one
+    /// element, they cannot take part.</remarks>
     internal sealed class PipelinedContacts
     {
         private const int Lag = LaneTable.Lag;
@@ -17,14 +17,14 @@ namespace Guidewire.Core
         private readonly int _elements;
         private readonly int _period;
         private readonly int _lanes;
-        private readonly int[] _ready;      // the place after which each sphere has had all contacts so far
-        private readonly int[] _first;      // the first contact at each place, or -1
+        private readonly int[] _ready;      // the slot after which each sphere has had all contacts so far
+        private readonly int[] _first;      // the first contact at each slot, or -1
         private readonly int[] _last;
-        private readonly int[] _next;       // the contact after each at the same place, or -1
+        private readonly int[] _next;       // the contact after each at the same slot, or -1
         private IContactResponse? _rule;
 
         /// <param name="elements">n.</param>
-        /// <param name="period">Places of a sweep.</param>
+        /// <param name="period">Slots of an iteration.</param>
         /// <param name="lanes">Number of lanes.</param>
         public PipelinedContacts(int elements, int period, int lanes)
         {
@@ -39,14 +39,14 @@ namespace Guidewire.Core
             Held = new double[6 * lanes];
         }
 
-        /// <summary>The lanes that have contacts, one bit each, while lane 0 is at each place.</summary>
+        /// <summary>The lanes that have contacts, one bit each, while lane 0 is at each slot.</summary>
         public int[] Lanes { get; }
 
-        /// <summary>The spheres that lanes have just finished, and those they finished one place earlier: three times
-        /// a number a lane for x, y, z, then three times for the earlier.</summary>
+        /// <summary>The spheres that lanes have just finished, and those they finished one slot earlier: three times a
+        /// number a lane for x, y, z, then three times for the earlier.</summary>
         public double[] Held { get; }
 
-        /// <summary>Finds the place of each contact; false where there is none for some.</summary>
+        /// <summary>Finds the slot of each contact; false where some have none.</summary>
         public bool TryPlan(IContactResponse? rule)
         {
             Array.Clear(Lanes, 0, Lanes.Length);
@@ -68,35 +68,35 @@ namespace Guidewire.Core
             for (int k = 0; k < count; k++)
             {
                 rule!.SpheresOf(k, out int first, out int last);
-                int place = Math.Max(_ready[first], _ready[last]);
-                if (place > first + 1 || place > _elements)
+                int slot = Math.Max(_ready[first], _ready[last]);
+                if (slot > first + 1 || slot > _elements)
                 {
                     return false;
                 }
-                _ready[first] = place;
-                _ready[last] = place;
-                Append(k, place);
+                _ready[first] = slot;
+                _ready[last] = slot;
+                Append(k, slot);
             }
             return true;
         }
 
-        /// <summary>Projects the contacts of all lanes at their places, in the spheres that are held; false where they
+        /// <summary>Projects the contacts of all lanes at their slots, in the spheres that are held; false where they
         /// moved none.</summary>
-        /// <param name="place">Where lane 0 is.</param>
-        /// <param name="tick">Places since it started.</param>
-        /// <param name="end">The tick after which each lane has no sweep left.</param>
+        /// <param name="slot">Where lane 0 is.</param>
+        /// <param name="tick">Slots since it started.</param>
+        /// <param name="end">The tick after which each lane has no iteration left.</param>
         /// <param name="x">n + 1 positions that may be written over.</param>
-        public bool Project(int place, long tick, double[] end, Vector3d[] x)
+        public bool Project(int slot, long tick, double[] end, Vector3d[] x)
         {
             bool movedAny = false;
             for (int lane = 0; lane < _lanes; lane++)
             {
                 bool going = tick >= Lag * lane && tick < end[lane];
-                if (!going || (Lanes[place] >> lane & 1) == 0)
+                if (!going || (Lanes[slot] >> lane & 1) == 0)
                 {
                     continue;
                 }
-                int p = place - Lag * lane;
+                int p = slot - Lag * lane;
                 p = p < 0 ? p + _period : p;
                 x[p] = new Vector3d(Held[lane], Held[_lanes + lane], Held[2 * _lanes + lane]);
                 if (p > 0)
@@ -123,21 +123,21 @@ namespace Guidewire.Core
             return movedAny;
         }
 
-        private void Append(int k, int place)
+        private void Append(int k, int slot)
         {
-            if (_first[place] < 0)
+            if (_first[slot] < 0)
             {
-                _first[place] = k;
+                _first[slot] = k;
                 for (int lane = 0; lane < _lanes; lane++)
                 {
-                    Lanes[(place + Lag * lane) % _period] |= 1 << lane;
+                    Lanes[(slot + Lag * lane) % _period] |= 1 << lane;
                 }
             }
             else
             {
-                _next[_last[place]] = k;
+                _next[_last[slot]] = k;
             }
-            _last[place] = k;
+            _last[slot] = k;
             _next[k] = -1;
         }
 

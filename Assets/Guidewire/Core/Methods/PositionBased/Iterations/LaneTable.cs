@@ -1,20 +1,20 @@
 #if NET8_0_OR_GREATER
 namespace Guidewire.Core
 {
-    /// <summary>Numbers of the wire's constraints, laid out so that lanes that work at places
-    /// <see cref="Lag"/> apart load theirs with one instruction.</summary>
-    /// <remarks>A sweep passes the places 0 to period - 1; while lane 0 is at place p, lane k is at p - lag k, before
-    /// place 0 still at the end of the sweep before. The numbers of every third place make a strand, written
+    /// <summary>Numbers of the wire's constraints, laid out so that lanes that work at slots <see cref="Lag"/> apart
+    /// load theirs with one instruction.</summary>
+    /// <remarks>An iteration passes the slots 0 to period - 1; while lane 0 is at slot p, lane k is at p - lag k,
+    /// before slot 0 still at the end of the iteration before. The numbers of every third slot make a strand, written
     /// backwards, so that successive numbers are those of successive lanes.</remarks>
     internal sealed class LaneTable
     {
-        /// <summary>How many places each lane is behind the one before.</summary>
+        /// <summary>How many slots each lane is behind the one before.</summary>
         public const int Lag = 3;
 
         private readonly int _lanes;
 
-        /// <param name="columns">How many numbers a place has.</param>
-        /// <param name="period">Places of a sweep, at least <see cref="Lag"/> times the lanes.</param>
+        /// <param name="columns">How many numbers a slot has.</param>
+        /// <param name="period">Slots of an iteration, at least <see cref="Lag"/> times the lanes.</param>
         /// <param name="lanes">Number of lanes.</param>
         public LaneTable(int columns, int period, int lanes)
         {
@@ -34,13 +34,13 @@ namespace Guidewire.Core
         /// <summary>Numbers in each column.</summary>
         public int ColumnLength { get; }
 
-        /// <summary>Where in a column the lanes' numbers start while lane 0 is at each place.</summary>
+        /// <summary>Where in a column the lanes' numbers start while lane 0 is at each slot.</summary>
         public int[] Rows { get; }
 
         /// <summary>Writes a column.</summary>
         /// <param name="column">Which, from 0.</param>
-        /// <param name="from">The place of the first number; the places without one get 0.</param>
-        /// <param name="numbers">Those of successive places.</param>
+        /// <param name="from">The slot of the first number; the slots without one get 0.</param>
+        /// <param name="numbers">Those of successive slots.</param>
         public void Write(int column, int from, double[] numbers)
         {
             int period = Rows.Length;
@@ -52,10 +52,10 @@ namespace Guidewire.Core
             }
         }
 
-        private int Location(int place)
+        private int Location(int slot)
         {
             int strand = Strand(Rows.Length);
-            int ahead = place + Lag * (_lanes - 1);
+            int ahead = slot + Lag * (_lanes - 1);
             return ahead % Lag * strand + strand - 1 - ahead / Lag;
         }
 

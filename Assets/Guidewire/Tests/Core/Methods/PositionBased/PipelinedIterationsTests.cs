@@ -5,7 +5,7 @@ namespace Guidewire.Core.Tests
 {
     /// <summary>Sweeps in the lanes of a vector register give what the scalar sweeps give, bit for bit.</summary>
     [Category("Target")]
-    public sealed class PipelinedSweepsTests
+    public sealed class PipelinedIterationsTests
     {
         private const int AllWires = 200;
         private const int DefaultWires = 6;
@@ -21,8 +21,8 @@ namespace Guidewire.Core.Tests
             int steps = Rods.InFull ? AllSteps : DefaultSteps;
             for (int seed = 0; seed < wires; seed++)
             {
-                RodState expected = RandomWire(seed, out ScalarSweeps scalar, out int iterations);
-                RodState state = RandomWire(seed, out ScalarSweeps twin, out _);
+                RodState expected = RandomWire(seed, out ScalarIterations scalar, out int iterations);
+                RodState state = RandomWire(seed, out ScalarIterations twin, out _);
                 PositionBasedStep reference = StepWith(scalar, scalar, iterations);
                 PositionBasedStep step = StepWith(twin, InLanes(twin, lanes), iterations);
                 for (int k = 0; k < steps; k++)
@@ -42,8 +42,8 @@ namespace Guidewire.Core.Tests
             {
                 for (int m = 0; m <= 2 * lanes + 1; m++)
                 {
-                    RodState expected = Bent(n, n + 100 * m, out ScalarSweeps scalar);
-                    RodState state = Bent(n, n + 100 * m, out ScalarSweeps twin);
+                    RodState expected = Bent(n, n + 100 * m, out ScalarIterations scalar);
+                    RodState state = Bent(n, n + 100 * m, out ScalarIterations twin);
                     scalar.Iterate(expected.PredictedPositions, expected.PredictedOrientations, m, null);
                     InLanes(twin, lanes).Iterate(state.PredictedPositions, state.PredictedOrientations, m, null);
                     AssertSameBits(state, expected, "n = " + n + ", m = " + m);
@@ -55,7 +55,7 @@ namespace Guidewire.Core.Tests
         [TestCase(8)]
         public void Step_AllocatesNothing(int lanes)
         {
-            RodState state = Bent(30, 1, out ScalarSweeps scalar);
+            RodState state = Bent(30, 1, out ScalarIterations scalar);
             PositionBasedStep step = StepWith(scalar, InLanes(scalar, lanes), 21);
             step.Advance(state);
             long left = Garbage.LeftBy(() =>
@@ -73,8 +73,8 @@ namespace Guidewire.Core.Tests
         [TestCase(1000, 1)]
         public void LittleWork_IsNotWorthLanes(int n, int iterations)
         {
-            Bent(n, 1, out ScalarSweeps scalar);
-            Assert.That(SweepChoice.Fastest(scalar, iterations), Is.SameAs(scalar));
+            Bent(n, 1, out ScalarIterations scalar);
+            Assert.That(IterationChoice.Fastest(scalar, iterations), Is.SameAs(scalar));
         }
 
         [TestCase(30, 500)]
@@ -82,24 +82,24 @@ namespace Guidewire.Core.Tests
         [TestCase(30, 10)]
         public void MuchWork_IsDoneInLanes_WhereThereAreAny(int n, int iterations)
         {
-            Bent(n, 1, out ScalarSweeps scalar);
+            Bent(n, 1, out ScalarIterations scalar);
             InLanes(scalar, 4);
-            Assert.That(SweepChoice.Fastest(scalar, iterations), Is.Not.SameAs(scalar));
+            Assert.That(IterationChoice.Fastest(scalar, iterations), Is.Not.SameAs(scalar));
         }
 
         [Test]
         public void BilateralOrder_HasNoLanes()
         {
             var state = new RodState(30, 300.0, 1.0, 0.0);
-            var scalar = new ScalarSweeps(
+            var scalar = new ScalarIterations(
                 new StretchConstraint(state, 0.1), new BendTwistConstraint(state, 0.1), SweepOrder.Bilateral);
-            Assert.That(SweepChoice.WithLanes(scalar, 4), Is.Null);
-            Assert.That(SweepChoice.Fastest(scalar, 500), Is.SameAs(scalar));
+            Assert.That(IterationChoice.WithLanes(scalar, 4), Is.Null);
+            Assert.That(IterationChoice.Fastest(scalar, 500), Is.SameAs(scalar));
         }
 
-        private static ISweeps InLanes(ScalarSweeps scalar, int lanes)
+        private static IIterations InLanes(ScalarIterations scalar, int lanes)
         {
-            ISweeps? sweeps = SweepChoice.WithLanes(scalar, lanes);
+            IIterations? sweeps = IterationChoice.WithLanes(scalar, lanes);
             if (sweeps == null)
             {
                 Assert.Ignore("no registers of " + lanes + " lanes here");
@@ -107,19 +107,19 @@ namespace Guidewire.Core.Tests
             return sweeps!;
         }
 
-        private static PositionBasedStep StepWith(ScalarSweeps scalar, ISweeps sweeps, int iterations)
+        private static PositionBasedStep StepWith(ScalarIterations scalar, IIterations sweeps, int iterations)
         {
             return new PositionBasedStep(TimeStep, new VerletPrediction(0.01, new Vector3d(0.0, -2.0, 0.3)),
                 new OrientationEulerPrediction(), null, new GaussSeidelSolver(iterations, scalar, sweeps, null), null);
         }
 
-        private static RodState Bent(int n, int seed, out ScalarSweeps scalar)
+        private static RodState Bent(int n, int seed, out ScalarIterations scalar)
         {
             var random = new System.Random(seed);
             var state = new RodState(n, 10.0 * n, 0.1, 0.0);
             Wires.Load(state, Wires.Random(n, 10.0 * n, seed));
             Bend(state, random);
-            scalar = new ScalarSweeps(
+            scalar = new ScalarIterations(
                 new StretchConstraint(state, 0.7), new BendTwistConstraint(state, 0.4), SweepOrder.Naive);
             return state;
         }
@@ -135,7 +135,7 @@ namespace Guidewire.Core.Tests
         // n and m from 1 to 1,000, by their logarithms in four of five wires; every second wire bent and in motion, the
         // others straight and at rest, with zeros of either sign; held ends and inner parts; gains up to the limit in
         // half of the wires, in the others up to twice as much or infinite; infinite places and rest vectors.
-        private static RodState RandomWire(int seed, out ScalarSweeps scalar, out int iterations)
+        private static RodState RandomWire(int seed, out ScalarIterations scalar, out int iterations)
         {
             var random = new System.Random(seed);
             bool large = seed % 5 == 4 && Rods.InFull;
@@ -175,7 +175,7 @@ namespace Guidewire.Core.Tests
                     state.RestDarbouxVectors[random.Next(n - 1)] = new Vector3d(0.0, double.PositiveInfinity, 0.0);
                     break;
             }
-            scalar = new ScalarSweeps(
+            scalar = new ScalarIterations(
                 new StretchConstraint(state, stretch), new BendTwistConstraint(state, bend), SweepOrder.Naive);
             return state;
         }
