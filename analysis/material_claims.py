@@ -1,5 +1,5 @@
-"""What the log of a wire with a material between walls is held to, by the search of `wall_search`: no point of it beyond
-a wall, the depth that its summary says, and what the drive asked for."""
+"""What the log of a wire with a material between walls is held to, by the search of `wall_search`: no point of it
+beyond a wall, the depth that its summary says, and what the drive asked for."""
 
 from __future__ import annotations
 

@@ -3,6 +3,7 @@ element, true figures in the summary."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -14,7 +15,9 @@ from analysis.wall_search import ClosedForm, MeshSearch, closed_form
 
 FINE_SAMPLES = 40  # points an element, on the last entry of a log
 FROZEN_STEPS = 20
-RIM = "the tip left the vessel by an open rim"  # a line that is no doubt
+# Lines on the end of a run that make its result doubtful; others are of its parameters, or of a tip that left.
+DOUBTS = re.compile(r"\d+ points of the wire passed a wall|a wall reached |the wire is [\d.]+ % |the drive fell short: ")
+RIM = "the tip left the vessel by an open rim"
 SAME = 1e-9  # of the radius, or of the way asked for: what figures may differ by
 
 
@@ -59,8 +62,9 @@ def judge(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray,
 
 def contradictions(summary: dict[str, Any]) -> list[str]:
     """Where `reliable` is not what outcome, reason and warnings say."""
-    doubts = [warning for warning in summary["warnings"] if not warning.startswith(RIM)]
-    may_be_trusted = summary["outcome"] in ("converged", "finished") and ", but " not in summary["reason"] and not doubts
+    doubts = [warning for warning in summary["warnings"] if DOUBTS.match(warning)]
+    is_whole = summary["outcome"] in ("converged", "finished") and ", but " not in summary["reason"]
+    may_be_trusted = is_whole and not doubts
     if summary["reliable"] != may_be_trusted:
         return [f"reliable = {summary['reliable']}: {summary['outcome']}, {summary['reason']}, {doubts}"]
     return []
