@@ -1,5 +1,5 @@
-"""What the log of a wire with a material between walls is held to, by the search of `wall_search`: no point of it beyond
-a wall, the depth that its summary says, and what the drive asked for."""
+"""What the log of a wire with a material between walls is held to, by the search of `wall_search`: no point of it
+beyond a wall, the depth that its summary says, and what the drive asked for."""
 
 from __future__ import annotations
 
@@ -8,17 +8,19 @@ from typing import Any
 import numpy as np
 
 from analysis.passages import SAMPLES, sample_wire
-from analysis.push_claims import Walls
+from analysis.push_claims import Walls, contradictions
 
 SAME = 1e-9  # of the wire's radius
 OF_WAY = 1e-6  # of the way asked for: node 0 is on a stiff spring
-DEEPEST = 0.5  # of the radius, from which on a wire of xpbd in a wall is to be warned of
+DEEPEST = 0.05  # of the radius, from which on a wire of xpbd in a wall is to be warned of
 WARNED = "a wall reached"
 
 
 def judge(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray, radii: np.ndarray, walls: Walls
           ) -> list[str]:
     """The claims that a run breaks, one line each; of all methods that a run which failed keeps, too.
+
+    Where the run says itself that it is not reliable, a depth that a warning of its own names breaks none.
 
     Parameters
     ----------
@@ -32,8 +34,8 @@ def judge(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray,
     if not np.isfinite(positions).all():
         return ["a position is not a finite number"]
     first = _first_outside(scene, positions)
-    return [*_passages(summary, positions, first, walls), *_depth(scene, summary, positions, first, radii, walls),
-            *_drive(scene, summary, positions)]
+    return [*contradictions(summary), *_passages(summary, positions, first, walls),
+            *_depth(scene, summary, positions, first, radii, walls), *_drive(scene, summary, positions)]
 
 
 def _first_outside(scene: dict[str, Any], positions: np.ndarray) -> np.ndarray:
@@ -74,8 +76,8 @@ def _depth(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray
             least = min(least, wall.least_along(a, b, least))
         deepest = max(deepest, radius - least)
     allowed = DEEPEST * radii.max() if scene["solver"] == "xpbd" else SAME * radii.max()
-    is_warned = scene["solver"] == "xpbd" and any(WARNED in warning for warning in summary["warnings"])
-    if deepest > allowed and not is_warned:
+    is_named = not summary["reliable"] and any(WARNED in warning for warning in summary["warnings"])
+    if deepest > allowed and not (is_named and scene["solver"] == "xpbd"):
         claims.append(f"the surface is in a wall by {deepest / radii.max():.3g} radii")
     if scene["solver"] != "xpbd" and summary["maxPenetration"] > allowed:
         claims.append(f"maxPenetration = {summary['maxPenetration']}, true is {deepest}")
@@ -86,10 +88,7 @@ def _depth(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray
 
 def _drive(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray) -> list[str]:
     claims = []
-    steps = summary["steps"]
-    if summary["outcome"] != "finished" and summary["driveAsked"] < scene["displacementPerStep"] * (steps - 0.5):
-        steps -= 1  # the last has no solution, and did not go
-    asked = scene["displacementPerStep"] * steps
+    asked = scene["displacementPerStep"] * (len(positions) - 1)  # a step without a state did not go
     if abs(summary["driveAsked"] - asked) > OF_WAY * asked:
         claims.append(f"driveAsked = {summary['driveAsked']}, true is {asked}")
     gone = positions[-1, 0, 2] - positions[0, 0, 2]

@@ -3,6 +3,7 @@ element, true figures in the summary."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -14,6 +15,9 @@ from analysis.wall_search import ClosedForm, MeshSearch, closed_form
 
 FINE_SAMPLES = 40  # points an element, on the last entry of a log
 FROZEN_STEPS = 20
+# Lines on the end of a run that make its result doubtful; others are of its parameters, or of a tip that left.
+DOUBTS = re.compile(r"\d+ points of the wire passed a wall|a wall reached |the wire is [\d.]+ % |the drive fell short: ")
+RIM = "the tip left the vessel by an open rim"
 SAME = 1e-9  # of the radius, or of the way asked for: what figures may differ by
 
 
@@ -51,8 +55,19 @@ def judge(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray,
         Of all spheres after every step from 0 on, in units.
     """
     rubs = scene["vessel"].get("frictionCoefficient", 0.0) > 0.0  # friction may hold an element where it is
-    return [*_passages(scene["elementContact"], summary, positions, walls), *([] if rubs else _frozen(positions)),
-            *_drive(scene, summary, positions), *_penetration(scene, summary, positions, walls)]
+    return [*contradictions(summary), *_passages(scene["elementContact"], summary, positions, walls),
+            *([] if rubs else _frozen(positions)), *_drive(scene, summary, positions),
+            *_penetration(scene, summary, positions, walls)]
+
+
+def contradictions(summary: dict[str, Any]) -> list[str]:
+    """Where `reliable` is not what outcome, reason and warnings say."""
+    doubts = [warning for warning in summary["warnings"] if DOUBTS.match(warning)]
+    is_whole = summary["outcome"] in ("converged", "finished") and ", but " not in summary["reason"]
+    may_be_trusted = is_whole and not doubts
+    if summary["reliable"] != may_be_trusted:
+        return [f"reliable = {summary['reliable']}: {summary['outcome']}, {summary['reason']}, {doubts}"]
+    return []
 
 
 def _passages(rule: str, summary: dict[str, Any], positions: np.ndarray, walls: Walls) -> list[str]:
@@ -62,6 +77,8 @@ def _passages(rule: str, summary: dict[str, Any], positions: np.ndarray, walls: 
     count = int(np.count_nonzero(~samples[:, :-1] & samples[:, 1:]))
     if summary["passages"] != count:
         claims.append(f"passages = {summary['passages']}, true are {count}")
+    if summary["reliable"] and samples.any():
+        claims.append(f"{np.count_nonzero(samples)} points are beyond a wall, and the run calls itself reliable")
     if rule != "thesis" and spheres.any():
         step, sphere = np.argwhere(spheres.any(axis=0))[0]
         claims.append(f"sphere {sphere} is beyond a wall after step {step}")

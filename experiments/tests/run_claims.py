@@ -12,14 +12,15 @@ from typing import Any
 
 import numpy as np
 
+from analysis.push_claims import contradictions
 from experiments.runner import Answer, Request, Runner
 
 RUN_LIMIT = 20.0  # s of wall time; the costliest scenes drawn take some 0.1 s alone
 ENDINGS = {"converged": 0, "finished": 0, "diverged": 4, "failed": 5}
 GAINS = "pbd"
 SUMMARY_KEYS = {
-    "outcome", "reason", "steps", "inGameTime", "computationTime", "setUpTime", "wallTime", "averageStepTime",
-    "medianStepTime", "predictionError", "steadyStateStep", "stiffness", "passages", "maxPenetration", "driveAsked",
+    "outcome", "reason", "reliable", "steps", "inGameTime", "computationTime", "setUpTime", "wallTime",
+    "averageStepTime", "medianStepTime", "predictionError", "steadyStateStep", "stiffness", "passages", "maxPenetration", "driveAsked",
     "driveShortfall", "hub", "largestContactForce", "largestWallForce",
     "wallForces", "extremes", "timed", "repeat", "warnings", "ignored", "notes", "log", "versions", "parameterHash",
     "complete", "reliable",
@@ -106,6 +107,7 @@ def assert_true_outcome(answer: Answer, out: Path, own_keys: set[str]) -> dict:
     assert summary.keys() == SUMMARY_KEYS | ({"solver"} if has_material else set())
     assert parameters.keys() == own_keys
     assert (summary["outcome"], summary["reason"]) == (answer.outcome, answer.message)
+    assert contradictions(summary) == []
     assert summary["complete"] is True and summary["stiffness"] == ("material" if has_material else "gains")
     assert 0 <= summary["steps"] <= parameters["maxSimulationSteps"]
     time = summary["steps"] * parameters["timeStep"]

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from analysis import material_claims
 from analysis.logs import read_log
 from analysis.passages import Wall, inside
 from analysis.push_claims import Walls, judge
@@ -129,8 +130,15 @@ def test_the_judge_finds_what_was_made_wrong():
     steps = 30
     z = 10.0 * np.arange(4)[None] + 0.5 * np.arange(steps + 1)[:, None]
     positions = np.stack([np.full_like(z, 9.0), np.zeros_like(z), z], axis=2)
-    summary = {"passages": 0, "maxPenetration": 1.0, "driveAsked": 0.5 * steps, "driveShortfall": 0.0}
-    assert _judged(scene, summary, positions) == []
+    doubt = "the drive fell short: as in the walls' way"
+    summary = {"passages": 0, "maxPenetration": 1.0, "driveAsked": 0.5 * steps, "driveShortfall": 0.0,
+               "outcome": "finished", "reason": "all steps are done", "warnings": [doubt], "reliable": False}
+    trusted = {**summary, "warnings": [], "reliable": True}
+    assert _judged(scene, summary, positions) == [] == _judged(scene, trusted, positions)
+    assert _judged(scene, {**summary, "reliable": True}, positions) == ["reliable"]
+    assert _judged(scene, {**trusted, "reliable": False}, positions) == ["reliable"]
+    assert _judged(scene, {**trusted, "reason": "all steps are done, but not well"}, positions) == ["reliable"]
+    assert _judged(scene, {**trusted, "outcome": "diverged"}, positions) == ["reliable"]
     assert _judged(scene, {**summary, "maxPenetration": 1.0 + 1e-8}, positions) == ["maxPenetration"]
     assert _judged(scene, {**summary, "driveAsked": 0.5 * steps + 1e-7}, positions) == ["driveAsked"]
     assert _judged(scene, {**summary, "passages": 1}, positions) == ["passages"]
@@ -141,3 +149,36 @@ def test_the_judge_finds_what_was_made_wrong():
     across[7, 1, 0] = 10.0 + 1e-7
     claims = _judged(scene, {**summary, "maxPenetration": 2.0, "passages": 1}, across)
     assert claims == ["sphere 1 is beyond a wall after step 7", "element 0 crosses a wall after step 7; 2 times in all"]
+    assert "calls itself reliable" in _judged(scene, {**trusted, "maxPenetration": 2.0, "passages": 1}, across)[0]
+
+
+@pytest.mark.parametrize("solver", ["direct", "xpbd"])
+def test_the_judge_of_a_wire_with_a_material_excuses_but_a_depth_that_is_named(solver):
+    scene = {"solver": solver, "vessel": {"shape": "mesh"}, "displacementPerStep": 0.5, "guidewireLength": 30.0}
+    walls = Walls.of(scene, _box_mesh(np.array([10.0, 10.0, 100.0])), pushes.rotation_of)
+    radii = np.full(3, 2.0)
+    entries = 11
+
+    def judged(depth, summary, kept=entries):
+        z = 10.0 * np.arange(4)[None] + 0.5 * np.arange(kept)[:, None]
+        positions = np.stack([np.full_like(z, 8.0 + depth), np.zeros_like(z), z], axis=2)
+        return [claim.split(" = ")[0].split(" by ")[0]
+                for claim in material_claims.judge(scene, summary, positions, radii, walls)]
+
+    def summary(depth, *warnings, **changed):
+        return {"outcome": "finished", "reason": "all steps are done", "warnings": list(warnings), "passages": 0,
+                "reliable": not warnings, "driveAsked": 0.5 * (entries - 1), "driveShortfall": 0.0,
+                "maxPenetration": depth, **changed}
+
+    deep = "the surface is in a wall"
+    wall, short = "a wall reached 0.12 units into the wire", "the drive fell short: of 5 units"
+    too_deep = [] if solver == "xpbd" else [deep, "maxPenetration"]
+    assert judged(0.0, summary(0.0)) == []
+    assert judged(0.09, summary(0.09)) == too_deep  # a twentieth of 2 is allowed with xpbd
+    assert judged(0.12, summary(0.12, wall)) == too_deep
+    assert deep in judged(0.12, summary(0.12)) and deep in judged(0.12, summary(0.12, short))
+    assert judged(0.12, summary(0.12, wall, reliable=True))[:2] == ["reliable", deep]
+    assert judged(0.0, summary(0.0, passages=1)) == ["passages"]
+    # A last step without a state did not go, and is not asked for.
+    failed = summary(0.0, outcome="failed", reliable=False)
+    assert judged(0.0, failed) == [] and "driveAsked" in judged(0.0, failed, entries - 1)

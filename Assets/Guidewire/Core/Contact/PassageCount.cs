@@ -6,11 +6,13 @@ namespace Guidewire.Core
     /// 0.1, ... 0.9) and the last sphere. Leaving through an open rim is no passage.</summary>
     /// <remarks>Where a point left is decided in each part of a step: the straight line between a whole step's ends may
     /// cut the corner of a rim around which the wire really went. In a part, a point has left across a wall where it
-    /// was inside, is outside, and its straight path meets the wall itself and not the disc of a rim. Only the points
-    /// of an element that moved by as much as its distance from the wall are tested.</remarks>
+    /// was inside, is outside, and its straight path meets the wall itself and not the disc of a rim, nor does the path
+    /// back along the wire through that disc lead there. Only the points of an element that moved by as much as its
+    /// distance from the wall are tested.</remarks>
     internal sealed class PassageCount
     {
         private const int SamplesPerElement = 10;
+        private const int Halvings = 40;  // from a tenth of an element to less than a clearance
         private readonly IWallClearance _bounds;
         private readonly ContactShape[] _walls;
         private readonly double _clearance;
@@ -81,18 +83,71 @@ namespace Guidewire.Core
             }
         }
 
-        // Whether the wire, whose first sphere is inside, meets the wall nowhere: what is outside then left by a rim,
+        // Whether the wire, one end of which is inside, meets the wall nowhere: what is outside then left by a rim,
         // whatever lay on the straight path of a long step.
         private bool LeadsOut(ContactShape wall, Vector3d[] x)
         {
-            bool isWhole = wall.Contains(x[0]);
+            bool isWhole = wall.Contains(x[0]) || wall.Contains(x[x.Length - 1]);
             for (int j = 0; j + 1 < x.Length && isWhole; j++)
             {
-                int hint = -1;
-                isWhole = !wall.Nearest(x[j], x[j + 1], _clearance, ref hint, out SurfaceContact contact)
-                    || wall.SizeOf(contact.Distance) > _clearance;
+                isWhole = IsFree(wall, x[j], x[j + 1]);
             }
             return isWhole;
+        }
+
+        // Whether the wire led from point k out through the disc of a rim, and from there a straight way leads to
+        // where the point is now: an end that is drawn out and aside leaves by the rim, though its straight way cuts
+        // the lip. Beside the vessel no straight way from the disc leads.
+        private bool LeavesByRim(ContactShape wall, Vector3d[] from, int k, in Vector3d after)
+        {
+            return LeavesByRim(wall, from, k, -1, after) || LeavesByRim(wall, from, k, 1, after);
+        }
+
+        private bool LeavesByRim(ContactShape wall, Vector3d[] from, int k, int sense, in Vector3d after)
+        {
+            Vector3d before = Point(from, k);
+            Vector3d inside = before;
+            int points = PointsOf(from.Length - 1);
+            for (int i = k + sense; i >= 0 && i < points; i += sense)
+            {
+                Vector3d next = Point(from, i);
+                if (!IsFree(wall, inside, next))
+                {
+                    return false;
+                }
+                if (!wall.Contains(next))
+                {
+                    Vector3d disc = Border(wall, inside, next);
+                    return IsFree(wall, before, disc) && IsFree(wall, disc, after);
+                }
+                inside = next;
+            }
+            return false;
+        }
+
+        // Where a straight way from a point inside to one outside leaves, by bisection, on the outer side.
+        private static Vector3d Border(ContactShape wall, Vector3d inside, Vector3d outside)
+        {
+            for (int halving = 0; halving < Halvings; halving++)
+            {
+                Vector3d middle = Vector3d.Lerp(inside, outside, 0.5);
+                if (wall.Contains(middle))
+                {
+                    inside = middle;
+                }
+                else
+                {
+                    outside = middle;
+                }
+            }
+            return outside;
+        }
+
+        private bool IsFree(ContactShape wall, in Vector3d a, in Vector3d b)
+        {
+            int hint = -1;
+            return !wall.Nearest(a, b, _clearance, ref hint, out SurfaceContact contact)
+                || wall.SizeOf(contact.Distance) > _clearance;
         }
 
         private void MarkElement(int w, Vector3d[] from, Vector3d[] to, int j)
@@ -105,7 +160,7 @@ namespace Guidewire.Core
                 Vector3d after = Point(to, k);
                 int hint = _hint[w * n + j];
                 if (_walls[w].Nearest(before, after, _clearance, ref hint, out _) && _walls[w].Contains(before)
-                    && !_walls[w].Contains(after))
+                    && !_walls[w].Contains(after) && !LeavesByRim(_walls[w], from, k, after))
                 {
                     _left[w * PointsOf(n) + k] = true;
                 }

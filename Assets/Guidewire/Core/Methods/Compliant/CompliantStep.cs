@@ -112,6 +112,7 @@ namespace Guidewire.Core
             _ends.Carry(_scene.Schedule.ProximalVelocity.Length, Math.Abs(_scene.Schedule.ProximalTwistRate));
             Vector3d start = _shape.X[0];
             Vector3d velocity = _velocities[0];
+            _supportForce = Vector3d.Zero;
             _walls?.BeginStep(_shape);
             for (int k = 1; k <= _substeps; k++)
             {
@@ -124,16 +125,17 @@ namespace Guidewire.Core
                 }
             }
             _time += _timeStep;
-            if (_walls != null)
-            {
-                EndStep(_walls, h, start, velocity);
-            }
             _convergence.Add(residual);
             Divergence = _energy.Blowup();
             if (Divergence != null)
             {
+                // The state stays that of the step before, and so does what contact and drive came to.
                 Divergence += "; raise substeps or constraintSolverSteps";
                 return;
+            }
+            if (_walls != null)
+            {
+                EndStep(_walls, h, start, velocity);
             }
             Failure = _scene.Joints.FindLost(_shape, _time);
             SteadyState = _rest.FindRest(_time);
@@ -152,7 +154,6 @@ namespace Guidewire.Core
             ContactRecord record = walls.Record;
             Vector3d inertia = (_terms.Mass.Nodal[0] / _timeStep) * (_velocities[0] - velocity);
             record.Reaction = inertia + (1.0 / _substeps) * _supportForce - record.Forces[0];
-            _supportForce = Vector3d.Zero;
             // A drive continues from where node 0 is; a held node is asked for until it has arrived.
             Vector3d position = _scene.Schedule.ProximalPositionAt(_time);
             if (_drive.Axis == Vector3d.Zero)

@@ -286,6 +286,40 @@ namespace Guidewire.Core.Tests
             Assert.That(run.Warnings, Has.Some.StartWith("a wall reached"));
         }
 
+        [Test]
+        public void WayAskedFor_IsWhatNode0WentAndWhatIsMissing_WhereTheSweepsHaveNotConverged(
+            [Values(1, 3, 10, 40)] int substeps, [Values(1, 3)] int sweeps)
+        {
+            // Pushed against a plane across its axis, 0.4 mm a step, with substeps that are too long. A step that
+            // blew up leaves no state, so that the way it asked for is not counted either.
+            SimulationParameters scene = Lying(0.0);
+            scene.Scene.Gravity = Vector3d.Zero;
+            scene.Scene.ProximalEnd = ProximalEnd.Clamped;
+            scene.Scene.Walls = new ContactShape[]
+            {
+                new PlaneShape(new Vector3d(0.0, 0.0, 302.0), new Vector3d(0.0, 0.1, -1.0)),
+            };
+            scene.Drive.Kind = Drive.Displace;
+            scene.Drive.DisplacementPerStep = 0.4;
+            scene.Method.DeltaThreshold = 0.0;
+            SimulationParameters compliant = WallScenes.Compliant(scene, Young);
+            compliant.Method.Substeps = substeps;
+            compliant.Method.ConstraintSolverSteps = sweeps;
+            Simulation run = Simulation.Create(compliant);
+            double start = run.State.Positions[0].Z;
+            while (run.Outcome == Outcome.Running)
+            {
+                run.Step();
+                int kept = run.StepCount - (run.HasStateOfStep ? 0 : 1);
+                double gone = run.State.Positions[0].Z - start;
+                ContactRecord contacts = run.Contacts!;
+                Assert.That(contacts.DriveAsked, Is.EqualTo(0.4 * kept).Within(1e-9), run.Reason);
+                Assert.That(gone + contacts.DriveShortfall, Is.EqualTo(contacts.DriveAsked).Within(1e-9), run.Reason);
+            }
+            bool isWarned = run.Outcome == Outcome.Diverged || run.Reason.Contains("had not converged");
+            Assert.That(isWarned, Is.True, "the scene is to be one that does not converge: " + run.Reason);
+        }
+
         private static SimulationParameters Arch(int n, double way, ContactShape vessel)
         {
             SimulationParameters scene = WallScenes.Arch(n, 0.01, 100.0, way);
