@@ -60,7 +60,7 @@ namespace Guidewire.Core
             _moved = new RodShape(rod.ElementCount);
         }
 
-        /// <summary>The eigenvector with a negative eigenvalue that was no neutral motion, where the last answer was no;
+        /// <summary>The eigenvector with a negative eigenvalue that is no neutral motion, where the last answer was no;
         /// null where there were too many, or one beyond all doubt.</summary>
         public RodVector[]? Doubtful { get; private set; }
 

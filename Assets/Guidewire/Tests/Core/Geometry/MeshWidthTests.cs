@@ -52,8 +52,8 @@ namespace Guidewire.Core.Tests
         }
 
         /// <summary>The clearance of a wire of radius 0.25, whose half is what a barrier may reach, is that of the same
-        /// surface however it is cut: by 4, by 16, at points and edges by chance with slivers of 1 in 200. Where campaigns do
-        /// not run in full: as it is, and by 4 with slivers.</summary>
+        /// surface however it is cut: by 4, by 16, at points and edges by chance with slivers of 1 in 200. Where
+        /// campaigns do not run in full: as it is, and by 4 with slivers.</summary>
         [TestCase("throat", 0.3)]
         [TestCase("two throats, the first too narrow", 0.3)]
         [TestCase("taper", double.PositiveInfinity)]

@@ -78,7 +78,7 @@ namespace Guidewire.Core.Tests
                 run.Step();
                 farthest = Math.Max(farthest, away(run.State));
             }
-            Assert.That(run.Outcome, Is.AnyOf(Outcome.Finished, Outcome.Running), run.Reason);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished).Or.EqualTo(Outcome.Running), run.Reason);
             return farthest;
         }
 

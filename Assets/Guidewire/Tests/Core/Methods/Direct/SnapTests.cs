@@ -34,7 +34,7 @@ namespace Guidewire.Core.Tests
             }
         }
 
-        /// <summary>5 N at once on the tip of a wire of 0.3 mm that lies along the axis of a tube bent to and fro: it is
+        /// <summary>5 N at once on the tip of a wire of 0.3 mm along the axis of a tube bent to and fro: it is
         /// pulled against the walls within the first step, and steps of 2 to 16 ms all come to the same shape. Halved
         /// no further than to 1/64 the first step by esdirk3 has no solution, to 1/16 by neither.</summary>
         [TestCase(Integrator.ImplicitEuler)]

@@ -36,7 +36,7 @@ namespace Guidewire.Core.Tests
                 return;
             }
             Assert.That(run.Reason, Does.Contain(Warned));
-            string told = run.Reason.Split(new[] { "by some " }, StringSplitOptions.None)[1].Split(' ')[0];
+            string told = run.Reason.Split(new[] { "by some " }, StringSplitOptions.None)[1].Split(new[] { ' ' })[0];
             double expected = 0.01 * double.Parse(told, System.Globalization.CultureInfo.InvariantCulture);
             Assert.That(Math.Abs(lost), Is.EqualTo(expected).Within(expected / 3.0));
         }
