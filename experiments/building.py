@@ -142,7 +142,7 @@ def _all_hold(projects: Sequence[str], sdks: str, sources: dict[str, str]) -> bo
 def _may_build_upon(project: str, sdks: str, sources: dict[str, str]) -> bool:
     """Whether MSBuild, which goes by times, can see all that changed since the project's stamp; so it can where nothing
     of the project was ever built. (To compile all would replace programs of an earlier part that run already.)"""
-    if not (HEADLESS / project / "obj").exists():
+    if not any((HEADLESS / project / folder).exists() for folder in ("bin", "obj")):
         return True
     stamp = _read_stamp(project)
     if stamp is None or stamp.sdks != sdks or not stamp.sources.keys() <= sources.keys():
