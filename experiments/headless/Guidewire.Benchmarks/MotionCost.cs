@@ -67,7 +67,7 @@ namespace Guidewire.Benchmarks
                 ["parameterHash"] = handler.Hash,
                 ["complete"] = true,
             }.ToString(Formatting.Indented) + "\n");
-            return new RunResult(motion.Outcome, motion.Reason, false);
+            return new RunResult(motion.Outcome, motion.Reason, motion.Outcome == Outcome.Finished, false);
         }
     }
 }
