@@ -77,6 +77,7 @@ namespace Guidewire.Core
             _start.Save();
             double time = _dynamics.Time;
             double torque = Torque();
+            _inner.AdvisesOnFailure = torque == 0.0;
             bool isDone = _inner.Step();
             if (_inner.Failure != null && torque != 0.0)
             {
