@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import argparse
+import json
 import math
 from pathlib import Path
+from typing import Any
 
 RUNNER_WORDS = ("parameters", "out", "force", "repeat", "lines", "logFile")  # the runner's own arguments, like -KEY
 
@@ -24,6 +26,14 @@ def assignment(text: str) -> tuple[str, str]:
     if key in RUNNER_WORDS:
         raise argparse.ArgumentTypeError(f"'{key}' is no parameter")
     return key, value
+
+
+def value_of(text: str) -> Any:
+    """The value of KEY=VALUE: a number, true, false, a list or an object as JSON has them, anything else as text."""
+    try:
+        return json.loads(text)
+    except (ValueError, RecursionError):
+        return text
 
 
 def path(text: str) -> Path:

@@ -32,8 +32,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
 
     run = commands.add_parser("run", help="one run of one parameter file")
     run.add_argument("file", metavar="FILE", type=Path, help="parameter file, such as params/default.json")
-    run.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], type=assignment, dest="overrides",
-                     help="override a parameter of the file; may be given several times")
+    _add_overrides(run)
     run.add_argument("--out", type=path, help="folder of the run (results/<name of FILE>); a complete run there is not "
                                                "repeated, nor replaced by one with other parameters")
     run.add_argument("--force", action="store_true",
@@ -62,6 +61,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
 
     advise = commands.add_parser("advise", help="find the cheapest settings of a scene for a given error")
     advise.add_argument("file", metavar="SCENE", type=Path, help="parameter file, such as params/insertion.json")
+    _add_overrides(advise)
     asked = advise.add_mutually_exclusive_group(required=True)
     asked.add_argument("--error", type=error_part, metavar="E",
                        help="largest error against a finer run, such as 1%% or 0.01: RMS distance over the wire's "
@@ -158,6 +158,11 @@ def parse(argv: list[str]) -> argparse.Namespace:
     check.add_argument("--write-metas", action="store_true", help="create missing .meta files")
     check.set_defaults(packages=())
     return parser.parse_args(argv)
+
+
+def _add_overrides(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], type=assignment, dest="overrides",
+                        help="override a parameter of the file; may be given several times")
 
 
 def _add_workers(parser: argparse.ArgumentParser) -> None:

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from experiments import building, checking, command_line
+from experiments.arguments import value_of
 from experiments.prepare import ROOT, PreparationError
 from experiments.progress import seconds_counted
 from experiments.runner import INTERNAL_ERROR, INTERRUPTED
@@ -164,9 +165,11 @@ def _advise(arguments: argparse.Namespace) -> int:
     from analysis.validation.check import replay
 
     checking.check_file(arguments.file)
+    checking.check_overrides(arguments.overrides)
     checking.check_out(arguments.out)
     wish = plan.Wish(arguments.error, arguments.budget, Quantity(arguments.of, arguments.at))
-    check, folder = plan.check_of(arguments.file, wish), plan.folder_of(arguments.out)
+    overrides = {key: value_of(text) for key, text in arguments.overrides}
+    check, folder = plan.check_of(arguments.file, wish, overrides=overrides), plan.folder_of(arguments.out)
     means = _means_of(arguments, _build_runner(), check.name)
     try:
         if _make([(check, folder)], arguments.out, means).failures:
@@ -183,7 +186,7 @@ def _advise(arguments: argparse.Namespace) -> int:
         print(f"picture: {os.path.relpath(place / 'chart.png')}")
     if advice.taken is None:
         return FAILED
-    scene = json.loads(arguments.file.read_text(encoding="utf-8-sig"))
+    scene = {**json.loads(arguments.file.read_text(encoding="utf-8-sig")), **overrides}
     file = place / arguments.file.with_suffix(".json").name
     write_whole(file, report.parameters(advice, scene, place))
     print(f"parameter file: {os.path.relpath(file)}")

@@ -7,10 +7,12 @@ over points along the wire and times from start to end, over the RMS way that th
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Generator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -133,14 +135,17 @@ def choose(searched: Sequence[Tried], wish: Wish, cost: Cost = by_time) -> Tried
     return min(good, key=lambda tried: tried.error, default=None)
 
 
-def check_of(file: Path, wish: Wish, cost: Cost = by_time, repeats: int = REPEATS) -> Check[Advice]:
-    """What makes the runs of a scene's advice and reads them; without repeats the cost can be counts alone."""
-    return Check(file.stem, "Advice", f"advice for {file.name}", partial(_plan, wish, cost, repeats),
+def check_of(file: Path, wish: Wish, cost: Cost = by_time, repeats: int = REPEATS,
+             overrides: Mapping[str, Any] = MappingProxyType({})) -> Check[Advice]:
+    """What makes the runs of a scene's advice and reads them; without repeats the cost can be counts alone. Overrides
+    are laid over the file's values, dotted keys (`vessel.radius`) too."""
+    return Check(file.stem, "Advice", f"advice for {file.name}", partial(_plan, wish, cost, repeats, overrides),
                  str(file.resolve()))
 
 
-def _plan(wish: Wish, cost: Cost, repeats: int) -> Generator[Sequence[Case], Mapping[str, Run], Advice]:
-    first = (yield [Case("scene", {"logSpheres": "all"})])["scene"]
+def _plan(wish: Wish, cost: Cost, repeats: int,
+          overrides: Mapping[str, Any]) -> Generator[Sequence[Case], Mapping[str, Run], Advice]:
+    first = (yield [Case("scene", {**overrides, "logSpheres": "all"})])["scene"]
     scene = _lasting(first)
     quantity = wish.quantity
     quantity.refuse(scene, first.summary)
@@ -150,7 +155,8 @@ def _plan(wish: Wish, cost: Cost, repeats: int) -> Generator[Sequence[Case], Map
     asked = {"file": Trial("as the file has it", {}), "reference": fine, **coarser}
     asked |= {f"part-{k}": trial for k, trial in enumerate(trials.parts(scene))}
     asked |= {f"candidate-{k}": trial for k, trial in enumerate(trials.candidates(scene))}
-    runs = yield [_case(key, scene, trial, quantity) for key, trial in asked.items()]
+    case = partial(_case, overrides, scene, quantity)
+    runs = yield [case(key, trial) for key, trial in asked.items()]
     if runs["reference"].outcome in _LOST:
         raise LogError(f"the reference is lost ({runs['reference'].measured('reason')}): no error can be measured")
     measure = _Measure(scene, runs["reference"], runs["file"], quantity)
@@ -160,8 +166,7 @@ def _plan(wish: Wish, cost: Cost, repeats: int) -> Generator[Sequence[Case], Map
     shortlist = _shortlist([key for key in found if key.startswith("candidate-")], found, wish)
     timed = ["file", *(key for key in found if key.startswith("part-")), *shortlist]
     if repeats and has_converged:
-        again = yield [replace(_case(key, scene, asked[key], quantity), key=f"{key}-timed", repeats=repeats)
-                       for key in timed]
+        again = yield [replace(case(key, asked[key]), key=f"{key}-timed", repeats=repeats) for key in timed]
         for key in timed:
             found[key] = _with_times(found[key], read_repeats(again[f"{key}-timed"], repeats))
     searched = [tried for key, tried in found.items() if key.startswith("candidate-")]
@@ -184,9 +189,12 @@ def _lasting(run: Run) -> dict[str, Any]:
     return {**run.parameters, "maxSimulationSteps": asked if steps == asked else min(asked, -(-steps // 16) * 16)}
 
 
-def _case(key: str, scene: Mapping[str, Any], trial: Trial, quantity: Quantity) -> Case:
+def _case(overrides: Mapping[str, Any], scene: Mapping[str, Any], quantity: Quantity, key: str, trial: Trial) -> Case:
     effective = {**scene, **trial.changed}
+    # A trial that changes a whole object has the overridden parts of it in what it was made from.
+    kept = {name: value for name, value in overrides.items() if re.split(r"[.\[]", name)[0] not in trial.changed}
     return Case(key, {
+        **kept,
         "maxSimulationSteps": effective["maxSimulationSteps"], "deltaThreshold": 0.0, "logSpheres": "all",
         "logEvery": trials.log_every(effective, _LOGGED), "logOrientations": False, **quantity.logged,
         **trial.changed,

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from analysis.advice.plan import Advice, Tried, Wish
-from analysis.figures.wording import number, percent, span
+from analysis.figures.wording import beside, number, percent
 
 _PATHS = ("startFile", "logFilePath")
 
@@ -85,8 +85,7 @@ def parameters(advice: Advice, scene: Mapping[str, Any], folder: Path) -> str:
 def _timed(advice: Advice) -> str:
     if advice.scene.total is None:
         return "No run was timed."
-    return (f"Times are medians of three runs; other programs used {span(_busy(advice), 2)} processors "
-            "meanwhile.")
+    return f"Times are medians of three runs, {beside(_busy(advice))}."
 
 
 def _coarser(wish: Wish) -> str:
@@ -129,6 +128,5 @@ def _all(one: Tried) -> str:
     return "-" if one.total is None else number(one.total, 2)
 
 
-def _busy(advice: Advice) -> Sequence[float]:
-    timed = (advice.scene, *advice.parts, *advice.searched)
-    return [one.others_busy for one in timed if one.others_busy is not None]
+def _busy(advice: Advice) -> Sequence[float | None]:
+    return [one.others_busy for one in (advice.scene, *advice.parts, *advice.searched)]

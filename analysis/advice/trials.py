@@ -1,8 +1,8 @@
 """What is tried on a scene: finer runs that are its reference, settings that may be cheaper, parts that are left out.
 
 With a material all settings solve the same equations, so any method may be taken, and the finest steps and elements
-are the reference. With gains the settings are part of the model: m sweeps with the gains k act as m f sweeps with the
-gains k/f do, and come the nearer to a limit the larger f is. That limit is the reference; a setting with other n or dt
+are the reference. With pbd the settings are part of the model: m iterations with the stiffnesses k act as m f iterations
+with k/f do, and come the nearer to a limit the larger f is. That limit is the reference; a setting with other n or dt
 counts by how far it is from it.
 """
 
@@ -21,11 +21,11 @@ _SCHEMES = ("esdirk3", "esdirk4", "trbdf2", "implicitEuler")
 _BETWEEN_WALLS = ("implicitEuler",)
 _ELEMENTS = (0.25, 0.5, 1.0, 2.0)
 _STEPS = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
-_SWEEPS = (1.0, 0.5, 0.25, 0.125)
+_ITERATIONS = (1.0, 0.5, 0.25, 0.125)
 _FEWEST_STEPS = 5
 _FEWEST_ELEMENTS = 4
-_GAINS = ("stretchStiffness", "bendStiffness", "collisionStiffness")
-_LARGEST = {"stretchStiffness": 1.5, "collisionStiffness": 1.0}  # of a gain that a trial takes
+_STIFFNESSES = ("stretchStiffness", "bendStiffness", "collisionStiffness")
+_LARGEST = {"stretchStiffness": 1.5, "collisionStiffness": 1.0}  # of a pbd stiffness that a trial takes
 
 
 @dataclass(frozen=True)
@@ -53,13 +53,13 @@ def references(scene: Values) -> tuple[Trial, Trial, Trial]:
     """The reference of a scene of these effective values, and runs half and three quarters as fine that say what it is
     worth."""
     if scene["solver"] == "pbd":
-        return tuple(Trial(f"reference, m times {f} and gains over {f}", _softened(scene, float(f))) for f in (8, 4, 6))
+        return tuple(Trial(f"reference, m times {f} and stiffness over {f}", _softened(scene, float(f))) for f in (8, 4, 6))
     elements = 2 * max(16, int(scene["numberRodElements"])) if _may_change_elements(scene) else None
     scheme, parts = ("implicitEuler", (16.0, 8.0, 12.0)) if has_walls(scene) \
         else ("esdirk4", (4.0, 2.0, 3.0))
     made = []
-    for share, part in zip((1.0, 0.5, 0.75), parts):
-        n = {} if elements is None else {"numberRodElements": int(share * elements)}
+    for fraction, part in zip((1.0, 0.5, 0.75), parts):
+        n = {} if elements is None else {"numberRodElements": int(fraction * elements)}
         changed = {**_direct(scheme), **n, **_stepped(scene, 1.0 / part)}
         made.append(Trial("reference, " + _settings({**scene, **changed}), changed))
     return tuple(made)
@@ -67,7 +67,7 @@ def references(scene: Values) -> tuple[Trial, Trial, Trial]:
 
 def candidates(scene: Values) -> list[Trial]:
     """Settings that may be cheaper than the file's, the file's among them, no two alike."""
-    tried = [Trial("as the file has it", {}), *(_of_gains(scene) if scene["solver"] == "pbd" else _of_material(scene))]
+    tried = [Trial("as the file has it", {}), *(_of_pbd(scene) if scene["solver"] == "pbd" else _of_material(scene))]
     found: dict[tuple, Trial] = {}
     for trial in tried:
         effective = {**scene, **trial.changed}
@@ -76,12 +76,11 @@ def candidates(scene: Values) -> list[Trial]:
 
 
 _VARIED = ("solver", "integrator", "numberRodElements", "timeStep", "constraintSolverSteps", "substeps",
-           "elementContact", *_GAINS)
+           "elementContact", *_STIFFNESSES)
 
 
 def parts(scene: Values) -> list[Trial]:
     """The model's parts that the scene has, each left out or halved."""
-    gains = scene["solver"] == "pbd"
     found = [
         ("rod elements n, halved", _fewer(scene, 0.5)), ("time step, doubled", _stepped(scene, 2.0)),
         ("iterations m, halved", _over(scene, "constraintSolverSteps", 0.5)),
@@ -91,7 +90,7 @@ def parts(scene: Values) -> list[Trial]:
         ("twist by the drive, left out", _without(scene, "twistPerStep", 0.0)),
         ("local element size, left out", _even(scene)),
     ]
-    if gains:
+    if scene["solver"] == "pbd":
         found += [
             ("bend-twist, left out", _without(scene, "bendStiffness", 0.0)),
             ("bend-twist, halved", _over(scene, "bendStiffness", 0.5)),
@@ -113,21 +112,21 @@ def parts(scene: Values) -> list[Trial]:
 
 
 def work(effective: Values, summary: Values) -> float:
-    """What a run costs by its counts, in sweeps of one element; the same on every machine, and only roughly in
+    """What a run costs by its counts, in iterations of one element; the same on every machine, and only roughly in
     proportion to its time."""
     steps, n = summary["steps"], int(effective["numberRodElements"])
     solver = summary.get("solver") or {}
     if effective["solver"] == "direct":
         solved = solver["factorisations"] + 0.5 * solver["keptSolutions"] + 3.0 * (solver.get("wallIterations") or 0)
         return 20.0 * n * solved
-    swept = effective.get("constraintSolverSteps", 1) * effective.get("substeps", 1)
+    iterations = effective.get("constraintSolverSteps", 1) * effective.get("substeps", 1)
     contact = 1.25 if has_walls(effective) and effective.get("elementContact") != "none" else 1.0
-    return steps * n * swept * contact * {"pbd": 1.0, "xpbd": 3.0, "explicit": 2.0}[effective["solver"]]
+    return steps * n * iterations * contact * {"pbd": 1.0, "xpbd": 3.0, "explicit": 2.0}[effective["solver"]]
 
 
-def _of_gains(scene: Values) -> Iterator[Trial]:
+def _of_pbd(scene: Values) -> Iterator[Trial]:
     contacts = ("barycentric", "none") if has_walls(scene) and scene["elementContact"] != "none" else (None,)
-    for share in _SWEEPS:
+    for fraction in _ITERATIONS:
         for softened in (True, False):
             for elements in (1.0, 0.5):
                 for factor in (1.0, 2.0):
@@ -136,18 +135,19 @@ def _of_gains(scene: Values) -> Iterator[Trial]:
                         fewer = _fewer(scene, elements) if elements != 1.0 else {}
                         if stepped is None or fewer is None:
                             continue
-                        swept = _softened(scene, share) if softened else _over(scene, "constraintSolverSteps", share)
+                        iterated = _softened(scene, fraction) if softened \
+                            else _over(scene, "constraintSolverSteps", fraction)
                         touched = {} if contact in (None, scene["elementContact"]) else {"elementContact": contact}
-                        changed = {**fewer, **stepped, **(swept or {}), **touched}
+                        changed = {**fewer, **stepped, **(iterated or {}), **touched}
                         yield Trial(_settings({**scene, **changed}), changed)
 
 
 def _of_material(scene: Values) -> Iterator[Trial]:
     schemes = _BETWEEN_WALLS if has_walls(scene) else _SCHEMES
     for scheme in schemes:
-        for share in _ELEMENTS if _may_change_elements(scene) else (1.0,):
+        for fraction in _ELEMENTS if _may_change_elements(scene) else (1.0,):
             for factor in _STEPS:
-                fewer, stepped = _fewer(scene, share) if share != 1.0 else {}, _stepped(scene, factor)
+                fewer, stepped = _fewer(scene, fraction) if fraction != 1.0 else {}, _stepped(scene, factor)
                 if fewer is not None and stepped is not None:
                     changed = {**_direct(scheme), **fewer, **stepped}
                     yield Trial(_settings({**scene, **changed}), changed)
@@ -183,8 +183,8 @@ def _may_change_elements(scene: Values) -> bool:
     return not scene.get("startFile") and not any("numberRodElements" in one for one in scene.get("wireSections") or ())
 
 
-def _fewer(scene: Values, share: float) -> dict[str, Any] | None:
-    n = round(share * scene["numberRodElements"])
+def _fewer(scene: Values, fraction: float) -> dict[str, Any] | None:
+    n = round(fraction * scene["numberRodElements"])
     return {"numberRodElements": n} if n >= _FEWEST_ELEMENTS and _may_change_elements(scene) else None
 
 
@@ -200,20 +200,20 @@ def _stepped(scene: Values, factor: float) -> dict[str, Any] | None:
     return changed
 
 
-def _softened(scene: Values, share: float) -> dict[str, Any]:
-    """A share of the sweeps, with gains that are as many times as large."""
-    m = max(1, round(share * scene["constraintSolverSteps"]))
+def _softened(scene: Values, fraction: float) -> dict[str, Any]:
+    """A fraction of the iterations, with stiffnesses that are as many times as large."""
+    m = max(1, round(fraction * scene["constraintSolverSteps"]))
     factor = scene["constraintSolverSteps"] / m
     largest = {**_LARGEST, "bendStiffness": 0.5 * scene["guidewireLength"] / scene["numberRodElements"]}
     return {"constraintSolverSteps": m,
-            **{key: min(scene[key] * factor, max(scene[key], largest[key])) for key in _GAINS}}
+            **{key: min(scene[key] * factor, max(scene[key], largest[key])) for key in _STIFFNESSES}}
 
 
-def _over(scene: Values, key: str, share: float) -> dict[str, Any] | None:
+def _over(scene: Values, key: str, fraction: float) -> dict[str, Any] | None:
     value = scene.get(key)
     if not value or value == 1:
         return None
-    return {key: max(1, round(share * value)) if isinstance(value, int) else share * value}
+    return {key: max(1, round(fraction * value)) if isinstance(value, int) else fraction * value}
 
 
 def _without(scene: Values, key: str, neutral: Any) -> dict[str, Any] | None:

@@ -37,8 +37,8 @@ def advise(tmp_path_factory, runner_command):
     file = folder / "pushed.json"
     file.write_text(json.dumps(PUSHED), encoding="utf-8")
 
-    def made(wish: Wish) -> tuple[Advice, Path]:
-        check = plan.check_of(file, wish, plan.by_work, repeats=0)
+    def made(wish: Wish, **overrides: object) -> tuple[Advice, Path]:
+        check = plan.check_of(file, wish, plan.by_work, repeats=0, overrides=overrides)
         assert sweep([(check, folder)], folder / "runs", Means(runner_command, 2)).failures == []
         return replay(check, folder), folder / "pushed"
 
@@ -64,6 +64,17 @@ def test_at_the_end_the_last_moment_counts(advise) -> None:
     exact, file = (tips(runs[key].folder) for key in ("reference", "file"))
     error = np.linalg.norm(file[-1] - exact[-1]) / np.linalg.norm(exact[-1] - exact[0])
     assert advice.scene.error == pytest.approx(error, rel=1e-6)
+
+
+def test_overrides_hold_in_every_run_but_where_a_part_is_left_out(advise) -> None:
+    advice, folder = advise(Wish(0.5), **{"vessel.frictionCoefficient": 0.2, "massDamping": 30})
+    runs = read_runs(folder)
+    friction = {key: run.parameters["vessel"].get("frictionCoefficient", 0.0) for key, run in runs.items()}
+    smooth = {f"part-{k}" for k, one in enumerate(advice.parts) if one.trial.name == "friction, left out"}
+    assert {key for key, value in friction.items() if value == 0.0} == smooth and len(smooth) == 1
+    assert {run.parameters["massDamping"] for key, run in runs.items()} == {0.0, 30.0}
+    scene = {**PUSHED, "vessel.frictionCoefficient": 0.2, "massDamping": 30}
+    assert json.loads(report.parameters(advice, scene, folder))["vessel"]["frictionCoefficient"] == 0.2
 
 
 def tips(folder: Path) -> np.ndarray:
