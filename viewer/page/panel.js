@@ -55,7 +55,8 @@ export class Panel {
     byId("facts").replaceChildren(...models.flatMap((model) => [
       ["run", model.recording.title], ["outcome", model.recording.outcome], ...model.recording.facts,
     ]).flatMap(([name, value]) => [make("dt", {}, name), make("dd", {}, value)]));
-    this.say(models.flatMap((model) => model.recording.warnings));
+    this.say(models.flatMap(({ recording: { title, warnings } }) =>
+      warnings.map((line) => (models.length > 1 ? `${title}: ${line}` : line))));
   }
 
   /** @param {string[]} lines what a user has to know */

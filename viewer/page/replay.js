@@ -31,9 +31,10 @@ export class Replay {
     this._speed.value = SPEEDS.find((speed) => whole / speed <= SECONDS) ?? SPEEDS.at(-1);
     const button = (/** @type {string} */ text, /** @type {() => void} */ onclick) => make("button", { onclick }, text);
     this._play = button("play", () => this.play(!this.isPlaying));
+    this._over = button("", () => this.lay(!this.areOver));
     byId("bar").replaceChildren(button("|<", () => this.go(this._start)), button("<", () => this.step(-1)), this._play,
       button(">", () => this.step(1)), this._slider, this._speed,
-      ...(recordings.length > 1 ? [button("one over the other", () => this.lay(!this.areOver))] : []));
+      ...(recordings.length > 1 ? [this._over] : []));
     this.lay(false);
   }
 
@@ -49,6 +50,7 @@ export class Replay {
   /** Side by side, or one over the other. @param {boolean} areOver */
   lay(areOver) {
     this.areOver = areOver;
+    this._over.textContent = areOver ? "side by side" : "one over the other";
     this._stage.set(areOver ? [this.models] : this.models.map((model) => [model]));
     this._panel.set(this.models, areOver);
     this.show();
