@@ -2,7 +2,7 @@
 
 ``python3 -m experiments.push_campaign --method direct --runs 300 --keep DIR`` prints one line for each run that breaks
 a claim, and keeps its scene there; METHOD is pbd (`pushes`) or one of `material_pushes`. Meshes that cross themselves
-have no inside: a seed that draws one is passed over and does not count as a run.
+have no inside, and a wire may start in a wall: a seed that draws either is passed over and does not count as a run.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from experiments import building, material_pushes, pushes
 from experiments.runner import Request, Runner
 
 RUN_LIMIT = 60.0  # s of wall time of one run
-# What gains and walls may do to a wire and its drive; whether they did is judged from the log.
+# What pbd and walls may do to a wire and its drive; whether they did is judged from the log.
 OF_ENDS = ("points of the wire passed a wall", "a wall reached", "the wire is ", "the drive fell short: ")
 # A wire that jams may be lost, or its step have no solution, for which it says so.
 CODES = {"finished": 0, "diverged": 4, "failed": 5}
@@ -80,13 +80,16 @@ def write(seed: int, method: str, folder: Path) -> tuple[str, Path]:
 
 
 def make(runner: Runner, seed: int, method: str, folder: Path) -> Push | None:
-    """Draw, run and judge one push; its files are left in the folder. None where its mesh crosses itself."""
+    """Draw, run and judge one push; its files are left in the folder. None where there is nothing to judge."""
     kind, path = write(seed, method, folder)
     scene = json.loads(path.read_text())
     if method != "pbd" and scene["vessel"]["shape"] == "mesh":
         mesh = read_obj(Path(scene["vessel"]["file"]))
         if crosses_itself(mesh.vertices, mesh.triangles):
             return None
+    walls = Walls.of(scene, triangles_of(scene), pushes.rotation_of)
+    if method != "pbd" and starts_in_a_wall(scene, walls):
+        return None
     out = folder / f"run-{seed}"
     watchdog = threading.Timer(RUN_LIMIT, runner.interrupt)
     watchdog.start()
@@ -99,7 +102,6 @@ def make(runner: Runner, seed: int, method: str, folder: Path) -> Push | None:
         return Push(seed, kind, [f"{slow}{answer.outcome}: {answer.message}"], seconds, answer.outcome)
     summary = json.loads((out / "summary.json").read_text())
     positions = read_log(out, spheres="all").positions
-    walls = Walls.of(scene, triangles_of(scene), pushes.rotation_of)
     if method == "pbd":
         claims = push_claims.judge(scene, summary, positions, walls)
     else:
@@ -109,6 +111,20 @@ def make(runner: Runner, seed: int, method: str, folder: Path) -> Push | None:
     claims += [f"warning: {warning}" for warning in summary["warnings"]
                if not any(words in warning for words in known)]
     return Push(seed, kind, claims, seconds, answer.outcome, summary["reason"])
+
+
+def starts_in_a_wall(scene: dict[str, Any], walls: Walls) -> bool:
+    """Whether the straight wire along z of the start, as far as it is out of a sheath, is nearer to a wall than its
+    radius."""
+    first, last = scene["guidewireOffset"], scene["guidewireOffset"] + scene["guidewireLength"]
+    if "sheath" in scene:
+        first = min(last, scene["sheath"]["exit"][2])
+    ends = np.array([[[0.0, 0.0, first]], [[0.0, 0.0, last]]])
+    radius = float(material_pushes.radii_of(scene).max())
+    least = [wall.least_along(*ends, radius) for wall in walls.others]
+    if walls.mesh:
+        least.append(walls.mesh.least_distance(*ends, radius))
+    return min(least) < radius
 
 
 def campaign(command: Sequence[str], seeds: Iterable[int], folder: Path, method: str = "pbd") -> Iterator[Push]:
