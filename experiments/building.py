@@ -39,11 +39,12 @@ SDK_MAJOR = 10
 RUNNER = "Guidewire.Cli"
 CHECKER = "Guidewire.UnityCheck"
 BENCHMARKS = "Guidewire.Benchmarks"
+NATIVE = "Guidewire.Native"
 DOTNET_TESTS = ("Guidewire.Core.Tests", "Guidewire.Unity.Tests")
 # What tests need, in the order in which it is built: programs by the part of the solution that makes them.
 PARTS = {"Runner": (RUNNER, CHECKER), "Tests": DOTNET_TESTS}
 
-_WRITTEN = ("**/*.dll", "*/*.deps.json", "*/*.runtimeconfig.json")
+_WRITTEN = ("**/*.dll", "*.so", "*/*.deps.json", "*/*.runtimeconfig.json")
 # What dotnet and MSBuild look for in every folder above a project.
 _ABOVE = ("global.json", "nuget.config", "NuGet.config", "NuGet.Config", ".editorconfig", ".globalconfig",
           "Directory.Build.props", "Directory.Build.targets", "Directory.Build.rsp", "Directory.Packages.props",
@@ -91,6 +92,22 @@ def build_part(part: str, tell: Callable[[str], None]) -> None:
     _bring_up_to_date(program, sdks, HEADLESS / f"{part}.slnf", PARTS[part], tell)
 
 
+def build_native(tell: Callable[[str], None]) -> Path:
+    """Build the native library if need be, with the C compiler's linker; `tell` and errors as of `build`."""
+    if shutil.which("gcc") is None and shutil.which("clang") is None:
+        raise PreparationError("the native library needs a linker: install gcc and zlib1g-dev")
+    program, sdks = dotnet()
+    _bring_up_to_date(program, sdks, HEADLESS / NATIVE / f"{NATIVE}.csproj", (NATIVE,), tell, "publish")
+    return _output(NATIVE) / f"{NATIVE}.so"
+
+
+def native_library() -> Path | None:
+    """The native library where it was built from what is there now; None elsewhere."""
+    if not _stamp_path(NATIVE).is_file():
+        return None
+    return _output(NATIVE) / f"{NATIVE}.so" if _all_hold((NATIVE,), dotnet()[1], _sources()) else None
+
+
 def dotnet() -> tuple[str, str]:
     """The dotnet program, and a text that tells its SDKs from others.
 
@@ -110,7 +127,7 @@ def dotnet() -> tuple[str, str]:
 
 
 def _bring_up_to_date(
-    program: str, sdks: str, target: Path, projects: Sequence[str], tell: Callable[[str], None]
+    program: str, sdks: str, target: Path, projects: Sequence[str], tell: Callable[[str], None], verb: str = "build"
 ) -> None:
     """Build a project or solution file unless the stamps of all its projects hold."""
     if _all_hold(projects, sdks, _sources()):
@@ -123,7 +140,8 @@ def _bring_up_to_date(
         for project in projects:
             _stamp_path(project).unlink(missing_ok=True)
         tell(f"building {target.stem}")
-        command = [program, "build", "-c", "Release", "--nologo", str(target), *(["--no-incremental"] if anew else [])]
+        command = [program, verb, "-c", "Release", "--nologo", str(target),
+                   *(["--no-incremental"] if anew and verb == "build" else [])]
         _compile(command, lock, target.stem)
         finished = time.time()
         if _sources() == sources:

@@ -148,6 +148,10 @@ def parse(argv: list[str]) -> argparse.Namespace:
     python.add_argument("words", metavar="...", nargs=argparse.REMAINDER, help="the script's own arguments")
     python.set_defaults(packages=DRAWING)
 
+    native = commands.add_parser("native", help="build the native library (needs gcc), with which sessions of scripts "
+                                                "take half the time a call")
+    native.set_defaults(packages=())
+
     bench = commands.add_parser("bench", help="cost of a step, part by part, or overhead of short runs")
     bench.add_argument("--runs", type=positive, metavar="N",
                        help="overhead of N short runs of a sweep, beyond their steps")

@@ -346,6 +346,12 @@ def _python(arguments: argparse.Namespace) -> int:
     return _hand_to([sys.executable, str(arguments.script), *arguments.words], environment={"PYTHONPATH": path})
 
 
+def _native(arguments: argparse.Namespace) -> int:
+    library = building.build_native(print)
+    print(f"native library: {os.path.relpath(library)} ({library.stat().st_size / 1e6:.0f} MB)")
+    return 0
+
+
 def _bench(arguments: argparse.Namespace) -> int:
     if arguments.runs is None:
         return _hand_to([*_build_benchmarks(), str(ROOT / "params" / "sheath.json")])
@@ -427,7 +433,7 @@ def _hand_to(command: list[str], cwd: Path | None = None, environment: Mapping[s
 _ACTIONS = {
     "demo": _demo, "test": _test, "run": _run, "sweep": _sweep, "figures": _figures, "advise": _advise,
     "plot": _plot, "keys": _keys, "render": _render, "view": _view, "stress": _stress, "hub": _hub, "modes": _modes,
-    "python": _python, "bench": _bench, "unity-check": _unity_check,
+    "python": _python, "native": _native, "bench": _bench, "unity-check": _unity_check,
 }
 _LEFT = {  # of a command that was interrupted
     **dict.fromkeys(("demo", "run", "sweep", "figures", "advise"),

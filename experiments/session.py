@@ -4,8 +4,8 @@
         state = session.step(push=1.0, turn=0.1, steps=10)
         state.positions[-1]   # the tip, units
 
-Each session has a runner process of its own, which simulates; here are only its answers. Arrays come with all their
-bits.
+The native library simulates where it was built (`guidewire.py native`), else a runner process for each session; either
+gives the same bits.
 """
 
 from __future__ import annotations
@@ -13,10 +13,9 @@ from __future__ import annotations
 import base64
 import json
 import math
-import subprocess
 import sys
 import warnings
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
@@ -25,11 +24,11 @@ from typing import Any
 import numpy as np
 
 from experiments import building
+from experiments.session_hosts import Ended, Library, Process
 
-_SECONDS_TO_END = 10.0
-_ROWS = {
+_COLUMNS = {
     "positions": 3, "velocities": 3, "orientations": 4, "angularVelocities": 3, "contactForces": 3, "reaction": 3,
-    "strain": 3, "force": 3, "curvature": 3, "couple": 3,
+    "hub": 14, "strain": 3, "force": 3, "curvature": 3, "couple": 3, "energy": 3,
 }
 
 
@@ -128,6 +127,7 @@ class Session:
     file : parameter file, from the folder where the script runs; None: the defaults count.
     hand : whether `push` and `turn` of `step` move the first sphere, in place of the file's drive. None: where the
         wire is gains; a wire with a material has its file's drive.
+    native : whether the native library simulates, in this process. None: where it has been built from these sources.
     overrides : parameters by key, laid over the file's: numbers, texts, lists, dicts, numpy arrays; parts of them stand
         as `**{"vessel.radius": 4.0}`.
 
@@ -147,13 +147,11 @@ class Session:
     UserWarning : what is allowed and most likely not meant, such as a key of the file that the solver does not take.
     """
 
-    def __init__(self, file: str | Path | None = None, hand: bool | None = None, **overrides: Any) -> None:
-        command = building.build(building.RUNNER, lambda line: print(line, file=sys.stderr, flush=True))
-        # A session of its own: Ctrl-C reaches the script, which then closes this.
-        self._process: subprocess.Popen[str] | None = subprocess.Popen(
-            [*command, "-lines"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, encoding="utf-8",
-            start_new_session=True)
+    def __init__(self, file: str | Path | None = None, hand: bool | None = None, native: bool | None = None,
+                 **overrides: Any) -> None:
+        self._host: Library | Process | None = _host(native)
         self._state: State | None = None
+        self._layout: dict[str, tuple[int, ...]] = {}
         try:
             asked: dict[str, Any] = {"set": overrides, "hand": hand}
             if file is not None:
@@ -164,14 +162,14 @@ class Session:
             raise
         self.parameters: Mapping[str, Any] = answer["effective"]
         self.hand: bool = answer["hand"]
-        self._state = _read_state(answer)
+        self._take(answer)
         for line in answer["warnings"]:
             warnings.warn(line, stacklevel=2)
 
     @property
     def is_open(self) -> bool:
         """Whether it can still be asked: not closed, and its runner lives."""
-        return self._process is not None
+        return self._host is not None
 
     @property
     def state(self) -> State:
@@ -196,21 +194,25 @@ class Session:
         push, turn = (_number(name, value) for name, value in (("push", push), ("turn", turn)))
         if isinstance(steps, (bool, np.bool_)) or not isinstance(steps, (int, np.integer)):
             raise SessionError(f"steps = {steps!r} is not allowed: needs a whole number from 1")
-        self._state = _read_state(self._ask("step", push=push, turn=turn, steps=int(steps)))
+        if not isinstance(self._host, Library) or not 1 <= steps < 1 << 31:
+            return self._take(self._ask("step", push=push, turn=turn, steps=int(steps)))
+        made = self._guarded(lambda host: host.step(push, turn, int(steps), self._layout))
+        if isinstance(made, dict):
+            return self._take(_accepted(made))
+        (step, time, _, prediction_error), arrays = made
+        self._state = _state(int(step), float(time), None, "", float(prediction_error), arrays)
         return self._state
 
     def reset(self) -> State:
         """Go back to the start."""
-        self._state = _read_state(self._ask("reset"))
-        return self._state
+        return self._take(self._ask("reset"))
 
     def change(self, **parameters: Any) -> State:
         """Change parameters, such as `timeStep`, or parts of them, such as `**{"vessel.frictionCoefficient": 0.1}`; the
         wire goes on from where it is. What takes the place of an override counts after a `reset` too."""
         answer = self._ask("change", set=parameters)
         self.parameters = answer["effective"]
-        self._state = _read_state(answer)
-        return self._state
+        return self._take(answer)
 
     def save(self) -> bytes:
         """All that the next steps depend on, for `restore` here or in another session of the same parameters."""
@@ -218,27 +220,19 @@ class Session:
 
     def restore(self, saved: bytes) -> State:
         """Go on from what was saved: the same steps then give the same bits."""
-        self._state = _read_state(self._ask("restore", snapshot=base64.b64encode(saved).decode("ascii")))
-        return self._state
+        return self._take(self._ask("restore", snapshot=base64.b64encode(saved).decode("ascii")))
 
     def close(self) -> None:
         """End the runner. Nothing but `state` can be asked for afterwards."""
-        process, self._process = self._process, None
-        if process is None:
-            return
-        try:
-            process.stdin.close()
-            process.wait(timeout=_SECONDS_TO_END)
-        except (OSError, subprocess.TimeoutExpired):
-            process.kill()
-            process.wait()
-        process.stdout.close()
+        host, self._host = self._host, None
+        if host is not None:
+            host.close()
 
     def kill(self) -> None:
         """End the runner at once, whatever it is doing; from any thread. A step under way raises SessionError."""
-        process = self._process
-        if process is not None:
-            process.kill()
+        host = self._host
+        if host is not None:
+            host.kill()
 
     def __enter__(self) -> Session:
         return self
@@ -248,32 +242,47 @@ class Session:
         self.close()
 
     def __del__(self) -> None:
-        if getattr(self, "_process", None) is not None:
+        if getattr(self, "_host", None) is not None:
             self.close()
 
     def _ask(self, what: str, **more: Any) -> dict[str, Any]:
-        if self._process is None:
-            raise SessionError("this session is closed")
         line = json.dumps({"id": 0, "session": what, **more}, default=_plain)
+        return _accepted(self._guarded(lambda host: host.ask(line)))
+
+    def _guarded(self, ask: Callable[[Library | Process], Any]) -> Any:
+        if self._host is None:
+            raise SessionError("this session is closed")
         try:
-            self._process.stdin.write(line + "\n")
-            self._process.stdin.flush()
-            answer = json.loads(self._process.stdout.readline() or "null")
-        except (OSError, ValueError):    # it is gone, and perhaps half of its answer is there
-            answer = None
-        except BaseException:    # such as Ctrl-C while it works: its answer would be taken for the next one's
-            self._process.kill()
+            return ask(self._host)
+        except Ended as end:
+            self.close()
+            raise SessionError(str(end)) from end
+        except BaseException:    # such as Ctrl-C: how far it had come is not known
             self.close()
             raise
-        if answer is None:
-            self._process.kill()
-            code = self._process.wait()
-            self.close()
-            ended = f"killed by signal {-code}" if code < 0 else f"exit code {code}"
-            raise SessionError(f"the runner of this session ended ({ended})")
-        if answer["exitCode"] != 0:
-            raise SessionError(answer["message"].removeprefix("request: "))
-        return answer
+
+    def _take(self, answer: Mapping[str, Any]) -> State:
+        arrays = {name: np.frombuffer(base64.b64decode(answer[name]), dtype="<f8").reshape(-1, columns).astype(float)
+                  for name, columns in _COLUMNS.items() if name in answer}
+        self._layout = {name: array.shape for name, array in arrays.items()}
+        self._state = _state(answer["step"], answer["time"], answer["outcome"], answer["message"],
+                             answer["predictionError"], arrays)
+        return self._state
+
+
+def _host(native: bool | None) -> Library | Process:
+    library = None if native is False else building.native_library()
+    if library is None and native:
+        raise SessionError("the native library is not built from these sources: 'guidewire.py native' builds it")
+    if library is not None:
+        return Library(library)
+    return Process(building.build(building.RUNNER, lambda line: print(line, file=sys.stderr, flush=True)))
+
+
+def _accepted(answer: dict[str, Any]) -> dict[str, Any]:
+    if answer["exitCode"] != 0:
+        raise SessionError(answer["message"].removeprefix("request: "))
+    return answer
 
 
 def _plain(value: Any) -> Any:
@@ -292,24 +301,21 @@ def _number(name: str, value: Any) -> float:
     return float(value)
 
 
-def _read_state(answer: Mapping[str, Any]) -> State:
-    arrays = {name: np.frombuffer(base64.b64decode(answer[name]), dtype="<f8").reshape(-1, width).astype(float)
-              for name, width in _ROWS.items() if name in answer}
+def _state(step: int, time: float, outcome: str | None, reason: str, prediction_error: float,
+           arrays: dict[str, np.ndarray]) -> State:
     positions = arrays["positions"]
     return State(
-        answer["step"], answer["time"], answer["outcome"], answer["message"], answer["predictionError"], positions,
-        arrays["velocities"], arrays["orientations"], arrays["angularVelocities"],
-        arrays.get("contactForces", np.zeros_like(positions)),
+        step, time, outcome, reason, prediction_error, positions, arrays["velocities"], arrays["orientations"],
+        arrays["angularVelocities"], arrays.get("contactForces", np.zeros_like(positions)),
         arrays["reaction"][0] if "reaction" in arrays else None,
         arrays.get("curvature"), arrays.get("couple"), arrays.get("strain"), arrays.get("force"),
-        answer.get("energy") and Energy(*(answer["energy"][f"{kind}Energy"] for kind in (
-            "kinetic", "elastic", "potential"))),
-        _read_hub(answer.get("hub")),
+        Energy(*arrays["energy"][0].tolist()) if "energy" in arrays else None,
+        _hub(arrays["hub"][0]) if "hub" in arrays else None,
     )
 
 
-def _read_hub(hub: Mapping[str, Any] | None) -> Hub | None:
-    return hub and Hub(
-        hub["insertion"], hub["turn"], hub["force"], hub["torque"], np.array(hub["tipPosition"]),
-        np.array(hub["tipDirection"]), hub["twist"], hub["largestCurvature"],
-        hub["lengthInBody"], hub["spheresInBody"])
+def _hub(numbers: np.ndarray) -> Hub:
+    insertion, turn, force, torque = numbers[:4].tolist()
+    twist, curvature, length, spheres = numbers[10:].tolist()
+    return Hub(insertion, turn, force, torque, numbers[4:7], numbers[7:10], twist, curvature,
+               *((None, None) if math.isnan(length) else (length, int(spheres))))

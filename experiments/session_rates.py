@@ -9,11 +9,13 @@ from __future__ import annotations
 import multiprocessing
 import time
 from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from experiments import building
 from experiments.vessel import main_lumen
 from guidewire import Session
 
@@ -32,10 +34,10 @@ def tube() -> dict[str, Any]:
     return {"shape": "tube", "knots": lumen.centres.tolist(), "radius": lumen.radii.tolist(), "openStart": True}
 
 
-def rate(overrides: Mapping[str, Any], seed: int = 0) -> tuple[float, float]:
+def rate(overrides: Mapping[str, Any], native: bool, seed: int = 0) -> tuple[float, float]:
     """Calls a second of one session: the median of its rounds, and the best, which a busy machine disturbs least."""
     rates = []
-    with Session(SCENE, hand=True, maxSimulationSteps=1_000_000_000, deltaThreshold=0, **overrides) as session:
+    with Session(SCENE, hand=True, native=native, maxSimulationSteps=1_000_000_000, deltaThreshold=0, **overrides) as session:
         steps = round(STEP / session.parameters["timeStep"])
         random = np.random.default_rng(seed)
         for _ in range(WARM_UP + ROUNDS):
@@ -50,12 +52,17 @@ def rate(overrides: Mapping[str, Any], seed: int = 0) -> tuple[float, float]:
 
 
 def main() -> None:
+    natives = (False, True) if building.native_library() else (False,)
     for name, overrides in (("a tube", {"vessel": tube()}), ("a mesh", {})):
-        one, best = rate(overrides)
-        with multiprocessing.Pool(2) as pool:
-            two = sum(calls for calls, _ in pool.starmap(rate, [(overrides, 1), (overrides, 2)]))
-        print(f"{name}: {one:.0f} calls of {1e3 * STEP:.0f} ms a second in one session (at best {best:.0f}),"
-              f" {two:.0f} in two at once ({two / one:.2f} times)", flush=True)
+        for native in natives:
+            one, best = rate(overrides, native)
+            with multiprocessing.Pool(2) as pool:
+                two = sum(calls for calls, _ in pool.starmap(rate, [(overrides, native, 1), (overrides, native, 2)]))
+            with ThreadPoolExecutor(2) as pool:
+                threads = sum(calls for calls, _ in pool.map(lambda seed: rate(overrides, native, seed), (1, 2)))
+            print(f"{name}, {'native library' if native else 'runner'}: {one:.0f} calls of {1e3 * STEP:.0f} ms a second"
+                  f" in one session (at best {best:.0f}), {two:.0f} in two processes ({two / one:.2f} times),"
+                  f" {threads:.0f} in two threads ({threads / one:.2f} times)", flush=True)
 
 
 if __name__ == "__main__":

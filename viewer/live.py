@@ -362,10 +362,10 @@ def _start(scene: Path, by_hand: bool) -> Session:
     """A session that a hand steers without end, or where that cannot be, or is not asked for, the file's own run."""
     if by_hand:
         try:
-            return Session(scene, hand=True, **_ENDLESS)
+            return Session(scene, hand=True, native=False, **_ENDLESS)
         except SessionError:
             pass  # what is wrong with the file itself is said below
-    return Session(scene, hand=False)
+    return Session(scene, hand=False, native=False)
 
 
 _NOT_ALLOWED = re.compile(r"(?:.*: )?(\w+) = .* is not allowed: (needs .*)", re.DOTALL)

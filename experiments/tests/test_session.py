@@ -214,14 +214,14 @@ def test_what_cannot_be_done_is_one_line_and_the_session_goes_on():
 
 
 def test_a_runner_that_dies_is_said_and_leaves_no_process():
-    with Session(**WIRE) as session:
-        process = session._process
+    with Session(**WIRE, native=False) as session:
+        process = session._host.process
         process.send_signal(signal.SIGKILL)
         with pytest.raises(SessionError, match="killed by signal 9"):
             session.step()
         assert process.poll() is not None
-    with Session(**WIRE) as session:
-        process = session._process
+    with Session(**WIRE, native=False) as session:
+        process = session._host.process
     assert process.poll() == 0
 
 

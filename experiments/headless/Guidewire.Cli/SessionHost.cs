@@ -12,6 +12,7 @@ namespace Guidewire.Cli
     {
         private readonly Func<bool> _stopRequested;
         private SimulationSession? _session;
+        private readonly SessionState _state = new SessionState();
         private byte[] _bytes = Array.Empty<byte>();
 
         /// <param name="stopRequested">Asked before every step.</param>
@@ -33,7 +34,7 @@ namespace Guidewire.Cli
                     answer["effective"] = _session.EffectiveParameters;
                     break;
                 case "step":
-                    Step(Opened(), request);
+                    Step(request.Push / request.Steps, request.Turn / request.Steps, request.Steps);
                     break;
                 case "change":
                     Change(Opened(), request);
@@ -41,6 +42,9 @@ namespace Guidewire.Cli
                     break;
                 case "reset":
                     Opened().Reset();
+                    break;
+                case "state":
+                    Opened();
                     break;
                 case "save":
                     answer["snapshot"] = Convert.ToBase64String(Opened().Save());
@@ -50,7 +54,7 @@ namespace Guidewire.Cli
                     break;
                 default:
                     throw new ParameterException("request", "session", "\"" + request.Session + "\"",
-                        "one of \"open\", \"step\", \"change\", \"reset\", \"save\", \"restore\"");
+                        "one of \"open\", \"step\", \"state\", \"change\", \"reset\", \"save\", \"restore\"");
             }
             State(_session!.Simulation, answer);
         }
@@ -72,10 +76,14 @@ namespace Guidewire.Cli
             }
         }
 
-        // What a hand asks is made in equal parts.
-        private void Step(SimulationSession session, RunRequest request)
+        /// <summary>Makes steps, as many as the run still has.</summary>
+        /// <param name="push">In each step, of a session that is steered, units.</param>
+        /// <param name="turn">In each step, rad.</param>
+        /// <exception cref="ParameterException">The session cannot be stepped so; nothing has changed.</exception>
+        public Simulation Step(double push, double turn, int steps)
         {
-            if (!session.IsSteered && (request.Push != 0.0 || request.Turn != 0.0))
+            SimulationSession session = Opened();
+            if (!session.IsSteered && (push != 0.0 || turn != 0.0))
             {
                 throw new ParameterException("request: push and turn need a session that a hand steers; here the"
                     + " parameters' drive moves the wire (\"hand\": true when it is opened gives it to a hand)");
@@ -86,10 +94,11 @@ namespace Guidewire.Cli
                     + " (" + session.Simulation.Outcome.ToString().ToLowerInvariant() + ": "
                     + session.Simulation.Reason + "): reset or restore goes on from where it had not");
             }
-            for (int k = 0; k < request.Steps && session.Simulation.Outcome == Outcome.Running && !_stopRequested(); k++)
+            for (int k = 0; k < steps && session.Simulation.Outcome == Outcome.Running && !_stopRequested(); k++)
             {
-                session.Step(request.Push / request.Steps, request.Turn / request.Steps);
+                session.Step(push, turn);
             }
+            return session.Simulation;
         }
 
         private static byte[] Bytes(string text)
@@ -106,78 +115,34 @@ namespace Guidewire.Cli
 
         private void State(Simulation simulation, JObject answer)
         {
-            RodState state = simulation.State;
             bool hasEnded = simulation.Outcome != Outcome.Running;
             answer["outcome"] = hasEnded ? simulation.Outcome.ToString().ToLowerInvariant() : null;
             answer["message"] = simulation.Reason;
             answer["step"] = simulation.StepCount;
             answer["time"] = simulation.Time;
             answer["predictionError"] = simulation.PredictionError;
-            answer["positions"] = Text(state.Positions);
-            answer["velocities"] = Text(state.Velocities);
-            answer["orientations"] = Text(state.Orientations);
-            answer["angularVelocities"] = Text(state.AngularVelocities);
-            if (simulation.Contacts is ContactRecord contacts)
+            _state.Read(simulation);
+            int start = 0;
+            foreach (SessionState.Field field in _state.Fields)
             {
-                answer["contactForces"] = Text(contacts.Forces);
-                answer["reaction"] = Text(new[] { contacts.Reaction });
-            }
-            if (simulation.Hub() is HubRecord hub)
-            {
-                answer["hub"] = RunSummary.Hub(hub, state);
-            }
-            if (simulation.Stress() is StressRecord stress)
-            {
-                answer["strain"] = Text(stress.Strain);
-                answer["force"] = Text(stress.Force);
-                answer["curvature"] = Text(stress.Curvature);
-                answer["couple"] = Text(stress.Couple);
-                answer["energy"] = new JObject
-                {
-                    ["kineticEnergy"] = stress.KineticEnergy,
-                    ["elasticEnergy"] = stress.ElasticEnergy,
-                    ["potentialEnergy"] = stress.PotentialEnergy,
-                };
+                answer[field.Name] = Text(_state.Numbers.AsSpan(start, field.Count));
+                start += field.Count;
             }
         }
 
-        private string Text(Vector3d[] values)
+        private string Text(ReadOnlySpan<double> numbers)
         {
-            Span<byte> bytes = Room(3 * values.Length);
-            for (int i = 0; i < values.Length; i++)
+            if (_bytes.Length < sizeof(double) * numbers.Length)
             {
-                Put(bytes, 3 * i, values[i].X);
-                Put(bytes, 3 * i + 1, values[i].Y);
-                Put(bytes, 3 * i + 2, values[i].Z);
+                _bytes = new byte[sizeof(double) * numbers.Length];
+            }
+            Span<byte> bytes = _bytes.AsSpan(0, sizeof(double) * numbers.Length);
+            for (int k = 0; k < numbers.Length; k++)
+            {
+                System.Buffers.Binary.BinaryPrimitives.WriteDoubleLittleEndian(bytes.Slice(sizeof(double) * k),
+                    numbers[k]);
             }
             return Convert.ToBase64String(bytes);
-        }
-
-        private string Text(Quaterniond[] values)
-        {
-            Span<byte> bytes = Room(4 * values.Length);
-            for (int j = 0; j < values.Length; j++)
-            {
-                Put(bytes, 4 * j, values[j].X);
-                Put(bytes, 4 * j + 1, values[j].Y);
-                Put(bytes, 4 * j + 2, values[j].Z);
-                Put(bytes, 4 * j + 3, values[j].W);
-            }
-            return Convert.ToBase64String(bytes);
-        }
-
-        private Span<byte> Room(int numbers)
-        {
-            if (_bytes.Length < sizeof(double) * numbers)
-            {
-                _bytes = new byte[sizeof(double) * numbers];
-            }
-            return _bytes.AsSpan(0, sizeof(double) * numbers);
-        }
-
-        private static void Put(Span<byte> bytes, int place, double value)
-        {
-            System.Buffers.Binary.BinaryPrimitives.WriteDoubleLittleEndian(bytes.Slice(sizeof(double) * place), value);
         }
     }
 }

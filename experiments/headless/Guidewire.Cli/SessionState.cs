@@ -1,0 +1,130 @@
+using System;
+using System.Collections.Generic;
+using Guidewire.Core;
+
+namespace Guidewire.Cli
+{
+    /// <summary>The numbers of a session's state, one array after another: of n rod elements and n + 1 spheres, in the
+    /// order of <see cref="Fields"/>, row by row.</summary>
+    internal sealed class SessionState
+    {
+        private readonly Vector3d[] _one = new Vector3d[1];
+        private readonly List<Field> _fields = new List<Field>();
+
+        /// <summary>An array of a state.</summary>
+        public readonly struct Field
+        {
+            public Field(string name, int count)
+            {
+                Name = name;
+                Count = count;
+            }
+
+            /// <summary>As in an answer.</summary>
+            public string Name { get; }
+
+            /// <summary>Its numbers.</summary>
+            public int Count { get; }
+        }
+
+        /// <summary>The arrays that there are.</summary>
+        public IReadOnlyList<Field> Fields => _fields;
+
+        /// <summary>All numbers; the first <see cref="Count"/> are those of the state.</summary>
+        public double[] Numbers { get; private set; } = Array.Empty<double>();
+
+        /// <summary>How many there are.</summary>
+        public int Count { get; private set; }
+
+        /// <summary>Reads off a simulation as it is now.</summary>
+        public void Read(Simulation simulation)
+        {
+            _fields.Clear();
+            Count = 0;
+            RodState state = simulation.State;
+            Put("positions", state.Positions);
+            Put("velocities", state.Velocities);
+            Put("orientations", state.Orientations);
+            Put("angularVelocities", state.AngularVelocities);
+            if (simulation.Contacts is ContactRecord contacts)
+            {
+                Put("contactForces", contacts.Forces);
+                PutOne("reaction", contacts.Reaction);
+            }
+            if (simulation.Hub() is HubRecord hub)
+            {
+                Put(hub, state.Positions[state.ElementCount]);
+            }
+            if (simulation.Stress() is StressRecord stress)
+            {
+                Put("strain", stress.Strain);
+                Put("force", stress.Force);
+                Put("curvature", stress.Curvature);
+                Put("couple", stress.Couple);
+                PutOne("energy", new Vector3d(stress.KineticEnergy, stress.ElasticEnergy, stress.PotentialEnergy));
+            }
+        }
+
+        private void Put(HubRecord hub, in Vector3d tip)
+        {
+            Span<double> numbers = Next("hub", 1, 14);
+            numbers[0] = hub.Insertion;
+            numbers[1] = hub.Turn;
+            numbers[2] = hub.Force;
+            numbers[3] = hub.Torque;
+            numbers[4] = tip.X;
+            numbers[5] = tip.Y;
+            numbers[6] = tip.Z;
+            numbers[7] = hub.TipDirection.X;
+            numbers[8] = hub.TipDirection.Y;
+            numbers[9] = hub.TipDirection.Z;
+            numbers[10] = hub.Twist;
+            numbers[11] = hub.LargestCurvature;
+            numbers[12] = hub.LengthInBody ?? double.NaN;
+            numbers[13] = hub.SpheresInBody ?? double.NaN;
+        }
+
+        private void Put(string name, Vector3d[] values)
+        {
+            Span<double> numbers = Next(name, values.Length, 3);
+            for (int i = 0; i < values.Length; i++)
+            {
+                numbers[3 * i] = values[i].X;
+                numbers[3 * i + 1] = values[i].Y;
+                numbers[3 * i + 2] = values[i].Z;
+            }
+        }
+
+        private void PutOne(string name, in Vector3d value)
+        {
+            _one[0] = value;
+            Put(name, _one);
+        }
+
+        private void Put(string name, Quaterniond[] values)
+        {
+            Span<double> numbers = Next(name, values.Length, 4);
+            for (int j = 0; j < values.Length; j++)
+            {
+                numbers[4 * j] = values[j].X;
+                numbers[4 * j + 1] = values[j].Y;
+                numbers[4 * j + 2] = values[j].Z;
+                numbers[4 * j + 3] = values[j].W;
+            }
+        }
+
+        private Span<double> Next(string name, int rows, int columns)
+        {
+            int length = rows * columns;
+            if (Numbers.Length < Count + length)
+            {
+                double[] numbers = Numbers;
+                Array.Resize(ref numbers, 2 * (Count + length));
+                Numbers = numbers;
+            }
+            _fields.Add(new Field(name, length));
+            Count += length;
+            return Numbers.AsSpan(Count - length, length);
+        }
+    }
+}

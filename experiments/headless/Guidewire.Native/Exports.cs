@@ -1,0 +1,80 @@
+using System;
+using System.Collections.Concurrent;
+using System.Runtime.InteropServices;
+using System.Runtime.Intrinsics;
+using System.Text;
+using System.Threading;
+
+namespace Guidewire.Native
+{
+    /// <summary>Sessions for programs that load this library: the runner's requests, and steps and states without
+    /// text. Each session has a number; several may be asked at once, by a thread each.</summary>
+    internal static unsafe class Exports
+    {
+        private static readonly ConcurrentDictionary<long, NativeSession> Sessions =
+            new ConcurrentDictionary<long, NativeSession>();
+
+        private static long _last;
+
+        /// <summary>A session, which "open" then opens; returns its number.</summary>
+        [UnmanagedCallersOnly(EntryPoint = "guidewire_new")]
+        public static long New()
+        {
+            long number = Interlocked.Increment(ref _last);
+            Sessions[number] = new NativeSession();
+            return number;
+        }
+
+        /// <summary>Answers a request of docs/runs.md, JSON in UTF-8.</summary>
+        /// <param name="number">The session's.</param>
+        /// <param name="request">The request.</param>
+        /// <param name="length">Its length in bytes; 0 asks why the last step was refused.</param>
+        /// <param name="answerLength">Takes the length of the answer in bytes.</param>
+        /// <returns>The answer, JSON in UTF-8; <see cref="Free"/> gives it back.</returns>
+        [UnmanagedCallersOnly(EntryPoint = "guidewire_ask")]
+        public static byte* Ask(long number, byte* request, int length, int* answerLength)
+        {
+            string answer = !Sessions.TryGetValue(number, out NativeSession? session) ? NativeSession.Closed
+                : length == 0 ? session.Problem : session.Ask(Encoding.UTF8.GetString(request, length));
+            byte[] bytes = Encoding.UTF8.GetBytes(answer);
+            byte* copy = (byte*)NativeMemory.Alloc((nuint)bytes.Length);
+            Marshal.Copy(bytes, 0, (IntPtr)copy, bytes.Length);
+            *answerLength = bytes.Length;
+            return copy;
+        }
+
+        /// <summary>Makes steps, with so much push (units) and turn (rad) in each, and reads the state off.</summary>
+        /// <param name="numbers">Takes the state: step, time (s), 0 or 1 where the run has ended, prediction error
+        /// (units), and then the arrays of an answer in their order.</param>
+        /// <param name="capacity">How many numbers fit there, at least the first four.</param>
+        /// <returns>How many numbers the state has; arrays are not written where they do not fit. 0 where the steps were
+        /// refused or failed.</returns>
+        [UnmanagedCallersOnly(EntryPoint = "guidewire_step")]
+        public static int Step(long number, double push, double turn, int steps, double* numbers, int capacity)
+        {
+            return Sessions.TryGetValue(number, out NativeSession? session)
+                ? session.Step(push, turn, steps, new Span<double>(numbers, capacity)) : 0;
+        }
+
+        /// <summary>Forgets a session.</summary>
+        [UnmanagedCallersOnly(EntryPoint = "guidewire_close")]
+        public static void Close(long number)
+        {
+            Sessions.TryRemove(number, out _);
+        }
+
+        /// <summary>Gives an answer's memory back.</summary>
+        [UnmanagedCallersOnly(EntryPoint = "guidewire_free")]
+        public static void Free(byte* answer)
+        {
+            NativeMemory.Free(answer);
+        }
+
+        /// <summary>How many numbers this build computes with at once: 4, or 1 where it has no vector paths.</summary>
+        [UnmanagedCallersOnly(EntryPoint = "guidewire_lanes")]
+        public static int CountLanes()
+        {
+            return Vector256.IsHardwareAccelerated ? Vector256<double>.Count : 1;
+        }
+    }
+}

@@ -1,0 +1,74 @@
+using System;
+using Guidewire.Cli;
+using Guidewire.Core;
+using Guidewire.Io;
+using Newtonsoft.Json;
+using Newtonsoft.Json.Linq;
+
+namespace Guidewire.Native
+{
+    /// <summary>One session of the library. One thread asks it at a time.</summary>
+    internal sealed class NativeSession
+    {
+        private const int Head = 4;    // numbers before the arrays
+
+        private readonly SessionHost _host = new SessionHost(() => false);
+        private readonly SessionState _state = new SessionState();
+
+        /// <summary>The answer for a number that no session has.</summary>
+        public static string Closed => Refusal(ExitCodes.BadInput, "request: this session is closed");
+
+        /// <summary>Why the last step was refused, as an answer.</summary>
+        public string Problem { get; private set; } = "";
+
+        /// <summary>Answers a request, as the runner does.</summary>
+        public string Ask(string request)
+        {
+            var answer = new JObject { ["exitCode"] = 0 };
+            try
+            {
+                _host.Answer(RunRequest.Parse(request), answer);
+                return answer.ToString(Formatting.None);
+            }
+            catch (Exception error)
+            {
+                return Refusal(error);
+            }
+        }
+
+        /// <summary>As <see cref="Exports.Step"/> says.</summary>
+        public int Step(double push, double turn, int steps, Span<double> numbers)
+        {
+            try
+            {
+                Simulation simulation = _host.Step(push, turn, steps);
+                _state.Read(simulation);
+                numbers[0] = simulation.StepCount;
+                numbers[1] = simulation.Time;
+                numbers[2] = simulation.Outcome == Outcome.Running ? 0.0 : 1.0;
+                numbers[3] = simulation.PredictionError;
+                if (numbers.Length >= Head + _state.Count)
+                {
+                    _state.Numbers.AsSpan(0, _state.Count).CopyTo(numbers.Slice(Head));
+                }
+                return Head + _state.Count;
+            }
+            catch (Exception error)
+            {
+                Problem = Refusal(error);
+                return 0;
+            }
+        }
+
+        private static string Refusal(Exception error)
+        {
+            return error is ParameterException ? Refusal(ExitCodes.BadInput, error.Message)
+                : Refusal(ExitCodes.Internal, ErrorTrace.Write(error, null));
+        }
+
+        private static string Refusal(int code, string message)
+        {
+            return new JObject { ["exitCode"] = code, ["message"] = message }.ToString(Formatting.None);
+        }
+    }
+}

@@ -1,0 +1,179 @@
+"""Who simulates for a session: the runner in a process of its own, or the native library in this one.
+
+Both answer the requests of docs/runs.md; the library also makes steps whose state comes back without text.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import json
+import subprocess
+import threading
+from collections.abc import Mapping, Sequence
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from experiments.prepare import PreparationError
+
+_SECONDS_TO_END = 10.0
+_STEPS_AT_ONCE = 64  # of a library; between them Ctrl-C is heard
+_FLAGS = {"avx2", "bmi1", "bmi2", "f16c", "fma", "movbe", "abm"}  # x86-64-v3, for which the library is compiled
+HEAD = 4  # numbers before the arrays of a state: step, time, whether the run has ended, prediction error
+
+
+class Ended(Exception):
+    """Nobody answers any more. The message is one line."""
+
+
+class Process:
+    """A runner that takes requests by lines."""
+
+    def __init__(self, command: Sequence[str]) -> None:
+        # A session of its own: Ctrl-C reaches the script, which then closes this.
+        self.process = subprocess.Popen([*command, "-lines"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
+                                        encoding="utf-8", start_new_session=True)
+
+    def ask(self, line: str) -> dict[str, Any]:
+        """The answer to a request. Raises Ended; what interrupts it, such as Ctrl-C, ends the runner."""
+        try:
+            self.process.stdin.write(line + "\n")
+            self.process.stdin.flush()
+            answer = json.loads(self.process.stdout.readline() or "null")
+        except (OSError, ValueError):    # it is gone, and perhaps half of its answer is there
+            answer = None
+        except BaseException:    # its answer would be taken for the next one's
+            self.process.kill()
+            raise
+        if answer is None:
+            self.process.kill()
+            code = self.process.wait()
+            ended = f"killed by signal {-code}" if code < 0 else f"exit code {code}"
+            raise Ended(f"the runner of this session ended ({ended})")
+        return answer
+
+    def kill(self) -> None:
+        """End it at once; from any thread."""
+        self.process.kill()
+
+    def close(self) -> None:
+        """End it."""
+        try:
+            self.process.stdin.close()
+            self.process.wait(timeout=_SECONDS_TO_END)
+        except (OSError, subprocess.TimeoutExpired):
+            self.process.kill()
+            self.process.wait()
+        self.process.stdout.close()
+
+
+class Library:
+    """A session of the native library.
+
+    Parameters
+    ----------
+    path : the library.
+
+    Raises
+    ------
+    PreparationError : this processor cannot run it, or it cannot be loaded.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._functions = _load(str(path))
+        self._number = self._functions.guidewire_new()
+        self._numbers = np.empty(0)
+        self._is_killed = threading.Event()
+
+    def ask(self, line: str) -> dict[str, Any]:
+        """The answer to a request."""
+        return self._answer(line.encode("utf-8"))
+
+    def step(self, push: float, turn: float, steps: int, layout: Mapping[str, tuple[int, ...]]
+             ) -> tuple[np.ndarray, dict[str, np.ndarray]] | dict[str, Any]:
+        """Make steps.
+
+        Parameters
+        ----------
+        push, turn : in all of them together, units and rad.
+        layout : the arrays of a state and their shapes.
+
+        Returns
+        -------
+        The head of the state, shape (4,), and its arrays; or the answer of a session that refused. Arrays of other
+        shapes than the layout's are asked for by a request: then the answer to that.
+        """
+        count = HEAD + sum(int(np.prod(shape)) for shape in layout.values())
+        if self._numbers.size != count:
+            self._numbers = np.empty(count)
+        for done in range(0, steps, _STEPS_AT_ONCE):
+            if self._is_killed.is_set():
+                raise Ended("this session was ended while it made steps")
+            written = self._functions.guidewire_step(
+                self._number, push / steps, turn / steps, min(_STEPS_AT_ONCE, steps - done), self._numbers.ctypes.data,
+                count)
+            if written == 0:
+                return self._answer(b"")
+            if self._numbers[2]:
+                break
+        if written != count or self._numbers[2]:    # other arrays than before, or an end that has a reason
+            return self.ask('{"session": "state"}')
+        arrays, start = {}, HEAD
+        for name, shape in layout.items():
+            end = start + int(np.prod(shape))
+            arrays[name] = self._numbers[start:end].reshape(shape).copy()
+            start = end
+        return self._numbers[:HEAD], arrays
+
+    def kill(self) -> None:
+        """End it, at once or after some steps; from any thread."""
+        self._is_killed.set()
+
+    def close(self) -> None:
+        """Forget the session."""
+        self._functions.guidewire_close(self._number)
+
+    def _answer(self, request: bytes) -> dict[str, Any]:
+        if self._is_killed.is_set():
+            raise Ended("this session was ended while it made steps")
+        length = ctypes.c_int()
+        answer = self._functions.guidewire_ask(self._number, request, len(request), ctypes.byref(length))
+        try:
+            return json.loads(ctypes.string_at(answer, length.value))
+        finally:
+            self._functions.guidewire_free(answer)
+
+
+@cache
+def _load(path: str) -> ctypes.CDLL:
+    if not _runs_here():
+        raise PreparationError(f"{path}: needs a processor of x86-64-v3 (AVX2)")
+    try:
+        functions = ctypes.CDLL(path)
+    except OSError as error:
+        raise PreparationError(f"{path}: {error}") from error
+    number, count, real, data = ctypes.c_longlong, ctypes.c_int, ctypes.c_double, ctypes.c_void_p
+    for name, result, arguments in (
+        ("new", number, []), ("ask", data, [number, ctypes.c_char_p, count, data]), ("free", None, [data]),
+        ("step", count, [number, real, real, count, data, count]), ("close", None, [number]), ("lanes", count, []),
+    ):
+        function = getattr(functions, f"guidewire_{name}")
+        function.restype, function.argtypes = result, arguments
+    return functions
+
+
+def _runs_here() -> bool:
+    """Whether this processor has what the library was compiled for; the library would end the process where not."""
+    try:
+        text = Path("/proc/cpuinfo").read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        return False
+    flags = next((line.partition(":")[2].split() for line in text.splitlines() if line.startswith("flags")), [])
+    return _FLAGS <= set(flags)
+
+
+def lanes(path: Path) -> int:
+    """How many numbers the library computes with at once, 4 where its vector paths are on."""
+    return _load(str(path)).guidewire_lanes()
