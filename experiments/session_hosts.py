@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import ctypes
 import json
+import os
 import subprocess
 import threading
 from collections.abc import Mapping, Sequence
@@ -21,6 +22,7 @@ from experiments.prepare import PreparationError
 _SECONDS_TO_END = 10.0
 _STEPS_AT_ONCE = 64  # of a library; between them Ctrl-C is heard
 _FLAGS = {"avx2", "bmi1", "bmi2", "f16c", "fma", "movbe", "abm"}  # x86-64-v3, for which the library is compiled
+_loaded_by: int | None = None  # the process that loaded the library
 HEAD = 4  # numbers before the arrays of a state: step, time, whether the run has ended, prediction error
 
 
@@ -148,12 +150,16 @@ class Library:
 
 @cache
 def _load(path: str) -> ctypes.CDLL:
+    global _loaded_by
+    if not is_usable():
+        raise PreparationError(f"{path}: was loaded before this process was forked: start it by 'spawn'")
     if not _runs_here():
         raise PreparationError(f"{path}: needs a processor of x86-64-v3 (AVX2)")
     try:
         functions = ctypes.CDLL(path)
     except OSError as error:
         raise PreparationError(f"{path}: {error}") from error
+    _loaded_by = os.getpid()
     number, count, real, data = ctypes.c_longlong, ctypes.c_int, ctypes.c_double, ctypes.c_void_p
     for name, result, arguments in (
         ("new", number, []), ("ask", data, [number, ctypes.c_char_p, count, data]), ("free", None, [data]),
@@ -172,6 +178,12 @@ def _runs_here() -> bool:
         return False
     flags = next((line.partition(":")[2].split() for line in text.splitlines() if line.startswith("flags")), [])
     return _FLAGS <= set(flags)
+
+
+def is_usable() -> bool:
+    """Whether this process may load the library: a fork of one that has it loaded may not, as the threads that collect
+    its memory are not there."""
+    return _loaded_by in (None, os.getpid())
 
 
 def lanes(path: Path) -> int:

@@ -56,7 +56,7 @@ def main() -> None:
     for name, overrides in (("a tube", {"vessel": tube()}), ("a mesh", {})):
         for native in natives:
             one, best = rate(overrides, native)
-            with multiprocessing.Pool(2) as pool:
+            with multiprocessing.get_context("spawn").Pool(2) as pool:
                 two = sum(calls for calls, _ in pool.starmap(rate, [(overrides, native, 1), (overrides, native, 2)]))
             with ThreadPoolExecutor(2) as pool:
                 threads = sum(calls for calls, _ in pool.map(lambda seed: rate(overrides, native, seed), (1, 2)))

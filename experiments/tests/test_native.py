@@ -121,6 +121,23 @@ def test_a_session_that_is_killed_ends_its_steps():
         session.step()
 
 
+def test_a_fork_of_a_process_with_native_sessions_takes_runners():
+    with Session(**WIRE, native=True) as session:
+        session.step()
+    reader, writer = os.pipe()
+    child = os.fork()
+    if child == 0:
+        try:
+            with Session(**WIRE) as session:
+                os.write(writer, type(session._host).__name__.encode())
+        finally:
+            os._exit(0)
+    os.close(writer)
+    assert os.waitpid(child, 0)[1] == 0
+    with open(reader, "rb") as said:
+        assert said.read() == b"Process"
+
+
 def test_a_library_that_was_not_built_is_said(monkeypatch):
     monkeypatch.setattr(building, "native_library", lambda: None)
     with pytest.raises(SessionError, match="'guidewire.py native' builds it"):
