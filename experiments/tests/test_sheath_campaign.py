@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from analysis.passages import Wall
-from experiments import sheath_campaign
-from experiments.vessel import artery_lumens
+from experiments.campaigns import sheath_campaign
+from experiments.campaigns.vessel import artery_lumens
 
 
 
