@@ -72,13 +72,13 @@ namespace Guidewire.Cli
             }
         }
 
-        // What a hand asks is made in equal parts.
+        // The push and turn of a request are distributed evenly over its steps.
         private void Step(SimulationSession session, RunRequest request)
         {
             if (!session.IsSteered && (request.Push != 0.0 || request.Turn != 0.0))
             {
-                throw new ParameterException("request: push and turn need a session that a hand steers; here the"
-                    + " parameters' drive moves the wire (\"hand\": true when it is opened gives it to a hand)");
+                throw new ParameterException("request: push and turn need a steered session; here the parameters'"
+                    + " drive moves the wire (open it with \"hand\": true to steer it)");
             }
             if (session.Simulation.Outcome != Outcome.Running)
             {
