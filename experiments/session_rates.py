@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from experiments import building
-from experiments.vessel import main_lumen
+from experiments.campaigns.vessel import main_lumen
 from guidewire import Session
 
 SCENE = Path(__file__).resolve().parent.parent / "params" / "insertion-accurate.json"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import re
+from functools import lru_cache
 from pathlib import PurePosixPath
 from typing import Iterator
 
@@ -46,6 +47,7 @@ def importer(path: str, is_folder: bool) -> str | None:
     return _IMPORTER_OF.get(suffix, _IMPORTER_OF.get(suffix.lower())) if suffix else "DefaultImporter"
 
 
+@lru_cache(maxsize=None)
 def stable_guid(path: str) -> str:
     """The GUID given to a new asset: the same on every machine, and kept when the file is renamed."""
     return hashlib.md5(f"guidewire/{path}".encode("utf-8")).hexdigest()
@@ -89,7 +91,12 @@ def guid_of(project: Project, path: str) -> str:
     meta = f"{path}.meta"
     if not project.exists(meta):
         return ""
-    found = re.search(r"^guid: (\S*)$", project.text(meta), re.MULTILINE)
+    return _guid_in(project.text(meta))
+
+
+@lru_cache(maxsize=None)
+def _guid_in(text: str) -> str:
+    found = re.search(r"^guid: (\S*)$", text, re.MULTILINE)
     return found.group(1) if found else ""
 
 
@@ -134,20 +141,26 @@ def check(project: Project) -> Iterator[Violation]:
         if guid != stable_guid(path) and (path, guid) not in known:
             yield Violation(meta, 2, "guid-changed", f"guid {guid} is not that of this path ({stable_guid(path)}); "
                             f"an asset that was renamed or made by Unity is listed in {KNOWN_GUIDS}")
-        yield from _importer_rules(path, is_folder, meta, text)
+        yield from _importer_rules(path, is_folder, text)
     for path in project.assets(".meta"):
         if not project.exists(path[:-len(".meta")]):
             yield Violation(path, 0, "meta-orphan", "the file or folder that it describes is gone")
 
 
-def _importer_rules(path: str, is_folder: bool, meta: str, text: str) -> Iterator[Violation]:
+@lru_cache(maxsize=None)
+def _importer_rules(path: str, is_folder: bool, text: str) -> tuple[Violation, ...]:
+    """Rule meta-importer: of most files every check of this process asks the same."""
+    found = []
+    meta = f"{path}.meta"
     lines = text.splitlines()
     if is_folder != ("folderAsset: yes" in lines):
         said = "a folder needs" if is_folder else "a file must not have"
-        yield Violation(meta, 3, "meta-importer", f"{said} 'folderAsset: yes'")
+        found.append(Violation(meta, 3, "meta-importer", f"{said} 'folderAsset: yes'"))
     blocks = [line[:-1] for line in lines if re.match(r"^\w+Importer:$", line)]
     expected = importer(path, is_folder)
     # Unity 6 writes new scripts' metas without any importer block.
     is_short = path.endswith(".cs") and not blocks
     if (expected is not None or len(blocks) != 1) and blocks != [expected] and not is_short:
-        yield Violation(meta, 3, "meta-importer", f"importer {', '.join(blocks) or 'missing'}, expected {expected}")
+        found.append(Violation(
+            meta, 3, "meta-importer", f"importer {', '.join(blocks) or 'missing'}, expected {expected}"))
+    return tuple(found)

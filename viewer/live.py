@@ -359,7 +359,7 @@ _DO: Mapping[str, Callable[[LiveRun, Mapping[str, Any]], Awaitable[None]]] = {
 
 
 def _start(scene: Path, by_hand: bool) -> Session:
-    """A session that a hand steers without end, or where that cannot be, or is not asked for, the file's own run."""
+    """A session that is steered without end, or where that cannot be, or is not asked for, the file's own run."""
     if by_hand:
         try:
             return Session(scene, hand=True, native=False, **_ENDLESS)

@@ -30,7 +30,7 @@ _CLASSES = {  # marker and colour
     BENT: (">", "C2"), LOST_TURN: ("*", "C3"),
 }
 SOME = (BENT, LOST_TURN)  # of some maps only
-JOINT_LIMIT = 3.08  # rad, from which a joint does not tell the way round
+JOINT_LIMIT = 3.08  # rad, from which the sense of a joint's rotation is ambiguous
 LARGEST_JOINT = 7.0 / 6.0  # compliance of the softest joint of a fourth-order clamp over that of an inner one
 
 

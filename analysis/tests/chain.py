@@ -52,30 +52,30 @@ class Chain:
         return len(self.z) - 1
 
     def _simulate(self) -> tuple[np.ndarray, np.ndarray, int]:
-        n, l = self.elements, self.length / self.elements
-        weights = [0.0] + [(n + 1) / self.total_mass] * n
-        pairs = list(zip(weights, weights[1:]))
-        before = [self.stretch_gain * w / (w + v + 4 * l * l) for w, v in pairs]
-        after = [self.stretch_gain * v / (w + v + 4 * l * l) for w, v in pairs]
-        x = [self.offset + i * l for i in range(n + 1)]
-        x[0] += self.displacement
-        old, track, errors = x, [x], [0.0]
+        n, iterations = self.elements, self._iterations()
+        u = self.displacement * (np.arange(n + 1) == 0)
+        old, track, errors = u, [u], [0.0]
         been_above, below = False, 0
         while len(track) <= self.most_steps and below < HOLD:
-            p = [2.0 * now - then for now, then in zip(x, old)]
-            p[0] = x[0]
-            predicted = p[n]
-            for _ in range(self.constraint_solver_steps):
-                for j in range(n):
-                    stretch = p[j + 1] - p[j] - l
-                    p[j] += before[j] * stretch
-                    p[j + 1] -= after[j] * stretch
-            old, x = x, p
-            track.append(x)
-            errors.append(abs(predicted - x[n]))
+            predicted = 2.0 * u - old
+            old, u = u, iterations @ predicted
+            track.append(u)
+            errors.append(abs(predicted[n] - u[n]))
             been_above = been_above or errors[-1] >= EPSILON
             below = below + 1 if been_above and errors[-1] < EPSILON else 0
-        return np.array(track), np.array(errors), len(track) - HOLD if below == HOLD else -1
+        return self.rest + track, np.array(errors), len(track) - HOLD if below == HOLD else -1
+
+    def _iterations(self) -> np.ndarray:
+        """All iterations of a step as a linear map of the displacements z - rest, shape (n + 1, n + 1): on a straight
+        line each constraint is linear in the positions."""
+        n, l = self.elements, self.length / self.elements
+        weights = [0.0] + [(n + 1) / self.total_mass] * n
+        u = np.eye(n + 1)
+        for j, (w, v) in enumerate(zip(weights, weights[1:])):
+            step = self.stretch_gain / (w + v + 4 * l * l) * (u[j + 1] - u[j])
+            u[j] += w * step
+            u[j + 1] -= v * step
+        return np.linalg.matrix_power(u, self.constraint_solver_steps)
 
     @property
     def time(self) -> np.ndarray:

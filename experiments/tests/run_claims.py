@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from analysis.push_claims import contradictions
+from experiments.campaigns.push_claims import contradictions
 from experiments.runner import Answer, Request, Runner
 
 RUN_LIMIT = 20.0  # s of wall time; the costliest scenes drawn take some 0.1 s alone

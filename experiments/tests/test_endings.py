@@ -79,12 +79,12 @@ def assert_steps_are_whole(log, time_step=0.01):
     assert np.all(np.isfinite(log.positions))
 
 
-@pytest.mark.parametrize("moment", range(40 if FULL else 8))
+@pytest.mark.parametrize("moment", range(40 if FULL else 3))
 def test_a_killed_run_leaves_a_log_up_to_its_last_whole_step(start, scratch, moment):
     out = scratch / "out"
     process = start(scene_of(scratch), out)
     wait_for_log(out)
-    time.sleep(random.Random(moment).uniform(0.0, 2.0 if FULL else 0.5))
+    time.sleep(random.Random(moment).uniform(0.0, 2.0 if FULL else 0.2))
     process.kill()
     process.wait()
     assert not (out / "summary.json").exists() and not (out / "positions.json").exists()
@@ -295,15 +295,15 @@ def memory_of(command):
     return used.ru_maxrss * 1024
 
 
-def test_a_run_of_100_000_steps_takes_constant_memory(runner_command, scratch):
-    steps, runs = 100_000, {}
+def test_a_long_run_takes_constant_memory(runner_command, scratch):
+    steps, runs = 100_000 if FULL else 40_000, {}
     for count in (1_000, steps):
         out = scratch / str(count)
         scene = scene_of(scratch, maxSimulationSteps=count)
         runs[count] = (out, memory_of([*runner_command, "-parameters", str(scene), "-out", str(out)]))
     long, short = runs[steps][0], runs[1_000][0]
     log_bytes = (long / "positions.json").stat().st_size
-    assert log_bytes > 100e6
+    assert log_bytes > 1000 * steps
     # Held in memory the log would add at least its own size; what the runtime takes for itself varies by some MB.
     assert runs[steps][1] - runs[1_000][1] < 0.2 * log_bytes
     reader = "import sys, pathlib; from analysis.logs import read_log; read_log(pathlib.Path(sys.argv[1]))"

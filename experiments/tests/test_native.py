@@ -71,7 +71,7 @@ def test_an_end_within_a_call_has_its_reason_and_a_step_after_it_is_refused():
 def test_refusals_leave_the_session_as_it_is():
     with Session(**MATERIAL, native=True) as session:
         before = session.state
-        for wrong, said in ((lambda: session.step(push=1.0), "a hand steers"), (lambda: session.step(steps=0), "steps = 0"),
+        for wrong, said in ((lambda: session.step(push=1.0), "a steered session"), (lambda: session.step(steps=0), "steps = 0"),
                             (lambda: session.change(damping=-1), "damping"), (lambda: session.restore(b""), "not whole")):
             with pytest.raises(SessionError, match=said):
                 wrong()

@@ -8,14 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from analysis import material_claims
 from analysis.logs import read_log
 from analysis.passages import Wall, inside
-from analysis.push_claims import Walls, judge
 from analysis.surfaces import read_obj
-from analysis.wall_search import MeshSearch, closed_form, crosses_itself
-from experiments import material_pushes, pushes
-from experiments.push_campaign import campaign
+from experiments.campaigns import material_claims, material_pushes, pushes
+from experiments.campaigns.push_campaign import campaign
+from experiments.campaigns.push_claims import Walls, judge
+from experiments.campaigns.wall_search import MeshSearch, closed_form, crosses_itself
 
 FULL = os.environ.get("GUIDEWIRE_ALL") == "1"
 # In the fraction six kinds with one rule each, and each rule with two of them.

@@ -116,7 +116,6 @@ def test_a_runner_that_ends_at_once_fails_every_run(tmp_path):
     assert "exit code 3" in answers[0].message
 
 
-@pytest.mark.timed
 def test_an_interrupt_ends_the_run_under_way(fake, tmp_path):
     with closing(Runner(fake.command)) as one:
         threading.Timer(1.0, one.interrupt).start()

@@ -196,7 +196,7 @@ def test_what_cannot_be_done_is_one_line_and_the_session_goes_on():
     with Session(**MATERIAL) as session, Session(**WIRE) as other:
         before = session.state
         for wrong, words in (
-            (lambda: session.step(push=1.0), "push and turn need a session that a hand steers"),
+            (lambda: session.step(push=1.0), "push and turn need a steered session"),
             (lambda: session.step(steps=0), "steps = 0 is not allowed"),
             (lambda: session.step(steps=10**12), "steps = 1000000000000 is not allowed"),
             (lambda: session.step(turn=float("nan")), "turn = nan is not allowed"),

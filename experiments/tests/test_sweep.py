@@ -6,6 +6,7 @@ import json
 import os
 import signal
 import threading
+import time
 from dataclasses import dataclass
 from functools import partial
 
@@ -143,11 +144,16 @@ def test_a_run_that_cannot_be_made_is_told_before_anything_is_made_or_written(fa
     assert not fake.journal.exists() and not (tmp_path / "small").exists()
 
 
-@pytest.mark.timed
 def test_after_ctrl_c_runs_csv_says_what_was_done(fake, tmp_path):
     long = study_of("long", Axis("sleep", (0.01, 60.0)), repeats=1)
-    timer = threading.Timer(3.0, os.kill, (os.getpid(), signal.SIGINT))
-    timer.start()
+
+    def interrupt():
+        while not (fake.journal.exists() and fake.calls()):    # the first run has ended
+            time.sleep(0.01)
+        time.sleep(0.3)
+        os.kill(os.getpid(), signal.SIGINT)
+
+    threading.Thread(target=interrupt).start()
     with pytest.raises(KeyboardInterrupt):
         sweep([long], fake.command, tmp_path, 1)
     rows = results_of(tmp_path / "long")

@@ -11,7 +11,7 @@ import viewer.command  # a part of it is replaced by name
 from analysis.logs import read_log
 from experiments import commands
 from experiments.prepare import ROOT
-from experiments.sheath_campaign import branch_of
+from experiments.campaigns.sheath_campaign import branch_of
 from experiments.testing import FULL_CAMPAIGNS
 from studies.study_file import read_study_file
 from test_view import serving

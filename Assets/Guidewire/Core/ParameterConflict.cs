@@ -5,6 +5,116 @@ namespace Guidewire.Core
     /// <summary>A parameter that the method, or another parameter, does not go with.</summary>
     public sealed class ParameterConflict
     {
+        // In the order in which they are reported. With pbd proximalEnd "held" is the default and says nothing, and
+        // there is no "free".
+        private static readonly Rule[] Always =
+        {
+            new Rule("integrator", p => p.Traits.Integrators.Count > 0 && !Contains(p.Traits, p.Method.Integrator),
+                p => "one of \"" + string.Join("\", \"", Words(p.Traits)) + "\" with solver \"" + Word(p.Method.Solver)
+                    + "\""),
+            new Rule("vessel", p => !p.Traits.MeetsWalls && p.HasWalls,
+                "solver pbd, xpbd or direct: explicit meets no walls"),
+            new Rule("initialState",
+                p => p.IsMaterial && p.HasWalls && p.Scene.InitialState == InitialState.Equilibrium,
+                "\"straight\" between walls: rest shapes are found without them"),
+            new Rule("integrator",
+                p => p.HasFriction && p.Traits.HasBarriers && p.Method.Integrator != Integrator.ImplicitEuler,
+                "implicitEuler where a wall has a frictionCoefficient"),
+            new Rule("elementContact",
+                p => p.HasFriction && !p.IsMaterial && p.Contact.ElementContact == ElementContact.Thesis,
+                "\"barycentric\" or \"none\" where a wall has a frictionCoefficient"),
+            new Rule("solver", p => !p.Traits.TakesSteering && p.Drive.Steering != null,
+                "pbd or direct where the wire is steered by hand"),
+            new Rule("damping", p => p.IsMaterial && p.Method.Damping != 0.0,
+                "solver pbd: a material has massDamping (1/s), which is damping over timeStep, and materialDamping"
+                + " (s)"),
+            new Rule("materialDamping",
+                p => p.Material.MaterialDamping != 0.0 && p.Method.Solver != Solver.Direct && p.IsMaterial,
+                "solver direct: the others have no rates of strain"),
+            new Rule("tipMoment", p => !p.Traits.TakesTipMoment && p.Scene.TipMoment != Vector3d.Zero,
+                "solver direct or explicit: the others have no couples"),
+            new Rule("bendLaw", p => !p.Traits.TakesDarbouxLaw && p.Material.BendLaw == BendLaw.Darboux,
+                "solver direct or explicit: xpbd has the rotation vector only"),
+            new Rule("timeStepError", p => p.Method.TimeStepError > 0.0
+                && (p.Method.Integrator == Integrator.ImplicitEuler || p.Method.Integrator == Integrator.Bdf2),
+                "integrator trbdf2, esdirk3 or esdirk4: the others do not tell their error"),
+
+            new Rule("proximalEnd", p => !p.IsMaterial && p.Scene.ProximalEnd == ProximalEnd.Free,
+                "\"held\" or \"clamped\" with solver pbd; drive \"force\" frees sphere 0"),
+            new Rule("drive",
+                p => p.IsMaterial && p.Drive.Kind == Drive.Force && p.Scene.ProximalEnd != ProximalEnd.Free,
+                "proximalEnd \"free\" with \"force\", which holds nothing"),
+            new Rule("drive",
+                p => !p.IsMaterial && p.Drive.Kind == Drive.Force && p.Scene.ProximalEnd == ProximalEnd.Clamped,
+                "proximalEnd \"held\" with \"force\", which frees sphere 0"),
+            new Rule("distalEnd", p => !p.Traits.Slides && p.Scene.DistalEnd == DistalEnd.Sliding,
+                "\"free\" or \"clamped\": only solver direct lets an end slide"),
+            // The last joint takes a rotation at once for one by less than half a turn, in the shorter direction.
+            new Rule("distalRotation", p => !p.Traits.WindsUpAtOnce && p.Scene.DistalEnd == DistalEnd.Clamped
+                && p.Scene.DistalRampTime == 0.0 && Math.Abs(p.Scene.DistalRotation) > 1.0,
+                "solver direct, or a distalRampTime > 0: turned at once by more than 1 rad"),
+            new Rule("twistPerStep", p => p.IsMaterial && p.Drive.TwistPerStep != 0.0 && !p.IsClamped,
+                "proximalEnd \"clamped\" in a run with a material"),
+            new Rule("proximalEnd", p => p.IsMaterial && p.Scene.ProximalEnd == ProximalEnd.Free && p.MovesSphere0,
+                "\"held\" or \"clamped\" with a drive that moves sphere 0"),
+
+            // Each group of keys defines the motion of the hub on its own.
+            new Rule("displacementPerStep", p => p.IsMaterial && p.Drive.DisplacementPerStep != 0.0
+                && (p.Drive.InsertionSpeed != 0.0 || p.Drive.Table != null),
+                "0 with an insertionSpeed or a driveFile"),
+            new Rule("twistPerStep", p => p.IsMaterial && p.Drive.TwistPerStep != 0.0
+                && (p.Drive.RotationSpeed != 0.0 || p.Drive.Table != null),
+                "0 with a rotationSpeed or a driveFile"),
+            new Rule("driveFile", p => p.IsMaterial && p.Drive.Table != null
+                && (p.Drive.InsertionSpeed != 0.0 || p.Drive.RotationSpeed != 0.0),
+                "insertionSpeed and rotationSpeed to be 0: it has both"),
+            new Rule("driveFile", p => p.IsMaterial && p.Drive.Table != null && !p.IsClamped, ClampedByDrive),
+            new Rule("rotationSpeed", p => p.IsMaterial && p.Drive.RotationSpeed != 0.0 && !p.IsClamped,
+                ClampedByDrive),
+            new Rule("proximalEnd", p => p.IsMaterial && p.Drive.Steering != null && !p.IsClamped,
+                "\"clamped\" where a wire with a material is steered by hand"),
+            new Rule("driveFile", p => p.IsMaterial && p.Drive.Table != null && !p.MovesSphere0, MovingDrive),
+            new Rule("insertionSpeed", p => p.IsMaterial && p.Drive.InsertionSpeed != 0.0 && !p.MovesSphere0,
+                MovingDrive),
+
+            new Rule("innerRadius", p => p.IsMaterial && p.Material.InnerRadius >= p.Material.WireRadius,
+                "less than wireRadius"),
+            new Rule("wireSections", p => p.IsMaterial && HasHollowTooWide(p.Material),
+                "an innerRadius less than the wireRadius everywhere"),
+            new Rule("wireRadius", p => p.IsMaterial && !HasStiffness(p),
+                "a bending stiffness over guidewireLength^2 that is a number > 0, with youngsModulus and"
+                + " metresPerUnit"),
+            new Rule("wireSections", p => ElementLayout.FindProblem(p.All) != null,
+                p => ElementLayout.FindProblem(p.All)!),
+            new Rule("displacementDirection", p => p.Drive.DisplacementDirection.Length == 0.0,
+                "a length other than 0"),
+            new Rule("startTurns", p => p.Scene.StartShape == StartShape.Helix
+                && 2.0 * Math.PI * Math.Abs(p.Scene.StartTurns) * p.Scene.StartRadius >= p.Scene.GuidewireLength,
+                "a helix shorter than guidewireLength: 2 pi startTurns startRadius is more"),
+            new Rule("initialState", p => p.IsMaterial && p.Scene.InitialState == InitialState.Equilibrium
+                && !p.IsClamped && p.Scene.DistalEnd == DistalEnd.Free,
+                "a clamped end: a wire that turns freely has no single rest shape"),
+        };
+
+        // Of parameters that are complete, with walls and tables.
+        private static readonly Rule[] InScene =
+        {
+            new Rule("hubForceLimit", p => p.Drive.HubForceLimit > 0.0 && !p.HasWalls,
+                "a vessel or obstacles: without walls a hub holds the wire"),
+            OfSheath(p => p.HasWalls, "a vessel"),
+            OfSheath(p => p.IsClamped, "proximalEnd \"clamped\""),
+            OfSheath(p => p.Drive.Steering != null || p.Drive.Kind == Drive.Displace || p.Drive.Kind == Drive.Hold,
+                "drive \"displace\" or \"hold\""),
+            OfSheath(p => p.Scene.DistalEnd == DistalEnd.Free, "distalEnd \"free\""),
+            OfSheath(p => p.Scene.StartShape == StartShape.Straight, "startShape \"straight\""),
+            OfSheath(p => p.Method.Integrator == Integrator.ImplicitEuler, "integrator \"implicitEuler\""),
+            OfSheath(p => p.Material.BendLaw == BendLaw.RotationVector, "bendLaw \"rotationVector\""),
+            OfSheath(p => p.Drive.Displacement == 0.0 || p.Drive.Kind != Drive.Hold, "displacement 0"),
+        };
+
+        private const string ClampedByDrive = "proximalEnd \"clamped\", and no drive \"force\"";
+        private const string MovingDrive = "drive \"displace\" or \"push\"";
+
         private ParameterConflict(string key, string needed)
         {
             Key = key;
@@ -21,212 +131,25 @@ namespace Guidewire.Core
         /// read.</summary>
         public static ParameterConflict? Find(SimulationParameters parameters)
         {
-            MethodTraits method = MethodTable.Of(parameters.Method.Solver);
-            return OfMethod(parameters, method) ?? OfEnds(parameters, method) ?? OfHub(parameters, method)
-                ?? OfStart(parameters, method);
+            return First(Always, parameters);
         }
 
         /// <summary>The first conflict of parameters that are complete, or null.</summary>
         public static ParameterConflict? FindInScene(SimulationParameters parameters)
         {
-            bool hasWalls = parameters.Scene.Walls.Length > 0;
-            return Find(parameters) ?? (parameters.Drive.HubForceLimit > 0.0 && !hasWalls
-                ? new ParameterConflict("hubForceLimit", "a vessel or obstacles: without walls a hub holds the wire")
-                : parameters.Scene.Sheath != null ? OfSheath(parameters, hasWalls) : null);
+            return First(Always, parameters) ?? First(InScene, parameters);
         }
 
-        private static ParameterConflict? OfSheath(SimulationParameters parameters, bool hasWalls)
+        private static ParameterConflict? First(Rule[] rules, SimulationParameters parameters)
         {
-            SceneParameters scene = parameters.Scene;
-            bool isDriven = parameters.Drive.Steering != null || parameters.Drive.Kind == Drive.Displace
-                || parameters.Drive.Kind == Drive.Hold;
-            string? needed = !hasWalls ? "a vessel"
-                : !IsClamped(parameters) ? "proximalEnd \"clamped\""
-                : !isDriven ? "drive \"displace\" or \"hold\""
-                : scene.DistalEnd != DistalEnd.Free ? "distalEnd \"free\""
-                : scene.StartShape != StartShape.Straight ? "startShape \"straight\""
-                : parameters.Method.Integrator != Integrator.ImplicitEuler ? "integrator \"implicitEuler\""
-                : parameters.Material.BendLaw != BendLaw.RotationVector ? "bendLaw \"rotationVector\""
-                : parameters.Drive.Displacement != 0.0 && parameters.Drive.Kind == Drive.Hold ? "displacement 0"
-                : null;
-            return needed == null ? null : new ParameterConflict("sheath", needed);
+            var facts = new Facts(parameters);
+            Rule? broken = Array.Find(rules, rule => rule.IsBroken(facts));
+            return broken == null ? null : new ParameterConflict(broken.Key, broken.Needed(facts));
         }
 
-        private static ParameterConflict? OfMethod(SimulationParameters parameters, MethodTraits method)
+        private static Rule OfSheath(Predicate<Facts> holds, string needed)
         {
-            if (method.Integrators.Count > 0 && !Contains(method, parameters.Method.Integrator))
-            {
-                return new ParameterConflict("integrator", "one of \"" + string.Join("\", \"", Words(method))
-                    + "\" with solver \"" + Word(method.Solver) + "\"");
-            }
-            if (!method.MeetsWalls && parameters.Scene.Walls.Length > 0)
-            {
-                return new ParameterConflict("vessel", "solver pbd, xpbd or direct: explicit meets no walls");
-            }
-            if (method.TakesMaterial && parameters.Scene.Walls.Length > 0
-                && parameters.Scene.InitialState == InitialState.Equilibrium)
-            {
-                return new ParameterConflict("initialState",
-                    "\"straight\" between walls: rest shapes are found without them");
-            }
-            bool hasFriction = Array.Exists(parameters.Scene.Walls, wall => wall.FrictionCoefficient > 0.0);
-            if (hasFriction && method.HasBarriers && parameters.Method.Integrator != Integrator.ImplicitEuler)
-            {
-                return new ParameterConflict("integrator", "implicitEuler where a wall has a frictionCoefficient");
-            }
-            if (hasFriction && !method.TakesMaterial && parameters.Contact.ElementContact == ElementContact.Thesis)
-            {
-                return new ParameterConflict("elementContact",
-                    "\"barycentric\" or \"none\" where a wall has a frictionCoefficient");
-            }
-            if (!method.TakesSteering && parameters.Drive.Steering != null)
-            {
-                return new ParameterConflict("solver", "pbd or direct where a hand steers");
-            }
-            if (method.TakesMaterial && parameters.Method.Damping != 0.0)
-            {
-                return new ParameterConflict("damping", "solver pbd: a material has massDamping (1/s), which is damping"
-                    + " over timeStep, and materialDamping (s)");
-            }
-            if (parameters.Material.MaterialDamping != 0.0 && method.Solver != Solver.Direct && method.TakesMaterial)
-            {
-                return new ParameterConflict("materialDamping", "solver direct: the others have no rates of strain");
-            }
-            if (!method.TakesTipMoment && parameters.Scene.TipMoment != Vector3d.Zero)
-            {
-                return new ParameterConflict("tipMoment", "solver direct or explicit: the others have no couples");
-            }
-            if (!method.TakesDarbouxLaw && parameters.Material.BendLaw == BendLaw.Darboux)
-            {
-                return new ParameterConflict("bendLaw",
-                    "solver direct or explicit: xpbd has the rotation vector only");
-            }
-            Integrator integrator = parameters.Method.Integrator;
-            if (parameters.Method.TimeStepError > 0.0
-                && (integrator == Integrator.ImplicitEuler || integrator == Integrator.Bdf2))
-            {
-                return new ParameterConflict("timeStepError",
-                    "integrator trbdf2, esdirk3 or esdirk4: the others do not tell their error");
-            }
-            return null;
-        }
-
-        private static ParameterConflict? OfEnds(SimulationParameters parameters, MethodTraits method)
-        {
-            SceneParameters scene = parameters.Scene;
-            Drive drive = parameters.Drive.Kind;
-            if (!method.TakesMaterial && scene.ProximalEnd == ProximalEnd.Free)
-            {
-                return new ParameterConflict("proximalEnd",
-                    "\"held\" or \"clamped\" with solver pbd; drive \"force\" frees sphere 0");
-            }
-            // With pbd "held" is the default and says nothing, and there is no "free".
-            bool isLetGo = method.TakesMaterial ? scene.ProximalEnd == ProximalEnd.Free
-                : scene.ProximalEnd != ProximalEnd.Clamped;
-            if (drive == Drive.Force && !isLetGo)
-            {
-                return new ParameterConflict("drive", method.TakesMaterial
-                    ? "proximalEnd \"free\" with \"force\", which holds nothing"
-                    : "proximalEnd \"held\" with \"force\", which frees sphere 0");
-            }
-            if (!method.Slides && scene.DistalEnd == DistalEnd.Sliding)
-            {
-                return new ParameterConflict("distalEnd",
-                    "\"free\" or \"clamped\": only solver direct lets an end slide");
-            }
-            // The last joint sees a turn at once as one by less than half a turn, and the shorter way round.
-            if (!method.WindsUpAtOnce && scene.DistalEnd == DistalEnd.Clamped && scene.DistalRampTime == 0.0
-                && Math.Abs(scene.DistalRotation) > 1.0)
-            {
-                return new ParameterConflict("distalRotation",
-                    "solver direct, or a distalRampTime > 0: turned at once by more than 1 rad");
-            }
-            if (method.TakesMaterial && parameters.Drive.TwistPerStep != 0.0 && !IsClamped(parameters))
-            {
-                return new ParameterConflict("twistPerStep", "proximalEnd \"clamped\" in a run with a material");
-            }
-            if (method.TakesMaterial && scene.ProximalEnd == ProximalEnd.Free
-                && (drive == Drive.Displace || drive == Drive.Push))
-            {
-                return new ParameterConflict("proximalEnd",
-                    "\"held\" or \"clamped\" with a drive that moves sphere 0");
-            }
-            return null;
-        }
-
-        // Every group of keys says on its own how the hub moves.
-        private static ParameterConflict? OfHub(SimulationParameters parameters, MethodTraits method)
-        {
-            DriveParameters drive = parameters.Drive;
-            if (!method.TakesMaterial)
-            {
-                return null;
-            }
-            bool hasTable = drive.Table != null;
-            if (drive.DisplacementPerStep != 0.0 && (drive.InsertionSpeed != 0.0 || hasTable))
-            {
-                return new ParameterConflict("displacementPerStep", "0 with an insertionSpeed or a driveFile");
-            }
-            if (drive.TwistPerStep != 0.0 && (drive.RotationSpeed != 0.0 || hasTable))
-            {
-                return new ParameterConflict("twistPerStep", "0 with a rotationSpeed or a driveFile");
-            }
-            if (hasTable && (drive.InsertionSpeed != 0.0 || drive.RotationSpeed != 0.0))
-            {
-                return new ParameterConflict("driveFile", "insertionSpeed and rotationSpeed to be 0: it has both");
-            }
-            string? key = hasTable ? "driveFile" : drive.RotationSpeed != 0.0 ? "rotationSpeed" : null;
-            if (key != null && !IsClamped(parameters))
-            {
-                return new ParameterConflict(key, "proximalEnd \"clamped\", and no drive \"force\"");
-            }
-            if (drive.Steering != null && !IsClamped(parameters))
-            {
-                return new ParameterConflict("proximalEnd", "\"clamped\" where a hand steers a wire with a material");
-            }
-            key = hasTable ? key : drive.InsertionSpeed != 0.0 ? "insertionSpeed" : null;
-            return key != null && drive.Kind != Drive.Displace && drive.Kind != Drive.Push
-                ? new ParameterConflict(key, "drive \"displace\" or \"push\"") : null;
-        }
-
-        private static ParameterConflict? OfStart(SimulationParameters parameters, MethodTraits method)
-        {
-            SceneParameters scene = parameters.Scene;
-            if (method.TakesMaterial && parameters.Material.InnerRadius >= parameters.Material.WireRadius)
-            {
-                return new ParameterConflict("innerRadius", "less than wireRadius");
-            }
-            if (method.TakesMaterial && HasHollowTooWide(parameters.Material))
-            {
-                return new ParameterConflict("wireSections", "an innerRadius less than the wireRadius everywhere");
-            }
-            if (method.TakesMaterial && !HasStiffness(parameters))
-            {
-                return new ParameterConflict("wireRadius", "a bending stiffness over guidewireLength^2 that is a number"
-                    + " > 0, with youngsModulus and metresPerUnit");
-            }
-            string? layout = ElementLayout.FindProblem(parameters);
-            if (layout != null)
-            {
-                return new ParameterConflict("wireSections", layout);
-            }
-            if (parameters.Drive.DisplacementDirection.Length == 0.0)
-            {
-                return new ParameterConflict("displacementDirection", "a length other than 0");
-            }
-            if (scene.StartShape == StartShape.Helix && 2.0 * Math.PI * Math.Abs(scene.StartTurns)
-                * scene.StartRadius >= scene.GuidewireLength)
-            {
-                return new ParameterConflict("startTurns",
-                    "a helix shorter than guidewireLength: 2 pi startTurns startRadius is more");
-            }
-            if (method.TakesMaterial && scene.InitialState == InitialState.Equilibrium && !IsClamped(parameters)
-                && scene.DistalEnd == DistalEnd.Free)
-            {
-                return new ParameterConflict("initialState",
-                    "a clamped end: a wire that turns freely has no single rest shape");
-            }
-            return null;
+            return new Rule("sheath", p => p.Scene.Sheath != null && !holds(p), needed);
         }
 
         private static bool HasHollowTooWide(MaterialParameters material)
@@ -244,16 +167,11 @@ namespace Guidewire.Core
         }
 
         // The scale of all bending forces; 0 or infinite as a double, it measures nothing.
-        private static bool HasStiffness(SimulationParameters parameters)
+        private static bool HasStiffness(Facts p)
         {
-            double length = parameters.Scene.MetresPerUnit * parameters.Scene.GuidewireLength;
-            double force = CrossSection.At(parameters.Material, 0.0).BendStiffness1 / (length * length);
+            double length = p.Scene.MetresPerUnit * p.Scene.GuidewireLength;
+            double force = CrossSection.At(p.Material, 0.0).BendStiffness1 / (length * length);
             return force > 0.0 && !double.IsInfinity(force);
-        }
-
-        private static bool IsClamped(SimulationParameters parameters)
-        {
-            return parameters.Scene.ProximalEnd == ProximalEnd.Clamped && parameters.Drive.Kind != Drive.Force;
         }
 
         private static bool Contains(MethodTraits method, Integrator integrator)
@@ -283,6 +201,61 @@ namespace Guidewire.Core
         {
             string name = value.ToString();
             return char.ToLowerInvariant(name[0]) + name.Substring(1);
+        }
+
+        private sealed class Rule
+        {
+            public Rule(string key, Predicate<Facts> isBroken, string needed)
+                : this(key, isBroken, p => needed)
+            {
+            }
+
+            public Rule(string key, Predicate<Facts> isBroken, Func<Facts, string> needed)
+            {
+                Key = key;
+                IsBroken = isBroken;
+                Needed = needed;
+            }
+
+            public string Key { get; }
+
+            public Predicate<Facts> IsBroken { get; }
+
+            public Func<Facts, string> Needed { get; }
+        }
+
+        // The parameters, and what several rules ask of them.
+        private sealed class Facts
+        {
+            public Facts(SimulationParameters parameters)
+            {
+                All = parameters;
+                Traits = MethodTable.Of(parameters.Method.Solver);
+            }
+
+            public SimulationParameters All { get; }
+
+            public MethodTraits Traits { get; }
+
+            public SceneParameters Scene => All.Scene;
+
+            public DriveParameters Drive => All.Drive;
+
+            public MaterialParameters Material => All.Material;
+
+            public ContactParameters Contact => All.Contact;
+
+            public MethodParameters Method => All.Method;
+
+            public bool IsMaterial => Traits.TakesMaterial;
+
+            public bool HasWalls => Scene.Walls.Length > 0;
+
+            public bool HasFriction => Array.Exists(Scene.Walls, wall => wall.FrictionCoefficient > 0.0);
+
+            public bool IsClamped => Scene.ProximalEnd == ProximalEnd.Clamped && Drive.Kind != Core.Drive.Force;
+
+            public bool MovesSphere0 => Drive.Kind == Core.Drive.Displace || Drive.Kind == Core.Drive.Push;
         }
     }
 }

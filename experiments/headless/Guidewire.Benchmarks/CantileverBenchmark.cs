@@ -18,7 +18,7 @@ namespace Guidewire.Benchmarks
 
         [Benchmark]
         [Work(1e3 * FreeCantilever.Duration, "sim. ms")]
-        public double LetGo()
+        public double Release()
         {
             return _cantilever.Run(null);
         }

@@ -13,7 +13,7 @@ namespace Guidewire.Benchmarks
         private const double Element = 5.0;       // mm
         private const double Body = 200.0;        // mm in the body while it goes to and fro
         private const double Whole = 1800.0;      // mm
-        private const double Way = 60.0;          // mm, into the arch
+        private const double Depth = 60.0;          // mm, into the arch
         private const double Amplitude = 10.0;    // mm, to and fro
         private const double Speed = 0.02;        // m/s
         private const double TimeStep = 0.02;     // s
@@ -21,7 +21,7 @@ namespace Guidewire.Benchmarks
         private const int Rounds = 9;
         private const int Swings = 4;
 
-        private static readonly int WaySteps = (int)Math.Round(1e-3 * Way / (Speed * TimeStep));
+        private static readonly int InsertionSteps = (int)Math.Round(1e-3 * Depth / (Speed * TimeStep));
         private static readonly int SwingSteps = (int)Math.Round(4e-3 * Amplitude / (Speed * TimeStep));
 
         private readonly Simulation _run;
@@ -31,13 +31,13 @@ namespace Guidewire.Benchmarks
         private SheathFeed(ContactShape wall, bool isSheathed)
         {
             double length = isSheathed ? Whole : Body;
-            double way = 1e-3 * Way;
-            var times = new List<double> { 0.0, way / Speed };
-            var places = new List<double> { 0.0, way };
+            double depth = 1e-3 * Depth;
+            var times = new List<double> { 0.0, depth / Speed };
+            var insertions = new List<double> { 0.0, depth };
             for (int k = 0; k < 2 * Swings; k++)
             {
                 times.Add(times[times.Count - 1] + (k == 0 ? 1e-3 : 2e-3) * Amplitude / Speed);
-                places.Add(way + (k % 2 == 0 ? 1e-3 : -1e-3) * Amplitude);
+                insertions.Add(depth + (k % 2 == 0 ? 1e-3 : -1e-3) * Amplitude);
             }
             var parameters = new SimulationParameters
             {
@@ -48,7 +48,7 @@ namespace Guidewire.Benchmarks
                     GuidewireOffset = -length,
                     ProximalEnd = ProximalEnd.Clamped,
                     Walls = new[] { wall },
-                    Sheath = isSheathed ? new Sheath { Exit = new Vector3d(0.0, 0.0, Way - Body) } : null,
+                    Sheath = isSheathed ? new Sheath { Exit = new Vector3d(0.0, 0.0, Depth - Body) } : null,
                 },
                 Material = { WireRadius = 0.18e-3, YoungsModulus = 60e9, ShearModulus = 23e9, MassDamping = 20.0 },
                 Method =
@@ -57,13 +57,13 @@ namespace Guidewire.Benchmarks
                     Integrator = Integrator.ImplicitEuler,
                     TimeStep = TimeStep,
                     DeltaThreshold = 0.0,
-                    MaxSimulationSteps = WaySteps + Swings * SwingSteps,
+                    MaxSimulationSteps = InsertionSteps + Swings * SwingSteps,
                 },
                 Drive =
                 {
                     Kind = Drive.Displace,
                     Displacement = 0.0,
-                    Table = new DriveTable(new TimeTable(times.ToArray(), places.ToArray()),
+                    Table = new DriveTable(new TimeTable(times.ToArray(), insertions.ToArray()),
                         new TimeTable(new[] { 0.0 }, new[] { 0.0 })),
                 },
             };
@@ -87,7 +87,7 @@ namespace Guidewire.Benchmarks
         // Every round makes the same steps: of each the shortest counts, which nothing else has interrupted.
         private static void Print(string name, ContactShape wall)
         {
-            int steps = WaySteps + Swings * SwingSteps;
+            int steps = InsertionSteps + Swings * SwingSteps;
             var one = new double[steps];
             var other = new double[steps];
             var enters = new bool[steps];
@@ -106,14 +106,14 @@ namespace Guidewire.Benchmarks
                     one[k] = Math.Min(one[k], sheathed.Step());
                     long left = GC.GetAllocatedBytesForCurrentThread() - before;
                     other[k] = Math.Min(other[k], alone.Step());
-                    bool counts = round > 0 && k > 0 && k < WaySteps;
+                    bool counts = round > 0 && k > 0 && k < InsertionSteps;
                     garbage = counts && enters[k] ? Math.Max(garbage, left) : garbage;
                     usual = counts && !enters[k] ? Math.Max(usual, left) : usual;
                 }
             }
             var entries = new List<double>();
             var others = new List<double>();
-            for (int k = 1; k < WaySteps; k++)
+            for (int k = 1; k < InsertionSteps; k++)
             {
                 (enters[k] ? entries : others).Add(one[k]);
             }
@@ -130,11 +130,11 @@ namespace Guidewire.Benchmarks
         private static double Mean(double[] times)
         {
             double sum = 0.0;
-            for (int k = WaySteps; k < times.Length; k++)
+            for (int k = InsertionSteps; k < times.Length; k++)
             {
                 sum += times[k];
             }
-            return sum / (times.Length - WaySteps);
+            return sum / (times.Length - InsertionSteps);
         }
 
         // Whether the next step begins with one more element.
@@ -143,7 +143,7 @@ namespace Guidewire.Benchmarks
             int outside = 0;
             for (int i = 0; i < _nodes; i++)
             {
-                outside += _run.State.Positions[i].Z >= Way - Body - Early * Element ? 1 : 0;
+                outside += _run.State.Positions[i].Z >= Depth - Body - Early * Element ? 1 : 0;
             }
             bool enters = outside > _out;
             _out = outside;

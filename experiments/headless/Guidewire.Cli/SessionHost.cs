@@ -85,8 +85,8 @@ namespace Guidewire.Cli
             SimulationSession session = Opened();
             if (!session.IsSteered && (push != 0.0 || turn != 0.0))
             {
-                throw new ParameterException("request: push and turn need a session that a hand steers; here the"
-                    + " parameters' drive moves the wire (\"hand\": true when it is opened gives it to a hand)");
+                throw new ParameterException("request: push and turn need a steered session; here the parameters'"
+                    + " drive moves the wire (open it with \"hand\": true to steer it)");
             }
             if (session.Simulation.Outcome != Outcome.Running)
             {

@@ -89,10 +89,10 @@ namespace Guidewire.Core
             double ahead = _supports.HasProximalJoint && _supports.HasDistalJoint
                 ? _schedule.TurnAhead(time, _end) / done : 1.0;
             return string.Format(CultureInfo.InvariantCulture,
-                "joint {0} is turned by {1:G4} rad{2}; from {3:G3} rad on a joint does not tell the way round, and the"
-                + " wire would lose the turn; {4}", worst, angle, PositionOf(worst), Limit,
+                "joint {0} is turned by {1:G4} rad{2}; from {3:G3} rad on its sense is ambiguous, and the wire would"
+                + " lose the turn; {4}", worst, angle, PositionOf(worst), Limit,
                 IsAlone(shape, worst, angle) ? "the joints beside it are turned by less than half of that: shorter"
-                    + " elements share the turn out only where they are shorter than what bends there, such as a soft"
+                    + " elements distribute the turn only where they are shorter than what bends there, such as a soft"
                     + " section, which may have a numberRodElements of its own"
                 : Advice(Math.Max(1.0, ahead) * angle));
         }
@@ -121,7 +121,7 @@ namespace Guidewire.Core
             }
             return string.Format(CultureInfo.InvariantCulture,
                 "restCurvature turns joint {0} by {1:G4} rad at rest, with elements of l = {2:G4} m; from {3:G3} rad on"
-                + " a joint does not tell the way round; {4}", worst, most,
+                + " its sense is ambiguous; {4}", worst, most,
                 _rod.Length[Math.Min(worst, _rod.ElementCount - 1)], limit, Advice(most));
         }
 

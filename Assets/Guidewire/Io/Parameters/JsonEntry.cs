@@ -4,27 +4,22 @@ using Newtonsoft.Json.Linq;
 namespace Guidewire.Io
 {
     /// <summary>An object or a list that a reader of its own takes apart, or null for none.</summary>
-    internal sealed class JsonEntry : ParameterEntry
+    internal sealed class JsonEntry : ValueEntry<JToken?>
     {
         private readonly JTokenType _type;
-        private readonly Func<RunParameters, JToken?> _get;
-        private readonly Action<RunParameters, JToken?> _set;
 
-        public JsonEntry(string key, JTokenType type, string allowed, string help, Func<RunParameters, JToken?> get,
-            Action<RunParameters, JToken?> set)
+        public JsonEntry(string key, JTokenType type, string allowed, string help)
             : base(key, "", help)
         {
             _type = type;
             Allowed = allowed;
-            _get = get;
-            _set = set;
         }
 
         public override string Allowed { get; }
 
         public override JToken Write(RunParameters source)
         {
-            return _get(source)?.DeepClone() ?? JValue.CreateNull();
+            return Get(source)?.DeepClone() ?? JValue.CreateNull();
         }
 
         internal override bool TryRead(RunParameters target, JToken value)
@@ -33,7 +28,7 @@ namespace Guidewire.Io
             {
                 return false;
             }
-            _set(target, value.Type == JTokenType.Null ? null : value);
+            Set(target, value.Type == JTokenType.Null ? null : value);
             return true;
         }
     }

@@ -6,19 +6,14 @@ using Newtonsoft.Json.Linq;
 namespace Guidewire.Io
 {
     /// <summary>A real number within bounds.</summary>
-    internal sealed class NumberEntry : ParameterEntry
+    internal sealed class NumberEntry : ValueEntry<double>
     {
-        private readonly Func<RunParameters, double> _get;
-        private readonly Action<RunParameters, double> _set;
         private readonly NumberRange _range;
 
-        public NumberEntry(string key, string unit, NumberRange range, string help, Func<RunParameters, double> get,
-            Action<RunParameters, double> set)
+        public NumberEntry(string key, string unit, NumberRange range, string help)
             : base(key, unit, help)
         {
             _range = range;
-            _get = get;
-            _set = set;
         }
 
         public override string Allowed => WithUnit("a number" + _range.Text);
@@ -28,7 +23,7 @@ namespace Guidewire.Io
 
         public override JToken Write(RunParameters source)
         {
-            return new JValue(_get(source));
+            return new JValue(Get(source));
         }
 
         internal override bool TryRead(RunParameters target, JToken value)
@@ -37,7 +32,7 @@ namespace Guidewire.Io
             {
                 return false;
             }
-            _set(target, number);
+            Set(target, number);
             return true;
         }
 
@@ -63,26 +58,21 @@ namespace Guidewire.Io
     }
 
     /// <summary>A real number within bounds, or null for none.</summary>
-    internal sealed class OptionalNumberEntry : ParameterEntry
+    internal sealed class OptionalNumberEntry : ValueEntry<double?>
     {
-        private readonly Func<RunParameters, double?> _get;
-        private readonly Action<RunParameters, double?> _set;
         private readonly NumberRange _range;
 
-        public OptionalNumberEntry(string key, string unit, NumberRange range, string help,
-            Func<RunParameters, double?> get, Action<RunParameters, double?> set)
+        public OptionalNumberEntry(string key, string unit, NumberRange range, string help)
             : base(key, unit, help)
         {
             _range = range;
-            _get = get;
-            _set = set;
         }
 
         public override string Allowed => WithUnit("null or a number" + _range.Text);
 
         public override JToken Write(RunParameters source)
         {
-            return _get(source) is double number ? new JValue(number) : JValue.CreateNull();
+            return Get(source) is double number ? new JValue(number) : JValue.CreateNull();
         }
 
         internal override bool TryRead(RunParameters target, JToken value)
@@ -93,27 +83,22 @@ namespace Guidewire.Io
             {
                 return false;
             }
-            _set(target, isNull ? (double?)null : number);
+            Set(target, isNull ? (double?)null : number);
             return true;
         }
     }
 
     /// <summary>A whole number within bounds.</summary>
-    internal sealed class IntegerEntry : ParameterEntry
+    internal sealed class IntegerEntry : ValueEntry<int>
     {
         private readonly int _minimum;
         private readonly int _maximum;
-        private readonly Func<RunParameters, int> _get;
-        private readonly Action<RunParameters, int> _set;
 
-        public IntegerEntry(string key, string unit, int minimum, int maximum, string help,
-            Func<RunParameters, int> get, Action<RunParameters, int> set)
+        public IntegerEntry(string key, string unit, int minimum, int maximum, string help)
             : base(key, unit, help)
         {
             _minimum = minimum;
             _maximum = maximum;
-            _get = get;
-            _set = set;
         }
 
         public override string Allowed => WithUnit(string.Format(CultureInfo.InvariantCulture,
@@ -121,7 +106,7 @@ namespace Guidewire.Io
 
         public override JToken Write(RunParameters source)
         {
-            return new JValue(_get(source));
+            return new JValue(Get(source));
         }
 
         internal override bool TryRead(RunParameters target, JToken value)
@@ -132,25 +117,20 @@ namespace Guidewire.Io
             {
                 return false;
             }
-            _set(target, (int)number);
+            Set(target, (int)number);
             return true;
         }
     }
 
     /// <summary>Three numbers: [x, y, z], or {"x": .., "y": .., "z": ..} as older files have them.</summary>
-    internal sealed class VectorEntry : ParameterEntry
+    internal sealed class VectorEntry : ValueEntry<Vector3d>
     {
         private readonly bool _mayBeZero;
-        private readonly Func<RunParameters, Vector3d> _get;
-        private readonly Action<RunParameters, Vector3d> _set;
 
-        public VectorEntry(string key, string unit, bool mayBeZero, string help, Func<RunParameters, Vector3d> get,
-            Action<RunParameters, Vector3d> set)
+        public VectorEntry(string key, string unit, bool mayBeZero, string help)
             : base(key, unit, help)
         {
             _mayBeZero = mayBeZero;
-            _get = get;
-            _set = set;
         }
 
         public override string Allowed =>
@@ -158,7 +138,7 @@ namespace Guidewire.Io
 
         public override JToken Write(RunParameters source)
         {
-            Vector3d v = _get(source);
+            Vector3d v = Get(source);
             return new JArray(v.X, v.Y, v.Z);
         }
 
@@ -168,7 +148,7 @@ namespace Guidewire.Io
             {
                 return false;
             }
-            _set(target, vector);
+            Set(target, vector);
             return true;
         }
 

@@ -32,7 +32,7 @@ namespace Guidewire.Io
 
         /// <summary>The methods that take it. To the others it says nothing: it is refused on the command line, and
         /// passed over, with a line that says so, in a file.</summary>
-        public IReadOnlyList<Solver> Methods { get; internal set; } = Takers.All;
+        public IReadOnlyList<Solver> Methods { get; internal set; } = Array.Empty<Solver>();
 
         /// <summary>Whether a method that does not take the key refuses it in a file too, where it asks for something:
         /// a run without the wall or the load that it names would answer another question.</summary>
@@ -118,6 +118,15 @@ namespace Guidewire.Io
             return Write(new RunParameters(method)).ToString(Formatting.None);
         }
 
+        /// <summary>Tells the entry, once, what its group knows.</summary>
+        /// <param name="values">The object among the parameters whose properties the group's keys are.</param>
+        /// <param name="methods">The methods that take keys which name none of their own.</param>
+        internal void JoinGroup(Func<RunParameters, object> values, IReadOnlyList<Solver> methods)
+        {
+            GroupOf = values;
+            Methods = Methods.Count > 0 ? Methods : methods;
+        }
+
         /// <summary>The value in a set of parameters, as JSON.</summary>
         public abstract JToken Write(RunParameters source);
 
@@ -150,6 +159,9 @@ namespace Guidewire.Io
             }
             return JsonText.Parse(text);
         }
+
+        /// <summary>The object among the parameters whose properties the group's keys are.</summary>
+        private protected Func<RunParameters, object> GroupOf { get; private set; } = parameters => parameters;
 
         /// <summary>"a number &gt; 0 (s)": the noun with the unit behind it.</summary>
         private protected string WithUnit(string noun)

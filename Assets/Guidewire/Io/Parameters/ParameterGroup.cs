@@ -1,15 +1,22 @@
+using System;
 using System.Collections.Generic;
+using Guidewire.Core;
 
 namespace Guidewire.Io
 {
     /// <summary>Keys that belong together: a part of the parameter table, with a type of its own in Core.</summary>
     public sealed class ParameterGroup
     {
-        internal ParameterGroup(string name, string about, IReadOnlyList<ParameterEntry> entries)
+        internal ParameterGroup(string name, string about, Func<RunParameters, object> values,
+            IReadOnlyList<ParameterEntry> entries, IReadOnlyList<Solver>? methods = null)
         {
             Name = name;
             About = about;
             Entries = entries;
+            foreach (ParameterEntry entry in entries)
+            {
+                entry.JoinGroup(values, methods ?? Takers.All);
+            }
         }
 
         /// <summary>One word.</summary>

@@ -7,39 +7,30 @@ namespace Guidewire.Io
 {
     /// <summary>A list of wire sections: [{"from": 250, "to": 300, "wireRadius": 2e-4, "restCurvature": [10, 0, 0]},
     /// ...].</summary>
-    internal sealed class SectionsEntry : ParameterEntry
+    internal sealed class SectionsEntry : ValueEntry<IReadOnlyList<WireSection>>
     {
         // The keys of a section that are positive numbers.
         private static readonly Number[] Numbers =
         {
-            new Number("youngsModulus", "Pa", s => s.YoungsModulus, (s, v) => s.YoungsModulus = v),
-            new Number("shearModulus", "Pa", s => s.ShearModulus, (s, v) => s.ShearModulus = v),
-            new Number("density", "kg/m^3", s => s.Density, (s, v) => s.Density = v),
-            new Number("wireRadius", "m", s => s.WireRadius, (s, v) => s.WireRadius = v),
-            new Number("innerRadius", "m", s => s.InnerRadius, (s, v) => s.InnerRadius = v) { MayBeZero = true },
-            new Number("shearFactor", "", s => s.ShearFactor, (s, v) => s.ShearFactor = v),
-            new Number("axialStiffness", "EA, N", s => s.AxialStiffness, (s, v) => s.AxialStiffness = v),
-            new Number("shearStiffness", "GA, N", s => s.ShearStiffness, (s, v) => s.ShearStiffness = v),
-            new Number("bendingStiffness1", "EI about d1, N m^2", s => s.BendingStiffness1,
-                (s, v) => s.BendingStiffness1 = v),
-            new Number("bendingStiffness2", "EI about d2, N m^2", s => s.BendingStiffness2,
-                (s, v) => s.BendingStiffness2 = v),
-            new Number("torsionalStiffness", "GJ, N m^2", s => s.TorsionalStiffness,
-                (s, v) => s.TorsionalStiffness = v),
-            new Number("massPerLength", "kg/m", s => s.MassPerLength, (s, v) => s.MassPerLength = v),
-            new Number("rotaryInertia", "rho I about d1 and d2 alike, kg m", s => s.RotaryInertia,
-                (s, v) => s.RotaryInertia = v),
+            new Number("youngsModulus", "Pa"),
+            new Number("shearModulus", "Pa"),
+            new Number("density", "kg/m^3"),
+            new Number("wireRadius", "m"),
+            new Number("innerRadius", "m") { MayBeZero = true },
+            new Number("shearFactor", ""),
+            new Number("axialStiffness", "EA, N"),
+            new Number("shearStiffness", "GA, N"),
+            new Number("bendingStiffness1", "EI about d1, N m^2"),
+            new Number("bendingStiffness2", "EI about d2, N m^2"),
+            new Number("torsionalStiffness", "GJ, N m^2"),
+            new Number("massPerLength", "kg/m"),
+            new Number("rotaryInertia", "rho I about d1 and d2 alike, kg m"),
         };
 
-        private readonly Func<RunParameters, IReadOnlyList<WireSection>> _get;
-        private readonly Action<RunParameters, IReadOnlyList<WireSection>> _set;
 
-        public SectionsEntry(string key, string help, Func<RunParameters, IReadOnlyList<WireSection>> get,
-            Action<RunParameters, IReadOnlyList<WireSection>> set)
+        public SectionsEntry(string key, string help)
             : base(key, "", help)
         {
-            _get = get;
-            _set = set;
         }
 
         public override string Allowed
@@ -71,7 +62,7 @@ namespace Guidewire.Io
         public override JToken Write(RunParameters source)
         {
             var list = new JArray();
-            foreach (WireSection section in _get(source))
+            foreach (WireSection section in Get(source))
             {
                 var item = new JObject { ["from"] = section.From, ["to"] = section.To };
                 if (section.NumberRodElements.HasValue)
@@ -80,7 +71,7 @@ namespace Guidewire.Io
                 }
                 foreach (Number number in Numbers)
                 {
-                    Put(item, number.Key, number.Get(section));
+                    Put(item, number.Key, NamedProperty.Get<double?>(section, NamedProperty.Of(number.Key)));
                 }
                 if (section.RestCurvature.HasValue)
                 {
@@ -123,7 +114,7 @@ namespace Guidewire.Io
                 }
                 sections.Add(section);
             }
-            _set(target, sections);
+            Set(target, sections);
             return true;
         }
 
@@ -165,7 +156,10 @@ namespace Guidewire.Io
                     return number >= 1.0 && section.NumberRodElements == number;
                 default:
                     Number? known = Array.Find(Numbers, entry => entry.Key == name);
-                    known?.Set(section, number);
+                    if (known != null)
+                    {
+                        NamedProperty.Set<double?>(section, NamedProperty.Of(name), number);
+                    }
                     return known != null && (number > 0.0 || (number == 0.0 && known.MayBeZero));
             }
         }
@@ -180,21 +174,15 @@ namespace Guidewire.Io
 
         private sealed class Number
         {
-            public Number(string key, string unit, Func<WireSection, double?> get, Action<WireSection, double> set)
+            public Number(string key, string unit)
             {
                 Key = key;
                 Unit = unit;
-                Get = get;
-                Set = set;
             }
 
             public string Key { get; }
 
             public string Unit { get; }
-
-            public Func<WireSection, double?> Get { get; }
-
-            public Action<WireSection, double> Set { get; }
 
             public bool MayBeZero { get; set; }
 

@@ -5,23 +5,18 @@ using Newtonsoft.Json.Linq;
 namespace Guidewire.Io
 {
     /// <summary>true or false.</summary>
-    internal sealed class SwitchEntry : ParameterEntry
+    internal sealed class SwitchEntry : ValueEntry<bool>
     {
-        private readonly Func<RunParameters, bool> _get;
-        private readonly Action<RunParameters, bool> _set;
-
-        public SwitchEntry(string key, string help, Func<RunParameters, bool> get, Action<RunParameters, bool> set)
+        public SwitchEntry(string key, string help)
             : base(key, "", help)
         {
-            _get = get;
-            _set = set;
         }
 
         public override string Allowed => "true or false";
 
         public override JToken Write(RunParameters source)
         {
-            return new JValue(_get(source));
+            return new JValue(Get(source));
         }
 
         internal override bool TryRead(RunParameters target, JToken value)
@@ -30,26 +25,21 @@ namespace Guidewire.Io
             {
                 return false;
             }
-            _set(target, (bool)value);
+            Set(target, (bool)value);
             return true;
         }
     }
 
     /// <summary>One of a few words, in camelCase.</summary>
-    internal sealed class ChoiceEntry<T> : ParameterEntry
+    internal sealed class ChoiceEntry<T> : ValueEntry<T>
         where T : struct, Enum
     {
-        private readonly Func<RunParameters, T> _get;
-        private readonly Action<RunParameters, T> _set;
-
         /// <summary>Words of older files and what they mean now.</summary>
         public IReadOnlyDictionary<string, T> OlderWords { get; internal set; } = new Dictionary<string, T>();
 
-        public ChoiceEntry(string key, string help, Func<RunParameters, T> get, Action<RunParameters, T> set)
+        public ChoiceEntry(string key, string help)
             : base(key, "", help)
         {
-            _get = get;
-            _set = set;
         }
 
         public override string Allowed => "one of \"" + string.Join("\", \"", Choices) + "\"";
@@ -58,7 +48,7 @@ namespace Guidewire.Io
 
         public override JToken Write(RunParameters source)
         {
-            return new JValue(Word(_get(source).ToString()));
+            return new JValue(Word(Get(source).ToString()));
         }
 
         internal override bool TryRead(RunParameters target, JToken value)
@@ -69,14 +59,14 @@ namespace Guidewire.Io
             }
             if (OlderWords.TryGetValue((string)value!, out T meant))
             {
-                _set(target, meant);
+                Set(target, meant);
                 return true;
             }
             foreach (string name in Enum.GetNames(typeof(T)))
             {
                 if (Word(name) == (string?)value)
                 {
-                    _set(target, (T)Enum.Parse(typeof(T), name));
+                    Set(target, (T)Enum.Parse(typeof(T), name));
                     return true;
                 }
             }
@@ -102,23 +92,18 @@ namespace Guidewire.Io
     }
 
     /// <summary>Any text: a path.</summary>
-    internal sealed class TextEntry : ParameterEntry
+    internal sealed class TextEntry : ValueEntry<string>
     {
-        private readonly Func<RunParameters, string> _get;
-        private readonly Action<RunParameters, string> _set;
-
-        public TextEntry(string key, string help, Func<RunParameters, string> get, Action<RunParameters, string> set)
+        public TextEntry(string key, string help)
             : base(key, "", help)
         {
-            _get = get;
-            _set = set;
         }
 
         public override string Allowed => "a text in double quotes";
 
         public override JToken Write(RunParameters source)
         {
-            return new JValue(_get(source));
+            return new JValue(Get(source));
         }
 
         internal override bool TryRead(RunParameters target, JToken value)
@@ -127,7 +112,7 @@ namespace Guidewire.Io
             {
                 return false;
             }
-            _set(target, (string?)value ?? "");
+            Set(target, (string?)value ?? "");
             return true;
         }
 

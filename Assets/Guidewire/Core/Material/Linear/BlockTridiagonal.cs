@@ -19,7 +19,6 @@ namespace Guidewire.Core
         private readonly bool _holdsStart;
         private readonly DistalEnd _distalEnd;
         private readonly Vector3d _slidingAxis;
-        private int _first;  // node
 
         /// <summary>A system for this rod between these supports.</summary>
         public BlockTridiagonal(MaterialRod rod, RodSupports supports)
@@ -38,21 +37,6 @@ namespace Guidewire.Core
             _slidingAxis = supports.SlidingAxis;
         }
 
-        /// <summary>The first node that takes part, 0 to n-1; the proximal support holds it as it would hold node 0.
-        /// A joint to the element before it does not act.</summary>
-        public int FirstActive
-        {
-            get => _first;
-            set
-            {
-                if (value < 0 || value > _count - 2)
-                {
-                    throw new ArgumentOutOfRangeException(nameof(value), value, "an active rod has an element");
-                }
-                _first = value;
-            }
-        }
-
         /// <summary>Number of vectors that a right-hand side must hold: one more than there are blocks.</summary>
         public int VectorCount => _count + 1;
 
@@ -62,11 +46,11 @@ namespace Guidewire.Core
         public int Factorise(EnergyTerm[] terms, RodShape shape, RodVector[] gradient, RodVector[] y, double shift)
         {
             int last = _count - 1;
-            Array.Clear(y, 0, _first + 1);
-            Array.Clear(gradient, 0, _first + 1);
-            _block[_first] = default;
+            y[0] = default;
+            gradient[0] = default;
+            _block[0] = default;
             int negative = 0;
-            int from = _first;
+            int from = 0;
             while (from < _count)
             {
                 int to = from + Piece;
@@ -85,7 +69,7 @@ namespace Guidewire.Core
                 {
                     AddShift(shift, from, to);
                 }
-                if (from == _first)
+                if (from == 0)
                 {
                     HoldStart();
                 }
@@ -111,10 +95,10 @@ namespace Guidewire.Core
             Array.Clear(gradient, 0, gradient.Length);
             for (int k = 0; k < terms.Length; k++)
             {
-                terms[k].AddGradient(shape, gradient, _first, _count, ref measured);
+                terms[k].AddGradient(shape, gradient, 0, _count, ref measured);
             }
             Array.Clear(y, 0, y.Length);
-            Subtract(gradient, y, _first, _count);
+            Subtract(gradient, y, 0, _count);
             return measured;
         }
 
@@ -122,7 +106,7 @@ namespace Guidewire.Core
         public void Solve(RodVector[] y)
         {
             y[_count] = default;
-            for (int i = _first; i < _count; i++)
+            for (int i = 0; i < _count; i++)
             {
                 BlockElimination.Forward(_block[i], ref y[i], ref y[i + 1]);
             }
@@ -134,7 +118,7 @@ namespace Guidewire.Core
         public void Back(RodVector[] y)
         {
             y[_count] = default;
-            for (int i = _count - 1; i >= _first; i--)
+            for (int i = _count - 1; i >= 0; i--)
             {
                 BlockElimination.Backward(_block[i], ref y[i], y[i + 1]);
             }
@@ -143,8 +127,7 @@ namespace Guidewire.Core
         /// <summary>Takes the fixed directions out of a vector.</summary>
         public void Project(RodVector[] v)
         {
-            Array.Clear(v, 0, _first);
-            ProjectStart(ref v[_first]);
+            ProjectStart(ref v[0]);
             ProjectEnd(ref v[_count - 1]);
         }
 
@@ -152,7 +135,7 @@ namespace Guidewire.Core
         public double MetricDot(RodVector[] a, RodVector[] b)
         {
             double sum = 0.0;
-            for (int i = _first; i < _count; i++)
+            for (int i = 0; i < _count; i++)
             {
                 double x = a[i].X1 * b[i].X1 + a[i].X2 * b[i].X2 + a[i].X3 * b[i].X3;
                 double t = a[i].T1 * b[i].T1 + a[i].T2 * b[i].T2 + a[i].T3 * b[i].T3;
@@ -164,7 +147,7 @@ namespace Guidewire.Core
         /// <summary>v := metric times v.</summary>
         public void ApplyMetric(RodVector[] v)
         {
-            for (int i = _first; i < _count; i++)
+            for (int i = 0; i < _count; i++)
             {
                 double t = _weight[i];
                 double x = t * _perLengthSquared;
@@ -180,9 +163,9 @@ namespace Guidewire.Core
         /// <summary>y -= gradient where nothing is held.</summary>
         private void Subtract(RodVector[] gradient, RodVector[] y, int from, int to)
         {
-            RodVector start = gradient[_first];
+            RodVector start = gradient[0];
             RodVector end = gradient[_count - 1];
-            ProjectStart(ref gradient[_first]);
+            ProjectStart(ref gradient[0]);
             ProjectEnd(ref gradient[_count - 1]);
             for (int i = from; i < to; i++)
             {
@@ -195,7 +178,7 @@ namespace Guidewire.Core
                 v.T2 -= g.T2;
                 v.T3 -= g.T3;
             }
-            gradient[_first] = start;
+            gradient[0] = start;
             gradient[_count - 1] = end;
         }
 
@@ -247,7 +230,7 @@ namespace Guidewire.Core
             {
                 return;
             }
-            ref RodBlock b = ref _block[_first];
+            ref RodBlock b = ref _block[0];
             b.A11 = 1.0; b.A22 = 1.0; b.A33 = 1.0;
             b.A21 = 0.0; b.A31 = 0.0; b.A32 = 0.0;
             b.B11 = 0.0; b.B12 = 0.0; b.B13 = 0.0;

@@ -9,7 +9,7 @@ namespace Guidewire.Core
     {
         // A step in which a disturbance would grow by much (a thrust beyond buckling) may end in any shape.
         private const string Shorter = "; in a motion a shorter timeStep, or a timeStepError, may do";
-        private const string Limit = "; a hubForceLimit lets the hub give way";
+        private const string Limit = "; a hubForceLimit lets the hub slip";
 
         private const int MostSlips = 4;
 
@@ -268,8 +268,8 @@ namespace Guidewire.Core
         /// momentum.</summary>
         public override string? AccuracyWarning => _drive.Slip != 0.0 ? string.Format(
             CultureInfo.InvariantCulture,
-            "the hub lost {0:G3} m of its way: it gave way at hubForceLimit, or the wire in its sheath came to"
-            + " an end", _drive.Slip)
+            "the hub fell short by {0:G3} m: it slipped at hubForceLimit, or the wire reached an end of its"
+            + " sheath", _drive.Slip)
             : _spinLoss == null || _spinLoss.Expected <= MostSpinLoss ? null : string.Format(
             CultureInfo.InvariantCulture, "the free wire turned by up to {0:G2} rad a step, which changes its"
             + " angular momentum by some {1:G2} % (docs/verification.md); a shorter timeStep keeps it, or another"

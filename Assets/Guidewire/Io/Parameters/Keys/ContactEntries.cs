@@ -11,59 +11,41 @@ namespace Guidewire.Io
 
         /// <summary>The group, a part of the parameter table.</summary>
         public static ParameterGroup Group { get; } = new ParameterGroup(
-            "contact", "how the wire touches walls", new ParameterEntry[]
+            "contact", "how the wire touches walls", p => p.Simulation.Contact, new ParameterEntry[]
         {
-            new NumberEntry("sphereRadius", "units", NumberRange.Positive, "r",
-                p => p.Simulation.Contact.SphereRadius, (p, v) => p.Simulation.Contact.SphereRadius = v)
-            {
-                Methods = Takers.Pbd,
-            },
+            new NumberEntry("sphereRadius", "units", NumberRange.Positive, "r") { Methods = Takers.Pbd },
             new NumberEntry("contactDistance", "m", NumberRange.NotNegative,
                 "gap between the wire's surface and a wall below which the contact force acts; 0: chosen as the larger"
                 + " of a tenth of the wire's radius and a twentieth of the drive's motion per step, at most half of the"
-                + " narrowest clearance, and in a mesh 0.3 radii",
-                p => p.Simulation.Contact.ContactDistance, (p, v) => p.Simulation.Contact.ContactDistance = v)
-            {
-                Methods = Takers.Only(Solver.Direct),
-            },
+                + " narrowest clearance, and in a mesh 0.3 radii") { Methods = Takers.Only(Solver.Direct) },
             new NumberEntry("contactStiffness", "N/m", NumberRange.NotNegative,
                 "stiffness k of a contact; direct: the normal force is 1.19 k contactDistance at half that gap, 0:"
                 + " chosen as EI/(90 r)^2 over contactDistance, or more where the walls straighten the wire; xpbd: the"
-                + " normal force is k times the penetration depth, 0: rigid contacts",
-                p => p.Simulation.Contact.ContactStiffness, (p, v) => p.Simulation.Contact.ContactStiffness = v)
+                + " normal force is k times the penetration depth, 0: rigid contacts")
             {
                 Methods = Takers.Only(Solver.Xpbd, Solver.Direct),
             },
             new NumberEntry("elasticSlip", "m", NumberRange.NotNegative,
                 "elastic tangential displacement up to which a contact sticks; its tangential stiffness is"
                 + " frictionCoefficient times the normal force over elasticSlip; 0: a hundredth of the wire's"
-                + " radius",
-                p => p.Simulation.Contact.ElasticSlip, (p, v) => p.Simulation.Contact.ElasticSlip = v)
-            {
-                Methods = Takers.Only(Solver.Direct),
-            },
+                + " radius") { Methods = Takers.Only(Solver.Direct) },
             new NumberEntry("frictionSpeed", "m/s", NumberRange.Positive,
                 "in older files, the slip speed below which a contact crept; no longer used, as contacts now stick"
-                + " at any speed (see elasticSlip); a warning says so",
-                p => DefaultFrictionSpeed, (p, v) => { })
+                + " at any speed (see elasticSlip); a warning says so")
             {
+                Getter = p => DefaultFrictionSpeed,
+                Setter = (p, v) => { },
                 Methods = Takers.Only(Solver.Direct),
             },
-            new NumberEntry("collisionMargin", "units", NumberRange.NotNegative, "gap kept beyond the radius",
-                p => p.Simulation.Contact.CollisionMargin, (p, v) => p.Simulation.Contact.CollisionMargin = v)
+            new NumberEntry("collisionMargin", "units", NumberRange.NotNegative, "gap kept beyond the radius")
             {
                 Methods = Takers.Pbd,
             },
             new NumberEntry("collisionStiffness", "", NumberRange.Between(0.0, 1.0),
-                "k_C, stiffness of the contact constraint per iteration",
-                p => p.Simulation.Contact.CollisionStiffness, (p, v) => p.Simulation.Contact.CollisionStiffness = v)
-            {
-                Methods = Takers.Pbd,
-            },
+                "k_C, stiffness of the contact constraint per iteration") { Methods = Takers.Pbd },
             new ChoiceEntry<ElementContact>("elementContact",
                 "what touches a wall besides the spheres: rod elements by the lever rule, nothing, or rod elements by"
-                + " the thesis's rule",
-                p => p.Simulation.Contact.ElementContact, (p, v) => p.Simulation.Contact.ElementContact = v)
+                + " the thesis's rule")
             {
                 OlderWords = new Dictionary<string, ElementContact> { ["seed"] = ElementContact.Thesis },
                 Methods = Takers.Pbd,

@@ -7,59 +7,45 @@ namespace Guidewire.Io
     {
         /// <summary>The group, a part of the parameter table.</summary>
         public static ParameterGroup Group { get; } = new ParameterGroup(
-            "drive", "what moves the proximal end", new ParameterEntry[]
+            "drive", "what moves the proximal end", p => p.Simulation.Drive, new ParameterEntry[]
         {
             new ChoiceEntry<Drive>("drive",
                 "what moves sphere 0: hold: one displacement at the start, then held; displace: each step along a"
                 + " fixed axis; push: each step along the first element; force: externalForce on a free sphere 0"
-                + " (with a material, proximalEnd \"free\")",
-                p => p.Simulation.Drive.Kind, (p, v) => p.Simulation.Drive.Kind = v),
+                + " (with a material, proximalEnd \"free\")") { Property = nameof(DriveParameters.Kind) },
             new SwitchEntry("SteadyState", "older word for drive: true is \"hold\", false is \"displace\", by"
-                + " displacement each step where displacementPerStep is not given",
-                p => p.Simulation.Drive.Kind == Drive.Hold,
-                (p, v) => p.Simulation.Drive.Kind = v ? Drive.Hold : Drive.Displace),
+                + " displacement each step where displacementPerStep is not given")
+            {
+                Getter = p => p.Simulation.Drive.Kind == Drive.Hold,
+                Setter = (p, v) => p.Simulation.Drive.Kind = v ? Drive.Hold : Drive.Displace,
+            },
             new NumberEntry("displacement", "units", NumberRange.Any,
-                "displacement of sphere 0 at the start with drive \"hold\"",
-                p => p.Simulation.Drive.Displacement, (p, v) => p.Simulation.Drive.Displacement = v),
-            new VectorEntry("displacementDirection", "", false, "direction of displacement, and of drive \"displace\"",
-                p => p.Simulation.Drive.DisplacementDirection, (p, v) => p.Simulation.Drive.DisplacementDirection = v),
+                "displacement of sphere 0 at the start with drive \"hold\""),
+            new VectorEntry("displacementDirection", "", false, "direction of displacement, and of drive \"displace\""),
             new NumberEntry("displacementPerStep", "units per step", NumberRange.Any,
-                "motion of sphere 0 with drive \"displace\" or \"push\"",
-                p => p.Simulation.Drive.DisplacementPerStep, (p, v) => p.Simulation.Drive.DisplacementPerStep = v),
+                "motion of sphere 0 with drive \"displace\" or \"push\""),
             new NumberEntry("twistPerStep", "radians per step", NumberRange.Any,
                 "rotation of element 0 about its own axis, with a material that of its clamp; with pbd, a value other"
-                + " than 0 also holds the element's frame",
-                p => p.Simulation.Drive.TwistPerStep, (p, v) => p.Simulation.Drive.TwistPerStep = v),
+                + " than 0 also holds the element's frame"),
             new NumberEntry("insertionSpeed", "m/s", NumberRange.Any,
                 "speed of sphere 0 with drive \"displace\" or \"push\", instead of displacementPerStep;"
-                + " negative values pull", p => p.Simulation.Drive.InsertionSpeed,
-                (p, v) => p.Simulation.Drive.InsertionSpeed = v)
-            {
-                Methods = Takers.Material,
-            },
+                + " negative values pull") { Methods = Takers.Material },
             new NumberEntry("rotationSpeed", "rad/s", NumberRange.Any,
-                "rotation speed of the proximal clamp about its axis, instead of twistPerStep",
-                p => p.Simulation.Drive.RotationSpeed, (p, v) => p.Simulation.Drive.RotationSpeed = v)
+                "rotation speed of the proximal clamp about its axis, instead of twistPerStep")
             {
                 Methods = Takers.Material,
             },
             new TextEntry("driveFile", "CSV file of time (s), insertion (m) and rotation (rad) of the proximal clamp,"
                 + " instead of the speeds: linear between rows, at rest before the first and after the last;"
-                + " only differences count; the path is relative to the parameter file's folder",
-                p => p.DriveFile, (p, v) => p.DriveFile = v)
+                + " only differences count; the path is relative to the parameter file's folder")
             {
                 Methods = Takers.Material,
             },
             new NumberEntry("hubForceLimit", "N", NumberRange.NotNegative,
                 "between walls: axial force at which the hub slips, so that it pushes and pulls no harder; the lost"
-                + " displacement is driveShortfall; 0: it never slips",
-                p => p.Simulation.Drive.HubForceLimit, (p, v) => p.Simulation.Drive.HubForceLimit = v)
-            {
-                Methods = Takers.Only(Solver.Direct),
-            },
+                + " displacement is driveShortfall; 0: it never slips") { Methods = Takers.Only(Solver.Direct) },
             new VectorEntry("externalForce", "mass unit * unit/s^2", true,
-                "force on sphere 0 with drive \"force\"",
-                p => p.Simulation.Drive.ExternalForce, (p, v) => p.Simulation.Drive.ExternalForce = v)
+                "force on sphere 0 with drive \"force\"")
             {
                 MaterialUnit = "N",
             },

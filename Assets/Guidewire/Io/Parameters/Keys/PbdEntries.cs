@@ -7,25 +7,14 @@ namespace Guidewire.Io
     {
         /// <summary>The group, a part of the parameter table.</summary>
         public static ParameterGroup Group { get; } = new ParameterGroup(
-            "pbd", "mass and stiffness per iteration of the wire", new ParameterEntry[]
+            "pbd", "mass and stiffness per iteration of the wire", p => p.Simulation.Pbd, new ParameterEntry[]
         {
-            new NumberEntry("totalMass", "mass units", NumberRange.Positive, "M, distributed evenly over the spheres",
-                p => p.Simulation.Pbd.TotalMass, (p, v) => p.Simulation.Pbd.TotalMass = v)
-            {
-                Methods = Takers.Pbd,
-            },
+            new NumberEntry("totalMass", "mass units", NumberRange.Positive, "M, distributed evenly over the spheres"),
             new NumberEntry("stretchStiffness", "", NumberRange.NotNegative,
-                "k_A, stiffness of the stretch constraint per iteration; unstable from 2 on",
-                p => p.Simulation.Pbd.StretchStiffness, (p, v) => p.Simulation.Pbd.StretchStiffness = v)
-            {
-                Methods = Takers.Pbd,
-            },
+                "k_A, stiffness of the stretch constraint per iteration; unstable from 2 on"),
             new NumberEntry("bendStiffness", "units", NumberRange.NotNegative,
-                "k_B, stiffness of the bend-twist constraint per iteration; unstable above L/n",
-                p => p.Simulation.Pbd.BendStiffness, (p, v) => p.Simulation.Pbd.BendStiffness = v)
-            {
-                Methods = Takers.Pbd,
-            },
-        });
+                "k_B, stiffness of the bend-twist constraint per iteration; unstable above L/n"),
+        },
+            Takers.Pbd);
     }
 }

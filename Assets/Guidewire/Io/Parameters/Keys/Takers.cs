@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using Guidewire.Core;
 
@@ -7,16 +8,16 @@ namespace Guidewire.Io
     internal static class Takers
     {
         /// <summary>Every method.</summary>
-        public static IReadOnlyList<Solver> All { get; } = Where(gains: true, material: true);
+        public static IReadOnlyList<Solver> All { get; } = Where(method => true);
 
-        /// <summary>Those whose wire is gains.</summary>
-        public static IReadOnlyList<Solver> Pbd { get; } = Where(gains: true, material: false);
+        /// <summary>Those whose wire has a stiffness per iteration.</summary>
+        public static IReadOnlyList<Solver> Pbd { get; } = Where(method => !method.TakesMaterial);
 
         /// <summary>Those whose wire is a material.</summary>
-        public static IReadOnlyList<Solver> Material { get; } = Where(gains: false, material: true);
+        public static IReadOnlyList<Solver> Material { get; } = Where(method => method.TakesMaterial);
 
         /// <summary>Those that meet walls.</summary>
-        public static IReadOnlyList<Solver> Walls { get; } = WhereWalls();
+        public static IReadOnlyList<Solver> Walls { get; } = Where(method => method.MeetsWalls);
 
         /// <summary>These.</summary>
         public static IReadOnlyList<Solver> Only(params Solver[] methods)
@@ -24,25 +25,12 @@ namespace Guidewire.Io
             return methods;
         }
 
-        private static List<Solver> WhereWalls()
+        private static List<Solver> Where(Predicate<MethodTraits> takes)
         {
             var methods = new List<Solver>();
             foreach (MethodTraits method in MethodTable.All)
             {
-                if (method.MeetsWalls)
-                {
-                    methods.Add(method.Solver);
-                }
-            }
-            return methods;
-        }
-
-        private static List<Solver> Where(bool gains, bool material)
-        {
-            var methods = new List<Solver>();
-            foreach (MethodTraits method in MethodTable.All)
-            {
-                if (method.TakesMaterial ? material : gains)
+                if (takes(method))
                 {
                     methods.Add(method.Solver);
                 }

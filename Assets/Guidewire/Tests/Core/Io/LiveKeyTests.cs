@@ -10,7 +10,7 @@ namespace Guidewire.Core.Tests
 {
     /// <summary>Every key of the table, changed while a run goes on, with every method.</summary>
     [TestFixture]
-    public sealed class LiveKeyTests
+    public sealed class LiveKeyTests : FolderTests
     {
         private const int Steps = 2;               // before, between and after the changes
         private static readonly int RandomChanges = Rods.InFull ? 40 : 16;
@@ -33,21 +33,11 @@ namespace Guidewire.Core.Tests
         // The wire, or how it began, would be another one.
         private static readonly string[] OfTheStart = { "numberRodElements", "startFile", "sheath" };
 
-        private string _folder = "";
-
         [SetUp]
         public void Make()
         {
-            _folder = Path.Combine(Path.GetTempPath(), "guidewire-" + Guid.NewGuid().ToString("N"));
-            Directory.CreateDirectory(_folder);
-            File.WriteAllText(Path.Combine(_folder, "table.csv"), "time,factor\n0,1\n10,2\n");
-            File.WriteAllText(Path.Combine(_folder, "drive.csv"), "time,insertion,rotation\n0,0,0\n10,0.001,0.1\n");
-        }
-
-        [TearDown]
-        public void Clean()
-        {
-            Directory.Delete(_folder, true);
+            File.WriteAllText(Path.Combine(Folder, "table.csv"), "time,factor\n0,1\n10,2\n");
+            File.WriteAllText(Path.Combine(Folder, "drive.csv"), "time,insertion,rotation\n0,0,0\n10,0.001,0.1\n");
         }
 
         private static IEnumerable<TestCaseData> Scenes()
@@ -102,7 +92,7 @@ namespace Guidewire.Core.Tests
 
         private SimulationSession Open(string scene)
         {
-            string file = Path.Combine(_folder, "scene.json");
+            string file = Path.Combine(Folder, "scene.json");
             File.WriteAllText(file, scene);
             return SimulationSession.Open(file, Array.Empty<string>(), "", false);
         }
@@ -187,7 +177,7 @@ namespace Guidewire.Core.Tests
             }
             if (Structured.TryGetValue(entry.Key, out string? text))
             {
-                JToken other = JToken.Parse(text.Replace("FOLDER", _folder.Replace("\\", "/")));
+                JToken other = JToken.Parse(text.Replace("FOLDER", Folder.Replace("\\", "/")));
                 return new[] { other, entry.Write(new RunParameters(Solver.Direct)) };
             }
             switch (now.Type)

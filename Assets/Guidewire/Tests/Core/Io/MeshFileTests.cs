@@ -9,23 +9,8 @@ namespace Guidewire.Core.Tests
 {
     /// <summary>Mesh files, whole and broken: one clear line for each.</summary>
     [TestFixture]
-    internal sealed class MeshFileTests
+    internal sealed class MeshFileTests : FolderTests
     {
-        private string _folder = "";
-
-        [SetUp]
-        public void MakeFolder()
-        {
-            _folder = Path.Combine(Path.GetTempPath(), "guidewire-mesh-" + Guid.NewGuid().ToString("N"));
-            Directory.CreateDirectory(_folder);
-        }
-
-        [TearDown]
-        public void RemoveFolder()
-        {
-            Directory.Delete(_folder, true);
-        }
-
         [Test]
         public void Cube_ReadsAlike_FromObjTextStlAndBinaryStl()
         {
@@ -64,19 +49,19 @@ namespace Guidewire.Core.Tests
             Refused("mesh.ply", Text("ply"), "needs a name that ends in .obj or .stl");
             Refused("vertices.obj", Text("v 0 0 0\n"), "has no triangles");
             Assert.That(
-                () => MeshFile.Read(Path.Combine(_folder, "none.obj"), 1.0, Array.Empty<Vector3d>()),
+                () => MeshFile.Read(Path.Combine(Folder, "none.obj"), 1.0, Array.Empty<Vector3d>()),
                 Throws.TypeOf<ParameterException>().With.Message.Contains("none.obj: no such file"));
         }
 
         [Test]
         public void WhatIsNoPlainFile_IsRefusedBeforeItIsRead()
         {
-            string folder = Path.Combine(_folder, "folder.obj");
+            string folder = Path.Combine(Folder, "folder.obj");
             Directory.CreateDirectory(folder);
             RefusedFile(folder, ": is a folder, a mesh file is needed");
-            RefusedFile(_folder, ": is a folder, a mesh file is needed");
-            RefusedFile(Path.Combine(_folder, "none"), ": needs a name that ends in .obj or .stl");
-            string large = Path.Combine(_folder, "large.stl");
+            RefusedFile(Folder, ": is a folder, a mesh file is needed");
+            RefusedFile(Path.Combine(Folder, "none"), ": needs a name that ends in .obj or .stl");
+            string large = Path.Combine(Folder, "large.stl");
             using (FileStream stream = File.Create(large))
             {
                 stream.SetLength(((long)PlainFile.LargestMebibytes << 20) + 1);
@@ -101,7 +86,7 @@ namespace Guidewire.Core.Tests
 
         private string Write(string name, byte[] bytes)
         {
-            string file = Path.Combine(_folder, name);
+            string file = Path.Combine(Folder, name);
             File.WriteAllBytes(file, bytes);
             return file;
         }

@@ -7,23 +7,8 @@ using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
 {
-    public sealed class ParameterHandlerTests
+    public sealed class ParameterHandlerTests : FolderTests
     {
-        private string _folder = "";
-
-        [SetUp]
-        public void MakeFolder()
-        {
-            _folder = Path.Combine(Path.GetTempPath(), "guidewire-" + Path.GetRandomFileName());
-            Directory.CreateDirectory(_folder);
-        }
-
-        [TearDown]
-        public void RemoveFolder()
-        {
-            Directory.Delete(_folder, true);
-        }
-
         [Test]
         public void Defaults_AreThesisTable41()
         {
@@ -156,7 +141,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void StartFile_IsRead_AndRefusedWhereItDoesNotFit()
         {
-            string start = Path.Combine(_folder, "start.json");
+            string start = Path.Combine(Folder, "start.json");
             File.WriteAllText(start,
                 "{\"positions\": [[0,0,0],[0,0,5],[0,5,5]], \"orientations\": [[0,0,0,1],[0,0,0,2]]}");
             SimulationParameters simulation = Load("{\"numberRodElements\": 2}", ("startFile", start))
@@ -170,12 +155,12 @@ namespace Guidewire.Core.Tests
         [Test]
         public void StartFile_CountsFromTheFolderOfItsParameterFile()
         {
-            File.WriteAllText(Path.Combine(_folder, "beside.json"),
+            File.WriteAllText(Path.Combine(Folder, "beside.json"),
                 "{\"positions\": [[0,0,0],[0,0,7]], \"orientations\": [[0,0,0,1]]}");
             ParameterHandler handler = Load("{\"numberRodElements\": 1, \"startFile\": \"beside.json\"}");
             Assert.That(handler.Values.Simulation.Scene.Start!.Positions[1].Z, Is.EqualTo(7.0));
             Assert.That((string?)handler.ToJson()["startFile"],
-                Is.EqualTo(Path.GetFullPath(Path.Combine(_folder, "beside.json"))), "repeats the run from any folder");
+                Is.EqualTo(Path.GetFullPath(Path.Combine(Folder, "beside.json"))), "repeats the run from any folder");
             Assert.That(() => Load("{\"numberRodElements\": 1}", ("startFile", "beside.json")),
                 Throws.TypeOf<ParameterException>(), "the command line's names count from the current folder");
         }
@@ -184,7 +169,7 @@ namespace Guidewire.Core.Tests
         public void LoadTables_AreReadBesideTheParameterFile_AndRefusedWhereTheyMakeNoSense()
         {
             const string Scene = "{\"solver\": \"direct\", \"loadTables\": {\"tipForce\": \"pull.csv\"}}";
-            string file = Path.Combine(_folder, "pull.csv");
+            string file = Path.Combine(Folder, "pull.csv");
             File.WriteAllText(file, "time,value\n# a ramp\n0,0\n0.5,2\n");
             ParameterHandler handler = Load(Scene);
             Assert.That(handler.Values.Simulation.Scene.TipForceTable!.At(0.25), Is.EqualTo(1.0));
@@ -216,7 +201,7 @@ namespace Guidewire.Core.Tests
                 + " \"driveFile\": \"hub.csv\"}";
             if (content != null)
             {
-                File.WriteAllText(Path.Combine(_folder, "hub.csv"), content);
+                File.WriteAllText(Path.Combine(Folder, "hub.csv"), content);
             }
             Assert.That(() => Load(Scene), Throws.TypeOf<ParameterException>().With.Message.Contains("driveFile")
                 .And.Message.Contains("hub.csv").And.Message.Contains(word).And.Message.Not.Contains("\n"));
@@ -227,7 +212,7 @@ namespace Guidewire.Core.Tests
         {
             const string Scene = "{\"solver\": \"direct\", \"drive\": \"displace\", \"proximalEnd\": \"clamped\","
                 + " \"driveFile\": \"hub.csv\"}";
-            string file = Path.Combine(_folder, "hub.csv");
+            string file = Path.Combine(Folder, "hub.csv");
             File.WriteAllText(file, "# the hub\ntime,insertion,rotation\n# a turn\n0,0,0\n2,0.04,6\n");
             ParameterHandler handler = Load(Scene);
             Assert.That(handler.Values.Simulation.Drive.Table!.Insertion.At(0.5), Is.EqualTo(0.01));
@@ -267,7 +252,7 @@ namespace Guidewire.Core.Tests
 
         private ParameterHandler Load(string text, params (string Key, string Value)[] overrides)
         {
-            string file = Path.Combine(_folder, "wire.json");
+            string file = Path.Combine(Folder, "wire.json");
             File.WriteAllText(file, text);
             var list = new List<KeyValuePair<string, JToken>>();
             foreach ((string key, string value) in overrides)

@@ -8,40 +8,25 @@ namespace Guidewire.Core.Tests
 {
     /// <summary>What a run says of whether its result is to be trusted, and what it logs where it is not.</summary>
     [TestFixture]
-    public sealed class ReliableRunTests
+    public sealed class ReliableRunTests : FolderTests
     {
         private const string Tube = "\"vessel\": {\"shape\": \"tube\", \"knots\": [[0, 0, -30], [0, 0, 65]],"
             + " \"radius\": 6}, \"guidewireLength\": 60, \"guidewireOffset\": 0, \"numberRodElements\": 6,"
             + " \"deltaThreshold\": 0";
 
-        private string _folder = "";
-
-        [SetUp]
-        public void Make()
-        {
-            _folder = Path.Combine(Path.GetTempPath(), "guidewire-" + Guid.NewGuid().ToString("N"));
-            Directory.CreateDirectory(_folder);
-        }
-
-        [TearDown]
-        public void Clean()
-        {
-            Directory.Delete(_folder, true);
-        }
-
         private (JObject Summary, JObject Log, RunResult Result) Run(string keys)
         {
-            string file = Path.Combine(_folder, "wire.json");
+            string file = Path.Combine(Folder, "wire.json");
             File.WriteAllText(file, "{" + keys + "}");
             ParameterHandler handler = ParameterHandler.Load(file, CommandLineHandler.ReadAssignments(
                 Array.Empty<string>()));
-            RunResult result = new SimulationRun(handler, Path.Combine(_folder, "out"), null).Execute(Existing.Replace);
+            RunResult result = new SimulationRun(handler, Path.Combine(Folder, "out"), null).Execute(Existing.Replace);
             return (Read("summary.json"), Read("positions.json"), result);
         }
 
         private JObject Read(string name)
         {
-            return JObject.Parse(File.ReadAllText(Path.Combine(_folder, "out", name)));
+            return JObject.Parse(File.ReadAllText(Path.Combine(Folder, "out", name)));
         }
 
         [Test]

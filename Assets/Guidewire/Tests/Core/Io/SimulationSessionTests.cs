@@ -9,26 +9,17 @@ namespace Guidewire.Core.Tests
 {
     [Category("Target")]
     [TestFixture]
-    public sealed class SimulationSessionTests
+    public sealed class SimulationSessionTests : FolderTests
     {
         private static readonly KeyValuePair<string, JToken>[] Nothing = Array.Empty<KeyValuePair<string, JToken>>();
 
-        private string _folder = "";
         private string _file = "";
 
         [SetUp]
         public void Make()
         {
-            _folder = Path.Combine(Path.GetTempPath(), "guidewire-" + Guid.NewGuid().ToString("N"));
-            Directory.CreateDirectory(_folder);
-            _file = Path.Combine(_folder, "wire.json");
+            _file = Path.Combine(Folder, "wire.json");
             File.WriteAllText(_file, "{\"constraintSolverSteps\": 20, \"deltaThreshold\": 0}");
-        }
-
-        [TearDown]
-        public void Clean()
-        {
-            Directory.Delete(_folder, true);
         }
 
         private SimulationSession Open(string log, bool isSteered, params string[] overrides)
@@ -154,7 +145,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void Log_OfASteeredRun_StandsForNoParameters()
         {
-            string log = Path.Combine(_folder, "log");
+            string log = Path.Combine(Folder, "log");
             using (SimulationSession session = Open(log, true))
             {
                 session.Step(0.5, 0.0);
@@ -168,7 +159,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void Log_OfARunThatNobodyTouched_StandsForItsParameters()
         {
-            string log = Path.Combine(_folder, "log");
+            string log = Path.Combine(Folder, "log");
             using (SimulationSession session = Open(log, false, "maxSimulationSteps=3"))
             {
                 for (int k = 0; k < 5; k++)

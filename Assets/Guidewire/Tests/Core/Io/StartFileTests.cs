@@ -10,25 +10,10 @@ namespace Guidewire.Core.Tests
 {
     /// <summary>Runs that set out from a file.</summary>
     [TestFixture]
-    public sealed class StartFileTests
+    public sealed class StartFileTests : FolderTests
     {
         private const int N = 6;
         private const double L = 60.0;   // units
-
-        private string _folder = "";
-
-        [SetUp]
-        public void Make()
-        {
-            _folder = Path.Combine(Path.GetTempPath(), "guidewire-" + Guid.NewGuid().ToString("N"));
-            Directory.CreateDirectory(_folder);
-        }
-
-        [TearDown]
-        public void Clean()
-        {
-            Directory.Delete(_folder, true);
-        }
 
         // A straight wire along what the turn makes of z; its frames are off it by an angle about x, degrees.
         private static JObject Straight(in Quaterniond turn, double off = 0.0)
@@ -50,10 +35,10 @@ namespace Guidewire.Core.Tests
 
         private ParameterHandler Load(JObject start, string keys)
         {
-            File.WriteAllText(Path.Combine(_folder, "start.json"), start.ToString());
-            File.WriteAllText(Path.Combine(_folder, "wire.json"), "{\"numberRodElements\": 6, \"guidewireLength\": 60,"
+            File.WriteAllText(Path.Combine(Folder, "start.json"), start.ToString());
+            File.WriteAllText(Path.Combine(Folder, "wire.json"), "{\"numberRodElements\": 6, \"guidewireLength\": 60,"
                 + " \"deltaThreshold\": 0, \"startFile\": \"start.json\", " + keys + "}");
-            return ParameterHandler.Load(Path.Combine(_folder, "wire.json"), CommandLineHandler.ReadAssignments(
+            return ParameterHandler.Load(Path.Combine(Folder, "wire.json"), CommandLineHandler.ReadAssignments(
                 Array.Empty<string>()));
         }
 
@@ -153,11 +138,11 @@ namespace Guidewire.Core.Tests
         [Test]
         public void MissingFile_IsNamedBesideTheParameterFile()
         {
-            string file = Path.Combine(_folder, "wire.json");
+            string file = Path.Combine(Folder, "wire.json");
             File.WriteAllText(file, "{\"startFile\": \"runs/none.json\"}");
             Exception? refused = Assert.Throws<ParameterException>(() => ParameterHandler.Load(file,
                 CommandLineHandler.ReadAssignments(Array.Empty<string>())));
-            Assert.That(refused?.Message, Does.Contain(Path.GetFullPath(Path.Combine(_folder, "runs", "none.json"))));
+            Assert.That(refused?.Message, Does.Contain(Path.GetFullPath(Path.Combine(Folder, "runs", "none.json"))));
         }
     }
 }

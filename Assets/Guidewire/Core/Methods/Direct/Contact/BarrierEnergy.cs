@@ -145,13 +145,6 @@ namespace Guidewire.Core
         /// <summary>Force of each wall on the wire, N, in the shape last evaluated.</summary>
         public Vector3d[] Resultants => _resultant;
 
-        /// <summary>Force of the walls on a node, its fraction of those on its elements included, N.</summary>
-        public Vector3d ForceOn(RodShape shape, int node)
-        {
-            Update(shape);
-            return -_sums.GradientAt(node);
-        }
-
         /// <summary>Lower bound of the distance of element j from all walls in the shape last evaluated,
         /// units.</summary>
         public double ClearanceOf(int j)

@@ -33,12 +33,6 @@ namespace Guidewire.Core
         /// <summary>Wall by wall and along the wire.</summary>
         public StructList<WallContact> Contacts { get; } = new StructList<WallContact>(64);
 
-        /// <summary>By the position of node i, N.</summary>
-        public Vector3d GradientAt(int i)
-        {
-            return _gradient[i];
-        }
-
         /// <summary>Removes all contacts.</summary>
         public void Clear()
         {

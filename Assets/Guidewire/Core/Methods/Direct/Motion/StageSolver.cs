@@ -100,65 +100,96 @@ namespace Guidewire.Core
             double unbalanced = double.PositiveInfinity;
             for (int f = 0; f < MostFactorisations; f++)
             {
-                Factorisations++;
-                if (_system.Factorise(_terms, shape, _gradient, _direction, 0.0) != 0)
+                if (!NewtonStep(shape, out double step, out double fraction))
                 {
                     return false;
                 }
-                _system.Back(_direction);
-                double first = Move(shape, out double fraction);
                 if (fraction < 1.0)
                 {
                     continue;
                 }
-                double allowed = Allowed(rounding, loads);
-                _stagesOnTrust++;
-                if (_stagesOnTrust < MostOnTrust && Caution * Expected(first) <= allowed)
+                if (IsTrusted(step, Allowed(rounding, loads)))
                 {
                     return true;
                 }
-                double size = first;
-                for (int k = 0; k < MostKept; k++)
+                bool? isSolved = KeptSteps(shape, step, rounding, loads, ref unbalanced);
+                if (isSolved.HasValue)
                 {
-                    double last = unbalanced;
-                    unbalanced = Unbalanced(shape);
-                    allowed = Allowed(rounding, loads);
-                    if (k == 0)
-                    {
-                        _knownStep = first;
-                        _knownForce = unbalanced;
-                        _stagesOnTrust = 0;
-                    }
-                    // A full step that no longer lowers the force left has come to what rounding leaves.
-                    bool atRounding = k == 0 && unbalanced >= 0.5 * last && first <= Tolerance;
-                    if (unbalanced <= allowed || atRounding)
-                    {
-                        return true;
-                    }
-                    KeptSolutions++;
-                    _system.Solve(_direction);
-                    double next = Move(shape, out fraction);
-                    if (fraction < 1.0)
-                    {
-                        break;
-                    }
-                    if (Safety * _stiffest * first * next <= allowed && next <= Tolerance)
-                    {
-                        return true;
-                    }
-                    // Below the tolerance a factorisation that no longer contracts is only too old.
-                    if (!(next < size) && !(next <= Tolerance))
-                    {
-                        return false;
-                    }
-                    if (next > WorstContraction * size)
-                    {
-                        break;
-                    }
-                    size = next;
+                    return isSolved.Value;
                 }
             }
             return false;
+        }
+
+        /// <summary>A new factorisation, and a step with it; false where there is none.</summary>
+        private bool NewtonStep(RodShape shape, out double step, out double fraction)
+        {
+            Factorisations++;
+            step = 0.0;
+            fraction = 0.0;
+            if (_system.Factorise(_terms, shape, _gradient, _direction, 0.0) != 0)
+            {
+                return false;
+            }
+            _system.Back(_direction);
+            step = Move(shape, out fraction);
+            return true;
+        }
+
+        /// <summary>Whether the force that a full step leaves is known well enough without an evaluation.</summary>
+        private bool IsTrusted(double step, double allowed)
+        {
+            _stagesOnTrust++;
+            return _stagesOnTrust < MostOnTrust && Caution * Expected(step) <= allowed;
+        }
+
+        /// <summary>Steps with the factorisation of the last one, as long as they contract.</summary>
+        /// <param name="first">Size of the full step with which it was made.</param>
+        /// <param name="unbalanced">In: the force left when last evaluated, N. Out: the same.</param>
+        /// <returns>Whether the stage is solved; null where a new factorisation is needed.</returns>
+        private bool? KeptSteps(RodShape shape, double first, double rounding, double loads, ref double unbalanced)
+        {
+            double size = first;
+            for (int k = 0; k < MostKept; k++)
+            {
+                double last = unbalanced;
+                unbalanced = Unbalanced(shape);
+                double allowed = Allowed(rounding, loads);
+                if (k == 0)
+                {
+                    _knownStep = first;
+                    _knownForce = unbalanced;
+                    _stagesOnTrust = 0;
+                }
+                // A full step that no longer lowers the force left has come to what rounding leaves.
+                bool atRounding = k == 0 && unbalanced >= 0.5 * last && first <= Tolerance;
+                if (unbalanced <= allowed || atRounding)
+                {
+                    return true;
+                }
+                KeptSolutions++;
+                _system.Solve(_direction);
+                double next = Move(shape, out double fraction);
+                if (fraction < 1.0)
+                {
+                    return null;
+                }
+                if (Safety * _stiffest * first * next <= allowed && next <= Tolerance)
+                {
+                    return true;
+                }
+                // Below the tolerance a factorisation that no longer contracts is only too old.
+                if (!(next < size) && !(next <= Tolerance))
+                {
+                    return false;
+                }
+                if (next > WorstContraction * size)
+                {
+                    return null;
+                }
+                size = next;
+            }
+            return null;
         }
 
         /// <summary>The slower search, from the shape as it is; it judges the error of the shape alone.</summary>

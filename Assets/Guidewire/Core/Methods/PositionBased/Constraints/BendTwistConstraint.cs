@@ -84,12 +84,5 @@ namespace Guidewire.Core
                 q[j + 1] = new Quaterniond(scaleB * bx, scaleB * by, scaleB * bz, scaleB * bw);
             }
         }
-
-        /// <summary>Omega of joint j in 1/unit, element j's frame: for tests and views, not for the solver.</summary>
-        public static Vector3d DarbouxVector(RodState state, int j)
-        {
-            Quaterniond difference = state.Orientations[j].Conjugate * state.Orientations[j + 1];
-            return (2.0 / state.ElementLength) * difference.Imaginary;
-        }
     }
 }

@@ -77,69 +77,6 @@ namespace Guidewire.Core.Tests
             Assert.That(y[99].X2, Is.EqualTo(-sag).Within(1e-5 * sag));
         }
 
-        [TestCase(1, DistalEnd.Free, ProximalEnd.Held)]
-        [TestCase(3, DistalEnd.Clamped, ProximalEnd.Held)]
-        [TestCase(40, DistalEnd.Sliding, ProximalEnd.Held)]
-        [TestCase(40, DistalEnd.Clamped, ProximalEnd.Free)]
-        public void RodWhoseFirstNodesAreInactive_IsTheShorterRod(int inactive, DistalEnd distal, ProximalEnd proximal)
-        {
-            const int Active = 45;             // elements, in two pieces
-            const double Length = 1.0 / 128.0;  // of one, exact in binary
-            int all = inactive + Active;
-            MaterialRod whole = MaterialRod.Round(all, Length * all, 1e-3, 3e6, 1.3e6, 2.0);
-            MaterialRod part = MaterialRod.Round(Active, Length * Active, 1e-3, 3e6, 1.3e6, 2.0);
-            var supports = new RodSupports
-            {
-                Proximal = proximal, Distal = distal, Clamp = ClampRule.HalfElement,
-                SlidingAxis = Vector3d.Normalize(new Vector3d(1.0, 2.0, -1.0)),
-            };
-            RodShape shape = Rods.Random(whole, 0.2, 0.1, 3);
-            var shorter = new RodShape(Active);
-            Array.Copy(shape.X, inactive, shorter.X, 0, Active + 1);
-            Array.Copy(shape.Q, inactive, shorter.Q, 0, Active);
-            shorter.DistalFrame = shape.DistalFrame;
-            var system = new BlockTridiagonal(whole, supports) { FirstActive = inactive };
-            var reference = new BlockTridiagonal(part, supports);
-            EnergyTerm[] terms = Elastic(whole, supports);
-            EnergyTerm[] own = Elastic(part, supports);
-            var gradient = new RodVector[system.VectorCount];
-            var y = new RodVector[system.VectorCount];
-            var expected = new RodVector[reference.VectorCount];
-            var reaction = new RodVector[reference.VectorCount];
-            for (int i = 0; i < y.Length; i++)
-            {
-                y[i] = new RodVector { X1 = 1.0, T3 = 1.0 };
-            }
-            Assert.That(system.Factorise(terms, shape, gradient, y, 0.0),
-                Is.EqualTo(reference.Factorise(own, shorter, reaction, expected, 0.0)), "eigenvalues");
-            system.Back(y);
-            reference.Back(expected);
-            AssertPart(y, expected, inactive);
-            AssertPart(gradient, reaction, inactive);
-            system.Gradient(terms, shape, gradient, y);
-            system.Solve(y);
-            AssertPart(y, expected, inactive);
-        }
-
-        private static EnergyTerm[] Elastic(MaterialRod rod, RodSupports supports)
-        {
-            var terms = new RodTerms(rod, supports);
-            return new EnergyTerm[] { terms.Stretch, terms.Bending };
-        }
-
-        private static void AssertPart(RodVector[] actual, RodVector[] expected, int first)
-        {
-            double[] all = DenseMatrix.From(actual, actual.Length - 1);
-            double[] part = DenseMatrix.From(expected, expected.Length - 1);
-            for (int i = 0; i < 6 * first; i++)
-            {
-                Assert.That(all[i], Is.Zero, "inactive");
-            }
-            var active = new double[part.Length];
-            Array.Copy(all, 6 * first, active, 0, part.Length);
-            AssertEqual(active, part, 1e-11);
-        }
-
         private static void RodSystem(DistalEnd distal, double angle, out MaterialRod rod, out RodSupports supports,
             out EnergyTerm[] terms, out RodShape shape)
         {

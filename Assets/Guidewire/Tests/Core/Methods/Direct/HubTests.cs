@@ -117,7 +117,7 @@ namespace Guidewire.Core.Tests
             Assert.That(1e3 * hub.Insertion + run.Contacts.DriveShortfall, Is.EqualTo(asked).Within(1e-6));
             // The gap is a millimetre less the wire's radius, of which the barrier keeps a part.
             Assert.That(1e3 * hub.Insertion, Is.InRange(0.5, 0.61));
-            Assert.That(run.Reason, Does.Contain("gave way at hubForceLimit"));
+            Assert.That(run.Reason, Does.Contain("slipped at hubForceLimit"));
         }
 
         [Test]
@@ -146,7 +146,7 @@ namespace Guidewire.Core.Tests
             }
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
             Assert.That(run.Contacts!.DriveAsked, Is.EqualTo(60.0 + 60.0 + 30.0).Within(1e-9));
-            Assert.That(run.Contacts.DriveShortfall, Is.Not.EqualTo(0.0).Within(1.0), "it gave way");
+            Assert.That(run.Contacts.DriveShortfall, Is.Not.EqualTo(0.0).Within(1.0), "it slipped");
         }
 
         [Test]

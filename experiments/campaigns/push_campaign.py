@@ -1,8 +1,9 @@
 """A campaign of random pushes: each is run, and its log judged by a search of its own.
 
-``python3 -m experiments.push_campaign --method direct --runs 300 --keep DIR`` prints one line for each run that breaks
-a claim, and keeps its scene there; METHOD is pbd (`pushes`) or one of `material_pushes`. Meshes that cross themselves
-have no inside, and a wire may start in a wall: a seed that draws either is passed over and does not count as a run.
+``python3 -m experiments.campaigns.push_campaign --method direct --runs 300 --keep DIR`` prints one line for each run
+that breaks a claim, and keeps its scene there; METHOD is pbd (`pushes`) or one of `material_pushes`. Meshes that cross
+themselves have no inside, and a wire may start in a wall: a seed that draws either is skipped and does not count as a
+run.
 """
 
 from __future__ import annotations
@@ -23,12 +24,12 @@ from typing import Any
 
 import numpy as np
 
-from analysis import material_claims, push_claims
 from analysis.logs import read_log
-from analysis.push_claims import Walls
 from analysis.surfaces import read_obj
-from analysis.wall_search import crosses_itself
-from experiments import building, material_pushes, pushes
+from experiments import building
+from experiments.campaigns import material_claims, material_pushes, push_claims, pushes
+from experiments.campaigns.push_claims import Walls
+from experiments.campaigns.wall_search import crosses_itself
 from experiments.runner import Request, Runner
 
 RUN_LIMIT = 60.0  # s of wall time of one run
@@ -147,7 +148,8 @@ def campaign(command: Sequence[str], seeds: Iterable[int], folder: Path, method:
 
 
 def main(arguments: Sequence[str]) -> int:
-    parser = argparse.ArgumentParser(prog="python3 -m experiments.push_campaign", description=__doc__.split("\n")[0])
+    parser = argparse.ArgumentParser(
+        prog="python3 -m experiments.campaigns.push_campaign", description=__doc__.split("\n")[0])
     parser.add_argument("--method", choices=("pbd", *material_pushes.METHODS), default="pbd",
                         help="of the runs (default pbd)")
     parser.add_argument("--runs", type=int, default=100, help="how many (default 100)")

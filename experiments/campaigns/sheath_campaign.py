@@ -15,8 +15,8 @@ import numpy as np
 from analysis.logs import read_log
 from analysis.passages import Wall, inside
 from analysis.surfaces import read_obj
+from experiments.campaigns.vessel import ARTERY, ARTERY_RADIUS, Lumen, artery_lumens
 from experiments.prepare import ROOT
-from experiments.vessel import ARTERY, ARTERY_RADIUS, Lumen, artery_lumens
 
 SCENE = ROOT / "params" / "sheath.json"
 WAY = 240.0  # of the hub, mm, as in the scene

@@ -4,7 +4,7 @@ that bends and forks.
 A lumen is the union of spheres that run along two centrelines with a radius from a table. Its wall is cut out of a grid
 by surface nets (Gibson 1998): one vertex in every cell that the wall passes, moved onto the wall, one quad across every
 edge of the grid that the wall cuts. The grid ends at the entrance, so the wall is open there and closed everywhere else.
-``python3 -m experiments.vessel`` writes ``params/meshes`` anew, the same to the last digit.
+``python3 -m experiments.campaigns.vessel`` writes ``params/meshes`` anew, the same to the last digit.
 """
 
 from collections.abc import Callable
@@ -13,7 +13,9 @@ from pathlib import Path
 
 import numpy as np
 
-MESHES = Path(__file__).resolve().parent.parent / "params" / "meshes"
+from experiments.prepare import ROOT
+
+MESHES = ROOT / "params" / "meshes"
 MESH = MESHES / "arch.obj"
 ARTERY = MESHES / "artery.obj"
 ENTRANCE = -320.0  # z of the open rim, units; the wire (300) lies in the sheath behind it

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from experiments import pushes
+from experiments.campaigns import pushes
 
 METHODS = ("direct", "sheath", "xpbd")
 _LONG = 400.0  # mm of wire in a sheath

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from analysis.passages import SAMPLES, sample_wire
-from analysis.wall_search import ClosedForm, MeshSearch, closed_form
+from experiments.campaigns.wall_search import ClosedForm, MeshSearch, closed_form
 
 FINE_SAMPLES = 40  # points an element, on the last entry of a log
 FROZEN_STEPS = 20
