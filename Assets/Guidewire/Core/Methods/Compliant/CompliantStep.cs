@@ -65,11 +65,11 @@ namespace Guidewire.Core
 
         /// <summary>A step for this scene.</summary>
         /// <param name="contactStiffness">Of a contact, N/m; 0 for rigid ones.</param>
-        public CompliantStep(MaterialScene scene, RodTerms terms, MaterialDrive drive, MethodParameters method,
+        public CompliantStep(MaterialScene scene, RodTerms terms, MethodParameters method,
             SolverReport report, double contactStiffness)
         {
             _scene = scene;
-            _drive = drive;
+            _drive = scene.Drive;
             _terms = terms;
             _loadGradient = new RodVector[scene.Rod.ElementCount + 2];
             _inertia = new NodalInertia(terms.Mass, terms.Supports);
@@ -109,7 +109,7 @@ namespace Guidewire.Core
             var residual = default(IterationResidual);
             int measured = 0;
             _drive.Prepare(_shape, _time);
-            _ends.Carry(_scene.Schedule.ProximalVelocity.Length, Math.Abs(_scene.Schedule.ProximalTwistRate));
+            _ends.Carry(_scene.Schedule.Hub.Velocity.Length, Math.Abs(_scene.Schedule.Hub.TwistRate));
             Vector3d start = _shape.X[0];
             Vector3d velocity = _velocities[0];
             _supportForce = Vector3d.Zero;
@@ -155,7 +155,7 @@ namespace Guidewire.Core
             Vector3d inertia = (_terms.Mass.Nodal[0] / _timeStep) * (_velocities[0] - velocity);
             record.Reaction = inertia + (1.0 / _substeps) * _supportForce - record.Forces[0];
             // A drive continues from where node 0 is; a held node is asked for until it has arrived.
-            Vector3d position = _scene.Schedule.ProximalPositionAt(_time);
+            Vector3d position = _scene.Schedule.Hub.PositionAt(_time);
             if (_drive.Axis == Vector3d.Zero)
             {
                 double owed = record.DriveShortfall;

@@ -40,12 +40,12 @@ namespace Guidewire.Core
         /// <summary>A step for this scene.</summary>
         /// <param name="dynamics">The motion, at its start.</param>
         /// <param name="record">Takes the support's force after each step, or null.</param>
-        public DirectStep(MaterialScene scene, RodDynamics dynamics, MaterialDrive drive, MethodParameters method,
+        public DirectStep(MaterialScene scene, RodDynamics dynamics, MethodParameters method,
             SolverReport report, ContactRecord? record)
         {
             _scene = scene;
             _dynamics = dynamics;
-            _drive = drive;
+            _drive = scene.Drive;
             _timeStep = method.TimeStep;
             _report = report;
             _startFactorisations = report.Factorisations;
@@ -55,7 +55,7 @@ namespace Guidewire.Core
             WallTerms? walls = dynamics.Terms.Walls();
             if (walls != null)
             {
-                walls.Spring.Position = scene.Schedule.ProximalPositionAt(dynamics.Time);
+                walls.Spring.Position = scene.Schedule.Hub.PositionAt(dynamics.Time);
                 _monitor = new WallMonitor(scene.Rod, walls, scene.Metres);
                 _walls = new WallSteps(dynamics, _halved, scene.Schedule, _monitor);
                 _elementForces = new ElementContactForces(scene.Rod, walls.Barrier);
@@ -81,6 +81,9 @@ namespace Guidewire.Core
                 dynamics.Shape, dynamics.Velocities, dynamics.Spins, _ends);
             _rest = new RestMonitor(scene, dynamics.Terms, dynamics.Velocities, dynamics.Spins, method);
         }
+
+        /// <summary>What is prescribed.</summary>
+        public RodSchedule Schedule => _scene.Schedule;
 
         /// <inheritdoc/>
         public override ContactRecord? Contacts { get; }
@@ -109,7 +112,7 @@ namespace Guidewire.Core
             double exit = _dynamics.Terms.Sheath == null ? 0.0 : _dynamics.Terms.Sheath.Exit;
             _hubWork += 0.5 * SheathWork(exit);
             Vector3d free = _dynamics.Shape.X[last] + _timeStep * _dynamics.Velocities[last]
-                + (_timeStep * _timeStep) * _scene.Schedule.Gravity;
+                + (_timeStep * _timeStep) * _scene.Schedule.Loads.Gravity;
             Vector3d held = spring == null ? Vector3d.Zero : spring.HeldPosition(_dynamics.Shape);
             double dissipated = Dissipated;
             long innerSteps = _dynamics.Control.Steps;
@@ -189,7 +192,7 @@ namespace Guidewire.Core
         {
             SheathEnergy? sheath = _dynamics.Terms.Sheath;
             return sheath == null ? 0.0
-                : sheath.WorkTo(_dynamics.Shape, _scene.Schedule.ProximalPositionAt(_drive.StepEnd), exit);
+                : sheath.WorkTo(_dynamics.Shape, _scene.Schedule.Hub.PositionAt(_drive.StepEnd), exit);
         }
 
         private double Dissipated => _dynamics.Terms.Walls()?.Friction?.Anchors.Dissipated ?? 0.0;
@@ -220,7 +223,7 @@ namespace Guidewire.Core
         }
 
         // A frame in a sheath is held where the wire is; a spring beyond it turns with the hub.
-        private double HubTurn => _dynamics.ProximalTurn + _scene.Schedule.HubAhead(_dynamics.Time);
+        private double HubTurn => _dynamics.ProximalTurn + _scene.Schedule.Hub.AheadAt(_dynamics.Time);
 
         /// <summary>Whether the reason of a step without a solution says what of the barrier may help, for which the
         /// whole vessel is measured; not where the step is tried again in another way.</summary>
@@ -259,7 +262,7 @@ namespace Guidewire.Core
             }
             _hub ??= new HubRecord(_scene.Rod, _scene.Supports);
             _hub.Take(terms, _dynamics.Shape, _drive, _dynamics.ReactionAt(0), _dynamics.HubTorque,
-                _scene.Schedule.HubAhead(_dynamics.Time));
+                _scene.Schedule.Hub.AheadAt(_dynamics.Time));
             _hub.Work = _walls == null ? double.NaN : _hubWork;
             return _hub;
         }

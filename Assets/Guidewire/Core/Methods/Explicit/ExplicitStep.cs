@@ -31,12 +31,12 @@ namespace Guidewire.Core
 
         /// <summary>A step for this scene.</summary>
         /// <param name="record">Takes the support's force after each step, or null.</param>
-        public ExplicitStep(MaterialScene scene, RodTerms terms, MaterialDrive drive, MethodParameters method,
+        public ExplicitStep(MaterialScene scene, RodTerms terms, MethodParameters method,
             SolverReport report, ContactRecord? record)
         {
             _scene = scene;
             _terms = terms;
-            _drive = drive;
+            _drive = scene.Drive;
             _inertia = new NodalInertia(terms.Mass, terms.Supports);
             _shape = scene.Shape;
             _velocities = scene.Velocities;

@@ -390,8 +390,8 @@ namespace Guidewire.Core
         private bool TakeFirstRates(double time, double h, double dt)
         {
             double after = time + SameTime * dt;
-            Vector3d proximal = _schedule.ProximalVelocity;
-            Vector3d distal = _schedule.DistalVelocityAt(after);
+            Vector3d proximal = _schedule.Hub.Velocity;
+            Vector3d distal = _schedule.Distal.VelocityAt(after);
             bool isInPlace = _start.IsHeldAt(Shape, _schedule, time, SamePosition * _length)
                 && _frames.AreInPlace(time, SamePosition);
             bool jumps = proximal != _proximalVelocity || distal != _distalVelocity;
@@ -496,8 +496,8 @@ namespace Guidewire.Core
 
         private void BeginDamping(RodDamping damping, double time)
         {
-            damping.Begin(Shape, Velocities, Spins, new Vector3d(0.0, 0.0, _schedule.FrameTwistRate),
-                new Vector3d(0.0, 0.0, _schedule.DistalTwistRateAt(time)));
+            damping.Begin(Shape, Velocities, Spins, new Vector3d(0.0, 0.0, _schedule.Hub.FrameTwistRate),
+                new Vector3d(0.0, 0.0, _schedule.Distal.TwistRateAt(time)));
         }
 
         private void TakeForces(double weight)

@@ -122,8 +122,8 @@ namespace Guidewire.Core
             {
                 Array.Copy(_shape.Q, _predicted, _predicted.Length);
             }
-            Vector3d end = _schedule.DistalPositionAt(time);
-            double loads = _schedule.LoadAt(before, _mass) + _terms.Followers.Force.Force.Length;
+            Vector3d end = _schedule.Distal.PositionAt(time);
+            double loads = _schedule.Loads.SumAt(before, _mass) + _terms.Followers.Force.Force.Length;
             failure = _walls != null ? _walls.Solve(_shape, _predicted, start, end, h, loads)
                 : Solve(h, loads, start, end);
             if (failure != null)
@@ -262,7 +262,7 @@ namespace Guidewire.Core
         {
             return _supports.Proximal == ProximalEnd.Free
                 ? Inertia.FreePositions[0] + (h * h) * Rates.Acceleration[predictor.First][0]
-                : _schedule.ProximalPositionAt(time);
+                : _schedule.Hub.PositionAt(time);
         }
     }
 }

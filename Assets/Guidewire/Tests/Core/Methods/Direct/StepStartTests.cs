@@ -145,7 +145,7 @@ namespace Guidewire.Core.Tests
             rod.MaterialDamping = 1e-4;
             var poison = new NotANumber();
             var terms = new RodTerms(rod, new RodSupports(), new SceneParameters(), poison);
-            var schedule = new RodSchedule { Gravity = new Vector3d(0.0, -9.81, 0.0) };
+            var schedule = Rods.Schedule(new SceneParameters { Gravity = new Vector3d(0.0, -9.81, 0.0) });
             var motion = new RodDynamics(terms, schedule, Rods.Straight(rod), scheme, 1e-7, 10)
             {
                 TracksReactions = true,
