@@ -50,7 +50,7 @@ namespace Guidewire.Core
             _report = report;
             _startFactorisations = report.Factorisations;
             Contacts = record;
-            dynamics.TracksReactions = record != null;
+            dynamics.Reactions.AreKept = record != null;
             _halved = new HalvedSteps(dynamics);
             WallTerms? walls = dynamics.Terms.Walls();
             if (walls != null)
@@ -145,7 +145,7 @@ namespace Guidewire.Core
             {
                 StageForces mean = _walls == null ? _halved.MeanForces : _walls.MeanForces;
                 Contacts.Reaction = mean.Proximal;
-                Contacts.ReactionAtEnd = _dynamics.EndForces.Proximal;
+                Contacts.ReactionAtEnd = _dynamics.Reactions.End.Proximal;
                 Contacts.MeanTotal = mean.Walls;
                 _hubWork += Vector3d.Dot(mean.Proximal, _dynamics.Terms.HubAxis(_dynamics.Shape))
                     * (_drive.Insertion - insertion) + mean.HubTorque * (_drive.Turn - turn) + 0.5 * SheathWork(exit);
@@ -214,7 +214,7 @@ namespace Guidewire.Core
             _extremes.TakeWalls(_elementForces.LargestForce, _elementForces.LargestPressure);
             if (terms.Walls()!.HoldsStart)
             {
-                _extremes.TakeHub(terms.HubForce(shape), _dynamics.HubTorque);
+                _extremes.TakeHub(terms.HubForce(shape), _dynamics.Reactions.HubTorque);
             }
             if (terms.Walls()!.Friction != null)
             {
@@ -261,7 +261,7 @@ namespace Guidewire.Core
                 return null;
             }
             _hub ??= new HubRecord(_scene.Rod, _scene.Supports);
-            _hub.Take(terms, _dynamics.Shape, _drive, _dynamics.ReactionAt(0), _dynamics.HubTorque,
+            _hub.Take(terms, _dynamics.Shape, _drive, _dynamics.ReactionAt(0), _dynamics.Reactions.HubTorque,
                 _scene.Schedule.Hub.AheadAt(_dynamics.Time));
             _hub.Work = _walls == null ? double.NaN : _hubWork;
             return _hub;
@@ -304,8 +304,8 @@ namespace Guidewire.Core
             _report.ProximalForce = _dynamics.ReactionAt(0);
             _report.DistalForce = _scene.Supports.HasDistalJoint ? _dynamics.ReactionAt(shape.ElementCount)
                 : Vector3d.Zero;
-            _report.ProximalMoment = _dynamics.ProximalCouple;
-            _report.DistalMoment = _dynamics.DistalCouple;
+            _report.ProximalMoment = _dynamics.Reactions.ProximalCouple;
+            _report.DistalMoment = _dynamics.Reactions.DistalCouple;
             return _report;
         }
 

@@ -105,16 +105,17 @@ namespace Guidewire.Core.Tests
             Integrator scheme, double step, int steps)
         {
             RodDynamics motion = MotionTests.Start(rod, supports, schedule, shape, scheme, Tolerance);
-            motion.TracksReactions = true;
+            motion.Reactions.AreKept = true;
             double worst = 0.0;
             double peak = 0.0;
             for (int i = 0; i < steps; i++)
             {
                 Assert.That(motion.Step(step), Is.Null);
-                Vector3d reactions = motion.MeanReaction + motion.MeanDistalReaction;
-                double left = (motion.MomentumRate - reactions - motion.MeanLoad).Length;
+                StageForces mean = motion.Reactions.Mean;
+                Vector3d reactions = mean.Proximal + mean.Distal;
+                double left = (motion.Reactions.MomentumRate - reactions - mean.Load).Length;
                 worst = Math.Max(worst, left);
-                peak = Math.Max(peak, Math.Max(motion.MeanReaction.Length, motion.MeanLoad.Length));
+                peak = Math.Max(peak, Math.Max(mean.Proximal.Length, mean.Load.Length));
                 if (supports.Proximal == ProximalEnd.Free)
                 {
                     peak = Math.Max(peak, LargestForce(rod, shape));
