@@ -87,7 +87,8 @@ namespace Guidewire.Core
                 double before = left;
                 if (!isFar)
                 {
-                    GradientMeasures measures = _newton.System.Gradient(_terms, shape, _newton.Gradient, _newton.Direction);
+                    GradientMeasures measures = _newton.System.Gradient(_terms, shape, _newton.Gradient,
+                        _newton.Direction);
                     left = Unbalanced();
                     double allowed = rounding + Math.Min(
                         Balance * Math.Max(measures.LargestForce, loads), MostUnbalanced);
