@@ -35,7 +35,7 @@ namespace Guidewire.Core
             }
             else if (scene.Supports.Proximal != ProximalEnd.Free && scene.Walls.Length == 0)
             {
-                scene.Shape.X[0] = scene.Schedule.ProximalPosition;
+                scene.Shape.X[0] = scene.Schedule.Hub.PositionAt(0.0);
             }
             if (scene.Supports.Proximal != ProximalEnd.Free)
             {
@@ -77,7 +77,7 @@ namespace Guidewire.Core
             SolverReport report)
         {
             return parameters.Scene.Sheath != null ? new SheathStep(parameters, scene, report)
-                : (TimeStepper)new DirectStep(scene, DirectSetup.DynamicsOf(parameters, scene, terms), scene.Drive,
+                : (TimeStepper)new DirectStep(scene, DirectSetup.DynamicsOf(parameters, scene, terms),
                     parameters.Method, report, Reactions(parameters, scene));
         }
 
@@ -85,7 +85,7 @@ namespace Guidewire.Core
         public static TimeStepper Compliant(SimulationParameters parameters, MaterialScene scene, RodTerms terms,
             SolverReport report)
         {
-            return new CompliantStep(scene, terms, scene.Drive, parameters.Method, report,
+            return new CompliantStep(scene, terms, parameters.Method, report,
                 parameters.Contact.ContactStiffness);
         }
 
@@ -93,7 +93,7 @@ namespace Guidewire.Core
         public static TimeStepper Explicit(SimulationParameters parameters, MaterialScene scene, RodTerms terms,
             SolverReport report)
         {
-            return new ExplicitStep(scene, terms, scene.Drive, parameters.Method, report,
+            return new ExplicitStep(scene, terms, parameters.Method, report,
                 Reactions(parameters, scene));
         }
 

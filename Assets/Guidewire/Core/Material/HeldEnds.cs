@@ -51,14 +51,14 @@ namespace Guidewire.Core
         {
             if (_holdsFirst)
             {
-                Shift(shape, 0, _schedule.ProximalPositionAt(time));
+                Shift(shape, 0, _schedule.Hub.PositionAt(time));
             }
             if (_holdsLast)
             {
-                Shift(shape, shape.ElementCount, _schedule.DistalPositionAt(time));
+                Shift(shape, shape.ElementCount, _schedule.Distal.PositionAt(time));
             }
-            double proximalTurn = _schedule.ProximalTurnAt(time);
-            double distalTurn = _schedule.DistalTurnAt(time);
+            double proximalTurn = _schedule.Hub.TurnAt(time);
+            double distalTurn = _schedule.Distal.TurnAt(time);
             if (proximalTurn != _proximalTurn || distalTurn != _distalTurn)
             {
                 Turn(shape, proximalTurn, distalTurn);

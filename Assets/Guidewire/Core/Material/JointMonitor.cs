@@ -46,7 +46,7 @@ namespace Guidewire.Core
         public string? FindLost(RodShape shape, double time, double done = 1.0)
         {
             return FindTurned(shape, time, done)
-                ?? _link.FindLost(shape, done * (_schedule.DistalTurnAt(time) - _schedule.ProximalTurnAt(time)));
+                ?? _link.FindLost(shape, done * (_schedule.Distal.TurnAt(time) - _schedule.Hub.TurnAt(time)));
         }
 
         /// <summary>The joint that is turned too far in this shape, its angle and what would help, in one line; or

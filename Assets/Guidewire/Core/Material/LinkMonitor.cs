@@ -48,7 +48,7 @@ namespace Guidewire.Core
         /// forward.</summary>
         private bool Measure(RodShape shape, out double turn)
         {
-            Quaterniond back = _schedule.ProximalFrame.Conjugate;
+            Quaterniond back = _schedule.Hub.Frame.Conjugate;
             turn = 0.0;
             if (!Twist(back * shape.ProximalFrame, out double before))
             {

@@ -8,14 +8,15 @@ namespace Guidewire.Core
     {
         private const double Nothing = 1e-12;  // m, a displacement left by rounding of times in a table
 
-        private readonly RodSchedule _schedule;
-        private IDriveDirection? _direction;
+        private readonly IDriveDirection? _direction;
         private readonly double _speed;      // m/s
         private readonly double _timeStep;   // s
         private readonly double _metres;     // per unit
         private readonly Steering? _steering;
         private readonly DriveTable? _table;
         private readonly bool _followsSpring;
+        private double _leastInsertion = double.NegativeInfinity;  // m
+        private double _mostInsertion = double.PositiveInfinity;   // m
         private double _sense = 1.0;         // 1 where it was last asked to push, -1 to pull
 
         /// <summary>The drive of this scene.</summary>
@@ -24,7 +25,7 @@ namespace Guidewire.Core
         {
             DriveParameters drive = parameters.Drive;
             _followsSpring = followsSpring;
-            _schedule = scene.Schedule;
+            Hub = scene.Schedule.Hub;
             _timeStep = parameters.Method.TimeStep;
             _metres = scene.UnitLength;
             _speed = drive.InsertionSpeed != 0.0 ? drive.InsertionSpeed
@@ -34,10 +35,31 @@ namespace Guidewire.Core
             _direction = _steering == null ? scene.Drive : scene.Drive ?? new AlongFirstElement();
             if (_steering != null || _table != null)
             {
-                _schedule.ProximalTwistRate = 0.0;
-                _schedule.DriveEnd = _table?.End ?? double.PositiveInfinity;
+                Hub.BeginDrive(_table?.End ?? double.PositiveInfinity);
             }
         }
+
+        /// <summary>The drive of a wire in a sheath, as far as it has come, on another hub's motion.</summary>
+        /// <param name="axis">Direction of the sheath.</param>
+        public MaterialDrive(MaterialDrive drive, HubMotion hub, in Vector3d axis)
+        {
+            Hub = hub;
+            _direction = drive._direction == null ? null : new FixedAxis(axis);
+            _speed = drive._speed;
+            _timeStep = drive._timeStep;
+            _metres = drive._metres;
+            _steering = drive._steering;
+            _table = drive._table;
+            _followsSpring = true;
+            _leastInsertion = drive._leastInsertion;
+            _mostInsertion = drive._mostInsertion;
+            var kept = new Snapshot();
+            drive.SerializeOwn(kept);
+            SerializeOwn(kept.ToRead());
+        }
+
+        /// <summary>The hub that it moves.</summary>
+        public HubMotion Hub { get; }
 
         /// <summary>How far the drive has moved node 0 along its direction since the start, m; negative where it has
         /// pulled.</summary>
@@ -45,12 +67,6 @@ namespace Guidewire.Core
 
         /// <summary>How far the drive has turned the clamp since the start, rad.</summary>
         public double Turn { get; private set; }
-
-        /// <summary>The farthest that it may move node 0, m.</summary>
-        public double MostInsertion { get; set; } = double.PositiveInfinity;
-
-        /// <summary>The farthest back, m.</summary>
-        public double LeastInsertion { get; set; } = double.NegativeInfinity;
 
         /// <summary>Direction of the drive in the present step, a unit vector; zero where nothing is driven.</summary>
         public Vector3d Axis { get; private set; }
@@ -65,10 +81,13 @@ namespace Guidewire.Core
         /// <summary>The displacement asked for in the present step, m, never negative.</summary>
         public double Asked { get; private set; }
 
-        /// <summary>What moves node 0 moves it along this axis, of any length but 0.</summary>
-        public void GoAlong(in Vector3d axis)
+        /// <summary>From where it is it may move node 0 no farther than these displacements, m.</summary>
+        /// <param name="back">0 or less.</param>
+        /// <param name="forward">0 or more.</param>
+        public void Limit(double back, double forward)
         {
-            _direction = _direction == null ? null : new FixedAxis(axis);
+            _leastInsertion = Math.Min(Insertion, Insertion + back);
+            _mostInsertion = Insertion + forward;
         }
 
         /// <summary>Sets where node 0 is and how fast it goes and turns, from this time on.</summary>
@@ -76,14 +95,14 @@ namespace Guidewire.Core
         {
             if (_steering != null)
             {
-                _schedule.TurnOn(time, _steering.Turn / _timeStep);
+                Hub.TurnOn(time, _steering.Turn / _timeStep);
             }
             else if (_table != null)
             {
-                _schedule.TurnOn(time, Rate(_table.Rotation, time));
+                Hub.TurnOn(time, Rate(_table.Rotation, time));
             }
             StepEnd = time + _timeStep;
-            Turn = _schedule.ProximalTurnAt(StepEnd);
+            Turn = Hub.TurnAt(StepEnd);
             if (_direction == null)
             {
                 return;
@@ -99,9 +118,7 @@ namespace Guidewire.Core
                 speed = goes / _timeStep;
             }
             Axis = _direction.At(shape.X[0], shape.X[1]);
-            _schedule.ProximalPosition = _followsSpring ? _schedule.ProximalPositionAt(time) : shape.X[0];
-            _schedule.ProximalTime = time;
-            _schedule.ProximalVelocity = speed * Axis;
+            Hub.MoveOn(time, _followsSpring ? Hub.PositionAt(time) : shape.X[0], speed * Axis);
             Insertion += speed * _timeStep;
         }
 
@@ -117,7 +134,7 @@ namespace Guidewire.Core
         {
             if (slip != 0.0)
             {
-                _schedule.ProximalPosition -= slip * Axis;
+                Hub.Shift(-slip * Axis);
                 Insertion -= slip;
                 Slip += _sense * slip;
             }
@@ -143,11 +160,16 @@ namespace Guidewire.Core
         /// <see cref="StepStart"/>.</summary>
         public void SerializeStep(Snapshot snapshot)
         {
+            SerializeOwn(snapshot);
+            Hub.SerializeStep(snapshot);
+        }
+
+        private void SerializeOwn(Snapshot snapshot)
+        {
             Serialize(snapshot);
             Axis = snapshot.Serialize(Axis);
             Asked = snapshot.Serialize(Asked);
             StepEnd = snapshot.Serialize(StepEnd);
-            _schedule.SerializeDrive(snapshot);
         }
 
         // Speed asked for from this time on, m/s.
@@ -160,8 +182,8 @@ namespace Guidewire.Core
         // The part of a move that the limits allow, m.
         private double Limited(double asked)
         {
-            return Insertion + asked > MostInsertion || Insertion + asked < LeastInsertion
-                ? Math.Min(Math.Max(Insertion + asked, LeastInsertion), MostInsertion) - Insertion : asked;
+            return Insertion + asked > _mostInsertion || Insertion + asked < _leastInsertion
+                ? Math.Min(Math.Max(Insertion + asked, _leastInsertion), _mostInsertion) - Insertion : asked;
         }
 
         private double Rate(TimeTable table, double time)

@@ -25,7 +25,8 @@ namespace Guidewire.Core
             };
             Supports.HasSpring = scene.Walls.Length > 0 && Supports.Proximal != ProximalEnd.Free
                 && MethodTable.Of(parameters.Method.Solver).HasBarriers;
-            scene.Schedule.ProximalPosition += scene.Displacement;
+            Schedule = scene.Schedule;
+            Schedule.Hub.Shift(scene.Displacement);
             Drive = new MaterialDrive(parameters, scene, Supports.HasSpring);
             StartsStraight = parameters.Scene.Start == null && parameters.Scene.StartShape == StartShape.Straight;
             Joints = new JointMonitor(this, parameters.Method.MaxSimulationSteps * parameters.Method.TimeStep);
@@ -37,7 +38,9 @@ namespace Guidewire.Core
         /// <param name="rod">The part.</param>
         /// <param name="window">What the rest is to it.</param>
         /// <param name="shape">Where it is.</param>
-        public MaterialScene(MaterialScene whole, MaterialRod rod, SheathWindow window, RodShape shape)
+        /// <param name="drive">Moves its hub.</param>
+        public MaterialScene(MaterialScene whole, MaterialRod rod, SheathWindow window, RodShape shape,
+            MaterialDrive drive)
         {
             _scene = whole._scene;
             Rod = rod;
@@ -56,7 +59,8 @@ namespace Guidewire.Core
                 HasSpring = true,
                 Sheath = window,
             };
-            Drive = whole.Drive;
+            Drive = drive;
+            Schedule = new RodSchedule(whole.Schedule.Loads, drive.Hub, whole.Schedule.Distal);
             Joints = new JointMonitor(this, 0.0);
         }
 
@@ -94,7 +98,7 @@ namespace Guidewire.Core
         public ContactShape[] Walls => _scene.Walls;
 
         /// <summary>What is prescribed.</summary>
-        public RodSchedule Schedule => _scene.Schedule;
+        public RodSchedule Schedule { get; }
 
         /// <summary>Writes a moment of the rod into a state: positions and velocities in units, orientations and
         /// angular velocities.</summary>
@@ -121,8 +125,8 @@ namespace Guidewire.Core
                 before = Aligned(before, Shape.Q[j]);
                 Shape.Q[j] = before;
             }
-            Schedule.DistalFrame = Aligned(before, Shape.DistalFrame);
-            Shape.DistalFrame = Schedule.DistalFrame;
+            Shape.DistalFrame = Aligned(before, Shape.DistalFrame);
+            Schedule.Distal.Begin(Shape.DistalFrame);
         }
 
         private static Quaterniond Aligned(in Quaterniond before, in Quaterniond q)

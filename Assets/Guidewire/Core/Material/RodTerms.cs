@@ -113,8 +113,8 @@ namespace Guidewire.Core
             Followers.SetTime(time);
             if (Sheath != null)
             {
-                Sheath.SetHub(schedule.ProximalPositionAt(time));
-                Bending.TurnProximal(schedule.HubAhead(time));
+                Sheath.SetHub(schedule.Hub.PositionAt(time));
+                Bending.TurnProximal(schedule.Hub.AheadAt(time));
             }
             foreach (EnergyTerm term in All)
             {

@@ -24,30 +24,12 @@ namespace Guidewire.Core
             Walls = scene.Walls;
             Steering = drive.Steering;
             Drive = CreateDrive(drive);
-            Schedule = new RodSchedule
-            {
-                Gravity = scene.Gravity,
-                TipForce = scene.TipForce,
-                TipForceReleaseTime = scene.TipForceReleaseTime,
-                DistributedForce = scene.DistributedForce,
-                WireLength = UnitLength * scene.GuidewireLength,
-                GravityTable = scene.GravityTable,
-                TipForceTable = scene.TipForceTable,
-                DistributedForceTable = scene.DistributedForceTable,
-                AxialForceTable = scene.AxialForceTable,
-                LoadTables = scene.UsedLoadTables(),
-                AxialForce = scene.DistalEnd == DistalEnd.Sliding ? scene.AxialForce : 0.0,
-                ProximalForce = drive.Kind == Core.Drive.Force ? drive.ExternalForce : Vector3d.Zero,
-                ProximalPosition = Shape.X[0],
-                ProximalFrame = Shape.ProximalFrame,
-                ProximalTwistRate = drive.RotationSpeed != 0.0 ? drive.RotationSpeed
-                    : drive.TwistPerStep / parameters.Method.TimeStep,
-                DistalPosition = Shape.X[n],
-                DistalFrame = Shape.DistalFrame,
-                DistalDisplacement = UnitLength * scene.DistalDisplacement,
-                DistalRotation = scene.DistalRotation,
-                DistalRampTime = scene.DistalRampTime,
-            };
+            double twistRate = drive.RotationSpeed != 0.0 ? drive.RotationSpeed
+                : drive.TwistPerStep / parameters.Method.TimeStep;
+            Schedule = new RodSchedule(new PrescribedLoads(scene, UnitLength,
+                drive.Kind == Core.Drive.Force ? drive.ExternalForce : Vector3d.Zero),
+                new HubMotion(Shape.X[0], Shape.ProximalFrame, twistRate),
+                new DistalMotion(scene, UnitLength, Shape.X[n], Shape.DistalFrame));
             if (drive.Kind == Core.Drive.Hold)
             {
                 Displacement = (UnitLength * drive.Displacement) * Vector3d.Normalize(drive.DisplacementDirection);

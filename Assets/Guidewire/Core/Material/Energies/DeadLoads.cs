@@ -21,12 +21,12 @@ namespace Guidewire.Core
         /// <summary>Sets all that is prescribed at this time, s.</summary>
         public void Set(RodSchedule schedule, double time)
         {
-            Set(schedule.GravityAt(time), schedule.DistalForceAt(time));
-            if (schedule.DistributedForce != Vector3d.Zero)
+            Set(schedule.Loads.GravityAt(time), schedule.DistalForceAt(time));
+            if (schedule.Loads.HasDistributedForce)
             {
-                AddPerLength(schedule.DistributedForceAt(time));
+                AddPerLength(schedule.Loads.DistributedForceAt(time));
             }
-            Force[0] += schedule.ProximalForce;
+            Force[0] += schedule.Loads.ProximalForce;
         }
 
         /// <summary>Sets the weight of the rod under gravity g (m/s^2), by the mass of each node, and adds the force

@@ -5,7 +5,7 @@ namespace Guidewire.Core
 {
     /// <summary>One step of the direct solver: the drive's motion, then all stages of the scheme, each an exact
     /// minimisation over the whole rod.</summary>
-    internal sealed class DirectStep : TimeStepper
+    internal sealed class DirectStep : MaterialStep
     {
         // A step in which a disturbance would grow by much (a thrust beyond buckling) may end in any shape.
         private const string Shorter = "; in a motion a shorter timeStep, or a timeStepError, may do";
@@ -15,18 +15,10 @@ namespace Guidewire.Core
 
         private const double MostSpinLoss = 0.01;  // of a free wire's angular momentum, before a warning
 
-        private readonly MaterialScene _scene;
         private readonly RodDynamics _dynamics;
-        private readonly MaterialDrive _drive;
-        private readonly double _timeStep;
-        private readonly SolverReport _report;
-        private StressRecord? _stress;
         private HubRecord? _hub;
         private readonly SpinLoss? _spinLoss;  // of a wire that nothing holds
         private long _startFactorisations;  // of the rest shape
-        private readonly HeldEnds _ends;
-        private readonly EnergyMonitor _energy;
-        private readonly RestMonitor _rest;
         private readonly HalvedSteps _halved;
         private readonly WallSteps? _walls;
         private readonly WallMonitor? _monitor;
@@ -40,22 +32,20 @@ namespace Guidewire.Core
         /// <summary>A step for this scene.</summary>
         /// <param name="dynamics">The motion, at its start.</param>
         /// <param name="record">Takes the support's force after each step, or null.</param>
-        public DirectStep(MaterialScene scene, RodDynamics dynamics, MaterialDrive drive, MethodParameters method,
+        public DirectStep(MaterialScene scene, RodDynamics dynamics, MethodParameters method,
             SolverReport report, ContactRecord? record)
+            : base(scene, dynamics.Terms, new FreeInertia(dynamics.Terms.Mass, scene.Supports), dynamics.Velocities,
+                dynamics.Spins, method, report)
         {
-            _scene = scene;
             _dynamics = dynamics;
-            _drive = drive;
-            _timeStep = method.TimeStep;
-            _report = report;
             _startFactorisations = report.Factorisations;
             Contacts = record;
-            dynamics.TracksReactions = record != null;
+            dynamics.Reactions.AreKept = record != null;
             _halved = new HalvedSteps(dynamics);
             WallTerms? walls = dynamics.Terms.Walls();
             if (walls != null)
             {
-                walls.Spring.Position = scene.Schedule.ProximalPositionAt(dynamics.Time);
+                walls.Spring.Position = scene.Schedule.Hub.PositionAt(dynamics.Time);
                 _monitor = new WallMonitor(scene.Rod, walls, scene.Metres);
                 _walls = new WallSteps(dynamics, _halved, scene.Schedule, _monitor);
                 _elementForces = new ElementContactForces(scene.Rod, walls.Barrier);
@@ -71,16 +61,19 @@ namespace Guidewire.Core
             _joints = scene.Rod.Joints(scene.Supports);
             _jointLengths = scene.Rod.JointLengths(scene.Supports);
             _extremes.TakeShape(dynamics.Terms, _joints, _jointLengths, dynamics.Shape);
-            _ends = new HeldEnds(dynamics.Terms, scene.Schedule);
             FollowEnds();
+            Energy.Start();  // the hub's spring is in place only now
             if (scene.Supports.Proximal == ProximalEnd.Free && scene.Supports.Distal == DistalEnd.Free)
             {
                 _spinLoss = new SpinLoss(method.Integrator);
             }
-            _energy = new EnergyMonitor(dynamics.Terms, new FreeInertia(dynamics.Terms.Mass, scene.Supports),
-                dynamics.Shape, dynamics.Velocities, dynamics.Spins, _ends);
-            _rest = new RestMonitor(scene, dynamics.Terms, dynamics.Velocities, dynamics.Spins, method);
         }
+
+        /// <inheritdoc/>
+        protected override double Time => _dynamics.Time;
+
+        /// <inheritdoc/>
+        protected override double KineticEnergy => Terms.Mass.KineticEnergy(Velocities, Spins);
 
         /// <inheritdoc/>
         public override ContactRecord? Contacts { get; }
@@ -90,7 +83,7 @@ namespace Guidewire.Core
         {
             if (Step())
             {
-                _scene.Write(state, _dynamics.Shape, _dynamics.Velocities, _dynamics.Spins);
+                Write(state);
             }
         }
 
@@ -98,59 +91,55 @@ namespace Guidewire.Core
         /// <returns>False where it has no solution or has lost the wire.</returns>
         public bool Step()
         {
-            int last = _dynamics.Shape.ElementCount;
-            (double insertion, double turn) = (_drive.Insertion, _drive.Turn);
-            _drive.Prepare(_dynamics.Shape, _dynamics.Time);
-            SupportSpring? spring = _dynamics.Terms.Walls()?.Spring;
-            if (spring != null && _drive.Axis != Vector3d.Zero)
+            int last = Shape.ElementCount;
+            (double insertion, double turn) = (Drive.Insertion, Drive.Turn);
+            Drive.Prepare(Shape, Time);
+            SupportSpring? spring = Terms.Walls()?.Spring;
+            if (spring != null && Drive.Axis != Vector3d.Zero)
             {
-                spring.Axis = _drive.Axis;
+                spring.Axis = Drive.Axis;
             }
-            double exit = _dynamics.Terms.Sheath == null ? 0.0 : _dynamics.Terms.Sheath.Exit;
+            double exit = Terms.Sheath == null ? 0.0 : Terms.Sheath.Exit;
             _hubWork += 0.5 * SheathWork(exit);
-            Vector3d free = _dynamics.Shape.X[last] + _timeStep * _dynamics.Velocities[last]
-                + (_timeStep * _timeStep) * _scene.Schedule.Gravity;
-            Vector3d held = spring == null ? Vector3d.Zero : spring.HeldPosition(_dynamics.Shape);
+            Vector3d free = Shape.X[last] + TimeStep * Velocities[last]
+                + (TimeStep * TimeStep) * Schedule.Loads.Gravity;
+            Vector3d held = spring == null ? Vector3d.Zero : spring.HeldPosition(Shape);
             double dissipated = Dissipated;
             long innerSteps = _dynamics.Control.Steps;
-            string? failure = _walls == null ? _halved.Step(_timeStep) : _walls.Step(_timeStep);
+            string? failure = _walls == null ? _halved.Step(TimeStep) : _walls.Step(TimeStep);
             if (failure != null)
             {
-                string time = _dynamics.Time.ToString("G6", CultureInfo.InvariantCulture);
+                string time = Time.ToString("G6", CultureInfo.InvariantCulture);
                 if (_walls != null)
                 {
                     // What Newton's method left is no shape of the wire.
                     _halved.Restore();
                 }
                 Failure = "the step to t = " + time + " s has no solution: "
-                    + (_scene.Joints.FindTurned(_dynamics.Shape, _dynamics.Time) ?? failure)
-                    + (_jam == null ? "" : "; " + _jam.Text(_dynamics.Shape)) + Remedy;
+                    + (Scene.Joints.FindTurned(Shape, Time) ?? failure)
+                    + (_jam == null ? "" : "; " + _jam.Text(Shape)) + Remedy;
                 return false;
             }
-            _ends.Count(_dynamics.Shape, HubTurn, _dynamics.DistalTurn, _timeStep);
-            Divergence = _energy.Blowup();
-            if (Divergence != null)
+            Ends.Count(Shape, HubTurn, _dynamics.DistalTurn, TimeStep);
+            if (HasBlownUp("; lower timeStep, or take another integrator"))
             {
-                Divergence += "; lower timeStep, or take another integrator";
                 return false;
             }
-            string? lost = _scene.Joints.FindLost(_dynamics.Shape, _dynamics.Time);
-            Failure = lost == null ? null : lost + Remedy;
-            SteadyState = _rest.FindRest(_dynamics.Time);
-            PredictionError = Vector3d.Distance(free, _dynamics.Shape.X[last]) / _scene.Metres;
+            EndStep(free);
+            Failure = Failure == null ? null : Failure + Remedy;
             if (Contacts != null)
             {
                 StageForces mean = _walls == null ? _halved.MeanForces : _walls.MeanForces;
                 Contacts.Reaction = mean.Proximal;
-                Contacts.ReactionAtEnd = _dynamics.EndForces.Proximal;
+                Contacts.ReactionAtEnd = _dynamics.Reactions.End.Proximal;
                 Contacts.MeanTotal = mean.Walls;
-                _hubWork += Vector3d.Dot(mean.Proximal, _dynamics.Terms.HubAxis(_dynamics.Shape))
-                    * (_drive.Insertion - insertion) + mean.HubTorque * (_drive.Turn - turn) + 0.5 * SheathWork(exit);
-                _monitor?.EndStep(_dynamics.Shape, Contacts);
-                if (spring != null && _dynamics.Terms.Walls()!.HoldsStart)
+                _hubWork += Vector3d.Dot(mean.Proximal, Terms.HubAxis(Shape))
+                    * (Drive.Insertion - insertion) + mean.HubTorque * (Drive.Turn - turn) + 0.5 * SheathWork(exit);
+                _monitor?.EndStep(Shape, Contacts);
+                if (spring != null && Terms.Walls()!.HoldsStart)
                 {
                     SlipHub(spring);
-                    CountDrive(held, spring.HeldPosition(_dynamics.Shape));
+                    CountDrive(held, spring.HeldPosition(Shape));
                     Failure ??= FindOverdriven();
                 }
             }
@@ -162,65 +151,62 @@ namespace Guidewire.Core
         // much less.
         private void SlipHub(SupportSpring spring)
         {
-            RodTerms terms = _dynamics.Terms;
-            double asked = _drive.Insertion;
+            double asked = Drive.Insertion;
             double before;
-            int left = terms.Sheath == null ? 1 : MostSlips;
+            int left = Terms.Sheath == null ? 1 : MostSlips;
             do
             {
-                before = _drive.Insertion;
-                spring.Besides = terms.Sheath == null ? 0.0 : terms.Sheath.HubForce(_dynamics.Shape);
-                _drive.SlipHub(spring.TakeSlip(_dynamics.Shape));
-                if (_drive.Insertion != before)
+                before = Drive.Insertion;
+                spring.Besides = Terms.Sheath == null ? 0.0 : Terms.Sheath.HubForce(Shape);
+                Drive.SlipHub(spring.TakeSlip(Shape));
+                if (Drive.Insertion != before)
                 {
-                    terms.SetTime(_scene.Schedule, _dynamics.Time);
+                    Terms.SetTime(Schedule, Time);
                 }
                 left--;
             }
-            while (_drive.Insertion != before && left > 0);
-            if (_drive.Insertion != asked)
+            while (Drive.Insertion != before && left > 0);
+            if (Drive.Insertion != asked)
             {
-                _hubWork += terms.HubForce(_dynamics.Shape) * (_drive.Insertion - asked);
+                _hubWork += Terms.HubForce(Shape) * (Drive.Insertion - asked);
             }
         }
 
         // Of the hub in this step against what drives the wire out of a sheath, by the moments of now, J.
         private double SheathWork(double exit)
         {
-            SheathEnergy? sheath = _dynamics.Terms.Sheath;
+            SheathEnergy? sheath = Terms.Sheath;
             return sheath == null ? 0.0
-                : sheath.WorkTo(_dynamics.Shape, _scene.Schedule.ProximalPositionAt(_drive.StepEnd), exit);
+                : sheath.WorkTo(Shape, Schedule.Hub.PositionAt(Drive.StepEnd), exit);
         }
 
-        private double Dissipated => _dynamics.Terms.Walls()?.Friction?.Anchors.Dissipated ?? 0.0;
+        private double Dissipated => Terms.Walls()?.Friction?.Anchors.Dissipated ?? 0.0;
 
         // Since friction had turned so much into heat, J, and so many inner steps were done.
         private void TakeExtremes(double dissipated, long innerSteps)
         {
-            RodTerms terms = _dynamics.Terms;
-            RodShape shape = _dynamics.Shape;
-            _spinLoss?.Take(terms.Rod, shape, _dynamics.Spins, _timeStep,
+            _spinLoss?.Take(Terms.Rod, Shape, Spins, TimeStep,
                 Math.Max(1, _dynamics.Control.Steps - innerSteps));
-            _extremes.TakeShape(terms, _joints, _jointLengths, shape);
+            _extremes.TakeShape(Terms, _joints, _jointLengths, Shape);
             if (_elementForces == null)
             {
                 return;
             }
-            _elementForces.Take(shape, Contacts!.ElementForces);
+            _elementForces.Take(Shape, Contacts!.ElementForces);
             Contacts.Pressure = _elementForces.LargestPressure;
             _extremes.TakeWalls(_elementForces.LargestForce, _elementForces.LargestPressure);
-            if (terms.Walls()!.HoldsStart)
+            if (Terms.Walls()!.HoldsStart)
             {
-                _extremes.TakeHub(terms.HubForce(shape), _dynamics.HubTorque);
+                _extremes.TakeHub(Terms.HubForce(Shape), _dynamics.Reactions.HubTorque);
             }
-            if (terms.Walls()!.Friction != null)
+            if (Terms.Walls()!.Friction != null)
             {
-                _extremes.TakeFriction(Dissipated - dissipated, _timeStep);
+                _extremes.TakeFriction(Dissipated - dissipated, TimeStep);
             }
         }
 
         // A frame in a sheath is held where the wire is; a spring beyond it turns with the hub.
-        private double HubTurn => _dynamics.ProximalTurn + _scene.Schedule.HubAhead(_dynamics.Time);
+        private double HubTurn => _dynamics.ProximalTurn + Schedule.Hub.AheadAt(Time);
 
         /// <summary>Whether the reason of a step without a solution says what of the barrier may help, for which the
         /// whole vessel is measured; not where the step is tried again in another way.</summary>
@@ -230,46 +216,35 @@ namespace Guidewire.Core
         {
             get
             {
-                string? advice = AdvisesOnFailure ? _dynamics.Terms.Walls()?.Advice : null;
-                if (advice != null || _jam == null || !_jam.IsJammed(_dynamics.Shape))
+                string? advice = AdvisesOnFailure ? Terms.Walls()?.Advice : null;
+                if (advice != null || _jam == null || !_jam.IsJammed(Shape))
                 {
                     return advice == null ? Shorter : "; " + advice;
                 }
-                return _dynamics.Terms.Walls()!.Spring.HasLimit ? "" : Limit;
+                return Terms.Walls()!.Spring.HasLimit ? "" : Limit;
             }
-        }
-
-        /// <inheritdoc/>
-        public override StressRecord? Stress()
-        {
-            _stress ??= new StressRecord(_scene.Rod, _scene.Supports);
-            RodTerms terms = _dynamics.Terms;
-            terms.SetTime(_scene.Schedule, _dynamics.Time);
-            _stress.Take(terms, _dynamics.Shape, terms.Mass.KineticEnergy(_dynamics.Velocities, _dynamics.Spins));
-            return _stress;
         }
 
         /// <inheritdoc/>
         public override HubRecord? Hub()
         {
-            RodTerms terms = _dynamics.Terms;
-            if (terms.Supports.Proximal == ProximalEnd.Free)
+            if (Terms.Supports.Proximal == ProximalEnd.Free)
             {
                 return null;
             }
-            _hub ??= new HubRecord(_scene.Rod, _scene.Supports);
-            _hub.Take(terms, _dynamics.Shape, _drive, _dynamics.ReactionAt(0), _dynamics.HubTorque,
-                _scene.Schedule.HubAhead(_dynamics.Time));
+            _hub ??= new HubRecord(Scene.Rod, Scene.Supports);
+            _hub.Take(Terms, Shape, Drive, _dynamics.ReactionAt(0), _dynamics.Reactions.HubTorque,
+                Schedule.Hub.AheadAt(Time));
             _hub.Work = _walls == null ? double.NaN : _hubWork;
             return _hub;
         }
 
         /// <summary>A hub that slips moves less than asked; a free wire that spins fast loses angular
         /// momentum.</summary>
-        public override string? AccuracyWarning => _drive.Slip != 0.0 ? string.Format(
+        public override string? AccuracyWarning => Drive.Slip != 0.0 ? string.Format(
             CultureInfo.InvariantCulture,
             "the hub fell short by {0:G3} m: it slipped at hubForceLimit, or the wire reached an end of its"
-            + " sheath", _drive.Slip)
+            + " sheath", Drive.Slip)
             : _spinLoss == null || _spinLoss.Expected <= MostSpinLoss ? null : string.Format(
             CultureInfo.InvariantCulture, "the free wire turned by up to {0:G2} rad a step, which changes its"
             + " angular momentum by some {1:G2} % (docs/verification.md); a shorter timeStep keeps it, or another"
@@ -278,32 +253,31 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override SolverReport? Report()
         {
-            _report.Factorisations = _startFactorisations + _dynamics.Solver.Factorisations
+            Results.Factorisations = _startFactorisations + _dynamics.Solver.Factorisations
                 + (_dynamics.WallSolver?.Factorisations ?? 0);
-            _report.KeptSolutions = _dynamics.Solver.KeptSolutions;
-            _report.Searches = _dynamics.Solver.Searches;
+            Results.KeptSolutions = _dynamics.Solver.KeptSolutions;
+            Results.Searches = _dynamics.Solver.Searches;
             if (_dynamics.HasErrorEstimate)
             {
-                _report.TimeStepError = _dynamics.Control.LargestError;
-                _report.StepsNotConverged = _dynamics.Control.StepsAbove;
+                Results.TimeStepError = _dynamics.Control.LargestError;
+                Results.StepsNotConverged = _dynamics.Control.StepsAbove;
             }
             if (_walls != null)
             {
-                Barrier barrier = _dynamics.Terms.Walls()!.Barrier.Barrier;
-                _report.WallIterations = _dynamics.WallSolver!.Iterations;
-                _report.ContactDistance = barrier.Distance;
-                _report.ContactStiffness = barrier.Stiffness;
+                Barrier barrier = Terms.Walls()!.Barrier.Barrier;
+                Results.WallIterations = _dynamics.WallSolver!.Iterations;
+                Results.ContactDistance = barrier.Distance;
+                Results.ContactStiffness = barrier.Stiffness;
             }
-            _report.HalvedSteps = _halved.Halvings;
-            _report.InnerSteps = _dynamics.Control.Steps;
-            _report.Energy = _dynamics.Energy;
-            RodShape shape = _dynamics.Shape;
-            _report.ProximalForce = _dynamics.ReactionAt(0);
-            _report.DistalForce = _scene.Supports.HasDistalJoint ? _dynamics.ReactionAt(shape.ElementCount)
+            Results.HalvedSteps = _halved.Halvings;
+            Results.InnerSteps = _dynamics.Control.Steps;
+            Results.Energy = _dynamics.Energy;
+            Results.ProximalForce = _dynamics.ReactionAt(0);
+            Results.DistalForce = Scene.Supports.HasDistalJoint ? _dynamics.ReactionAt(Shape.ElementCount)
                 : Vector3d.Zero;
-            _report.ProximalMoment = _dynamics.ProximalCouple;
-            _report.DistalMoment = _dynamics.DistalCouple;
-            return _report;
+            Results.ProximalMoment = _dynamics.Reactions.ProximalCouple;
+            Results.DistalMoment = _dynamics.Reactions.DistalCouple;
+            return Results;
         }
 
         /// <inheritdoc/>
@@ -316,7 +290,7 @@ namespace Guidewire.Core
             }
             if (!snapshot.Section(SectionKey, SerializeOwn))
             {
-                _energy.Start();
+                Energy.Start();
             }
         }
 
@@ -324,11 +298,11 @@ namespace Guidewire.Core
         /// </summary>
         public void SerializeStep(Snapshot snapshot)
         {
-            _drive.SerializeStep(snapshot);
+            Drive.SerializeStep(snapshot);
             _dynamics.SerializeStep(snapshot);
-            _ends.SerializeStep(snapshot);
-            _energy.SerializeStep(snapshot);
-            _rest.Serialize(snapshot);
+            Ends.SerializeStep(snapshot);
+            Energy.SerializeStep(snapshot);
+            Rest.Serialize(snapshot);
             _extremes.Serialize(snapshot);
             _spinLoss?.Serialize(snapshot);
             _monitor?.Serialize(snapshot);
@@ -343,7 +317,7 @@ namespace Guidewire.Core
             snapshot.Serialize(ref _hubWork);
             _halved.Serialize(snapshot);
             _monitor?.Serialize(snapshot);
-            _ends.SerializeWork(snapshot);
+            Ends.SerializeWork(snapshot);
             _dynamics.SerializeCounts(snapshot);
         }
 
@@ -352,7 +326,7 @@ namespace Guidewire.Core
         {
             get
             {
-                WallTerms? walls = _dynamics.Terms.Walls();
+                WallTerms? walls = Terms.Walls();
                 return walls == null ? "direct" : walls.HoldsStart ? "direct, walls" : "direct, walls, free";
             }
         }
@@ -361,16 +335,16 @@ namespace Guidewire.Core
         {
             snapshot.Serialize(ref _startFactorisations);
             snapshot.Serialize(ref _hubWork);
-            _report.Serialize(snapshot);
+            Results.Serialize(snapshot);
             snapshot.OptionalSection("spin", _spinLoss == null ? (Action<Snapshot>?)null : _spinLoss.Serialize);
-            _energy.Serialize(snapshot);
-            _drive.Serialize(snapshot);
+            Energy.Serialize(snapshot);
+            Drive.Serialize(snapshot);
             _halved.Serialize(snapshot);
             _monitor?.Serialize(snapshot);
             SerializeRecord(snapshot);
-            _ends.SerializeWork(snapshot);
-            _rest.Serialize(snapshot);
-            _dynamics.SerializeHistory(snapshot, _timeStep);
+            Ends.SerializeWork(snapshot);
+            Rest.Serialize(snapshot);
+            _dynamics.SerializeHistory(snapshot, TimeStep);
         }
 
         private void SerializeRecord(Snapshot snapshot)
@@ -384,30 +358,30 @@ namespace Guidewire.Core
         // What the drive asked in the last step, and what of it was not gone, units.
         private void CountDrive(in Vector3d before, in Vector3d after)
         {
-            Contacts!.DriveAsked += _drive.Asked / _scene.Metres;
-            Contacts.DriveShortfall += (_drive.Asked - _drive.Gone(before, after)) / _scene.Metres;
+            Contacts!.DriveAsked += Drive.Asked / Scene.Metres;
+            Contacts.DriveShortfall += (Drive.Asked - Drive.Gone(before, after)) / Scene.Metres;
         }
 
         // A hub that misses its position by a tenth of an element pulls at node 0 with EA, the force under which a wire
         // would have no length left: then what the drive asks and what walls allow do not go together.
         private string? FindOverdriven()
         {
-            if (_walls == null || !_dynamics.Terms.Walls()!.HoldsStart || !(Contacts!.DriveAsked > 0.0))
+            if (_walls == null || !Terms.Walls()!.HoldsStart || !(Contacts!.DriveAsked > 0.0))
             {
                 return null;
             }
-            double force = _dynamics.Terms.Walls()!.SupportForce(_dynamics.Shape).Length;
-            double most = _scene.Rod.StretchStiffness[0];
+            double force = Terms.Walls()!.SupportForce(Shape).Length;
+            double most = Scene.Rod.StretchStiffness[0];
             return force <= most ? null : string.Format(CultureInfo.InvariantCulture,
                 "the walls do not let sphere 0 to where the drive has it at t = {0:G6} s, {1:G3} units on: the hub"
                 + " would need {2:G3} N, more than the wire's EA, {3:G3} N; {4}; a smaller motion (displacementPerStep,"
-                + " insertionSpeed, maxSimulationSteps) may do, or a hubForceLimit", _dynamics.Time,
-                Contacts.DriveShortfall, force, most, _jam!.Text(_dynamics.Shape));
+                + " insertionSpeed, maxSimulationSteps) may do, or a hubForceLimit", Time,
+                Contacts.DriveShortfall, force, most, _jam!.Text(Shape));
         }
 
         private void FollowEnds()
         {
-            _ends.Follow(_dynamics.Shape, HubTurn, _dynamics.DistalTurn);
+            Ends.Follow(Shape, HubTurn, _dynamics.DistalTurn);
         }
     }
 }

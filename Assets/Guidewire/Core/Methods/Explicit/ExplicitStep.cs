@@ -8,59 +8,46 @@ namespace Guidewire.Core
     /// <remarks>Stable below 2/omega_max, with a rest curvature below 1/omega_max. The largest frequency is that of
     /// elements turning against their shear, sqrt(GA/(rho I)) = 2 sqrt(k G/rho)/r with the shear factor k, however
     /// coarse the wire is.</remarks>
-    internal sealed class ExplicitStep : TimeStepper
+    internal sealed class ExplicitStep : MaterialStep
     {
-        private readonly MaterialScene _scene;
-        private readonly RodTerms _terms;
-        private readonly MaterialDrive _drive;
         private readonly NodalInertia _inertia;
-        private readonly RodShape _shape;
-        private readonly Vector3d[] _velocities;
-        private readonly Vector3d[] _spins;
         private readonly RodVector[] _gradient;
-        private readonly double _timeStep;
         private readonly int _substeps;
         private readonly double _remainingVelocity;
-        private readonly HeldEnds _ends;
-        private readonly EnergyMonitor _energy;
-        private readonly RestMonitor _rest;
         private readonly double _stable;    // s
-        private readonly SolverReport _report;
-        private StressRecord? _stress;
+        private readonly string _remedy;    // of a wire that has blown up
         private double _time;
 
         /// <summary>A step for this scene.</summary>
         /// <param name="record">Takes the support's force after each step, or null.</param>
-        public ExplicitStep(MaterialScene scene, RodTerms terms, MaterialDrive drive, MethodParameters method,
-            SolverReport report, ContactRecord? record)
+        public ExplicitStep(MaterialScene scene, RodTerms terms, MethodParameters method, SolverReport report,
+            ContactRecord? record)
+            : this(scene, terms, new NodalInertia(terms.Mass, terms.Supports), method, report, record)
         {
-            _scene = scene;
-            _terms = terms;
-            _drive = drive;
-            _inertia = new NodalInertia(terms.Mass, terms.Supports);
-            _shape = scene.Shape;
-            _velocities = scene.Velocities;
-            _spins = scene.Spins;
-            _gradient = new RodVector[_shape.ElementCount + 2];
-            _timeStep = method.TimeStep;
+        }
+
+        private ExplicitStep(MaterialScene scene, RodTerms terms, NodalInertia inertia, MethodParameters method,
+            SolverReport report, ContactRecord? record)
+            : base(scene, terms, inertia, scene.Velocities, scene.Spins, method, report)
+        {
+            _inertia = inertia;
+            _gradient = new RodVector[scene.Shape.ElementCount + 2];
             _substeps = method.Substeps;
-            _remainingVelocity = Math.Exp(-scene.Rod.MassDamping * _timeStep / _substeps);
-            _ends = new HeldEnds(terms, scene.Schedule);
+            _remainingVelocity = Math.Exp(-scene.Rod.MassDamping * method.TimeStep / _substeps);
             _stable = StableTimeStep(scene.Rod, scene.Supports);
-            double part = _timeStep / _substeps / _stable;
-            _energy = new EnergyMonitor(terms, _inertia, _shape, _velocities, _spins, _ends)
-            {
-                Allowance = part < 1.0
-                    ? Math.Max(EnergyMonitor.LeastAllowance, 2.0 / (1.0 - part * part)) : EnergyMonitor.LeastAllowance,
-            };
-            _rest = new RestMonitor(scene, terms, _velocities, _spins, method);
-            _report = report;
+            double part = method.TimeStep / _substeps / _stable;
+            Energy.Allowance = part < 1.0
+                ? Math.Max(EnergyMonitor.LeastAllowance, 2.0 / (1.0 - part * part)) : EnergyMonitor.LeastAllowance;
+            _remedy = Text(": a substep of {0:G4} s, in its rest shape stable below {1:G4} s; raise substeps");
             Contacts = record;
         }
 
         /// <inheritdoc/>
-        public override string? AccuracyWarning => _timeStep / _substeps <= _stable ? null
+        public override string? AccuracyWarning => TimeStep / _substeps <= _stable ? null
             : Text("the substep of {0:G4} s is above {1:G4} s, where explicit steps become unstable; raise substeps");
+
+        /// <inheritdoc/>
+        protected override double Time => _time;
 
         /// <inheritdoc/>
         public override ContactRecord? Contacts { get; }
@@ -68,10 +55,10 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void Advance(RodState state)
         {
-            int last = _shape.ElementCount;
-            double h = _timeStep / _substeps;
-            Vector3d free = _shape.X[last] + _timeStep * _velocities[last];
-            _drive.Prepare(_shape, _time);
+            int last = Shape.ElementCount;
+            double h = TimeStep / _substeps;
+            Vector3d free = Shape.X[last] + TimeStep * Velocities[last];
+            Drive.Prepare(Shape, _time);
             Vector3d reaction = Vector3d.Zero;
             for (int k = 0; k < _substeps; k++)
             {
@@ -81,58 +68,45 @@ namespace Guidewire.Core
                 reaction += new Vector3d(_gradient[0].X1, _gradient[0].X2, _gradient[0].X3);
                 Drift(0.5 * h, start + h);
             }
-            _time += _timeStep;
-            Divergence = _energy.Blowup();
-            if (Divergence != null)
+            _time += TimeStep;
+            if (HasBlownUp(_remedy))
             {
-                Divergence += Text(": a substep of {0:G4} s, in its rest shape stable below {1:G4} s; raise substeps");
                 return;
             }
-            Failure = _scene.Joints.FindLost(_shape, _time);
-            SteadyState = _rest.FindRest(_time);
-            PredictionError = Vector3d.Distance(free, _shape.X[last]) / _scene.Metres;
+            EndStep(free);
             if (Contacts != null)
             {
                 Contacts.Reaction = reaction / _substeps;
             }
-            _scene.Write(state, _shape, _velocities, _spins);
-        }
-
-        /// <inheritdoc/>
-        public override StressRecord? Stress()
-        {
-            _stress ??= new StressRecord(_scene.Rod, _scene.Supports);
-            _terms.SetTime(_scene.Schedule, _time);
-            _stress.Take(_terms, _shape, _inertia.KineticEnergy(_velocities, _spins));
-            return _stress;
+            Write(state);
         }
 
         /// <inheritdoc/>
         public override SolverReport? Report()
         {
-            _report.Method = Text("explicit; stable below a substep of {1:G4} s");
-            _report.StableSubstep = _stable;
-            return _report;
+            Results.Method = Text("explicit; stable below a substep of {1:G4} s");
+            Results.StableSubstep = _stable;
+            return Results;
         }
 
         /// <inheritdoc/>
         public override void Serialize(Snapshot snapshot)
         {
-            MaterialSnapshot.Serialize(snapshot, _scene.Schedule, _shape, _velocities, _spins, ref _time);
-            _ends.SerializeTurns(snapshot);
+            MaterialSnapshot.Serialize(snapshot, Schedule, Shape, Velocities, Spins, ref _time);
+            Ends.SerializeTurns(snapshot);
             if (!snapshot.Section("explicit", SerializeOwn))
             {
-                _energy.Start();
+                Energy.Start();
             }
         }
 
         private void SerializeOwn(Snapshot snapshot)
         {
-            _terms.Serialize(snapshot);
-            _energy.Serialize(snapshot);
-            _ends.SerializeWork(snapshot);
-            _report.Serialize(snapshot);
-            _rest.Serialize(snapshot);
+            Terms.Serialize(snapshot);
+            Energy.Serialize(snapshot);
+            Ends.SerializeWork(snapshot);
+            Results.Serialize(snapshot);
+            Rest.Serialize(snapshot);
         }
 
         /// <summary>The longest stable substep, s: 2/omega_max of a wire that is straight at rest, the true limit of an
@@ -186,40 +160,40 @@ namespace Guidewire.Core
 
         private string Text(string format)
         {
-            return string.Format(CultureInfo.InvariantCulture, format, _timeStep / _substeps, _stable);
+            return string.Format(CultureInfo.InvariantCulture, format, TimeStep / _substeps, _stable);
         }
 
         private void Drift(double h, double time)
         {
-            for (int i = 0; i < _velocities.Length; i++)
+            for (int i = 0; i < Velocities.Length; i++)
             {
-                _shape.X[i] += h * _velocities[i];
+                Shape.X[i] += h * Velocities[i];
             }
-            for (int j = 0; j < _spins.Length; j++)
+            for (int j = 0; j < Spins.Length; j++)
             {
-                Quaterniond q = _shape.Q[j] * RotationVector.Exp(h * _spins[j]);
-                _shape.Q[j] = (1.5 - 0.5 * q.LengthSquared) * q;
+                Quaterniond q = Shape.Q[j] * RotationVector.Exp(h * Spins[j]);
+                Shape.Q[j] = (1.5 - 0.5 * q.LengthSquared) * q;
             }
-            _ends.Place(_shape, time);
+            Ends.Place(Shape, time);
         }
 
         private void Kick(double h, double time)
         {
-            int n = _spins.Length;
-            _terms.SetTime(_scene.Schedule, time);
+            int n = Spins.Length;
+            Terms.SetTime(Schedule, time);
             Array.Clear(_gradient, 0, _gradient.Length);
-            _terms.AddGradient(_shape, _gradient);
+            Terms.AddGradient(Shape, _gradient);
             for (int i = 0; i <= n; i++)
             {
                 ref RodVector g = ref _gradient[i];
-                _velocities[i] = _remainingVelocity * _velocities[i]
+                Velocities[i] = _remainingVelocity * Velocities[i]
                     - (h * _inertia.InverseMass[i]) * new Vector3d(g.X1, g.X2, g.X3);
                 if (i < n)
                 {
-                    Vector3d w = _spins[i];
+                    Vector3d w = Spins[i];
                     Vector3d inverse = _inertia.InverseInertia[i];
-                    _spins[i] = _remainingVelocity * w - h * (new Vector3d(inverse.X * g.T1, inverse.Y * g.T2,
-                        inverse.Z * g.T3) + _terms.Mass.Precession(i, w));
+                    Spins[i] = _remainingVelocity * w - h * (new Vector3d(inverse.X * g.T1, inverse.Y * g.T2,
+                        inverse.Z * g.T3) + Terms.Mass.Precession(i, w));
                 }
             }
         }

@@ -88,7 +88,7 @@ namespace Guidewire.Core
             bool isFree = parameters.Drive.Kind == Drive.Force;
             if (isFree)
             {
-                state.Forces[0] = scene.Schedule.ProximalForce;
+                state.Forces[0] = scene.Schedule.Loads.ProximalForce;
             }
             else
             {
@@ -123,7 +123,7 @@ namespace Guidewire.Core
                 int last = state.ElementCount - 1;
                 state.InverseMasses[last + 1] = 0.0;
                 HoldFrame(state, last);
-                scene.Schedule.DistalFrame = state.Orientations[last];
+                scene.Schedule.Distal.Begin(state.Orientations[last]);
                 drive = new DistalClampDrive(drive, scene.Schedule, parameters.Method.TimeStep);
             }
             return drive;

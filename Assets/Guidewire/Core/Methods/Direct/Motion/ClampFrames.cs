@@ -28,14 +28,14 @@ namespace Guidewire.Core
         /// <summary>The distal frame has already made its turn of time 0.</summary>
         public void Begin()
         {
-            _distal = _schedule.DistalTurnAt(0.0);
+            _distal = _schedule.Distal.TurnAt(0.0);
         }
 
         /// <summary>Whether the frames are where they should be at this time, to within an angle.</summary>
         public bool AreInPlace(double time, double angle)
         {
-            return Math.Abs(_schedule.FrameTurnAt(time) - _proximal) <= angle
-                && Math.Abs(_schedule.DistalTurnAt(time) - _distal) <= angle;
+            return Math.Abs(_schedule.Hub.FrameTurnAt(time) - _proximal) <= angle
+                && Math.Abs(_schedule.Distal.TurnAt(time) - _distal) <= angle;
         }
 
         /// <summary>Turns the frames of a shape.</summary>
@@ -44,8 +44,8 @@ namespace Guidewire.Core
         public string? Turn(RodShape shape, double time, out bool inParts)
         {
             inParts = false;
-            double proximal = _schedule.FrameTurnAt(time) - _proximal;
-            double distal = _schedule.DistalTurnAt(time) - _distal;
+            double proximal = _schedule.Hub.FrameTurnAt(time) - _proximal;
+            double distal = _schedule.Distal.TurnAt(time) - _distal;
             if (proximal == 0.0 && distal == 0.0)
             {
                 return null;

@@ -41,11 +41,11 @@ namespace Guidewire.Core
         /// <summary>Whether held nodes are where they should be at this time, to within a distance.</summary>
         public bool IsHeldAt(RodShape shape, RodSchedule schedule, double time, double distance)
         {
-            if (_holdsFirst && Vector3d.Distance(shape.X[0], schedule.ProximalPositionAt(time)) > distance)
+            if (_holdsFirst && Vector3d.Distance(shape.X[0], schedule.Hub.PositionAt(time)) > distance)
             {
                 return false;
             }
-            Vector3d miss = schedule.DistalPositionAt(time) - shape.X[shape.ElementCount];
+            Vector3d miss = schedule.Distal.PositionAt(time) - shape.X[shape.ElementCount];
             return _distal == DistalEnd.Free || Across(miss).Length <= distance;
         }
 

@@ -55,11 +55,11 @@ namespace Guidewire.Core
                 {
                     if (size == whole)
                     {
-                        sum = _dynamics.MeanForces;
+                        sum = _dynamics.Reactions.Mean;
                     }
                     else
                     {
-                        sum.Add((double)size / whole, _dynamics.MeanForces);
+                        sum.Add((double)size / whole, _dynamics.Reactions.Mean);
                     }
                     PieceDone?.Invoke();
                     done += size;

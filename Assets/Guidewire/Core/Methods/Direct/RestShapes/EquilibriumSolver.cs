@@ -15,9 +15,6 @@ namespace Guidewire.Core
     /// EI/L^2 added, and with no more than 0.01 EI/L^2 of the softest element, which would hold that.</remarks>
     internal sealed class EquilibriumSolver
     {
-        private const double LargestTurn = 1.0;          // rad an iteration, of one element where forces act
-        private const double LargestRelativeTurn = 0.7;  // rad an iteration, between neighbours
-        private const double SufficientDecrease = 1e-4;
         private const double SaddleStep = 1e-7;          // a shifted step this small means: no force left
         private const int MostCuts = 40;
         private const double Neutral = 1.01e-4;          // of EI/L^2
@@ -32,11 +29,11 @@ namespace Guidewire.Core
         private readonly MaterialRod _rod;
         private readonly RodSupports _supports;
         private readonly EnergyTerm[] _terms;
+        private readonly NewtonDescent _newton;
         private readonly BlockTridiagonal _system;
         private readonly RodVector[] _gradient;
         private readonly RodVector[] _direction;
         private readonly RodVector[] _work;
-        private readonly RodShape _trial;
         private readonly double _totalLength;
         private readonly double _bendForce;  // EI/L^2 of the stiffest element, N
         private readonly double _softestBendForce;  // the same of the softest, N
@@ -49,11 +46,11 @@ namespace Guidewire.Core
             _rod = rod;
             _supports = supports;
             _terms = terms;
-            _system = new BlockTridiagonal(rod, supports);
-            _gradient = new RodVector[_system.VectorCount];
-            _direction = new RodVector[_system.VectorCount];
+            _newton = new NewtonDescent(rod, supports, terms, false, MostCuts);
+            _system = _newton.System;
+            _gradient = _newton.Gradient;
+            _direction = _newton.Direction;
             _work = new RodVector[_system.VectorCount];
-            _trial = new RodShape(rod.ElementCount);
             _totalLength = rod.TotalLength;
             _bendForce = rod.BendForce;
             _softestBendForce = rod.SoftestBendStiffness / (_totalLength * _totalLength);
@@ -76,7 +73,7 @@ namespace Guidewire.Core
                 result.Iterations++;
                 EnergySum.Anchor(_terms, shape);
                 bool convex = FindDirection(shape, ref shift, ref result);
-                double size = RodStep.Size(_direction, _rod.ElementCount, _totalLength, out double relative);
+                double size = _newton.Size(out double relative);
                 result.LastStep = size;
                 if (!IsFinite(size))
                 {
@@ -97,20 +94,18 @@ namespace Guidewire.Core
                 // asked.
                 double energyStep = Math.Sqrt(Math.Max(0.0, -RodVectors.Dot(_gradient, _direction))
                     / (_softestBendForce * _totalLength));
-                double scale = Math.Min(1.0, Math.Min(LargestTurn / size, LargestRelativeTurn / relative));
-                double fraction = EnergySum.MaxStep(_terms, shape, _direction, scale);
-                scale *= fraction;
+                double scale = _newton.MaxStep(shape, size, relative, out double fraction);
                 bool done = convex && fraction == 1.0 && (size <= tolerance || energyStep <= tolerance);
                 if (done)
                 {
-                    RodStep.Apply(_rod, _supports, shape, _direction, 1.0, _trial);
+                    _newton.Apply(shape, 1.0);
                 }
-                else if (!Search(shape, scale, size))
+                else if (!_newton.Search(shape, true, ref scale, size, out _))
                 {
                     result.Reason = "the line search found no lower energy (solverTolerance)";
                     return result;
                 }
-                shape.CopyFrom(_trial);
+                shape.CopyFrom(_newton.Trial);
                 if (done)
                 {
                     if (!findsEigenvalue)
@@ -154,45 +149,14 @@ namespace Guidewire.Core
             for (double small = least; small <= _neutral; small *= 10.0)
             {
                 result.Factorisations++;
-                if (_system.Factorise(_terms, shape, _gradient, _direction, small) == 0)
+                if (_newton.Factorise(shape, small) == 0)
                 {
                     _system.Back(_direction);
                     return true;
                 }
             }
             shift = Math.Max(0.25 * shift, 2.0 * _neutral);
-            result.Factorisations++;
-            while (_system.Factorise(_terms, shape, _gradient, _direction, shift) > 0 && IsFinite(shift))
-            {
-                shift *= 4.0;
-                result.Factorisations++;
-            }
-            _system.Back(_direction);
-            return false;
-        }
-
-        /// <summary>Cuts the step until the energy falls enough; the accepted shape is left in the trial.</summary>
-        private bool Search(RodShape shape, double scale, double size)
-        {
-            double slope = RodVectors.Dot(_gradient, _direction);
-            double start = EnergySum.Value(_terms, shape, out double magnitude);
-            double rounding = 1e-13 * magnitude;
-            if (-slope < 1e3 * rounding && size < 1e-2)
-            {
-                // The energy's own rounding hides the decrease: the step is Newton's, and small.
-                RodStep.Apply(_rod, _supports, shape, _direction, scale, _trial);
-                return true;
-            }
-            for (int cut = 0; cut < MostCuts; cut++)
-            {
-                RodStep.Apply(_rod, _supports, shape, _direction, scale, _trial);
-                double value = EnergySum.Value(_terms, _trial, out _);
-                if (value <= start + SufficientDecrease * scale * slope + rounding)
-                {
-                    return true;
-                }
-                scale *= 0.5;
-            }
+            result.Factorisations += _newton.FactoriseShifted(shape, ref shift);
             return false;
         }
 
@@ -205,11 +169,11 @@ namespace Guidewire.Core
             for (int k = 0; k < MostHalvings && high > 1.02 * low; k++)
             {
                 double middle = 0.5 * (low + high);
-                bool positive = _system.Factorise(_terms, shape, _gradient, _direction, middle) == 0;
+                bool positive = _newton.Factorise(shape, middle) == 0;
                 low = positive ? low : middle;
                 high = positive ? middle : high;
             }
-            _system.Factorise(_terms, shape, _gradient, _direction, high);
+            _newton.Factorise(shape, high);
             InverseIteration(out _);
             Array.Copy(_work, _direction, _work.Length);
             return DescendAlong(shape, RodVectors.Dot(_gradient, _direction) > 0.0 ? -1.0 : 1.0);
@@ -219,15 +183,15 @@ namespace Guidewire.Core
         /// nowhere.</summary>
         private bool DescendAlong(RodShape shape, double sign)
         {
-            double size = RodStep.Size(_direction, _rod.ElementCount, _totalLength, out _);
+            double size = _newton.Size(out _);
             double start = EnergySum.Value(_terms, shape, out double magnitude);
             double largest = 0.3 * EnergySum.MaxStep(_terms, shape, _direction, sign * 0.3 / size);
             for (double turn = largest; turn > 1e-6; turn *= 0.5)
             {
-                RodStep.Apply(_rod, _supports, shape, _direction, sign * turn / size, _trial);
-                if (EnergySum.Value(_terms, _trial, out _) < start - 1e-14 * magnitude)
+                _newton.Apply(shape, sign * turn / size);
+                if (EnergySum.Value(_terms, _newton.Trial, out _) < start - 1e-14 * magnitude)
                 {
-                    shape.CopyFrom(_trial);
+                    shape.CopyFrom(_newton.Trial);
                     return true;
                 }
             }
@@ -264,10 +228,10 @@ namespace Guidewire.Core
         {
             double shift = 0.0;
             result.Factorisations++;
-            if (_system.Factorise(_terms, shape, _gradient, _direction, shift) > 0)
+            if (_newton.Factorise(shape, shift) > 0)
             {
                 shift = _neutral;
-                _system.Factorise(_terms, shape, _gradient, _direction, shift);
+                _newton.Factorise(shape, shift);
                 result.Factorisations++;
             }
             InverseIteration(out result.SmallestEigenvalue);

@@ -68,11 +68,11 @@ namespace Guidewire.Core
             var statics = new RodStatics(_terms);
             bool clamped = _scene.Supports.HasDistalJoint;
             int last = shape.ElementCount;
-            double turn = clamped ? schedule.DistalTurnAt(0.0) : 0.0;
+            double turn = clamped ? schedule.Distal.TurnAt(0.0) : 0.0;
             Vector3d from = shape.X[0];
-            Vector3d startShift = schedule.ProximalPositionAt(0.0) - from;
+            Vector3d startShift = schedule.Hub.PositionAt(0.0) - from;
             Vector3d end = shape.X[last];
-            Vector3d endShift = clamped ? schedule.DistalPositionAt(0.0) - end : Vector3d.Zero;
+            Vector3d endShift = clamped ? schedule.Distal.PositionAt(0.0) - end : Vector3d.Zero;
             double shift = Math.Max(endShift.Length, clamped ? startShift.Length : 0.0) / _scene.Rod.TotalLength;
             string? failure = Winding.Split(turn, out int turns);
             if (failure != null)

@@ -13,7 +13,7 @@ namespace Guidewire.Core
         public static Vector3d Find(Sheath sheath, MaterialScene whole)
         {
             double units = 1.0 / whole.Metres;
-            Vector3d axis = whole.Schedule.ProximalFrame.Director3;
+            Vector3d axis = whole.Schedule.Hub.Frame.Director3;
             Vector3d start = units * whole.Shape.X[0];
             int n = whole.Shape.ElementCount;
             double length = units * whole.Rod.TotalLength;
@@ -62,7 +62,7 @@ namespace Guidewire.Core
             {
                 return error.Message;
             }
-            Vector3d axis = whole.Schedule.ProximalFrame.Director3;
+            Vector3d axis = whole.Schedule.Hub.Frame.Director3;
             int first = 0;
             while (first < whole.Shape.ElementCount - 1
                 && Vector3d.Dot(units * whole.Shape.X[first + 1] - exit, axis) <= 0.0)

@@ -19,7 +19,7 @@ namespace Guidewire.Core
         {
             _parameters = parameters;
             _whole = whole;
-            Axis = whole.Schedule.ProximalFrame.Director3;
+            Axis = whole.Schedule.Hub.Frame.Director3;
             Stations = new double[whole.Rod.ElementCount + 1];
             for (int j = 0; j < whole.Rod.ElementCount; j++)
             {
@@ -64,10 +64,7 @@ namespace Guidewire.Core
         public void LimitDrive(RodShape shape)
         {
             int n = shape.ElementCount;
-            _whole.Drive.GoAlong(Axis);
-            _whole.Drive.MostInsertion = _whole.Drive.Insertion + Vector3d.Dot(Exit - shape.X[0], Axis);
-            _whole.Drive.LeastInsertion = Math.Min(_whole.Drive.Insertion,
-                _whole.Drive.Insertion - Vector3d.Dot(shape.X[n] - Exit, Axis));
+            _whole.Drive.Limit(-Vector3d.Dot(shape.X[n] - Exit, Axis), Vector3d.Dot(Exit - shape.X[0], Axis));
         }
 
         /// <summary>What the sheathed part is to the elements from one on.</summary>
@@ -76,23 +73,22 @@ namespace Guidewire.Core
             return new SheathWindow(_whole.Rod, Joints, _jointLengths, _pieces, first) { Exit = Exit, Axis = Axis };
         }
 
-        /// <summary>A frame about the sheath's axis, turned by an angle, radians.</summary>
-        public Quaterniond Frame(double turn)
-        {
-            return _whole.Schedule.ProximalFrame * Quaterniond.FromAxisAngle(Vector3d.UnitZ, turn);
-        }
-
-        /// <summary>The elements of a window as a scene of their own.</summary>
+        /// <summary>The elements of a window as a scene of their own, with a hub of its own.</summary>
+        /// <param name="drive">Of the window before, as far as it has come.</param>
+        /// <param name="shift">How much farther from the hub the window's first node is than that one's, m.</param>
+        /// <param name="frameTurn">Where the frame of the first joint is held, radians.</param>
         public MaterialScene Scene(SheathWindow window, RodShape shape, Vector3d[] velocities, Vector3d[] spins,
-            double frameTurn)
+            MaterialDrive drive, double shift, double frameTurn)
         {
             int first = window.First;
             var part = new RodShape(shape.ElementCount - first);
             Array.Copy(shape.X, first, part.X, 0, part.X.Length);
             Array.Copy(shape.Q, first, part.Q, 0, part.Q.Length);
-            part.ProximalFrame = Frame(frameTurn);
+            var hub = new HubMotion(drive.Hub, shift * Axis, frameTurn);
+            part.ProximalFrame = hub.FrameTurned(frameTurn);
             part.DistalFrame = shape.DistalFrame;
-            return new MaterialScene(_whole, _whole.Rod.From(first), window, part)
+            return new MaterialScene(_whole, _whole.Rod.From(first), window, part,
+                new MaterialDrive(drive, hub, Axis))
             {
                 Velocities = Tail(velocities, first),
                 Spins = Tail(spins, first),

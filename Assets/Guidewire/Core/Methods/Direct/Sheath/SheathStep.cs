@@ -29,6 +29,7 @@ namespace Guidewire.Core
         private SheathWindow _window;
         private RodDynamics _dynamics = null!;    // this and the next are set wherever the window is
         private DirectStep _inner = null!;
+        private MaterialDrive _drive;             // of what is simulated
         private double _frameTurn;                // of the frame of the first element's joint, radians
 
         /// <summary>A step for this scene.</summary>
@@ -52,10 +53,10 @@ namespace Guidewire.Core
                 ElementForces = new Vector3d[n],
             };
             int first = _setup.FirstElement(_shape, LeastElements);
-            whole.Schedule.ProximalPosition += _setup.Stations[first] * _setup.Axis;
             _setup.LimitDrive(_shape);
+            _drive = whole.Drive;
             _window = _setup.Window(first);
-            Build(0.0, null);
+            Build(0.0, _setup.Stations[first], null);
         }
 
         /// <inheritdoc/>
@@ -84,9 +85,10 @@ namespace Guidewire.Core
                 // A tip that has stuck jumps round by as much as is wound up; its joint to the frame tells half a
                 // turn, and so the frame goes ahead.
                 _start.Restore();
-                double turned = RotationVector.Log(_setup.Frame(_frameTurn).Conjugate * _shape.Q[_window.First]).Z;
+                Quaterniond frame = _drive.Hub.FrameTurned(_frameTurn);
+                double turned = RotationVector.Log(frame.Conjugate * _shape.Q[_window.First]).Z;
                 _frameTurn += turned - Math.Sign(torque) * Ahead;
-                Build(time, _inner);
+                Build(time, 0.0, _inner);
                 isDone = _inner.Step();
             }
             Failure = _inner.Failure;
@@ -135,7 +137,7 @@ namespace Guidewire.Core
             if (!snapshot.IsWritten)
             {
                 _window = _setup.Window(first);
-                Build(time, null);
+                Build(time, 0.0, null);
             }
             _inner.Serialize(snapshot);
             TakeAnchors();
@@ -148,8 +150,8 @@ namespace Guidewire.Core
         {
             int first = _window.First;
             double[] station = _setup.Stations;
-            double exit = _window.ExitFrom(_whole.Schedule.ProximalPositionAt(_dynamics.Time))
-                - Math.Max(0.0, _whole.Drive.NextMove(_dynamics.Time));
+            double exit = _window.ExitFrom(_drive.Hub.PositionAt(_dynamics.Time))
+                - Math.Max(0.0, _drive.NextMove(_dynamics.Time));
             while (first > 0 && station[first + 1] > exit)
             {
                 first--;
@@ -166,16 +168,16 @@ namespace Guidewire.Core
             {
                 return;
             }
-            _whole.Schedule.ProximalPosition += (_setup.Stations[first] - _setup.Stations[_window.First]) * _setup.Axis;
+            double shift = _setup.Stations[first] - _setup.Stations[_window.First];
             double own = _frameTurn + turn - TurnInSheath(_window.First, 0.0, torque);
             for (int j = first; j < _window.First; j++)
             {
-                _shape.Q[j] = _setup.Frame(TurnInSheath(j, own, torque));
+                _shape.Q[j] = _drive.Hub.FrameTurned(TurnInSheath(j, own, torque));
             }
             _frameTurn = first < _window.First ? TurnInSheath(first, own, torque) : TurnOf(first);
             DirectStep old = _inner;
             _window = _setup.Window(first);
-            Build(_dynamics.Time, old);
+            Build(_dynamics.Time, shift, old);
         }
 
         // Where a sheathed element enters: on the axis, as long as the axial force leaves it.
@@ -189,15 +191,17 @@ namespace Guidewire.Core
             _spins[j] = new Vector3d(0.0, 0.0, _spins[j + 1].Z);
         }
 
-        private void Build(double time, DirectStep? old)
+        // The first node has been shifted along the wire, m.
+        private void Build(double time, double shift, DirectStep? old)
         {
-            _whole.Schedule.HeldFrameTurn = _frameTurn;
-            MaterialScene scene = _setup.Scene(_window, _shape, _velocities, _spins, _frameTurn);
+            MaterialScene scene = _setup.Scene(_window, _shape, _velocities, _spins, _drive, shift,
+                _frameTurn);
+            _drive = scene.Drive;
             _dynamics = _setup.Dynamics(scene, _window);
             _dynamics.GoOn(time, _frameTurn);
-            _dynamics.Terms.SetTime(_whole.Schedule, time);
+            _dynamics.Terms.SetTime(scene.Schedule, time);
             _dynamics.Terms.Walls()!.Spring.Axis = _setup.Axis;
-            _inner = new DirectStep(scene, _dynamics, _whole.Drive, _parameters.Method, _report,
+            _inner = new DirectStep(scene, _dynamics, _parameters.Method, _report,
                 new ContactRecord(scene.Shape.X.Length));
             _inner.Contacts!.Take(Contacts!, -_window.First);
             _dynamics.Terms.Walls()!.Friction?.Anchors.Take(_anchors, _window.First);
@@ -239,7 +243,7 @@ namespace Guidewire.Core
                 _spins[j] = new Vector3d(0.0, 0.0, _spins[first].Z);
             }
             // Most joints are alike: sines are dear beside the rest.
-            Quaterniond frame = _setup.Frame(_whole.Schedule.ProximalTurnAt(_dynamics.Time));
+            Quaterniond frame = _drive.Hub.FrameTurned(_drive.Hub.TurnAt(_dynamics.Time));
             Quaterniond turned = Quaterniond.Identity;
             double before = 0.0;
             for (int j = 0; j < first; j++)
@@ -262,7 +266,7 @@ namespace Guidewire.Core
         // Of the wire on the sheathed part about the axis, N m, positive where it is ahead of the hub.
         private double Torque()
         {
-            _dynamics.Terms.SetTime(_whole.Schedule, _dynamics.Time);
+            _dynamics.Terms.SetTime(_inner.Schedule, _dynamics.Time);
             return -_dynamics.Terms.Bending.TurnCouple(_dynamics.Shape);
         }
 

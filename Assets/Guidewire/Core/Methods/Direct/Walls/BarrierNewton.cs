@@ -13,10 +13,6 @@ namespace Guidewire.Core
     /// the decrease the balance decides alone.</remarks>
     internal sealed class BarrierNewton
     {
-        private const double LargestTurn = 1.0;          // rad an iteration
-        private const double LargestRelativeTurn = 0.7;  // rad an iteration, between neighbours
-        private const double SufficientDecrease = 1e-4;
-        private const double Rounding = 1e-13;           // of the energies' magnitudes
         private const double LastPlace = 1.0 / (1L << 52);
         private const double LeastShift = 1e-4;          // of EI/L^2
         private const double Far = 1e4;                  // times what may be unbalanced: not reached in one iteration
@@ -27,12 +23,8 @@ namespace Guidewire.Core
         private readonly MaterialRod _rod;
         private readonly EnergyTerm[] _terms;
         private readonly BarrierEnergy _barrier;
-        private readonly BlockTridiagonal _system;
-        private readonly RodVector[] _gradient;
-        private readonly RodVector[] _direction;
+        private readonly NewtonDescent _newton;
         private readonly RodVector[] _forces;
-        private readonly double[] _values;        // of the terms in the shape evaluated last, J
-        private readonly RodShape _trial;
         private readonly double _totalLength;
         private readonly double _mass;
         private readonly double _bendForce;       // EI/L^2, N
@@ -45,12 +37,8 @@ namespace Guidewire.Core
             _rod = terms.Rod;
             _terms = terms.With(moving);
             _barrier = terms.Walls()!.Barrier;
-            _system = new BlockTridiagonal(_rod, terms.Supports);
-            _gradient = new RodVector[_system.VectorCount];
-            _direction = new RodVector[_system.VectorCount];
-            _forces = new RodVector[_system.VectorCount];
-            _values = new double[_terms.Length];
-            _trial = new RodShape(_rod.ElementCount);
+            _newton = new NewtonDescent(_rod, terms.Supports, _terms, true, MostCuts);
+            _forces = new RodVector[_newton.Gradient.Length];
             _totalLength = _rod.TotalLength;
             _mass = terms.Mass.Total;
             _bendForce = _rod.BendForce;
@@ -99,7 +87,8 @@ namespace Guidewire.Core
                 double before = left;
                 if (!isFar)
                 {
-                    GradientMeasures measures = _system.Gradient(_terms, shape, _gradient, _direction);
+                    GradientMeasures measures = _newton.System.Gradient(_terms, shape, _newton.Gradient,
+                        _newton.Direction);
                     left = Unbalanced();
                     double allowed = rounding + Math.Min(
                         Balance * Math.Max(measures.LargestForce, loads), MostUnbalanced);
@@ -118,8 +107,9 @@ namespace Guidewire.Core
                     return "a force is not a finite number";
                 }
                 Iterations++;
-                double scale = Scale(shape, out double size);
-                if (!Search(shape, !hasValues, ref scale, size, out bool isHidden))
+                double size = _newton.Size(out double relative);
+                double scale = _newton.MaxStep(shape, size, relative, out _);
+                if (!_newton.Search(shape, !hasValues, ref scale, size, out bool isHidden))
                 {
                     if (wasFar)
                     {
@@ -130,7 +120,7 @@ namespace Guidewire.Core
                     }
                     return "no lower energy along the Newton step, " + Text(left) + " N out of balance";
                 }
-                shape.CopyFrom(_trial);
+                shape.CopyFrom(_newton.Trial);
                 hasValues = true;
                 // A full step that no longer lowers the residual force is at the limit of rounding.
                 if (isHidden && scale == 1.0 && left >= 0.5 * before && size <= Tolerance)
@@ -145,8 +135,8 @@ namespace Guidewire.Core
         /// <summary>Gradient of all terms.</summary>
         public RodVector[] Reactions(RodShape shape)
         {
-            _system.Gradient(_terms, shape, _gradient, _direction);
-            return _gradient;
+            _newton.System.Gradient(_terms, shape, _newton.Gradient, _newton.Direction);
+            return _newton.Gradient;
         }
 
         /// <summary>Writes or takes over what the next stage depends on.</summary>
@@ -171,21 +161,22 @@ namespace Guidewire.Core
         private void FindDirection(RodShape shape, bool isStiffened)
         {
             Factorisations++;
-            int negative = _system.Factorise(_terms, shape, _gradient, _direction, 0.0);
+            int negative = _newton.Factorise(shape, 0.0);
             if (negative > 0)
             {
                 Stiffen(isStiffened, true);
                 Factorisations++;
-                negative = _system.Factorise(_terms, shape, _gradient, _direction, 0.0);
+                negative = _newton.Factorise(shape, 0.0);
                 if (negative > 0)
                 {
-                    Shift(shape, 0.25);
+                    _shift = Math.Max(0.25 * _shift, LeastShift * _bendForce);
+                    Factorisations += _newton.FactoriseShifted(shape, ref _shift);
                 }
                 Stiffen(isStiffened, false);
             }
             if (negative == 0)
             {
-                _system.Back(_direction);
+                _newton.System.Back(_newton.Direction);
             }
         }
 
@@ -204,52 +195,10 @@ namespace Guidewire.Core
         // The largest force on a piece of the rod from its start to any node, or the sum of the couples over L, N.
         private double Unbalanced()
         {
-            Array.Copy(_gradient, _forces, _forces.Length);
-            _system.Project(_forces);
+            Array.Copy(_newton.Gradient, _forces, _forces.Length);
+            _newton.System.Project(_forces);
             double force = RodVectors.LargestPartialForce(_forces, out double couples);
             return Math.Max(force, couples / _totalLength);
-        }
-
-        private void Shift(RodShape shape, double factor)
-        {
-            _shift = Math.Max(factor * _shift, LeastShift * _bendForce);
-            Factorisations++;
-            while (_system.Factorise(_terms, shape, _gradient, _direction, _shift) > 0 && _shift <= double.MaxValue)
-            {
-                _shift *= 4.0;
-                Factorisations++;
-            }
-            _system.Back(_direction);
-        }
-
-        // The largest step along the direction.
-        private double Scale(RodShape shape, out double size)
-        {
-            size = RodStep.Size(_direction, _rod.ElementCount, _totalLength, out double relative);
-            double scale = Math.Min(1.0, Math.Min(LargestTurn / size, LargestRelativeTurn / relative));
-            return scale * EnergySum.MaxStep(_terms, shape, _direction, scale);
-        }
-
-        // Shortens the step until the energy falls enough; the accepted shape is left in the trial.
-        private bool Search(RodShape shape, bool isNew, ref double scale, double size, out bool isHidden)
-        {
-            double slope = RodVectors.Dot(_gradient, _direction);
-            double start = isNew ? EnergySum.Value(_terms, shape, _values, out double magnitude)
-                : EnergySum.AnchoredValue(_terms, _values, out magnitude);
-            double rounding = Rounding * magnitude;
-            isHidden = -slope < 1e3 * rounding && size < 1e-2;
-            for (int cut = 0; cut < MostCuts; cut++)
-            {
-                RodStep.ApplyStraight(shape, _direction, scale, _trial);
-                double value = EnergySum.Value(_terms, _trial, _values, out _);
-                if (value <= start + SufficientDecrease * scale * slope + rounding
-                    || (isHidden && value <= double.MaxValue))
-                {
-                    return true;
-                }
-                scale *= 0.5;
-            }
-            return false;
         }
 
         private static string Text(double value)

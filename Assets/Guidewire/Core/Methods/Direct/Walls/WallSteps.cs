@@ -53,10 +53,10 @@ namespace Guidewire.Core
 
         private int Parts(double dt)
         {
-            double move = Vector3d.Distance(_schedule.ProximalPositionAt(_dynamics.Time + dt)
+            double move = Vector3d.Distance(_schedule.Hub.PositionAt(_dynamics.Time + dt)
                 - _dynamics.Terms.Walls()!.Spring.LagOf(_dynamics.Shape), _dynamics.Shape.X[0]);
-            double turn = Math.Abs(_schedule.FrameTurnAt(_dynamics.Time + dt) - _dynamics.ProximalTurn)
-                + Math.Abs(_schedule.DistalTurnAt(_dynamics.Time + dt) - _dynamics.DistalTurn);
+            double turn = Math.Abs(_schedule.Hub.FrameTurnAt(_dynamics.Time + dt) - _dynamics.ProximalTurn)
+                + Math.Abs(_schedule.Distal.TurnAt(_dynamics.Time + dt) - _dynamics.DistalTurn);
             // Rounding, and the small distance of node 0 from its support, must not add a part.
             double parts = Math.Ceiling(Math.Max(move / _longestMove, turn / LargestTurn) * (1.0 - SmallExcess));
             return (int)Math.Min(Math.Max(parts, 1.0), MostParts);

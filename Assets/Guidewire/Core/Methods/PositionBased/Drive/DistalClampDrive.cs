@@ -25,8 +25,8 @@ namespace Guidewire.Core
             _motion?.Move(state);
             _clock.Advance();
             double time = _clock.Time;
-            state.PredictedPositions[state.ElementCount] = _schedule.DistalPositionAt(time);
-            state.PredictedOrientations[state.ElementCount - 1] = _schedule.DistalFrameAt(time);
+            state.PredictedPositions[state.ElementCount] = _schedule.Distal.PositionAt(time);
+            state.PredictedOrientations[state.ElementCount - 1] = _schedule.Distal.FrameAt(time);
         }
 
         /// <summary>Writes into a snapshot, or takes over from one, where the clamp's motion stands.</summary>

@@ -83,13 +83,12 @@ namespace Guidewire.Core.Tests
             rod.MaterialDamping = Damping;
             var terms = new RodTerms(rod, new RodSupports { Distal = DistalEnd.Clamped });
             RodShape shape = Rods.Straight(rod);
-            var schedule = new RodSchedule
+            var schedule = Rods.Schedule(new SceneParameters
             {
-                DistalPosition = shape.X[8],
                 DistalDisplacement = Pull * Rods.Length,
                 DistalRotation = Turn,
                 DistalRampTime = Ramp,
-            };
+            }, shape);
             var motion = new RodDynamics(terms, schedule, shape, DirectSetup.Scheme(integrator), 1e-10, 50);
             motion.Control.Tolerance = tellsError ? stepError : 0.0;
             motion.Begin(new Vector3d[9], new Vector3d[8], true);
@@ -101,10 +100,10 @@ namespace Guidewire.Core.Tests
                     double fraction = k == 40 ? 0.4 + Damping / Ramp : 1.0;
                     Assert.That(motion.ReactionAt(0).Z, Is.EqualTo(-fraction * Pull * Rods.Young * Rods.Area)
                         .Within(0.1).Percent, "force, step " + k);
-                    Assert.That(
-                        motion.ProximalCouple.Z, Is.EqualTo(-fraction * Turn * Rods.TwistStiffness / Rods.Length)
+                    double couple = motion.Reactions.ProximalCouple.Z;
+                    Assert.That(couple, Is.EqualTo(-fraction * Turn * Rods.TwistStiffness / Rods.Length)
                         .Within(0.1).Percent, "couple, step " + k);
-                    Assert.That(motion.DistalCouple.Z, Is.EqualTo(-motion.ProximalCouple.Z).Within(0.1).Percent);
+                    Assert.That(motion.Reactions.DistalCouple.Z, Is.EqualTo(-couple).Within(0.1).Percent);
                 }
             }
         }
@@ -201,7 +200,7 @@ namespace Guidewire.Core.Tests
             MaterialRod rod = Rods.Wire(4);
             rod.MassDamping = Damping;
             var terms = new RodTerms(rod, new RodSupports { Proximal = ProximalEnd.Free });
-            var motion = new RodDynamics(terms, new RodSchedule(), Rods.Straight(rod),
+            var motion = new RodDynamics(terms, Rods.Schedule(), Rods.Straight(rod),
                 DirectSetup.Scheme(integrator), 1e-10, 50);
             var spins = new Vector3d[4];
             for (int j = 0; j < 4; j++)
@@ -285,7 +284,7 @@ namespace Guidewire.Core.Tests
                     spins[i] = new Vector3d(speed * shape[i].T1, 0.0, 0.0);
                 }
             }
-            var motion = new RodDynamics(new RodTerms(rod, supports), new RodSchedule(), Rods.Straight(rod),
+            var motion = new RodDynamics(new RodTerms(rod, supports), Rods.Schedule(), Rods.Straight(rod),
                 DirectSetup.Scheme(integrator), 1e-11, 50);
             motion.Begin(velocities, spins, false);
             return motion;
@@ -306,7 +305,7 @@ namespace Guidewire.Core.Tests
                 spins[Math.Min(i, 9)] = new Vector3d(0.0, Rate, 0.0);
             }
             var terms = new RodTerms(rod, supports);
-            var motion = new RodDynamics(terms, new RodSchedule(), shape,
+            var motion = new RodDynamics(terms, Rods.Schedule(), shape,
                 DirectSetup.Scheme(Integrator.Bdf2), 1e-10, 50);
             motion.Begin(velocities, spins, false);
             for (int k = 0; k < 200; k++)

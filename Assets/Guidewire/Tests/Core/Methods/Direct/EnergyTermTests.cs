@@ -44,7 +44,7 @@ namespace Guidewire.Core.Tests
             // The term stores nothing and allows half of each stage's first step: the same motion, in more steps.
             MaterialRod rod = Rods.Wire(N);
             var supports = new RodSupports { Proximal = ProximalEnd.Free };
-            var schedule = new RodSchedule { TipForce = new Vector3d(0.0, Rods.BendForce, 0.0) };
+            var schedule = Rods.Schedule(new SceneParameters { TipForce = new Vector3d(0.0, Rods.BendForce, 0.0) });
             var motions = new RodDynamics[2];
             for (int k = 0; k < 2; k++)
             {
@@ -173,17 +173,17 @@ namespace Guidewire.Core.Tests
                 case Solver.Direct:
                     var dynamics = new RodDynamics(terms, scene.Schedule, scene.Shape,
                         DirectSetup.Scheme(parameters.Method.Integrator), 1e-9, 50);
-                    return new DirectStep(scene, dynamics, scene.Drive, parameters.Method, report, null);
+                    return new DirectStep(scene, dynamics, parameters.Method, report, null);
                 case Solver.Explicit:
-                    return new ExplicitStep(scene, terms, scene.Drive, parameters.Method, report, null);
+                    return new ExplicitStep(scene, terms, parameters.Method, report, null);
                 default:
-                    return new CompliantStep(scene, terms, scene.Drive, parameters.Method, report, 0.0);
+                    return new CompliantStep(scene, terms, parameters.Method, report, 0.0);
             }
         }
 
         private static RodDynamics Start(RodTerms terms, Integrator scheme, Vector3d velocity)
         {
-            var motion = new RodDynamics(terms, new RodSchedule(), Rods.Straight(terms.Rod),
+            var motion = new RodDynamics(terms, Rods.Schedule(), Rods.Straight(terms.Rod),
                 DirectSetup.Scheme(scheme), 1e-8, 100);
             var velocities = new Vector3d[N + 1];
             for (int i = 0; i <= N; i++)

@@ -142,7 +142,7 @@ namespace Guidewire.Core.Tests
             MaterialRod rod = Rods.Wire(12);
             parameters.Scene.TipFollowerForce = Rods.BendForce * new Vector3d(0.0, 6.0, -3.0);
             var terms = new RodTerms(rod, new RodSupports(), parameters.Scene);
-            var motion = new RodDynamics(terms, new RodSchedule(), Rods.Straight(rod),
+            var motion = new RodDynamics(terms, Rods.Schedule(), Rods.Straight(rod),
                 DirectSetup.Scheme(Integrator.Esdirk4), 1e-10, 50);
             motion.Begin(new Vector3d[13], new Vector3d[12], false);
             double work = 0.0;

@@ -24,7 +24,7 @@ namespace Guidewire.Core.Tests
             MaterialRod rod = Rods.Wire(n);
             RodShape shape = Rods.AtRest(rod, new RodSupports(), Vector3d.Zero,
                 new Vector3d(0.0, 0.1 * Rods.BendForce, 0.0), Vector3d.Zero);
-            AssertBalanced(rod, new RodSupports(), new RodSchedule(), shape, scheme, step, 100);
+            AssertBalanced(rod, new RodSupports(), Rods.Schedule(), shape, scheme, step, 100);
         }
 
         [Test]
@@ -33,7 +33,7 @@ namespace Guidewire.Core.Tests
             [Values(1e-3, 5e-3)] double step)
         {
             MaterialRod rod = Rods.Wire(n);
-            AssertBalanced(rod, new RodSupports(), new RodSchedule { Gravity = Gravity }, Rods.Straight(rod), scheme,
+            AssertBalanced(rod, new RodSupports(), UnderWeight(), Rods.Straight(rod), scheme,
                 step, 100);
         }
 
@@ -45,7 +45,7 @@ namespace Guidewire.Core.Tests
             MaterialRod rod = Rods.Wire(N);
             var supports = new RodSupports { Distal = DistalEnd.Clamped };
             RodShape shape = Rods.Straight(rod);
-            var schedule = new RodSchedule { Gravity = Gravity, DistalPosition = shape.X[N] };
+            var schedule = Rods.Schedule(new SceneParameters { Gravity = Gravity }, shape);
             AssertBalanced(rod, supports, schedule, shape, scheme, step, 100);
         }
 
@@ -59,13 +59,12 @@ namespace Guidewire.Core.Tests
             MaterialRod rod = Rods.Wire(N);
             var supports = new RodSupports { Distal = DistalEnd.Clamped };
             RodShape shape = Rods.Straight(rod);
-            var schedule = new RodSchedule
+            var schedule = Rods.Schedule(new SceneParameters
             {
                 Gravity = Gravity,
-                DistalPosition = shape.X[N],
                 DistalDisplacement = -0.02 * Rods.Length,
                 DistalRampTime = 0.05,
-            };
+            }, shape);
             AssertBalanced(rod, supports, schedule, shape, scheme, step, 100);
         }
 
@@ -76,12 +75,12 @@ namespace Guidewire.Core.Tests
             // Ten times what bends it by its own length, until it is let go.
             const int N = 20;
             MaterialRod rod = Rods.Wire(N);
-            var schedule = new RodSchedule
+            var schedule = Rods.Schedule(new SceneParameters
             {
                 Gravity = Gravity,
                 TipForce = new Vector3d(0.0, 10.0 * Rods.BendForce, -3.0 * Rods.BendForce),
                 TipForceReleaseTime = 0.05,
-            };
+            });
             AssertBalanced(rod, new RodSupports(), schedule, Rods.Straight(rod), scheme, step, 100);
         }
 
@@ -94,23 +93,29 @@ namespace Guidewire.Core.Tests
             MaterialRod rod = Rods.Wire(12);
             RodShape shape = Rods.Random(rod, 0.05, 0.0, 3);
             var supports = new RodSupports { Proximal = ProximalEnd.Free };
-            AssertBalanced(rod, supports, new RodSchedule { Gravity = Gravity }, shape, scheme, 1e-3, 100);
+            AssertBalanced(rod, supports, UnderWeight(), shape, scheme, 1e-3, 100);
+        }
+
+        private static RodSchedule UnderWeight()
+        {
+            return Rods.Schedule(new SceneParameters { Gravity = Gravity });
         }
 
         private static void AssertBalanced(MaterialRod rod, RodSupports supports, RodSchedule schedule, RodShape shape,
             Integrator scheme, double step, int steps)
         {
             RodDynamics motion = MotionTests.Start(rod, supports, schedule, shape, scheme, Tolerance);
-            motion.TracksReactions = true;
+            motion.Reactions.AreKept = true;
             double worst = 0.0;
             double peak = 0.0;
             for (int i = 0; i < steps; i++)
             {
                 Assert.That(motion.Step(step), Is.Null);
-                Vector3d reactions = motion.MeanReaction + motion.MeanDistalReaction;
-                double left = (motion.MomentumRate - reactions - motion.MeanLoad).Length;
+                StageForces mean = motion.Reactions.Mean;
+                Vector3d reactions = mean.Proximal + mean.Distal;
+                double left = (motion.Reactions.MomentumRate - reactions - mean.Load).Length;
                 worst = Math.Max(worst, left);
-                peak = Math.Max(peak, Math.Max(motion.MeanReaction.Length, motion.MeanLoad.Length));
+                peak = Math.Max(peak, Math.Max(mean.Proximal.Length, mean.Load.Length));
                 if (supports.Proximal == ProximalEnd.Free)
                 {
                     peak = Math.Max(peak, LargestForce(rod, shape));

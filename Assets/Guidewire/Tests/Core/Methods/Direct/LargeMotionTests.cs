@@ -75,7 +75,7 @@ namespace Guidewire.Core.Tests
             var spins = new Vector3d[10];
             velocities[10] = new Vector3d(0.0, 1.0, 0.0);
             var watch = new EnergyMonitor(terms, new FreeInertia(terms.Mass, terms.Supports), shape, velocities, spins,
-                new HeldEnds(terms, new RodSchedule()));
+                new HeldEnds(terms, Rods.Schedule()));
             velocities[10] = new Vector3d(0.0, 0.99 * Math.Sqrt(EnergyMonitor.LeastAllowance), 0.0);
             Assert.That(watch.Blowup(), Is.Null);
             velocities[10] = new Vector3d(0.0, 1.01 * Math.Sqrt(EnergyMonitor.LeastAllowance), 0.0);

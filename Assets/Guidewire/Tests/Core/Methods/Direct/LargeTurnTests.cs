@@ -21,7 +21,7 @@ namespace Guidewire.Core.Tests
             const double Gravity = 9.81;
             MaterialRod rod = MaterialRod.Round(N, Rods.Length, radius, Rods.Young, Rods.Shear, Rods.Density);
             RodShape shape = Rods.Straight(rod);
-            var schedule = new RodSchedule { Gravity = new Vector3d(0.0, -Gravity, 0.0) };
+            var schedule = Rods.Schedule(new SceneParameters { Gravity = new Vector3d(0.0, -Gravity, 0.0) });
             RodDynamics motion = MotionTests.Start(rod, new RodSupports { Proximal = ProximalEnd.Held }, schedule,
                 shape, scheme, 1e-6);
             var energy = new WireEnergy(N, Rods.Length, radius, Rods.Young, Rods.Shear, Rods.Density);
@@ -46,7 +46,7 @@ namespace Guidewire.Core.Tests
             MaterialRod rod = Rods.Wire(N);
             RodShape shape = Rods.Straight(rod);
             RodDynamics motion = MotionTests.Start(rod, new RodSupports { Proximal = ProximalEnd.Free },
-                new RodSchedule(), shape, scheme, 1e-6);
+                Rods.Schedule(), shape, scheme, 1e-6);
             var velocities = new Vector3d[N + 1];
             var spins = new Vector3d[N];
             for (int i = 0; i <= N; i++)
@@ -113,7 +113,7 @@ namespace Guidewire.Core.Tests
                 Rods.Density);
             RodShape shape = Rods.Straight(rod);
             RodDynamics motion = MotionTests.Start(rod, new RodSupports { Proximal = ProximalEnd.Free },
-                new RodSchedule(), shape, scheme, 1e-13);
+                Rods.Schedule(), shape, scheme, 1e-13);
             var velocities = new Vector3d[N + 1];
             var spins = new Vector3d[N];
             var rate = new Vector3d(Rate, 0.3 * Rate, 0.0);

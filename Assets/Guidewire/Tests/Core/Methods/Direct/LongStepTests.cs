@@ -23,7 +23,7 @@ namespace Guidewire.Core.Tests
             MaterialRod rod = Rods.Wire(n);
             RodShape shape = Rods.Straight(rod);
             double gravity = weight * Rods.BendForce / (Rods.Density * Rods.Area * Rods.Length);
-            var schedule = new RodSchedule { Gravity = new Vector3d(0.0, -gravity, 0.0) };
+            var schedule = Rods.Schedule(new SceneParameters { Gravity = new Vector3d(0.0, -gravity, 0.0) });
             RodDynamics motion = MotionTests.Start(rod, new RodSupports(), schedule, shape, scheme, 1e-6);
             string? failure = null;
             int steps = 0;

@@ -47,7 +47,7 @@ namespace Guidewire.Core.Tests
             MaterialRod rod = Rods.Wire(N);
             RodShape shape = Rods.AtRest(rod, new RodSupports(), Vector3d.Zero,
                 new Vector3d(0.0, K * Rods.BendForce, 0.0), Vector3d.Zero);
-            RodDynamics motion = Start(rod, new RodSupports(), new RodSchedule(), shape, Integrator.Esdirk4, 1e-10);
+            RodDynamics motion = Start(rod, new RodSupports(), Rods.Schedule(), shape, Integrator.Esdirk4, 1e-10);
             double square = 0.0;
             double reference = 0.0;
             for (int i = 1; i <= Steps; i++)
@@ -69,7 +69,7 @@ namespace Guidewire.Core.Tests
             const double Step = 2e-3;
             MaterialRod rod = Rods.Wire(N);
             RodShape shape = Rods.Random(rod, 0.05, 0.0, 3);
-            var schedule = new RodSchedule { Gravity = new Vector3d(0.0, -9.81, 0.0) };
+            var schedule = Rods.Schedule(new SceneParameters { Gravity = new Vector3d(0.0, -9.81, 0.0) });
             var supports = new RodSupports { Proximal = ProximalEnd.Free };
             RodDynamics motion = Start(rod, supports, schedule, shape, Integrator.Esdirk3, 1e-10);
             double mass = Rods.Density * Rods.Area * Rods.Length;
@@ -97,7 +97,7 @@ namespace Guidewire.Core.Tests
             MaterialRod rod = Rods.Wire(N);
             RodShape shape = Rods.Straight(rod);
             shape.X[0] = new Vector3d(0.0, 0.0, Shift);
-            var schedule = new RodSchedule { ProximalPosition = shape.X[0] };
+            var schedule = Rods.Schedule(null, shape);
             RodDynamics motion = Start(rod, new RodSupports { Mass = MassRule.Uniform }, schedule, shape,
                 Integrator.Esdirk4, 1e-12);
             double worst = 0.0;
@@ -131,19 +131,14 @@ namespace Guidewire.Core.Tests
                 MaterialRod rod = Rods.Wire(N);
                 var shape = new RodShape(N);
                 shape.SetStraight(k == 0 ? Vector3d.Zero : offset, r, Rods.Stations(rod));
-                var schedule = new RodSchedule
+                var schedule = Rods.Schedule(new SceneParameters
                 {
                     Gravity = Quaterniond.Rotate(r, new Vector3d(3.0, -9.81, 1.0)),
                     TipForce = Quaterniond.Rotate(r, Rods.BendForce * new Vector3d(0.5, 1.0, 0.0)),
                     TipForceReleaseTime = 0.0255,
-                    ProximalPosition = shape.X[0],
-                    ProximalFrame = shape.ProximalFrame,
-                    ProximalTwistRate = 20.0,
-                    DistalPosition = shape.X[N],
-                    DistalFrame = shape.DistalFrame,
                     DistalRotation = 1.0,
                     DistalRampTime = 0.03,
-                };
+                }, shape, 20.0);
                 RodDynamics motion = Start(rod, new RodSupports { Distal = distal }, schedule, shape, scheme, 1e-6);
                 for (int i = 0; i < 50; i++)
                 {
@@ -203,7 +198,7 @@ namespace Guidewire.Core.Tests
             MaterialRod rod = Top(1.0);
             RodShape shape = Rods.Straight(rod);
             var supports = new RodSupports { Proximal = ProximalEnd.Free };
-            RodDynamics motion = Start(rod, supports, new RodSchedule(), shape, Integrator.Esdirk3, 1e-13);
+            RodDynamics motion = Start(rod, supports, Rods.Schedule(), shape, Integrator.Esdirk3, 1e-13);
             motion.Begin(new Vector3d[2], new[] { new Vector3d(Tilt, 0.0, Spin) }, false);
             for (int i = 0; i < steps; i++)
             {
@@ -224,7 +219,7 @@ namespace Guidewire.Core.Tests
             RodShape straight = Rods.Straight(rod);
             RodShape shape = Rods.Straight(rod);
             RodStep.Apply(rod, new RodSupports(), straight, mode, Amplitude, shape);
-            RodDynamics motion = Start(rod, new RodSupports(), new RodSchedule(), shape, scheme, 1e-12);
+            RodDynamics motion = Start(rod, new RodSupports(), Rods.Schedule(), shape, scheme, 1e-12);
             double step = 2.0 * Math.PI / omega / steps;
             double startReal = shape.X[n].Y;
             for (int i = 0; i < steps; i++)

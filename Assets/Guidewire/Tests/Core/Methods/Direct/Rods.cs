@@ -72,6 +72,19 @@ namespace Guidewire.Core.Tests
             return shape;
         }
 
+        /// <summary>What is prescribed of a wire in a scene, by default nothing.</summary>
+        /// <param name="shape">Where its ends begin and how; null: at the origin, along z.</param>
+        /// <param name="twistRate">Of the hub, rad/s.</param>
+        public static RodSchedule Schedule(SceneParameters? scene = null, RodShape? shape = null,
+            double twistRate = 0.0)
+        {
+            scene ??= new SceneParameters();
+            shape ??= new RodShape(1);
+            return new RodSchedule(new PrescribedLoads(scene, 1.0, Vector3d.Zero),
+                new HubMotion(shape.X[0], shape.ProximalFrame, twistRate),
+                new DistalMotion(scene, 1.0, shape.X[shape.ElementCount], shape.DistalFrame));
+        }
+
         /// <summary>How far each node is from node 0 along the straight wire.</summary>
         public static double[] Stations(MaterialRod rod)
         {

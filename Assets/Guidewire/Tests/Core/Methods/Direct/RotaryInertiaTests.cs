@@ -139,7 +139,7 @@ namespace Guidewire.Core.Tests
             MaterialRod rod = MotionTests.Top(2.5);
             RodShape shape = Rods.Straight(rod);
             RodDynamics motion = MotionTests.Start(rod, new RodSupports { Proximal = ProximalEnd.Free },
-                new RodSchedule(), shape, Integrator.Esdirk3, 1e-13);
+                Rods.Schedule(), shape, Integrator.Esdirk3, 1e-13);
             var spin = new Vector3d(0.1, 10.0, 0.2);
             motion.Begin(new Vector3d[2], new[] { spin }, false);
             for (int i = 0; i < steps; i++)

@@ -182,7 +182,7 @@ namespace Guidewire.Core.Tests
             RodShape shape = Rods.Straight(rod);
             RodStep.Apply(rod, new RodSupports(), Rods.Straight(rod), mode, Amplitude * Rods.Length, shape);
             tip = shape.X[N].Y;
-            RodDynamics motion = MotionTests.Start(rod, new RodSupports(), new RodSchedule(), shape, scheme, 1e-12);
+            RodDynamics motion = MotionTests.Start(rod, new RodSupports(), Rods.Schedule(), shape, scheme, 1e-12);
             motion.Control.Tolerance = tolerance;
             return motion;
         }

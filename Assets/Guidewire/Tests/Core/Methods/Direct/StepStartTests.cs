@@ -74,7 +74,7 @@ namespace Guidewire.Core.Tests
                 Assert.That(b.Shape.X, Is.EqualTo(a.Shape.X), "step " + k);
                 Assert.That(b.Shape.Q, Is.EqualTo(a.Shape.Q));
                 Assert.That(b.Velocities, Is.EqualTo(a.Velocities));
-                Assert.That(b.MeanReaction, Is.EqualTo(a.MeanReaction));
+                Assert.That(b.Reactions.Mean.Proximal, Is.EqualTo(a.Reactions.Mean.Proximal));
                 Assert.That(b.Time, Is.EqualTo(a.Time));
             }
             Assert.That(failed, Is.GreaterThan(15));
@@ -145,10 +145,10 @@ namespace Guidewire.Core.Tests
             rod.MaterialDamping = 1e-4;
             var poison = new NotANumber();
             var terms = new RodTerms(rod, new RodSupports(), new SceneParameters(), poison);
-            var schedule = new RodSchedule { Gravity = new Vector3d(0.0, -9.81, 0.0) };
+            var schedule = Rods.Schedule(new SceneParameters { Gravity = new Vector3d(0.0, -9.81, 0.0) });
             var motion = new RodDynamics(terms, schedule, Rods.Straight(rod), scheme, 1e-7, 10)
             {
-                TracksReactions = true,
+                Reactions = { AreKept = true },
             };
             return (motion, poison);
         }

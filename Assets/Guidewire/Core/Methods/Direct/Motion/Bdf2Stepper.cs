@@ -1,0 +1,73 @@
+namespace Guidewire.Core
+{
+    /// <summary>Steps by BDF2, each one implicit stage; the first, and the first of another length, is one of implicit
+    /// Euler.</summary>
+    internal sealed class Bdf2Stepper : ImplicitStepper
+    {
+        private readonly Bdf2History _history;
+        private double _lastStep;  // s
+
+        /// <summary>A stepper of a rod under these terms.</summary>
+        public Bdf2Stepper(RodTerms terms, RodSchedule schedule, RodMotion motion)
+            : base(new ImplicitStage(terms, schedule, motion, 1, false), new StepControl(1))
+        {
+            _history = new Bdf2History(motion.Shape.ElementCount);
+        }
+
+        /// <inheritdoc/>
+        public override string Key => "BDF2";
+
+        /// <inheritdoc/>
+        public override void Begin()
+        {
+            _history.Forget();
+        }
+
+        /// <inheritdoc/>
+        public override string? Step(double time, double dt)
+        {
+            if (dt != _lastStep)
+            {
+                _history.Forget();
+                _lastStep = dt;
+            }
+            bool isTwoStep = _history.IsComplete;
+            Stage.Reactions.BeginStep();
+            Stage.BeginStep(time, dt);
+            Stage.BeginStage(_history, dt);
+            string? failure = Stage.Solve(time + dt, double.PositiveInfinity, 0,
+                Stage.HasPast ? StagePredictor.OneStage : StagePredictor.Of(0));
+            if (failure == null)
+            {
+                Stage.Reactions.AddStage(1.0);
+                Stage.Accept();
+                Stage.EndStep();
+                Stage.HasPast = true;
+                _history.Complete();
+                Control.Accepts(0.0, dt, dt, true);
+            }
+            Stage.Reactions.EndStep(dt, isTwoStep);
+            return failure;
+        }
+
+        /// <inheritdoc/>
+        public override void SerializeStep(Snapshot snapshot)
+        {
+            base.SerializeStep(snapshot);
+            SerializeOwn(snapshot);
+        }
+
+        /// <inheritdoc/>
+        public override void SerializeHistory(Snapshot snapshot, double time)
+        {
+            base.SerializeHistory(snapshot, time);
+            SerializeOwn(snapshot);
+        }
+
+        private void SerializeOwn(Snapshot snapshot)
+        {
+            _history.Serialize(snapshot);
+            snapshot.Serialize(ref _lastStep);
+        }
+    }
+}

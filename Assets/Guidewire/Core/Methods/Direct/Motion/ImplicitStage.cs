@@ -1,0 +1,315 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>One stage of an implicit scheme: its positions and orientations minimise inertia plus energies. It
+    /// owns what stages leave to those after them, and what steps leave to the next.</summary>
+    /// <remarks>A step is <see cref="BeginStep"/>, then for each stage <see cref="BeginStage(double[], double)"/> and
+    /// <see cref="Solve(double, double, int, in StagePredictor)"/>, then <see cref="Accept"/> and, where the step
+    /// counts, <see cref="EndStep"/>.</remarks>
+    internal sealed class ImplicitStage
+    {
+        /// <summary>Fraction of a step within which two times are the same.</summary>
+        public const double SameTime = 1e-9;
+
+        private const double LargestPredictedTurn = 1.0;  // radians
+
+        private readonly RodSupports _supports;
+        private readonly RodTerms _terms;
+        private readonly RodSchedule _schedule;
+        private readonly RodMotion _motion;
+        private readonly RodShape _shape;
+        private readonly RodShape _before;        // the last stage's
+        private readonly InertiaEnergy _inertia;
+        private readonly Vector3d[] _startPositions;   // of the step, m
+        private readonly Vector3d[] _velocityHistory;  // what the stages before leave of the velocities, m/s
+        private readonly Quaterniond[] _predicted;
+        private readonly double _mass;
+        private readonly bool _isLoose;           // held nowhere, and nothing takes its momentum
+        private readonly WallStage? _walls;       // solves where there are walls
+        private bool _hasPast;
+
+        /// <summary>For a rod, which stages move from then on.</summary>
+        /// <param name="stageCount">Of the scheme, an explicit one counted.</param>
+        /// <param name="isFirstExplicit">Whether its first stage is explicit.</param>
+        public ImplicitStage(RodTerms terms, RodSchedule schedule, RodMotion motion, int stageCount,
+            bool isFirstExplicit)
+        {
+            int n = motion.Shape.ElementCount;
+            _supports = terms.Supports;
+            _terms = terms;
+            _schedule = schedule;
+            _motion = motion;
+            _shape = motion.Shape;
+            _before = new RodShape(n);
+            _startPositions = new Vector3d[n + 1];
+            _velocityHistory = new Vector3d[n + 1];
+            _predicted = new Quaterniond[n];
+            _mass = terms.Mass.Total;
+            double massDamping = terms.Rod.MassDamping;
+            _isLoose = terms.Walls() == null && massDamping == 0.0 && isFirstExplicit
+                && _supports.Proximal == ProximalEnd.Free && _supports.Distal == DistalEnd.Free;
+            _inertia = new InertiaEnergy(terms.Mass)
+            {
+                TurnDamping = massDamping,
+                RemembersCouples = terms.Walls() != null,
+            };
+            if (massDamping > 0.0 || terms.Rod.MaterialDamping > 0.0)
+            {
+                Damping = new RodDamping(terms, stageCount);
+            }
+            EnergyTerm[] moving = Damping == null
+                ? new EnergyTerm[] { _inertia } : new EnergyTerm[] { _inertia, Damping };
+            Solver = new StageSolver(terms, moving);
+            _walls = terms.Walls() == null ? null : new WallStage(terms, _inertia, moving);
+            Frames = new ClampFrames(schedule, Solver);
+            Rates = new StageRates(stageCount, n);
+            Reactions = new RodReactions(terms, schedule, motion, Solver, Damping);
+        }
+
+        /// <summary>What resists velocities and rates of strain, or null.</summary>
+        public RodDamping? Damping { get; }
+
+        /// <summary>Solves the stages, and counts what was solved.</summary>
+        public StageSolver Solver { get; }
+
+        /// <summary>Solves the stages where there are walls, and counts; null where there are none.</summary>
+        public BarrierNewton? WallSolver => _walls?.Newton;
+
+        /// <summary>Frames of the clamps.</summary>
+        public ClampFrames Frames { get; }
+
+        /// <summary>Accelerations of the stages.</summary>
+        public StageRates Rates { get; }
+
+        /// <summary>The forces from outside.</summary>
+        public RodReactions Reactions { get; }
+
+        /// <summary>Whether stages of the step before are known, to predict from.</summary>
+        public bool HasPast
+        {
+            get => _hasPast;
+            set => _hasPast = value;
+        }
+
+        /// <summary>Sets how exactly stages are solved.</summary>
+        /// <param name="tolerance">On each stage's error: radians, or displacement over L.</param>
+        /// <param name="balance">Fraction of the largest force that a stage may leave unbalanced.</param>
+        /// <param name="mostIterations">Newton iterations of a stage.</param>
+        public void SetAccuracy(double tolerance, double balance, int mostIterations)
+        {
+            Solver.Tolerance = tolerance;
+            Solver.Balance = balance;
+            Solver.MostIterations = mostIterations;
+            if (_walls != null)
+            {
+                _walls.Newton.Tolerance = tolerance;
+                _walls.Newton.Balance = balance;
+                _walls.Newton.MostIterations = mostIterations;
+            }
+        }
+
+        /// <summary>A step of dt, s, begins.</summary>
+        public void BeginStep(double time, double dt)
+        {
+            Array.Copy(_shape.X, _startPositions, _startPositions.Length);
+            _inertia.BeginStep(_shape, dt);
+            BeginDamping(time + SameTime * dt);
+            foreach (EnergyTerm term in _terms.All)
+            {
+                term.BeginStep(_shape, dt);
+            }
+        }
+
+        /// <summary>A stage of a Runge-Kutta scheme begins.</summary>
+        /// <param name="row">a_ik; its length is the stage's index plus 1.</param>
+        /// <param name="dt">The step, s.</param>
+        public void BeginStage(double[] row, double dt)
+        {
+            _inertia.StageLength = row[row.Length - 1] * dt;
+            Rates.Prepare(_inertia, row, dt, _startPositions, _motion.Velocities, _motion.Spins, _velocityHistory);
+            Damping?.BeginStage(row, dt);
+        }
+
+        /// <summary>The one stage of a step by BDF2 begins.</summary>
+        public void BeginStage(Bdf2History history, double dt)
+        {
+            double h = history.Prepare(_inertia, _startPositions, _motion.Velocities, _motion.Spins, _velocityHistory,
+                dt);
+            Damping?.BeginStage(history.IsComplete, h);
+        }
+
+        /// <summary>Rates from the forces of this time are asked for, at the start of a step of length h, s.</summary>
+        public void BeginRates(double time, double h)
+        {
+            _terms.SetTime(_schedule, time);
+            BeginDamping(time);
+            Damping?.TakeMoment(h);
+        }
+
+        /// <summary>The velocities in the last stage are those at the step's end.</summary>
+        public void Accept()
+        {
+            Rates.Accept(_inertia, _motion.Velocities, _motion.Spins);
+        }
+
+        /// <summary>The step is kept.</summary>
+        public void EndStep()
+        {
+            foreach (EnergyTerm term in _terms.All)
+            {
+                term.EndStep(_shape);
+            }
+        }
+
+        /// <summary>Forgets the stages before.</summary>
+        public void Forget()
+        {
+            _hasPast = false;
+            Rates.Clear();
+        }
+
+        /// <summary>Places the supports, predicts from stages before, solves, and takes the stage's
+        /// rates.</summary>
+        /// <param name="jump">When a load jumps next: a stage at that time is before the jump.</param>
+        /// <param name="stage">Its index among the rates.</param>
+        /// <param name="predictor">Which stages before it is predicted from.</param>
+        /// <returns>Null, or why it has no solution; the shape is then not to be used.</returns>
+        public string? Solve(double time, double jump, int stage, in StagePredictor predictor)
+        {
+            double h = _inertia.StageLength;
+            double before = Math.Min(time, jump);
+            _inertia.BeginStage();
+            _terms.SetTime(_schedule, before);
+            string? failure = Frames.Turn(_shape, time, out bool inParts);
+            if (failure != null)
+            {
+                return failure;
+            }
+            // A prediction knows nothing of turns just wound up, and one of more than a radian leads to another
+            // winding.
+            Vector3d start = PredictStart(time, h, predictor);
+            if (Predict(h, predictor) > LargestPredictedTurn || inParts)
+            {
+                Array.Copy(_shape.Q, _predicted, _predicted.Length);
+            }
+            Vector3d end = _schedule.Distal.PositionAt(time);
+            double loads = _schedule.Loads.SumAt(before, _mass) + _terms.Followers.Force.Force.Length;
+            failure = _walls != null ? _walls.Solve(_shape, _predicted, start, end, h, loads)
+                : Solve(h, loads, start, end);
+            if (failure != null)
+            {
+                return failure;
+            }
+            if (_isLoose)
+            {
+                _inertia.Balance(_shape, Reactions.LoadSum());
+            }
+            Rates.Take(stage, _shape, _inertia, _velocityHistory, _hasPast);
+            Damping?.EndStage(stage, _shape);
+            Reactions.TakeStage();
+            return null;
+        }
+
+        /// <summary>Writes or takes over all that a step may touch, for a <see cref="StepStart"/>.</summary>
+        public void SerializeStep(Snapshot snapshot)
+        {
+            _motion.Serialize(snapshot);
+            Frames.Serialize(snapshot);
+            foreach (EnergyTerm term in _terms.All)
+            {
+                term.Serialize(snapshot);
+            }
+            _terms.Walls()?.Friction?.Anchors.Serialize(snapshot);
+            SerializePast(snapshot);
+            Damping?.Serialize(snapshot);
+            Reactions.SerializeStep(snapshot);
+            WallSolver?.SerializeShift(snapshot);
+        }
+
+        /// <summary>Writes or takes over what stages leave to the next step.</summary>
+        public void SerializeHistory(Snapshot snapshot)
+        {
+            SerializePast(snapshot);
+            Reactions.Serialize(snapshot);
+            snapshot.OptionalSection("damping", Damping == null ? null : Damping.Serialize);
+        }
+
+        private void SerializePast(Snapshot snapshot)
+        {
+            Rates.Serialize(snapshot);
+            _inertia.Serialize(snapshot);
+            Solver.SerializeTrust(snapshot);
+            snapshot.Serialize(ref _hasPast);
+        }
+
+        private void BeginDamping(double time)
+        {
+            Damping?.Begin(_shape, _motion.Velocities, _motion.Spins,
+                new Vector3d(0.0, 0.0, _schedule.Hub.FrameTwistRate),
+                new Vector3d(0.0, 0.0, _schedule.Distal.TwistRateAt(time)));
+        }
+
+        /// <summary>By the quick iteration from the prediction, or else by the slower search.</summary>
+        private string? Solve(double h, double loads, in Vector3d start, in Vector3d end)
+        {
+            KeepShape();
+            RodStep.PlaceElements(_supports, _shape, _predicted, start, end);
+            return Solver.Iterate(_shape, h, loads) ? null : Search(h, loads, start, end);
+        }
+
+        /// <summary>The slower search from the stage before, with what the iteration can still add to it.</summary>
+        private string? Search(double h, double loads, in Vector3d start, in Vector3d end)
+        {
+            GoBack();
+            RodStep.PlaceElements(_supports, _shape, _shape.Q, start, end);
+            string? failure = Solver.Search(_shape);
+            if (failure == null)
+            {
+                KeepShape();
+                if (!Solver.Iterate(_shape, h, loads))
+                {
+                    GoBack();
+                }
+            }
+            return failure;
+        }
+
+        private void KeepShape()
+        {
+            _before.CopyFrom(_shape);
+            _inertia.KeepTurns();
+        }
+
+        private void GoBack()
+        {
+            _shape.CopyFrom(_before);
+            _inertia.RestoreTurns();
+        }
+
+        /// <summary>Orientations by the accelerations of stages before; strains are not predicted but kept, because
+        /// EA makes a force of every error that the turns leave in a chord. Returns the largest turn.</summary>
+        private double Predict(double h, in StagePredictor predictor)
+        {
+            double largest = 0.0;
+            Vector3d[] first = Rates.SpinRate[predictor.First];
+            Vector3d[] second = Rates.SpinRate[predictor.Second];
+            double fraction = predictor.Fraction;
+            for (int j = 0; j < _predicted.Length; j++)
+            {
+                Vector3d rate = first[j] + fraction * (second[j] - first[j]);
+                Vector3d turn = _inertia.TurnHistory[j] + h * (_inertia.SpinHistory[j] + h * rate);
+                _predicted[j] = _inertia.Start[j] * RotationVector.Exp(turn);
+                largest = Math.Max(largest, _inertia.SquaredChange(turn, j));
+            }
+            return Math.Sqrt(largest);
+        }
+
+        private Vector3d PredictStart(double time, double h, in StagePredictor predictor)
+        {
+            return _supports.Proximal == ProximalEnd.Free
+                ? _inertia.FreePositions[0] + (h * h) * Rates.Acceleration[predictor.First][0]
+                : _schedule.Hub.PositionAt(time);
+        }
+    }
+}

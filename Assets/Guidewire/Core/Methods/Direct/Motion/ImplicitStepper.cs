@@ -1,0 +1,50 @@
+namespace Guidewire.Core
+{
+    /// <summary>A scheme in time that takes a rod through a step by implicit stages.</summary>
+    internal abstract class ImplicitStepper
+    {
+        /// <summary>By these stages.</summary>
+        /// <param name="control">Counts the steps, and divides them where the scheme tells their errors.</param>
+        protected ImplicitStepper(ImplicitStage stage, StepControl control)
+        {
+            Stage = stage;
+            Control = control;
+        }
+
+        /// <summary>Solves the stages.</summary>
+        public ImplicitStage Stage { get; }
+
+        /// <summary>How steps are cut, and what their errors were.</summary>
+        public StepControl Control { get; }
+
+        /// <summary>Whether the scheme tells its steps' errors.</summary>
+        public virtual bool HasErrorEstimate => false;
+
+        /// <summary>Sum of the magnitudes of the weights: by what the errors of the stages enter a step.</summary>
+        public virtual double WeightSum => 1.0;
+
+        /// <summary>Names the scheme: another's history means nothing to it.</summary>
+        public abstract string Key { get; }
+
+        /// <summary>The rod begins to move from where it is, as it does.</summary>
+        public abstract void Begin();
+
+        /// <summary>One step.</summary>
+        /// <param name="time">At its start, s.</param>
+        /// <param name="dt">s.</param>
+        /// <returns>Null, or why a stage has no solution; the shape is then not to be used.</returns>
+        public abstract string? Step(double time, double dt);
+
+        /// <summary>Writes or takes over all that a step may touch, for a <see cref="StepStart"/>.</summary>
+        public virtual void SerializeStep(Snapshot snapshot)
+        {
+            Stage.SerializeStep(snapshot);
+        }
+
+        /// <summary>Writes or takes over, at a time, s, what went before the next step.</summary>
+        public virtual void SerializeHistory(Snapshot snapshot, double time)
+        {
+            Stage.SerializeHistory(snapshot);
+        }
+    }
+}

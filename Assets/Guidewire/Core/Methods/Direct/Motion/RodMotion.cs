@@ -1,0 +1,40 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>Where a rod is and how it moves: what its steppers take from one moment to the next.</summary>
+    internal sealed class RodMotion
+    {
+        /// <summary>A rod at rest in this shape, which moves from then on.</summary>
+        public RodMotion(RodShape shape)
+        {
+            Shape = shape;
+            Velocities = new Vector3d[shape.ElementCount + 1];
+            Spins = new Vector3d[shape.ElementCount];
+        }
+
+        /// <summary>Positions and orientations.</summary>
+        public RodShape Shape { get; }
+
+        /// <summary>v of the nodes, m/s.</summary>
+        public Vector3d[] Velocities { get; }
+
+        /// <summary>w of the elements along their own axes, rad/s.</summary>
+        public Vector3d[] Spins { get; }
+
+        /// <summary>Takes over velocities.</summary>
+        public void Begin(Vector3d[] velocities, Vector3d[] spins)
+        {
+            Array.Copy(velocities, Velocities, Velocities.Length);
+            Array.Copy(spins, Spins, Spins.Length);
+        }
+
+        /// <summary>Writes or takes over the motion.</summary>
+        public void Serialize(Snapshot snapshot)
+        {
+            Shape.Serialize(snapshot);
+            snapshot.Serialize(Velocities);
+            snapshot.Serialize(Spins);
+        }
+    }
+}

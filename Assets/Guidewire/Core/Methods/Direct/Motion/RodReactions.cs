@@ -1,0 +1,184 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>The forces from outside on a moving rod: in its last stage, their means over the last step by the
+    /// scheme's weights, and the change of the momentum that they make.</summary>
+    internal sealed class RodReactions
+    {
+        private readonly RodTerms _terms;
+        private readonly RodSchedule _schedule;
+        private readonly RodMotion _motion;
+        private readonly StageSolver _solver;
+        private readonly RodDamping? _damping;
+        private readonly RodVector[] _loads;
+        private StageForces _end;
+        private StageForces _mean;
+        private Vector3d _momentum;      // at the start of the last step, kg m/s
+        private Vector3d _oldMomentum;   // at that of the step before
+        private Vector3d _momentumRate;  // N
+        private bool _hasStepped;
+
+        /// <summary>Of a rod at its start.</summary>
+        /// <param name="damping">What resists velocities and rates of strain, or null.</param>
+        public RodReactions(RodTerms terms, RodSchedule schedule, RodMotion motion, StageSolver solver,
+            RodDamping? damping)
+        {
+            _terms = terms;
+            _schedule = schedule;
+            _motion = motion;
+            _solver = solver;
+            _damping = damping;
+            _loads = new RodVector[motion.Shape.ElementCount + 2];
+        }
+
+        /// <summary>Whether forces are kept; they cost a gradient a stage.</summary>
+        public bool AreKept { get; set; }
+
+        /// <summary>The forces from outside in the last stage.</summary>
+        public StageForces End => _end;
+
+        /// <summary>Their means over the last step by the scheme's weights (BDF2: at the step's end). That of the
+        /// supports on node 0 or n is the stress of the element beside it, less the node's own fraction of weight and
+        /// inertia.</summary>
+        public StageForces Mean => _mean;
+
+        /// <summary>Change of the momentum in the last step, N, as the scheme writes it: (P_new - P)/dt with stages,
+        /// (3 P_new - 4 P + P_old)/(2 dt) for BDF2 after its first step. With the same scheme's weights it equals the
+        /// forces, <see cref="Mean"/> of supports, loads and walls, and what mass-proportional damping takes.</summary>
+        public Vector3d MomentumRate => _momentumRate;
+
+        /// <summary>A step begins.</summary>
+        public void BeginStep()
+        {
+            _mean = default;
+            _momentum = AreKept ? Momentum : Vector3d.Zero;
+        }
+
+        /// <summary>A step ends.</summary>
+        /// <param name="dt">s.</param>
+        /// <param name="isTwoStep">Whether the scheme used the step before.</param>
+        public void EndStep(double dt, bool isTwoStep)
+        {
+            _hasStepped = true;
+            if (AreKept)
+            {
+                Vector3d change = Momentum - _momentum;
+                _momentumRate = (isTwoStep ? 1.5 * change - 0.5 * (_momentum - _oldMomentum) : change) / dt;
+                _oldMomentum = _momentum;
+            }
+        }
+
+        /// <summary>Takes the forces of a stage that is solved.</summary>
+        public void TakeStage()
+        {
+            if (AreKept)
+            {
+                RodVector[] gradient = _solver.Reactions(_motion.Shape);
+                Take(new StageForces
+                {
+                    Proximal = ForceOf(gradient[0]),
+                    Distal = ForceOf(gradient[_motion.Shape.ElementCount]),
+                });
+            }
+        }
+
+        /// <summary>Takes the forces that nodes 0 and n need to be where they are, with the loads, and with what walls
+        /// and the hub add between walls, as those of the last stage.</summary>
+        public void Take(StageForces supports)
+        {
+            _end = supports;
+            _end.Load = LoadSum();
+            WallTerms? walls = _terms.Walls();
+            if (walls != null)
+            {
+                _end.Proximal = walls.SupportForce(_motion.Shape) + _end.Proximal;
+                Array.Clear(_loads, 0, _loads.Length);
+                walls.AddWallGradient(_motion.Shape, _loads);
+                _end.Walls = -Sum(_loads);
+                _end.HubTorque = HubTorque;
+            }
+        }
+
+        /// <summary>Adds the forces of the last stage to the means with a weight.</summary>
+        public void AddStage(double weight)
+        {
+            if (AreKept)
+            {
+                _mean.Add(weight, _end);
+            }
+        }
+
+        /// <summary>Adds impulses, N s, over a step of dt, s.</summary>
+        public void AddImpulse(in StageForces impulses, double dt)
+        {
+            _mean.Add(1.0 / dt, impulses);
+        }
+
+        /// <summary>Sum of the forces of all loads, N, whose time has been set.</summary>
+        public Vector3d LoadSum()
+        {
+            Array.Clear(_loads, 0, _loads.Length);
+            _terms.AddLoadGradient(_motion.Shape, _loads);
+            return -Sum(_loads);
+        }
+
+        /// <summary>Force of the supports on a node as the rod is at this time, N.</summary>
+        public Vector3d At(int node, double time)
+        {
+            _terms.SetTime(_schedule, time);
+            RodShape shape = _motion.Shape;
+            RodVector g = (_hasStepped ? _solver.Reactions(shape) : _solver.StaticReactions(shape))[node];
+            WallTerms? walls = _terms.Walls();
+            return (node == 0 && walls != null ? walls.SupportForce(shape) : Vector3d.Zero) + ForceOf(g);
+        }
+
+        /// <summary>Torque of the hub on the wire about its axis, N m; that on a wire in a sheath is the slope of the
+        /// energy in the hub's turn.</summary>
+        public double HubTorque => _terms.Sheath != null ? _terms.Bending.TurnCouple(_motion.Shape)
+            : Vector3d.Dot(ProximalCouple, _terms.HubAxis(_motion.Shape));
+
+        /// <summary>Couple of the proximal clamp on the rod as it is now, N m, along the world's axes; with that of the
+        /// damping by the rates of the last stage.</summary>
+        public Vector3d ProximalCouple => _terms.Bending.ProximalCouple(_motion.Shape)
+            + (_damping == null ? Vector3d.Zero : _damping.ProximalCouple(_motion.Shape));
+
+        /// <summary>The same of the distal clamp.</summary>
+        public Vector3d DistalCouple => _terms.Bending.DistalCouple(_motion.Shape)
+            + (_damping == null ? Vector3d.Zero : _damping.DistalCouple(_motion.Shape));
+
+        /// <summary>Writes or takes over what the next step needs.</summary>
+        public void Serialize(Snapshot snapshot)
+        {
+            snapshot.Serialize(ref _hasStepped);
+            snapshot.Serialize(ref _oldMomentum);
+            _end.Serialize(snapshot);
+        }
+
+        /// <summary>Writes or takes over all that a step may touch, for a <see cref="StepStart"/>.</summary>
+        public void SerializeStep(Snapshot snapshot)
+        {
+            Serialize(snapshot);
+            _mean.Serialize(snapshot);
+            snapshot.Serialize(ref _momentum);
+            snapshot.Serialize(ref _momentumRate);
+        }
+
+        private Vector3d Momentum => _terms.Mass.Momentum(_motion.Velocities);
+
+        private static Vector3d ForceOf(in RodVector g)
+        {
+            return new Vector3d(g.X1, g.X2, g.X3);
+        }
+
+        private static Vector3d Sum(RodVector[] gradient)
+        {
+            Vector3d sum = Vector3d.Zero;
+            foreach (RodVector g in gradient)
+            {
+                sum += ForceOf(g);
+            }
+            return sum;
+        }
+    }
+}

@@ -1,0 +1,107 @@
+namespace Guidewire.Core
+{
+    /// <summary>What the steps of all methods for a material share: the wire, the monitors that end a run, and the
+    /// stress.</summary>
+    internal abstract class MaterialStep : TimeStepper
+    {
+        private readonly IKineticEnergy _inertia;
+        private StressRecord? _stress;
+
+        /// <summary>A step of this scene's wire.</summary>
+        /// <param name="terms">Its energies and loads.</param>
+        /// <param name="inertia">How its motion counts against the energy that is put in.</param>
+        /// <param name="velocities">Of the nodes, m/s, now and after each step.</param>
+        /// <param name="spins">Of the elements along their own axes, rad/s.</param>
+        /// <param name="results">What the solver says of itself.</param>
+        /// <param name="contacts">Forces of walls that are not among the terms, or null.</param>
+        protected MaterialStep(MaterialScene scene, RodTerms terms, IKineticEnergy inertia, Vector3d[] velocities,
+            Vector3d[] spins, MethodParameters method, SolverReport results, EnergyTerm? contacts = null)
+        {
+            Scene = scene;
+            Terms = terms;
+            Velocities = velocities;
+            Spins = spins;
+            TimeStep = method.TimeStep;
+            Results = results;
+            _inertia = inertia;
+            Ends = new HeldEnds(terms, scene.Schedule);
+            Energy = new EnergyMonitor(terms, inertia, scene.Shape, velocities, spins, Ends);
+            Rest = new RestMonitor(scene, terms, velocities, spins, method, contacts);
+        }
+
+        /// <summary>What is prescribed of the wire.</summary>
+        public RodSchedule Schedule => Scene.Schedule;
+
+        /// <summary>The wire at its start, and what is beside it.</summary>
+        protected MaterialScene Scene { get; }
+
+        /// <summary>Its energies and loads.</summary>
+        protected RodTerms Terms { get; }
+
+        /// <summary>Where it is.</summary>
+        protected RodShape Shape => Scene.Shape;
+
+        /// <summary>Of the nodes, m/s.</summary>
+        protected Vector3d[] Velocities { get; }
+
+        /// <summary>Of the elements along their own axes, rad/s.</summary>
+        protected Vector3d[] Spins { get; }
+
+        /// <summary>What moves node 0.</summary>
+        protected MaterialDrive Drive => Scene.Drive;
+
+        /// <summary>dt, s.</summary>
+        protected double TimeStep { get; }
+
+        /// <summary>What the solver says of itself.</summary>
+        protected SolverReport Results { get; }
+
+        /// <summary>Work of the supports.</summary>
+        protected HeldEnds Ends { get; }
+
+        /// <summary>Finds a motion that has blown up.</summary>
+        protected EnergyMonitor Energy { get; }
+
+        /// <summary>Finds a wire at rest.</summary>
+        protected RestMonitor Rest { get; }
+
+        /// <summary>t after the steps so far, s.</summary>
+        protected abstract double Time { get; }
+
+        /// <summary>Of the wire as it is, J.</summary>
+        protected virtual double KineticEnergy => _inertia.KineticEnergy(Velocities, Spins);
+
+        /// <inheritdoc/>
+        public override StressRecord? Stress()
+        {
+            _stress ??= new StressRecord(Scene.Rod, Scene.Supports);
+            Terms.SetTime(Schedule, Time);
+            _stress.Take(Terms, Shape, KineticEnergy);
+            return _stress;
+        }
+
+        /// <summary>Whether the wire moves with more energy than was put in; then it is told with this
+        /// remedy.</summary>
+        protected bool HasBlownUp(string remedy)
+        {
+            string? divergence = Energy.Blowup();
+            Divergence = divergence == null ? null : divergence + remedy;
+            return Divergence != null;
+        }
+
+        /// <summary>A step is done: finds whether the wire has lost a turn, or is at rest.</summary>
+        /// <param name="predictedTip">Position of the last node by the prediction, m.</param>
+        protected void EndStep(in Vector3d predictedTip)
+        {
+            Failure = Scene.Joints.FindLost(Shape, Time);
+            SteadyState = Rest.FindRest(Time);
+            PredictionError = Vector3d.Distance(predictedTip, Shape.X[Shape.ElementCount]) / Scene.Metres;
+        }
+
+        /// <summary>Writes the wire as it is into a state.</summary>
+        protected void Write(RodState state)
+        {
+            Scene.Write(state, Shape, Velocities, Spins);
+        }
+    }
+}

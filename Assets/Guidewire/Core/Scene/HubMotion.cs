@@ -1,0 +1,157 @@
+namespace Guidewire.Core
+{
+    /// <summary>The motion of one hub, the support and clamp of node 0: position, velocity and turn, as its drive
+    /// prescribes them. The wire in a sheath follows its hub on a spring: the frame of its first joint is then
+    /// held.</summary>
+    internal sealed class HubMotion
+    {
+        private Vector3d _position;        // at _positionTime, m
+        private Vector3d _velocity;        // m/s
+        private double _positionTime;      // s
+        private Quaterniond _frame;        // of the clamp at time 0
+        private double _twistRate;         // about its d3, rad/s
+        private double _turnOrigin;        // turn at _turnOriginTime, radians
+        private double _turnOriginTime;    // s
+        private double _driveEnd = double.NegativeInfinity;  // s
+        private readonly double? _heldTurn;  // of the frame to which the first element is clamped, radians
+
+        /// <summary>A hub at rest that turns at a constant rate.</summary>
+        /// <param name="position">Of node 0, m.</param>
+        /// <param name="frame">Of the clamp at time 0.</param>
+        /// <param name="twistRate">About its own d3, rad/s.</param>
+        public HubMotion(in Vector3d position, in Quaterniond frame, double twistRate)
+        {
+            _position = position;
+            _frame = frame;
+            _twistRate = twistRate;
+        }
+
+        /// <summary>The hub of a wire in a sheath, as the first node that is simulated has it.</summary>
+        /// <param name="hub">As the node that was the first one until now has it.</param>
+        /// <param name="shift">From that node to this one, m.</param>
+        /// <param name="heldTurn">Where the frame of the first joint is held, radians.</param>
+        public HubMotion(HubMotion hub, in Vector3d shift, double heldTurn)
+        {
+            _position = hub._position + shift;
+            _velocity = hub._velocity;
+            _positionTime = hub._positionTime;
+            _frame = hub._frame;
+            _twistRate = hub._twistRate;
+            _turnOrigin = hub._turnOrigin;
+            _turnOriginTime = hub._turnOriginTime;
+            _driveEnd = hub._driveEnd;
+            _heldTurn = heldTurn;
+        }
+
+        /// <summary>Velocity of node 0, m/s.</summary>
+        public Vector3d Velocity => _velocity;
+
+        /// <summary>Turning of the hub about its own d3, rad/s.</summary>
+        public double TwistRate => _twistRate;
+
+        /// <summary>The clamp's frame at time 0.</summary>
+        public Quaterniond Frame => _frame;
+
+        /// <summary>Turning of the frame to which the first element is clamped, rad/s.</summary>
+        public double FrameTwistRate => _heldTurn.HasValue ? 0.0 : _twistRate;
+
+        /// <summary>Node 0 at this time, m.</summary>
+        public Vector3d PositionAt(double time)
+        {
+            return _position + (time - _positionTime) * _velocity;
+        }
+
+        /// <summary>Turn of the hub at this time, radians.</summary>
+        public double TurnAt(double time)
+        {
+            return _turnOrigin + _twistRate * (time - _turnOriginTime);
+        }
+
+        /// <summary>Turn of the frame to which the first element is clamped at this time, radians.</summary>
+        public double FrameTurnAt(double time)
+        {
+            return _heldTurn ?? TurnAt(time);
+        }
+
+        /// <summary>How far the hub is ahead of that frame at this time, radians.</summary>
+        public double AheadAt(double time)
+        {
+            return _heldTurn.HasValue ? TurnAt(time) - _heldTurn.Value : 0.0;
+        }
+
+        /// <summary>The clamp's frame turned by an angle, radians.</summary>
+        public Quaterniond FrameTurned(double turn)
+        {
+            return _frame * Quaterniond.FromAxisAngle(Vector3d.UnitZ, turn);
+        }
+
+        /// <summary>A user or a table moves the hub, up to this time, s: it turns at no rate of its own.</summary>
+        public void BeginDrive(double end)
+        {
+            _twistRate = 0.0;
+            _driveEnd = end;
+        }
+
+        /// <summary>From this time on, s, node 0 moves from a position, m, at this velocity, m/s.</summary>
+        public void MoveOn(double time, in Vector3d position, in Vector3d velocity)
+        {
+            _position = position;
+            _positionTime = time;
+            _velocity = velocity;
+        }
+
+        /// <summary>From this time on, s, the hub turns at this rate, rad/s.</summary>
+        public void TurnOn(double time, double rate)
+        {
+            _turnOrigin = TurnAt(time);
+            _turnOriginTime = time;
+            _twistRate = rate;
+        }
+
+        /// <summary>The hub is displaced at once, m.</summary>
+        public void Shift(in Vector3d displacement)
+        {
+            _position += displacement;
+        }
+
+        /// <summary>Whether it is at rest from this time on.</summary>
+        public bool IsOver(double time)
+        {
+            return time >= _driveEnd && _velocity == Vector3d.Zero && _twistRate == 0.0;
+        }
+
+        /// <summary>Writes or takes over what a drive prescribes anew before every step, for a
+        /// <see cref="StepStart"/>.</summary>
+        public void SerializeStep(Snapshot snapshot)
+        {
+            snapshot.Serialize(ref _position);
+            snapshot.Serialize(ref _velocity);
+            snapshot.Serialize(ref _positionTime);
+            snapshot.Serialize(ref _twistRate);
+            snapshot.Serialize(ref _turnOrigin);
+            snapshot.Serialize(ref _turnOriginTime);
+        }
+
+        /// <summary>Writes into a snapshot, or takes over from one, where the hub is at this time. Its rate stays its
+        /// own: a twist at another rate goes on from the present turn, and node 0 stays where a drive has brought it
+        /// until a drive takes it on.</summary>
+        public void Serialize(Snapshot snapshot, double time)
+        {
+            double own = _twistRate;
+            SerializeStep(snapshot);
+            snapshot.Serialize(ref _frame);
+            if (snapshot.IsWritten)
+            {
+                return;
+            }
+            if (_velocity != Vector3d.Zero)
+            {
+                MoveOn(time, PositionAt(time), Vector3d.Zero);
+            }
+            if (_twistRate != own)
+            {
+                TurnOn(time, own);
+            }
+        }
+    }
+}
