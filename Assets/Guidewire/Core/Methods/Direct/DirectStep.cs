@@ -222,15 +222,11 @@ namespace Guidewire.Core
         // A frame in a sheath is held where the wire is; a spring beyond it turns with the hub.
         private double HubTurn => _dynamics.ProximalTurn + _scene.Schedule.HubAhead(_dynamics.Time);
 
-        /// <summary>Whether the reason of a step without a solution says what of the barrier may help, for which the
-        /// whole vessel is measured; not where the step is tried again in another way.</summary>
-        public bool AdvisesOnFailure { get; set; } = true;
-
         private string Remedy
         {
             get
             {
-                string? advice = AdvisesOnFailure ? _dynamics.Terms.Walls()?.Advice : null;
+                string? advice = _dynamics.Terms.Walls()?.Advice;
                 if (advice != null || _jam == null || !_jam.IsJammed(_dynamics.Shape))
                 {
                     return advice == null ? Shorter : "; " + advice;
