@@ -10,6 +10,7 @@ namespace Guidewire.Core
         // A step in which a disturbance would grow by much (a thrust beyond buckling) may end in any shape.
         private const string Shorter = "; in a motion a shorter timeStep, or a timeStepError, may do";
         private const string Limit = "; a hubForceLimit lets the hub give way";
+        private const string Iterations = "; maxNewtonIterations is below its default, which may do";
 
         private const int MostSlips = 4;
 
@@ -226,6 +227,10 @@ namespace Guidewire.Core
         {
             get
             {
+                if (_dynamics.Solver.MostIterations < new MethodParameters().MaxNewtonIterations)
+                {
+                    return Iterations;
+                }
                 string? advice = _dynamics.Terms.Walls()?.Advice;
                 if (advice != null || _jam == null || !_jam.IsJammed(_dynamics.Shape))
                 {
