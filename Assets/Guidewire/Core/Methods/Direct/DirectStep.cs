@@ -12,7 +12,8 @@ namespace Guidewire.Core
         private const string Limit = "; a hubForceLimit lets the hub give way";
         private const string Iterations = "; maxNewtonIterations is below its default, which may do";
 
-        private const int MostSlips = 4;
+        private const int MostSlips = 60;
+        private const double OfElement = 0.01;     // by which a hub may be past its end
 
         private const double MostSpinLoss = 0.01;  // of a free wire's angular momentum, before a warning
 
@@ -152,33 +153,40 @@ namespace Guidewire.Core
                 {
                     SlipHub(spring);
                     CountDrive(held, spring.HeldPosition(_dynamics.Shape));
-                    Failure ??= FindOverdriven();
+                    Failure ??= FindOverdriven() ?? FindDrivenOut();
                 }
             }
             TakeExtremes(dissipated, innerSteps);
             return true;
         }
 
-        // The force that drives the wire out of a sheath depends on the hub's position: so the hub slips once more, by
-        // much less.
+        // The force that drives the wire out of a sheath depends on the hub's position, steeply where the exit passes a
+        // node: so the hub slips until its force is within the limit, by half as much once it has slipped too far.
         private void SlipHub(SupportSpring spring)
         {
-            RodTerms terms = _dynamics.Terms;
-            double asked = _drive.Insertion;
-            double before;
-            int left = terms.Sheath == null ? 1 : MostSlips;
-            do
+            if (!spring.HasLimit)
             {
-                before = _drive.Insertion;
-                spring.Besides = terms.Sheath == null ? 0.0 : terms.Sheath.HubForce(_dynamics.Shape);
-                _drive.SlipHub(spring.TakeSlip(_dynamics.Shape));
-                if (_drive.Insertion != before)
-                {
-                    terms.SetTime(_scene.Schedule, _dynamics.Time);
-                }
-                left--;
+                return;
             }
-            while (_drive.Insertion != before && left > 0);
+            RodTerms terms = _dynamics.Terms;
+            terms.SetTime(_scene.Schedule, _dynamics.Time);
+            double asked = _drive.Insertion;
+            double slip = 0.0;
+            bool isTooFar = false;
+            for (int left = terms.Sheath == null ? 1 : MostSlips; left > 0; left--)
+            {
+                spring.Besides = terms.Sheath == null ? 0.0 : terms.Sheath.HubForce(_dynamics.Shape);
+                double needed = spring.SlipOf(_dynamics.Shape);
+                if (needed == 0.0)
+                {
+                    break;
+                }
+                isTooFar |= needed * slip < 0.0;
+                slip = isTooFar ? Math.Sign(needed) * Math.Abs(0.5 * slip) : needed;
+                spring.Position -= slip * spring.Axis;
+                _drive.SlipHub(slip);
+                terms.SetTime(_scene.Schedule, _dynamics.Time);
+            }
             if (_drive.Insertion != asked)
             {
                 _hubWork += terms.HubForce(_dynamics.Shape) * (_drive.Insertion - asked);
@@ -259,7 +267,10 @@ namespace Guidewire.Core
                 return null;
             }
             _hub ??= new HubRecord(_scene.Rod, _scene.Supports);
-            _hub.Take(terms, _dynamics.Shape, _drive, _dynamics.ReactionAt(0), _dynamics.HubTorque,
+            // A hub that may slip has the force of where it has slipped to, not that of the step.
+            Vector3d force = terms.Walls()?.Spring.HasLimit == true ? terms.Walls()!.SupportForce(_dynamics.Shape)
+                : _dynamics.ReactionAt(0);
+            _hub.Take(terms, _dynamics.Shape, _drive, force, _dynamics.HubTorque,
                 _scene.Schedule.HubAhead(_dynamics.Time));
             _hub.Work = _walls == null ? double.NaN : _hubWork;
             return _hub;
@@ -404,6 +415,14 @@ namespace Guidewire.Core
                 + " would need {2:G3} N, more than the wire's EA, {3:G3} N; {4}; a smaller motion (displacementPerStep,"
                 + " insertionSpeed, maxSimulationSteps) may do, or a hubForceLimit", _dynamics.Time,
                 Contacts.DriveShortfall, force, most, _jam!.Text(_dynamics.Shape));
+        }
+
+        // The wire has then drawn the hub past the end of its sheath.
+        private string? FindDrivenOut()
+        {
+            double past = _drive.Insertion - _drive.MostInsertion;
+            return _dynamics.Terms.Sheath == null || past <= OfElement * _scene.Rod.Length[0] ? null
+                : "the wire drives itself out of its sheath: hubForceLimit is too small to hold it";
         }
 
         private void FollowEnds()

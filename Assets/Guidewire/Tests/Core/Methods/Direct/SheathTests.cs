@@ -246,13 +246,59 @@ namespace Guidewire.Core.Tests
             parameters.Material.RestCurvature = Vector3d.Zero;
             parameters.Material.Sections = Array.Empty<WireSection>();
             Simulation run = Simulation.Create(parameters);
-            hand.Push = 1.0 * way;
+            Vector3d start = run.State.Positions[0];
+            hand.Push = way;
             for (int k = 0; k < 100; k++)
             {
                 run.Step();
             }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Running), "a hand may go on: " + run.Reason);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Running), "steering has no end: " + run.Reason);
             Assert.That(run.Hub()!.LengthInBody, Is.EqualTo(way > 0.0 ? 0.1 : 0.0).Within(1e-4));
+            double gone = way * (run.State.Positions[0].Z - start.Z);
+            Assert.That(1e3 * way * run.Hub()!.Insertion, Is.EqualTo(gone).Within(1e-3));
+            Assert.That(run.Contacts!.DriveAsked, Is.EqualTo(100.0).Within(1e-9));
+            Assert.That(run.Contacts.DriveShortfall, Is.EqualTo(100.0 - gone).Within(1e-3));
+            // It stays there, and comes away from there as soon as it is asked to.
+            Vector3d end = run.State.Positions[0];
+            run.Step();
+            Assert.That(Vector3d.Distance(run.State.Positions[0], end), Is.LessThan(1e-6));
+            hand.Push = -way;
+            for (int k = 0; k < 10; k++)
+            {
+                run.Step();
+            }
+            Assert.That(way * (end.Z - run.State.Positions[0].Z), Is.EqualTo(10.0).Within(1e-3));
+            run.End(Outcome.Interrupted, "that will do");
+            Assert.That(run.Reason, Does.Contain("came to an end"));
+        }
+
+        [Test]
+        public void HubThatSlips_NeverExceedsItsLimit([Values(1e-3, 5e-3, 1e-2)] double limit,
+            [Values(0.01, 0.03)] double timeStep)
+        {
+            Simulation run = Simulation.Create(Weak(limit, timeStep));
+            double largest = 0.0;
+            while (run.Outcome == Outcome.Running)
+            {
+                run.Step();
+                largest = Math.Max(largest, Math.Abs(run.Hub()!.Force));
+                Assert.That(run.Report()!.Extremes!.AxialForce, Is.EqualTo(largest).Within(1e-12));
+            }
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Assert.That(largest / limit, Is.InRange(0.9, 1.0 + 1e-9));
+        }
+
+        [Test]
+        public void WireThatDrivesItselfOut_EndsTheRunWithThatReason([Values(3e-4, 2e-3)] double limit)
+        {
+            Simulation run = Simulation.Create(Weak(limit, 0.01));
+            while (run.Outcome == Outcome.Running)
+            {
+                run.Step();
+                Assert.That(Math.Abs(run.Hub()!.Force), Is.LessThanOrEqualTo(limit * (1.0 + 1e-9)));
+            }
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Failed));
+            Assert.That(run.Reason, Does.StartWith("the wire drives itself out of its sheath: hubForceLimit"));
         }
 
         [TestCase("points out of the vessel", 0.0, 0.0, 0.0, -1.0, 0.1)]
@@ -340,6 +386,19 @@ namespace Guidewire.Core.Tests
             parameters.Drive.InsertionSpeed = 0.04;
             parameters.Drive.RotationSpeed = 0.6;
             parameters.Method.MaxSimulationSteps = 420;
+            return parameters;
+        }
+
+        // A bent tip in a bend, on, round and back, under a hub that slips: the tip snaps, and is driven out of the
+        // sheath with more than the hub holds.
+        private static SimulationParameters Weak(double limit, double timeStep)
+        {
+            SimulationParameters parameters = Sheathed(60, 0.3, 90.0);
+            parameters.Drive.Table = new DriveTable(new TimeTable(new[] { 0.0, 2.0, 3.5, 4.5 },
+                new[] { 0.0, 0.1, 0.1, 0.03 }), new TimeTable(new[] { 2.0, 3.5 }, new[] { 0.0, 9.0 }));
+            parameters.Drive.HubForceLimit = limit;
+            parameters.Method.TimeStep = timeStep;
+            parameters.Method.MaxSimulationSteps = (int)(4.5 / timeStep);
             return parameters;
         }
 
