@@ -92,7 +92,7 @@ def inside(wall: Wall, positions: np.ndarray) -> np.ndarray:
     clusters = _Clusters(closed)
     centres = closed.mean(axis=1)
     reach = np.max(np.linalg.norm(closed - centres[:, None], axis=-1))
-    distance = cKDTree(centres).query(points[:-1].reshape(-1, 3))[0].reshape(points.shape[:2][0] - 1, -1) - reach
+    distance = cKDTree(centres).query(points[:-1].reshape(-1, 3))[0].reshape(len(points) - 1, points.shape[1]) - reach
     moved = np.linalg.norm(np.diff(points, axis=0), axis=-1)
     unsure = np.concatenate([np.ones((1, points.shape[1]), bool), moved >= distance])
     state = np.zeros(points.shape[:2], bool)

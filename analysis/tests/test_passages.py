@@ -77,6 +77,7 @@ def test_who_hardly_moves_is_not_asked_again_and_stays_where_it_is(box: Wall) ->
     points = sample_wire(wave.positions)
     everywhere = np.abs(box.winding_numbers(points.reshape(-1, 3))).reshape(points.shape[:2]) > 0.5
     np.testing.assert_array_equal(inside(box, wave.positions), everywhere)
+    np.testing.assert_array_equal(inside(box, wave.positions[:1]), everywhere[:1])
 
 
 @pytest.mark.parametrize(("way", "passages"), [((0.0, 0.0, -20.0), 0), ((20.0, 0.0, 0.0), 21)])

@@ -81,6 +81,9 @@ namespace Guidewire.Core
         /// <summary>The displacement asked for in the present step, m, never negative.</summary>
         public double Asked { get; private set; }
 
+        /// <summary>How far node 0 is beyond the displacement that it may be moved to, m; negative where it is not.</summary>
+        public double BeyondLimit => Insertion - _mostInsertion;
+
         /// <summary>From where it is it may move node 0 no farther than these displacements, m.</summary>
         /// <param name="back">0 or less.</param>
         /// <param name="forward">0 or more.</param>

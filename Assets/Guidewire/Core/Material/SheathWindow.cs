@@ -6,7 +6,7 @@ namespace Guidewire.Core
     /// it has along and about its axis, and where it ends.</summary>
     internal sealed class SheathWindow
     {
-        private readonly (double Stretch, double Twist)[] _sheathed;  // EA and GJ of the elements in the sheath
+        private readonly (double Stretch, double Twist)[] _sheathed;  // EA and GJ of the elements up to the first
 
         /// <summary>The window from an element on.</summary>
         /// <param name="whole">The whole wire.</param>
@@ -23,11 +23,11 @@ namespace Guidewire.Core
             JointLengths = new double[count];
             Array.Copy(joints, first, Joints, 0, count);
             Array.Copy(lengths, first, JointLengths, 0, count);
-            _sheathed = new (double Stretch, double Twist)[first];
-            for (int j = 0; j < first; j++)
+            _sheathed = new (double Stretch, double Twist)[first + 1];
+            for (int j = 0; j <= first; j++)
             {
                 _sheathed[j] = (whole.StretchStiffness[j], whole.TwistStiffness[j]);
-                AxialCompliance += whole.Length[j] / whole.StretchStiffness[j];
+                AxialCompliance += j == first ? 0.0 : whole.Length[j] / whole.StretchStiffness[j];
             }
             double compliance = 0.0;
             double rest = 0.0;
@@ -65,7 +65,7 @@ namespace Guidewire.Core
         /// <summary>Energy of the joints before the window's, all of them kept straight, J.</summary>
         public double HeldBefore { get; }
 
-        /// <summary>EA, N, and GJ, N m^2, of sheathed element j.</summary>
+        /// <summary>EA, N, and GJ, N m^2, of element j of the whole, up to the window's first.</summary>
         public (double Stretch, double Twist) Stiffness(int j)
         {
             return _sheathed[j];

@@ -53,6 +53,9 @@ namespace Guidewire.Core
             Array.Copy(outside.Force, 0, Force, first, outside.Force.Length);
             Array.Copy(outside.Curvature, 0, Curvature, first, outside.Curvature.Length);
             Array.Copy(outside.Couple, 0, Couple, first, outside.Couple.Length);
+            // Joint 0 of the window has the twist of all of the sheathed part.
+            Vector3d bend = outside.Curvature[0];
+            Curvature[first] = new Vector3d(bend.X, bend.Y, torque / window.Stiffness(first).Twist);
             for (int j = 0; j < first; j++)
             {
                 (double stretch, double twist) = window.Stiffness(j);

@@ -63,6 +63,11 @@ namespace Guidewire.Core
         /// <summary>A count.</summary>
         public void Serialize(ref long value)
         {
+            if (IsWritten && _count < _bits.Length)
+            {
+                _bits[_count++] = value;
+                return;
+            }
             ref long bits = ref Next(1)[0];
             if (IsWritten)
             {

@@ -1,3 +1,4 @@
+using System;
 using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
@@ -5,23 +6,35 @@ namespace Guidewire.Core
     /// <summary>Bending and twist: one joint between successive elements, one at each clamped end against the clamp's
     /// frame (thesis, bend-twist constraint, as an energy; the law between angle and couple is the type
     /// argument).</summary>
+    /// <remarks>A joint's orientation tells its turn up to pi. Where joint 0 is the twist of a long wire in its sheath,
+    /// which winds up by many turns, it is measured from a turn w about d3, its winding: theta = w e3 + Log of what is
+    /// beyond it, and w is moved to theta before theta can be pi away from it. A tip that snaps round goes on in one
+    /// smooth energy.</remarks>
     internal sealed class BendTwistEnergy<TLaw> : BendTwistTerm
         where TLaw : struct, IJointLaw
     {
+        private const double MostWound = 1.0;  // radians of joint 0 from its winding
+
         private readonly Joint[] _joint;  // 0: proximal clamp; k: between elements k-1 and k; n: distal clamp
         private readonly bool _hasProximal;
         private readonly bool _hasDistal;
+        private readonly bool _winds;
         private readonly TLaw _law;
         private double _proximalRest;   // turn of joint 0 at rest about d3, radians
         private double _proximalTurn;   // and what its frame is behind
+        private double _winding;        // w, radians
+        private Quaterniond _wound = Quaterniond.Identity;   // the rotation by w
+        private double _rewound;        // change of the energy by the last change of w, J: of its small bending
         private bool _isStiffened;
         private RodBlock _clampBlock;     // what falls on a clamp's frame, which does not move
         private RodVector _clampVector;
 
         /// <summary>The energy of these n+1 joints; the first and the last count only where that end is
         /// clamped.</summary>
-        public BendTwistEnergy(Joint[] joints, bool hasProximal, bool hasDistal)
+        /// <param name="winds">Whether joint 0 turns about d3 without limit.</param>
+        public BendTwistEnergy(Joint[] joints, bool hasProximal, bool hasDistal, bool winds = false)
         {
+            _winds = winds;
             _joint = joints;
             _hasProximal = hasProximal;
             _hasDistal = hasDistal;
@@ -43,6 +56,39 @@ namespace Guidewire.Core
             return _joint[0].Twist * (_joint[0].Rest.Z - TurnOf(shape, 0).Z);
         }
 
+        /// <summary>Joint 0, if it winds, is measured from where it is in this shape once it is far from its winding: no
+        /// iteration turns it by as much as is left until pi.</summary>
+        public override void Anchor(RodShape shape)
+        {
+            _rewound = 0.0;
+            if (!_winds)
+            {
+                return;
+            }
+            double turn = _law.Measure(FirstRelative(shape)).Z;
+            if (Math.Abs(turn) > MostWound)
+            {
+                double before = _law.Value(First, FirstRelative(shape));
+                Wind(_winding + turn);
+                _rewound = _law.Value(First, FirstRelative(shape)) - before;
+            }
+        }
+
+        /// <inheritdoc/>
+        public override double AnchoredValue(double before)
+        {
+            return before + _rewound;
+        }
+
+        /// <inheritdoc/>
+        public override void Serialize(Snapshot snapshot)
+        {
+            if (_winds)
+            {
+                Wind(snapshot.Serialize(_winding));
+            }
+        }
+
         /// <inheritdoc/>
         public override void SetJoint(int k, in Joint joint)
         {
@@ -61,7 +107,7 @@ namespace Guidewire.Core
             double sum = 0.0;
             if (_hasProximal)
             {
-                sum += _law.Value(_joint[0], shape.ProximalFrame.Conjugate * shape.Q[0]);
+                sum += _law.Value(First, FirstRelative(shape));
             }
             for (int k = 1; k < n; k++)
             {
@@ -81,7 +127,7 @@ namespace Guidewire.Core
             int n = shape.ElementCount;
             if (from == 0 && _hasProximal)
             {
-                _law.AddGradient(_joint[0], shape.ProximalFrame.Conjugate * shape.Q[0], ref _clampVector,
+                _law.AddGradient(First, FirstRelative(shape), ref _clampVector,
                     ref gradient[0]);
             }
             int end = to < n - 1 ? to : n - 1;
@@ -109,37 +155,37 @@ namespace Guidewire.Core
             if (from == 0 && _hasProximal)
             {
                 _clampBlock = default;
-                AddJoint(0, shape.ProximalFrame.Conjugate * shape.Q[0], ref _clampVector, ref gradient[0],
+                AddJoint(First, FirstRelative(shape), ref _clampVector, ref gradient[0],
                     ref _clampBlock, ref blocks[0]);
             }
             int end = to < n - 1 ? to : n - 1;
             for (int j = from; j < end; j++)
             {
-                AddJoint(j + 1, Relative(shape, j), ref gradient[j], ref gradient[j + 1], ref blocks[j],
+                AddJoint(_joint[j + 1], Relative(shape, j), ref gradient[j], ref gradient[j + 1], ref blocks[j],
                     ref blocks[j + 1]);
             }
             if (to >= n && from < n && _hasDistal)
             {
                 _clampBlock = default;
-                AddJoint(n, shape.Q[n - 1].Conjugate * shape.DistalFrame, ref gradient[n - 1], ref _clampVector,
+                AddJoint(_joint[n], shape.Q[n - 1].Conjugate * shape.DistalFrame, ref gradient[n - 1], ref _clampVector,
                     ref blocks[n - 1], ref _clampBlock);
             }
         }
 
         // A joint that is at rest where it is has no couple.
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private void AddJoint(int k, in Quaterniond relative, ref RodVector a, ref RodVector b, ref RodBlock blockA,
+        private void AddJoint(in Joint joint, in Quaterniond relative, ref RodVector a, ref RodVector b, ref RodBlock blockA,
             ref RodBlock blockB)
         {
             if (!_isStiffened)
             {
-                _law.AddBlocks(_joint[k], relative, ref a, ref b, ref blockA, ref blockB);
+                _law.AddBlocks(joint, relative, ref a, ref b, ref blockA, ref blockB);
                 return;
             }
-            Joint resting = _joint[k];
+            Joint resting = joint;
             resting.Rest = _law.Measure(relative);
             _law.AddBlocks(resting, relative, ref a, ref b, ref blockA, ref blockB);
-            _law.AddGradient(_joint[k], relative, ref a, ref b);
+            _law.AddGradient(joint, relative, ref a, ref b);
         }
 
         /// <inheritdoc/>
@@ -159,8 +205,8 @@ namespace Guidewire.Core
             {
                 return Vector3d.Zero;
             }
-            return _law.Measure((k == 0 ? shape.ProximalFrame : shape.Q[k - 1]).Conjugate
-                * (k == n ? shape.DistalFrame : shape.Q[k]));
+            return k == 0 ? _law.Measure(FirstRelative(shape)) + _winding * Vector3d.UnitZ
+                : _law.Measure(shape.Q[k - 1].Conjugate * (k == n ? shape.DistalFrame : shape.Q[k]));
         }
 
         /// <inheritdoc/>
@@ -191,9 +237,9 @@ namespace Guidewire.Core
             }
             RodVector before = default;
             RodVector after = default;
-            Quaterniond a = k == 0 ? shape.ProximalFrame : shape.Q[k - 1];
             Quaterniond b = k == n ? shape.DistalFrame : shape.Q[k];
-            _law.AddGradient(_joint[k], a.Conjugate * b, ref before, ref after);
+            _law.AddGradient(k == 0 ? First : _joint[k], k == 0 ? FirstRelative(shape) : shape.Q[k - 1].Conjugate * b,
+                ref before, ref after);
             return Quaterniond.Rotate(b, new Vector3d(after.T1, after.T2, after.T3));
         }
 
@@ -202,7 +248,7 @@ namespace Guidewire.Core
             Vector3d[] rates)
         {
             int n = shape.ElementCount;
-            rates[0] = _hasProximal ? Rate(shape.ProximalFrame.Conjugate * shape.Q[0], proximal, spins[0])
+            rates[0] = _hasProximal ? Rate(FirstRelative(shape), proximal, spins[0])
                 : Vector3d.Zero;
             for (int k = 1; k < n; k++)
             {
@@ -219,9 +265,9 @@ namespace Guidewire.Core
             RodVector onElement = default;
             if (_hasProximal)
             {
-                _law.AddGradient(_joint[0], shape.ProximalFrame.Conjugate * shape.Q[0], ref onFrame, ref onElement);
+                _law.AddGradient(First, FirstRelative(shape), ref onFrame, ref onElement);
             }
-            return Quaterniond.Rotate(shape.ProximalFrame, new Vector3d(onFrame.T1, onFrame.T2, onFrame.T3));
+            return Quaterniond.Rotate(shape.ProximalFrame * _wound, new Vector3d(onFrame.T1, onFrame.T2, onFrame.T3));
         }
 
         /// <inheritdoc/>
@@ -255,6 +301,28 @@ namespace Guidewire.Core
             _law.AddGradient(unit, relative, ref a, ref b);
             return a.T1 * before.X + a.T2 * before.Y + a.T3 * before.Z
                 + b.T1 * after.X + b.T2 * after.Y + b.T3 * after.Z;
+        }
+
+        // Joint 0 at rest, and its turn, both less the winding.
+        private Joint First
+        {
+            get
+            {
+                Joint joint = _joint[0];
+                joint.Rest -= _winding * Vector3d.UnitZ;
+                return joint;
+            }
+        }
+
+        private Quaterniond FirstRelative(RodShape shape)
+        {
+            return (shape.ProximalFrame * _wound).Conjugate * shape.Q[0];
+        }
+
+        private void Wind(double turn)
+        {
+            _winding = turn;
+            _wound = Quaterniond.FromAxisAngle(Vector3d.UnitZ, turn);
         }
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]

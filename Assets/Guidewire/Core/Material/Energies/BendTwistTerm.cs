@@ -29,7 +29,8 @@ namespace Guidewire.Core
             {
                 return new BendTwistEnergy<DarbouxLaw>(joints, supports.HasProximalJoint, supports.HasDistalJoint);
             }
-            return new BendTwistEnergy<RotationVectorLaw>(joints, supports.HasProximalJoint, supports.HasDistalJoint);
+            return new BendTwistEnergy<RotationVectorLaw>(joints, supports.HasProximalJoint, supports.HasDistalJoint,
+                supports.Sheath != null);
         }
 
         /// <summary>How fast the turns of <see cref="Measure"/> grow, rad/s.</summary>

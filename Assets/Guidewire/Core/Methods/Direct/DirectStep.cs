@@ -10,8 +10,10 @@ namespace Guidewire.Core
         // A step in which a disturbance would grow by much (a thrust beyond buckling) may end in any shape.
         private const string Shorter = "; in a motion a shorter timeStep, or a timeStepError, may do";
         private const string Limit = "; a hubForceLimit lets the hub slip";
+        private const string Iterations = "; maxNewtonIterations is below its default, which may do";
 
-        private const int MostSlips = 4;
+        private const int MostSlips = 60;
+        private const double OfElement = 0.01;     // by which a hub may be past its end
 
         private const double MostSpinLoss = 0.01;  // of a free wire's angular momentum, before a warning
 
@@ -140,32 +142,39 @@ namespace Guidewire.Core
                 {
                     SlipHub(spring);
                     CountDrive(held, spring.HeldPosition(Shape));
-                    Failure ??= FindOverdriven();
+                    Failure ??= FindOverdriven() ?? FindDrivenOut();
                 }
             }
             TakeExtremes(dissipated, innerSteps);
             return true;
         }
 
-        // The force that drives the wire out of a sheath depends on the hub's position: so the hub slips once more, by
-        // much less.
+        // The force that drives the wire out of a sheath depends on the hub's position, steeply where the exit passes a
+        // node: so the hub slips until its force is within the limit, by half as much once it has slipped too far.
         private void SlipHub(SupportSpring spring)
         {
-            double asked = Drive.Insertion;
-            double before;
-            int left = Terms.Sheath == null ? 1 : MostSlips;
-            do
+            if (!spring.HasLimit)
             {
-                before = Drive.Insertion;
-                spring.Besides = Terms.Sheath == null ? 0.0 : Terms.Sheath.HubForce(Shape);
-                Drive.SlipHub(spring.TakeSlip(Shape));
-                if (Drive.Insertion != before)
-                {
-                    Terms.SetTime(Schedule, Time);
-                }
-                left--;
+                return;
             }
-            while (Drive.Insertion != before && left > 0);
+            Terms.SetTime(Schedule, Time);
+            double asked = Drive.Insertion;
+            double slip = 0.0;
+            bool isTooFar = false;
+            for (int left = Terms.Sheath == null ? 1 : MostSlips; left > 0; left--)
+            {
+                spring.Besides = Terms.Sheath == null ? 0.0 : Terms.Sheath.HubForce(Shape);
+                double needed = spring.SlipOf(Shape);
+                if (needed == 0.0)
+                {
+                    break;
+                }
+                isTooFar |= needed * slip < 0.0;
+                slip = isTooFar ? Math.Sign(needed) * Math.Abs(0.5 * slip) : needed;
+                spring.Position -= slip * spring.Axis;
+                Drive.SlipHub(slip);
+                Terms.SetTime(Schedule, Time);
+            }
             if (Drive.Insertion != asked)
             {
                 _hubWork += Terms.HubForce(Shape) * (Drive.Insertion - asked);
@@ -208,15 +217,15 @@ namespace Guidewire.Core
         // A frame in a sheath is held where the wire is; a spring beyond it turns with the hub.
         private double HubTurn => _dynamics.ProximalTurn + Schedule.Hub.AheadAt(Time);
 
-        /// <summary>Whether the reason of a step without a solution says what of the barrier may help, for which the
-        /// whole vessel is measured; not where the step is tried again in another way.</summary>
-        public bool AdvisesOnFailure { get; set; } = true;
-
         private string Remedy
         {
             get
             {
-                string? advice = AdvisesOnFailure ? Terms.Walls()?.Advice : null;
+                if (_dynamics.Solver.MostIterations < new MethodParameters().MaxNewtonIterations)
+                {
+                    return Iterations;
+                }
+                string? advice = Terms.Walls()?.Advice;
                 if (advice != null || _jam == null || !_jam.IsJammed(Shape))
                 {
                     return advice == null ? Shorter : "; " + advice;
@@ -233,7 +242,10 @@ namespace Guidewire.Core
                 return null;
             }
             _hub ??= new HubRecord(Scene.Rod, Scene.Supports);
-            _hub.Take(Terms, Shape, Drive, _dynamics.ReactionAt(0), _dynamics.Reactions.HubTorque,
+            // A hub that may slip has the force of where it has slipped to, not that of the step.
+            Vector3d force = Terms.Walls()?.Spring.HasLimit == true ? Terms.Walls()!.SupportForce(Shape)
+                : _dynamics.ReactionAt(0);
+            _hub.Take(Terms, Shape, Drive, force, _dynamics.Reactions.HubTorque,
                 Schedule.Hub.AheadAt(Time));
             _hub.Work = _walls == null ? double.NaN : _hubWork;
             return _hub;
@@ -377,6 +389,13 @@ namespace Guidewire.Core
                 + " would need {2:G3} N, more than the wire's EA, {3:G3} N; {4}; a smaller motion (displacementPerStep,"
                 + " insertionSpeed, maxSimulationSteps) may do, or a hubForceLimit", Time,
                 Contacts.DriveShortfall, force, most, _jam!.Text(Shape));
+        }
+
+        // The wire has then drawn the hub past the end of its sheath.
+        private string? FindDrivenOut()
+        {
+            return Terms.Sheath == null || Drive.BeyondLimit <= OfElement * Scene.Rod.Length[0] ? null
+                : "the wire drives itself out of its sheath: hubForceLimit is too small to hold it";
         }
 
         private void FollowEnds()

@@ -73,13 +73,11 @@ namespace Guidewire.Core
             return Position - (Vector3d.Dot(Force(shape), Axis) / _stiffness) * Axis;
         }
 
-        /// <summary>Moves the support back, after a step, to where the axial force is no more than the hub's.</summary>
-        /// <returns>By how much along the axis, m.</returns>
-        public double TakeSlip(RodShape shape)
+        /// <summary>By how much along the axis, m, the support would have to move back for the axial force to be no more
+        /// than the hub's.</summary>
+        public double SlipOf(RodShape shape)
         {
-            double slip = Excess(shape) / _axial;
-            Position -= slip * Axis;
-            return slip;
+            return Excess(shape) / _axial;
         }
 
         /// <inheritdoc/>

@@ -1,20 +1,34 @@
 using System;
+using System.Globalization;
 
 namespace Guidewire.Core
 {
     /// <summary>Steps of a motion that are halved where they have no solution, and those halves again, down to 1/4096:
     /// a snap or a violent release goes far in one step, and where it ends depends on what came between.</summary>
-    /// <remarks>A wire that snaps between walls is far from where it was after however short a piece: Newton's method
-    /// then descends far, energy falling in every iteration. So there the shortest piece has <see
-    /// cref="MoreIterations"/> times as many iterations before it counts as one without a solution.</remarks>
+    /// <remarks>Pieces are doubled again once some of one length are solved, twice as many after each doubling that
+    /// failed, half as many after one that did not; so where only short pieces have a solution, for many steps as it may
+    /// be, few longer ones are tried. The next step begins with the length with which the last one ended.
+    ///
+    /// A wire that snaps between walls is far from where it was after however short a piece: Newton's method then
+    /// descends far, energy falling in every iteration. So there the shortest piece has <see cref="MoreIterations"/>
+    /// times as many iterations before it counts as one without a solution.
+    ///
+    /// The work is bounded: after the first piece without a solution a step may take <see cref="MostSolutions"/> times
+    /// the iterations that one solution may take.</remarks>
     internal sealed class HalvedSteps
     {
-        private const int MostHalvings = 12;
+        private const int Whole = 1 << 12;
+        private const int MostPatience = 256;
         private const int MoreIterations = 10;    // as a rest shape has
+        private const int MostSolutions = 200;
 
         private readonly RodDynamics _dynamics;
         private readonly StepStart _start;
         private StageForces _meanForces;
+        private int _size = Whole;    // of the next piece
+        private int _patience = 1;    // pieces of one length before a longer one is tried
+        private int _solved;          // of this length
+        private bool _isDoubled;      // the next piece is the first of this length
 
         /// <summary>For this motion.</summary>
         public HalvedSteps(RodDynamics dynamics)
@@ -37,43 +51,44 @@ namespace Guidewire.Core
         /// <returns>Null, or why a piece has no solution however short; the shape is then not to be used.</returns>
         public string? Step(double length)
         {
-            const int whole = 1 << MostHalvings;
             int done = 0;
-            int size = whole;
+            long most = long.MaxValue;
+            string? last = null;
             StageForces sum = default;
-            while (done < whole)
+            while (done < Whole)
             {
-                double h = length * size / whole;
+                double h = length * _size / Whole;
                 _start.Save();
+                long before = Iterations;
                 string? failure = _dynamics.Step(h);
-                if (failure != null && size == 1 && _dynamics.WallSolver != null)
+                if (failure != null && _size == 1 && _dynamics.WallSolver != null)
                 {
                     _start.Restore();
                     failure = StepLong(_dynamics.WallSolver, h);
                 }
                 if (failure == null)
                 {
-                    if (size == whole)
-                    {
-                        sum = _dynamics.Reactions.Mean;
-                    }
-                    else
-                    {
-                        sum.Add((double)size / whole, _dynamics.Reactions.Mean);
-                    }
+                    Add(ref sum);
                     PieceDone?.Invoke();
-                    done += size;
-                    // Longer again where the pieces done make up whole ones.
-                    size = size < whole && done % (2 * size) == 0 ? 2 * size : size;
-                    continue;
+                    done += _size;
+                    Grow(done);
                 }
-                if (size == 1)
+                else if (_size == 1)
                 {
                     return failure;
                 }
-                _start.Restore();
-                Halvings++;
-                size /= 2;
+                else
+                {
+                    most = last == null ? before + (long)MostSolutions * _dynamics.Solver.MostIterations : most;
+                    last = failure;
+                    Halve();
+                }
+                if (Iterations > most && done < Whole)
+                {
+                    return last + string.Format(CultureInfo.InvariantCulture,
+                        "; halved to pieces of {0:G3} s the step took more than {1} times maxNewtonIterations iterations", h,
+                        MostSolutions);
+                }
             }
             _meanForces = sum;
             return null;
@@ -85,10 +100,51 @@ namespace Guidewire.Core
             _start.Restore();
         }
 
-        /// <summary>Writes or takes over the count.</summary>
+        /// <summary>Writes or takes over the count, and how long the next piece is.</summary>
         public void Serialize(Snapshot snapshot)
         {
             Halvings = snapshot.Serialize(Halvings);
+            snapshot.Serialize(ref _size);
+            snapshot.Serialize(ref _patience);
+            snapshot.Serialize(ref _solved);
+            snapshot.Serialize(ref _isDoubled);
+        }
+
+        private long Iterations => (_dynamics.WallSolver?.Iterations ?? 0) + _dynamics.Solver.Iterations;
+
+        private void Add(ref StageForces sum)
+        {
+            if (_size == Whole)
+            {
+                sum = _dynamics.Reactions.Mean;
+            }
+            else
+            {
+                sum.Add((double)_size / Whole, _dynamics.Reactions.Mean);
+            }
+        }
+
+        private void Halve()
+        {
+            _start.Restore();
+            Halvings++;
+            _patience = _isDoubled ? Math.Min(2 * _patience, MostPatience) : _patience;
+            _size /= 2;
+            _solved = 0;
+            _isDoubled = false;
+        }
+
+        // Longer again where the pieces done make up whole ones.
+        private void Grow(int done)
+        {
+            _patience = _isDoubled ? Math.Max(_patience / 2, 1) : _patience;
+            _solved = Math.Min(_solved + 1, MostPatience);
+            _isDoubled = _size < Whole && done % (2 * _size) == 0 && _solved >= _patience;
+            if (_isDoubled)
+            {
+                _size *= 2;
+                _solved = 0;
+            }
         }
 
         // With more iterations.

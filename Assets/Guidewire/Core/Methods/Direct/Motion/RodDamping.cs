@@ -65,6 +65,7 @@ namespace Guidewire.Core
         {
             _hasBefore = _hasBegun;
             _hasBegun = true;
+            Anchor(shape);
             _before.CopyFrom(_begun);
             Measure(shape, _begun);
             Measures first = _rate[0];
@@ -218,8 +219,21 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
+        public override void Anchor(RodShape shape)
+        {
+            _bending.Anchor(shape);
+        }
+
+        /// <inheritdoc/>
+        public override double AnchoredValue(double before)
+        {
+            return _bending.AnchoredValue(before);
+        }
+
+        /// <inheritdoc/>
         public override void Serialize(Snapshot snapshot)
         {
+            _bending.Serialize(snapshot);
             snapshot.Serialize(ref _hasBegun);
             snapshot.Serialize(ref _perStage);
             _begun.Serialize(snapshot);

@@ -88,6 +88,9 @@ namespace Guidewire.Core
         /// <summary>Stages that needed the slower search so far.</summary>
         public long Searches { get; private set; }
 
+        /// <summary>Newton iterations of both kinds so far, those with a kept factorisation left out.</summary>
+        public long Iterations { get; private set; }
+
         /// <summary>Solves the stage from a prediction in which the supports are in place.</summary>
         /// <param name="shape">In: the prediction. Out: the stage's.</param>
         /// <param name="stageLength">h, s.</param>
@@ -125,6 +128,7 @@ namespace Guidewire.Core
         private bool NewtonStep(RodShape shape, out double step, out double fraction)
         {
             Factorisations++;
+            Iterations++;
             step = 0.0;
             fraction = 0.0;
             if (_system.Factorise(_terms, shape, _gradient, _direction, 0.0) != 0)
@@ -200,6 +204,7 @@ namespace Guidewire.Core
             _knownForce = double.PositiveInfinity;
             EquilibriumResult result = _creep == null ? _search.Solve(shape, Tolerance, MostIterations, false)
                 : _creep.Settle(shape, Tolerance, MostIterations);
+            Iterations += result.Iterations;
             return result.Converged ? null : result.Reason;
         }
 

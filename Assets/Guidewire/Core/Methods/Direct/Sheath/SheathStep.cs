@@ -12,8 +12,6 @@ namespace Guidewire.Core
     internal sealed class SheathStep : TimeStepper
     {
         private const double Late = 0.3;        // of an element's length, by which it goes late
-        private const double LargestTurn = 0.3; // radians of the first element against its frame
-        private const double Ahead = 2.4;       // radians by which the frame is ahead of a wire that jumps round
         private const int LeastElements = 2;
 
         private readonly SimulationParameters _parameters;
@@ -24,13 +22,12 @@ namespace Guidewire.Core
         private readonly RodShape _shape;         // of the whole wire
         private readonly Vector3d[] _velocities;
         private readonly Vector3d[] _spins;
-        private readonly StepStart _start;
         private readonly FrictionAnchors _anchors;
         private SheathWindow _window;
         private RodDynamics _dynamics = null!;    // this and the next are set wherever the window is
         private DirectStep _inner = null!;
         private MaterialDrive _drive;             // of what is simulated
-        private double _frameTurn;                // of the frame of the first element's joint, radians
+        private double _frameTurn;                // of the frame of the window's first joint, radians
 
         /// <summary>A step for this scene.</summary>
         public SheathStep(SimulationParameters parameters, MaterialScene whole, SolverReport report)
@@ -46,7 +43,6 @@ namespace Guidewire.Core
             _anchors = new FrictionAnchors(parameters.Scene.Walls.Length, n);
             _stress = new StressRecord(whole.Rod, whole.Supports);
             _setup = new SheathSetup(parameters, whole);
-            _start = new StepStart(snapshot => _inner.SerializeStep(snapshot));
             Contacts = new ContactRecord(n + 1)
             {
                 WallForces = new Vector3d[parameters.Scene.Walls.Length],
@@ -75,22 +71,7 @@ namespace Guidewire.Core
         public override void Advance(RodState state)
         {
             MoveWindow();
-            _start.Save();
-            double time = _dynamics.Time;
-            double torque = Torque();
-            _inner.AdvisesOnFailure = torque == 0.0;
             bool isDone = _inner.Step();
-            if (_inner.Failure != null && torque != 0.0)
-            {
-                // A tip that has stuck jumps round by as much as is wound up; its joint to the frame tells half a
-                // turn, and so the frame goes ahead.
-                _start.Restore();
-                Quaterniond frame = _drive.Hub.FrameTurned(_frameTurn);
-                double turned = RotationVector.Log(frame.Conjugate * _shape.Q[_window.First]).Z;
-                _frameTurn += turned - Math.Sign(torque) * Ahead;
-                Build(time, 0.0, _inner);
-                isDone = _inner.Step();
-            }
             Failure = _inner.Failure;
             Divergence = _inner.Divergence;
             SteadyState = _inner.SteadyState;
@@ -144,8 +125,8 @@ namespace Guidewire.Core
             Contacts!.Take(_inner.Contacts!, _window.First);
         }
 
-        /// <summary>A step begins: elements that will come to the exit come in, others go; and the frame follows the
-        /// first element where that has turned far. A second time nothing changes.</summary>
+        /// <summary>A step begins: elements that will come to the exit come in, others go. A second time nothing
+        /// changes.</summary>
         public void MoveWindow()
         {
             int first = _window.First;
@@ -162,14 +143,13 @@ namespace Guidewire.Core
             {
                 first++;
             }
-            double turn = FirstTurn();
-            double torque = Torque();
-            if (first == _window.First && Math.Abs(turn) < LargestTurn)
+            if (first == _window.First)
             {
                 return;
             }
+            double torque = Torque();
             double shift = _setup.Stations[first] - _setup.Stations[_window.First];
-            double own = _frameTurn + turn - TurnInSheath(_window.First, 0.0, torque);
+            double own = TurnOf(_window.First) - TurnInSheath(_window.First, 0.0, torque);
             for (int j = first; j < _window.First; j++)
             {
                 _shape.Q[j] = _drive.Hub.FrameTurned(TurnInSheath(j, own, torque));
@@ -285,16 +265,10 @@ namespace Guidewire.Core
             return hub;
         }
 
-        // Of the first element against its frame, radians.
-        private double FirstTurn()
-        {
-            return RotationVector.Log(_dynamics.Shape.ProximalFrame.Conjugate * _dynamics.Shape.Q[0]).Z;
-        }
-
         // Of an element that is simulated, radians, joint by joint from the frame.
         private double TurnOf(int element)
         {
-            double turn = _frameTurn + FirstTurn();
+            double turn = _frameTurn + _dynamics.Terms.Bending.TurnOf(_dynamics.Shape, 0).Z;
             for (int j = _window.First + 1; j <= element; j++)
             {
                 turn += RotationVector.Log(_shape.Q[j - 1].Conjugate * _shape.Q[j]).Z;

@@ -147,21 +147,51 @@ namespace Guidewire.Core.Tests
             double sheathed = 0.6 - hub.LengthInBody!.Value;
             Vector3d[] curvature = run.Stress()!.Curvature;
             Assert.That(hub.Torque, Is.GreaterThan(1e-6));
-            Assert.That(-curvature[3].Z, Is.EqualTo(hub.Torque / stiffness).Within(1e-6 * hub.Torque / stiffness));
+            for (int k = 1; k < 60 - hub.SpheresInBody; k++)
+            {
+                Assert.That(-curvature[k].Z, Is.EqualTo(hub.Torque / stiffness).Within(1e-6 * hub.Torque / stiffness));
+            }
             Assert.That(-hub.Twist, Is.GreaterThan(0.9 * hub.Torque * sheathed / stiffness));
             double first = 2.0 * Math.Atan2(run.State.Orientations[30].Z, run.State.Orientations[30].W);
             Assert.That(hub.Turn - first, Is.EqualTo(30.5 * 0.01 * hub.Torque / stiffness).Within(1e-6));
         }
 
+        [Test]
+        public void JointThatWinds_HasTheEnergyOfItsWholeTurn([Values(-0.9, 0.9)] double turn)
+        {
+            // 1/2 K (a - a0)^2 over three turns, from iterate to iterate; a snapshot holds how many they were.
+            MaterialRod rod = Rods.Wire(3);
+            Joint[] joints = rod.Joints(new RodSupports { Clamp = ClampRule.HalfElement });
+            joints[0].Rest = new Vector3d(0.0, 0.0, 0.4);
+            var term = new BendTwistEnergy<RotationVectorLaw>(joints, true, false, true);
+            var shape = new RodShape(3);
+            for (int k = 1; k <= 21; k++)
+            {
+                Array.Fill(shape.Q, shape.Q[0] * RotationVector.Exp(turn * Vector3d.UnitZ));
+                term.Anchor(shape);
+                double strain = k * turn - 0.4;
+                Assert.That(term.TurnOf(shape, 0).Z, Is.EqualTo(k * turn).Within(1e-12));
+                Assert.That(term.Value(shape), Is.EqualTo(0.5 * joints[0].Twist * strain * strain)
+                    .Within(1e-12 * joints[0].Twist * strain * strain));
+                Assert.That(term.TurnCouple(shape), Is.EqualTo(-joints[0].Twist * strain)
+                    .Within(1e-12 * joints[0].Twist * Math.Abs(strain)));
+            }
+            var snapshot = new Snapshot();
+            term.Serialize(snapshot);
+            var reader = new BendTwistEnergy<RotationVectorLaw>(joints, true, false, true);
+            reader.Serialize(snapshot.ToRead());
+            Assert.That(reader.Value(shape), Is.EqualTo(term.Value(shape)));
+        }
+
         [Test, Category("Long")]
-        public void TipThatJumpsRound_LosesNoTurn()
+        public void TipThatJumpsRound_LosesNoTurn([Values(0.01, 0.05)] double timeStep)
         {
             // So long a wire winds up by more than half a turn before its tip gives way in the bend.
             SimulationParameters parameters = Sheathed(150, 1.5, 90.0);
             parameters.Drive.Table = new DriveTable(new TimeTable(new[] { 0.0, 1.5 }, new[] { 0.0, 0.11 }),
                 new TimeTable(new[] { 1.5, 4.5 }, new[] { 0.0, 3.0 * Math.PI }));
-            parameters.Method.TimeStep = 0.01;
-            parameters.Method.MaxSimulationSteps = 450;
+            parameters.Method.TimeStep = timeStep;
+            parameters.Method.MaxSimulationSteps = (int)Math.Round(4.5 / timeStep);
             Simulation run = Simulation.Create(parameters);
             double largest = 0.0;
             double before = 0.0;
@@ -216,13 +246,59 @@ namespace Guidewire.Core.Tests
             parameters.Material.RestCurvature = Vector3d.Zero;
             parameters.Material.Sections = Array.Empty<WireSection>();
             Simulation run = Simulation.Create(parameters);
-            hand.Push = 1.0 * way;
+            Vector3d start = run.State.Positions[0];
+            hand.Push = way;
             for (int k = 0; k < 100; k++)
             {
                 run.Step();
             }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Running), "a hand may go on: " + run.Reason);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Running), "steering has no end: " + run.Reason);
             Assert.That(run.Hub()!.LengthInBody, Is.EqualTo(way > 0.0 ? 0.1 : 0.0).Within(1e-4));
+            double gone = way * (run.State.Positions[0].Z - start.Z);
+            Assert.That(1e3 * way * run.Hub()!.Insertion, Is.EqualTo(gone).Within(1e-3));
+            Assert.That(run.Contacts!.DriveAsked, Is.EqualTo(100.0).Within(1e-9));
+            Assert.That(run.Contacts.DriveShortfall, Is.EqualTo(100.0 - gone).Within(1e-3));
+            // It stays there, and comes away from there as soon as it is asked to.
+            Vector3d end = run.State.Positions[0];
+            run.Step();
+            Assert.That(Vector3d.Distance(run.State.Positions[0], end), Is.LessThan(1e-6));
+            hand.Push = -way;
+            for (int k = 0; k < 10; k++)
+            {
+                run.Step();
+            }
+            Assert.That(way * (end.Z - run.State.Positions[0].Z), Is.EqualTo(10.0).Within(1e-3));
+            run.End(Outcome.Interrupted, "that will do");
+            Assert.That(run.Reason, Does.Contain("came to an end"));
+        }
+
+        [Test]
+        public void HubThatSlips_NeverExceedsItsLimit([Values(1e-3, 5e-3, 1e-2)] double limit,
+            [Values(0.01, 0.03)] double timeStep)
+        {
+            Simulation run = Simulation.Create(Weak(limit, timeStep));
+            double largest = 0.0;
+            while (run.Outcome == Outcome.Running)
+            {
+                run.Step();
+                largest = Math.Max(largest, Math.Abs(run.Hub()!.Force));
+                Assert.That(run.Report()!.Extremes!.AxialForce, Is.EqualTo(largest).Within(1e-12));
+            }
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Assert.That(largest / limit, Is.InRange(0.9, 1.0 + 1e-9));
+        }
+
+        [Test]
+        public void WireThatDrivesItselfOut_EndsTheRunWithThatReason([Values(3e-4, 2e-3)] double limit)
+        {
+            Simulation run = Simulation.Create(Weak(limit, 0.01));
+            while (run.Outcome == Outcome.Running)
+            {
+                run.Step();
+                Assert.That(Math.Abs(run.Hub()!.Force), Is.LessThanOrEqualTo(limit * (1.0 + 1e-9)));
+            }
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Failed));
+            Assert.That(run.Reason, Does.StartWith("the wire drives itself out of its sheath: hubForceLimit"));
         }
 
         [TestCase("points out of the vessel", 0.0, 0.0, 0.0, -1.0, 0.1)]
@@ -310,6 +386,19 @@ namespace Guidewire.Core.Tests
             parameters.Drive.InsertionSpeed = 0.04;
             parameters.Drive.RotationSpeed = 0.6;
             parameters.Method.MaxSimulationSteps = 420;
+            return parameters;
+        }
+
+        // A bent tip in a bend, on, round and back, under a hub that slips: the tip snaps, and is driven out of the
+        // sheath with more than the hub holds.
+        private static SimulationParameters Weak(double limit, double timeStep)
+        {
+            SimulationParameters parameters = Sheathed(60, 0.3, 90.0);
+            parameters.Drive.Table = new DriveTable(new TimeTable(new[] { 0.0, 2.0, 3.5, 4.5 },
+                new[] { 0.0, 0.1, 0.1, 0.03 }), new TimeTable(new[] { 2.0, 3.5 }, new[] { 0.0, 9.0 }));
+            parameters.Drive.HubForceLimit = limit;
+            parameters.Method.TimeStep = timeStep;
+            parameters.Method.MaxSimulationSteps = (int)(4.5 / timeStep);
             return parameters;
         }
 
