@@ -217,8 +217,8 @@ namespace Guidewire.Core
         }
 
         /// <summary>Radius in units of the largest ball that fits where the free side is narrowest, of all positions
-        /// that are wider than a radius; infinite where the wall encloses nothing.</summary>
-        internal virtual double NarrowestRadius(double above)
+        /// where that is between two radii; infinite where there is none.</summary>
+        internal virtual double NarrowestRadius(double above, double below)
         {
             return double.PositiveInfinity;
         }

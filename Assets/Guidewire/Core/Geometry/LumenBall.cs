@@ -5,6 +5,8 @@ namespace Guidewire.Core
     /// <summary>The widest ball in a lumen across a direction, for walks along a vessel. In units.</summary>
     internal sealed class LumenBall
     {
+        private const double Golden = 0.6180339887498949;
+        private const int Sections = 12;
         private readonly ContactShape _wall;
         private int _hint = -1;
 
@@ -21,8 +23,11 @@ namespace Guidewire.Core
         public Vector3d Centre { get; set; }
 
         /// <summary>Climbs from x to the middle of the lumen across a direction, or to where the ball is large enough:
-        /// eight directions in turn, the step doubled where one leads up and halved where none does. No step leaves the
-        /// ball, hence none leaves the lumen.</summary>
+        /// eight directions in turn, the step doubled where one leads up and halved where none does, nor a ridge. No
+        /// step leaves the ball, hence none leaves the lumen.</summary>
+        /// <remarks>Between two walls that meet at an angle the distance rises along the ridge between them alone, in a
+        /// cone no wider than that angle, which eight directions miss. The ridge passes between the ends of a line
+        /// across it: there the distance is largest.</remarks>
         /// <param name="finest">The last step.</param>
         /// <param name="enough">Radius.</param>
         public void Climb(in Vector3d x, in Vector3d along, double finest, double enough)
@@ -47,7 +52,46 @@ namespace Guidewire.Core
                         Centre = other;
                     }
                 }
+                for (int k = 0; k < 4 && !(Width > width); k++)
+                {
+                    Vector3d forward = k % 2 == 0 ? u : v;
+                    FollowRidge(start + (k < 2 ? step : -step) * forward, step * (k % 2 == 0 ? v : u));
+                }
                 step = Width > width ? Math.Min(2.0 * step, 0.5 * Width) : 0.5 * step;
+            }
+        }
+
+        // To the largest ball on the line from middle - half to middle + half, if that is larger: golden section.
+        private void FollowRidge(in Vector3d middle, in Vector3d half)
+        {
+            double low = -0.7;    // with the step to the middle, within the ball
+            double high = 0.7;
+            double a = high - Golden * (high - low);
+            double b = low + Golden * (high - low);
+            double atA = DistanceAt(middle + a * half);
+            double atB = DistanceAt(middle + b * half);
+            for (int k = 0; k < Sections; k++)
+            {
+                if (atA < atB)
+                {
+                    low = a;
+                    (a, atA) = (b, atB);
+                    b = low + Golden * (high - low);
+                    atB = DistanceAt(middle + b * half);
+                }
+                else
+                {
+                    high = b;
+                    (b, atB) = (a, atA);
+                    a = high - Golden * (high - low);
+                    atA = DistanceAt(middle + a * half);
+                }
+            }
+            double width = Math.Max(atA, atB);
+            if (width > Width)
+            {
+                Width = width;
+                Centre = middle + (atA > atB ? a : b) * half;
             }
         }
 

@@ -8,12 +8,14 @@ namespace Guidewire.Core
     /// <remarks>The walk goes by balls that are centred across it (<see cref="LumenBall"/>), along the direction e in
     /// which the lesser of d(c + h e) and d(c - h e) is largest, d the distance from the wall. It ends where the lumen
     /// has become wider than its narrowest by <see cref="WideAgain"/>, or where d falls by more than half of the
-    /// distance travelled: there is the end of the vessel. The result depends on d alone, not on how the wall is
+    /// distance travelled: there is the end of the vessel, and the last <see cref="EndLength"/> widths before it do not
+    /// count, because a corner has balls of any width. Where even short steps lead aside into a wider lumen the walk
+    /// was in a fold of the wall, which is no throat. The result depends on d alone, not on how the wall is
     /// triangulated. A lumen that narrows to less than a wire without widening again holds the wire whatever its
     /// barriers are, and does not count.</remarks>
     internal sealed class LumenWalk
     {
-        private const double StepOverWidth = 0.5;
+        private const double StepOverWidth = 0.25;
         private const double WideAgain = 1.05;
         private const double EndSlope = 0.5;
         private const double Fineness = 2e-3;        // of the width, during the walk
@@ -22,11 +24,14 @@ namespace Guidewire.Core
         private const double Same = 0.5;             // of the width: positions that count as one
         private const double Probe = 0.5;            // h over d
         private const double LeastTurn = 0.02;       // rad, of e
+        private const double EndLength = 3.0;        // widths before an end of the vessel that do not count
         private const int MostSteps = 2000;
         private const int Thirds = 16;               // of the last bracket
         private readonly LumenBall _ball;
         private readonly double _above;
         private readonly List<(Vector3d Centre, double Width)> _walked = new List<(Vector3d, double)>();
+        private readonly List<(double Travel, Vector3d Centre, Vector3d Along, double Width)> _path =
+            new List<(double, Vector3d, Vector3d, double)>();
         private double _narrowest;
         private Vector3d _position;
         private Vector3d _along;
@@ -55,12 +60,17 @@ namespace Guidewire.Core
             }
             Vector3d centre = _ball.Centre;
             double first = _ball.Width;
+            if (!(first > _above))
+            {
+                return double.PositiveInfinity;
+            }
             along = Turned(centre, first, along);
             _walked.Add((centre, first));
-            _narrowest = double.PositiveInfinity;
-            Take(centre, first, along);
-            return first > _above && Walk(centre, first, along) && Walk(centre, first, -along)
-                ? Bottom() : double.PositiveInfinity;
+            _path.Clear();
+            _path.Add((0.0, centre, along, first));
+            _narrowest = first;
+            return Walk(centre, first, along, 1.0, out double last) && Walk(centre, first, -along, -1.0, out double from)
+                ? Bottom(from, last) : double.PositiveInfinity;
         }
 
         private bool IsWalked(in Vector3d x, double width)
@@ -76,10 +86,14 @@ namespace Guidewire.Core
             return false;
         }
 
-        // False where the lumen becomes too narrow to count.
-        private bool Walk(Vector3d centre, double width, Vector3d along)
+        // Towards one side, 1 or -1, up to where the lumen is wide again or ends. False where it becomes too narrow to
+        // count. What counts ends some widths before an end of the vessel: near a corner of it any width is met.
+        private bool Walk(Vector3d centre, double width, Vector3d along, double side, out double last)
         {
             double fraction = StepOverWidth;
+            double travel = 0.0;
+            bool isAside = false;
+            last = double.PositiveInfinity;
             for (int k = 0; k < MostSteps && fraction > ShortestStep && width <= WideAgain * _narrowest; k++)
             {
                 _ball.Climb(centre + fraction * width * along, along, Fineness * width, 2.0 * WideAgain * width);
@@ -92,8 +106,13 @@ namespace Guidewire.Core
                 Vector3d chord = Vector3d.Normalize(_ball.Centre - centre);
                 if (Vector3d.Dot(chord, along) < 0.5)
                 {
-                    return true;    // the climb has moved into a wider neighbouring lumen
+                    // The climb has moved into a wider neighbouring lumen.
+                    fraction *= 0.5;
+                    isAside = true;
+                    continue;
                 }
+                isAside = false;
+                fraction = Math.Min(2.0 * fraction, StepOverWidth);
                 centre = _ball.Centre;
                 width = _ball.Width;
                 if (width <= _above)
@@ -101,29 +120,42 @@ namespace Guidewire.Core
                     return false;
                 }
                 along = Turned(centre, width, chord);
+                travel += distance;
                 _walked.Add((centre, width));
-                Take(centre, width, along);
+                _path.Add((side * travel, centre, along, width));
+                _narrowest = Math.Min(_narrowest, width);
             }
+            if (isAside)
+            {
+                return false;
+            }
+            bool isWide = width > WideAgain * _narrowest;
+            last = side * (isWide ? double.PositiveInfinity : travel - EndLength * width);
             return true;
         }
 
-        private void Take(in Vector3d centre, double width, in Vector3d along)
+        // The least width of the walk between two positions on it, by thirds of the distance, half a step to both sides
+        // of the narrowest position.
+        private double Bottom(double from, double last)
         {
-            if (width < _narrowest)
+            double least = double.PositiveInfinity;
+            foreach ((double travel, Vector3d centre, Vector3d along, double width) in _path)
             {
-                _narrowest = width;
-                _position = centre;
-                _along = along;
+                if (travel >= from && travel <= last && width < least)
+                {
+                    least = width;
+                    _position = centre;
+                    _along = along;
+                }
             }
-        }
-
-        // By thirds of the distance, half a step to both sides of the narrowest position of the walk.
-        private double Bottom()
-        {
+            if (double.IsInfinity(least))
+            {
+                return least;
+            }
+            _narrowest = least;
             double length = StepOverWidth * _narrowest;
             double low = -length;
             double high = length;
-            double least = _narrowest;
             for (int k = 0; k < Thirds; k++)
             {
                 double a = low + (high - low) / 3.0;

@@ -239,12 +239,12 @@ namespace Guidewire.Core
         }
 
         /// <summary>That of the narrowest knot.</summary>
-        internal override double NarrowestRadius(double above)
+        internal override double NarrowestRadius(double above, double below)
         {
             double narrowest = double.PositiveInfinity;
             foreach (double radius in _radii)
             {
-                narrowest = radius > above ? Math.Min(narrowest, radius) : narrowest;
+                narrowest = radius > above && radius < below ? Math.Min(narrowest, radius) : narrowest;
             }
             return narrowest;
         }

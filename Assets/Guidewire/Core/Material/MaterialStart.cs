@@ -56,7 +56,7 @@ namespace Guidewire.Core
         private static string Text(int j, in Vector3d a, in Vector3d b, double radius, double distance,
             ContactShape wall)
         {
-            double narrowest = wall.NarrowestRadius(0.0);
+            double narrowest = wall.NarrowestRadius(0.5 * radius, radius);
             return string.Format(CultureInfo.InvariantCulture,
                 "the wire starts outside: rod element {0} from {1} to {2}, radius {3:G4} units, reaches {4:G4} units"
                 + " into the wall{5}", j, a, b, radius, radius - distance,

@@ -18,7 +18,6 @@ namespace Guidewire.Core
         private MeshEdges? _edgeContacts;
         private MeshNearby? _nearby;
         private FeatureCache? _cache;         // with the skin of the last request
-        private (double Above, double Radius)? _narrowest;    // what was asked for last
 
         /// <summary>The wall where its file has it.</summary>
         public MeshShape(TriangleMesh mesh)
@@ -60,7 +59,6 @@ namespace Guidewire.Core
             _wall.Place(placement);
             _nearby = null;
             _cache = null;
-            _narrowest = null;
             if (_closed != _wall)
             {
                 _closed.Place(placement);
@@ -157,14 +155,10 @@ namespace Guidewire.Core
 
         private MeshNearby Nearby => _nearby ??= new MeshNearby(_wall, EdgeContacts);
 
-        /// <summary>Of the balls that touch the wall in the middle of a triangle and lie in the lumen.</summary>
-        internal override double NarrowestRadius(double above)
+        /// <summary>See <see cref="MeshWidth"/>.</summary>
+        internal override double NarrowestRadius(double above, double below)
         {
-            if (_narrowest is null || _narrowest.Value.Above != above)
-            {
-                _narrowest = (above, MeshWidth.Narrowest(this, _wall, above));
-            }
-            return _narrowest.Value.Radius;
+            return MeshWidth.Narrowest(this, _wall, above, below);
         }
 
         /// <inheritdoc/>

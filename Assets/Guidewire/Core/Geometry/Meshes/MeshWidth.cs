@@ -11,14 +11,16 @@ namespace Guidewire.Core
     /// it is triangulated.</remarks>
     internal static class MeshWidth
     {
-        private const int MostSamples = 10_000;
+        private const int MostSamples = 600_000;
         private const int LeastSamples = 2_000;
+        private const double SamplesOverRadius = 2.0;    // in a square of the least radius
+        private const double LeastBall = 0.7;            // of that radius: smaller balls lie in folds of the wall
         private const int MostShrinks = 30;
         private const double Converged = 2e-3;    // of a ball's radius squared
         private const double Least = 1e-6;    // of the mesh's size, for a radius
 
-        /// <summary>The smallest radius above the one given, units; infinite where there is none.</summary>
-        public static double Narrowest(ContactShape wall, MeshGeometry mesh, double above)
+        /// <summary>The smallest radius between two, units; infinite where there is none.</summary>
+        public static double Narrowest(ContactShape wall, MeshGeometry mesh, double above, double below)
         {
             double area = 0.0;
             double size = 0.0;
@@ -28,9 +30,9 @@ namespace Guidewire.Core
                 size = Math.Max(size, Vector3d.Distance(mesh.Corners[3 * t], mesh.Corners[0]));
             }
             double least = Math.Max(above, Least * size);
-            double cell = area / Math.Min(Math.Max(area / (2.0 * least * least), LeastSamples), MostSamples);
+            double cell = area / Math.Min(Math.Max(SamplesOverRadius * area / (least * least), LeastSamples), MostSamples);
             var walk = new LumenWalk(wall, least);
-            double narrowest = double.PositiveInfinity;
+            double narrowest = below;
             double covered = 0.5 * cell;
             for (int t = 0; t < mesh.FaceNormals.Length; t++)
             {
@@ -45,13 +47,13 @@ namespace Guidewire.Core
                 {
                     double start = Math.Min(size, narrowest);
                     double radius = Ball(mesh, t, PlaceOn(mesh, t, k, rows), start, out Vector3d centre);
-                    if (radius < start)
+                    if (radius < start && radius > LeastBall * least)
                     {
                         narrowest = Math.Min(narrowest, walk.From(centre, start));
                     }
                 }
             }
-            return narrowest;
+            return narrowest < below ? narrowest : double.PositiveInfinity;
         }
 
         private static double Area(MeshGeometry mesh, int triangle)

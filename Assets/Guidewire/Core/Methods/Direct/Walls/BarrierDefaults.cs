@@ -84,9 +84,10 @@ namespace Guidewire.Core
                 distance = Math.Max(OfRadius * thinnest, move / MostMove);
                 foreach (ContactShape wall in walls)
                 {
-                    double clearance = metresPerUnit * wall.NarrowestRadius(thickest / metresPerUnit) - thickest;
-                    distance = Math.Min(distance, OfClearance * clearance);
                     distance = wall.HasPointFeatures ? Math.Min(distance, InMesh * thinnest) : distance;
+                    double narrowest = metresPerUnit * wall.NarrowestRadius(
+                        thickest / metresPerUnit, (thickest + distance / OfClearance) / metresPerUnit);
+                    distance = Math.Min(distance, OfClearance * (narrowest - thickest));
                 }
                 distance = Math.Max(distance, LeastOfRadius * thinnest);
             }

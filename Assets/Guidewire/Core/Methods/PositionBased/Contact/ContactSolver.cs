@@ -8,8 +8,10 @@ namespace Guidewire.Core
     /// half an element or a radius is done in P parts, each with its own detection and solve. A part after which
     /// something would have passed a wall is solved again against the points of impact, twice; then it and those that
     /// follow are halved, once; then it is projected off those points without regard to the other constraints, and
-    /// shortened. The displacement that the drive did not reach is reported. So a step takes at most 2 P + 1 attempts
-    /// of three solves each, whatever the shape of the wire.</remarks>
+    /// shortened. Where that happened to two halves in succession the wire is jammed: what follows is done in whole
+    /// parts, each solved once, until one passes. The displacement that the drive did not reach is reported. So a step
+    /// takes at most 2 P + 1 attempts of three solves each, whatever the shape of the wire, and P + 8 solves where it
+    /// is jammed throughout.</remarks>
     internal sealed class ContactSolver : IConstraintSolver
     {
         /// <summary>Of its snapshot.</summary>
@@ -17,6 +19,7 @@ namespace Guidewire.Core
 
         private const int Resolves = 2;
         private const int MostParts = 4096;     // of a step; a drive that asks for more gets no more
+        private const int MostShortened = 2;    // halves in succession, from which on the wire is jammed
         private const int Slides = 6;
         private const int SlideIterations = 8;
         private const double SmallerStep = 0.25;
@@ -103,12 +106,15 @@ namespace Guidewire.Core
             int parts = (int)Math.Max(1.0, Math.Ceiling(Math.Min(asked, most) / _longestPart));
             int left = 2 * parts;
             int halves = 2;
+            int shortened = 0;    // parts in succession
             while (left > 0)
             {
-                int size = Math.Min(halves, left);
+                bool isJammed = shortened >= MostShortened;
+                int size = Math.Min(isJammed ? 2 : halves, left);
                 PredictPart(state, size / (2.0 * parts), size == left);
-                if (TryPart(state, size == 1))
+                if (TryPart(state, size == 1, isJammed, out bool isShortened))
                 {
+                    shortened = isShortened ? shortened + 1 : 0;
                     left -= size;
                     EndPart(state.PredictedPositions, left == 0);
                     Array.Copy(state.PredictedOrientations, _safeTurn, _safeTurn.Length);
@@ -122,26 +128,28 @@ namespace Guidewire.Core
         }
 
         // False where it would have passed a wall and a smaller part may not.
-        private bool TryPart(RodState state, bool isSmallest)
+        private bool TryPart(RodState state, bool isSmallest, bool isJammed, out bool isShortened)
         {
+            isShortened = false;
             Vector3d[] p = state.PredictedPositions;
             _search.Find(_safe, p);
             _response.Start(_search, _safe, p);
             _solver.Solve(state);
             for (int round = 0; _swept.Find(_safe, p); round++)
             {
-                if (round < Resolves)
+                if (round < Resolves && !isJammed)
                 {
                     _response.Stop(_swept.Impacts);
                     _solver.Solve(state);
                 }
-                else if (!isSmallest)
+                else if (!isSmallest && !isJammed)
                 {
                     return false;
                 }
                 else
                 {
                     ShortenPart(state, p);
+                    isShortened = true;
                     break;
                 }
             }
