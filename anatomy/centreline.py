@@ -68,14 +68,19 @@ class Centreline:
         """Of the polyline through these points."""
         return float(np.linalg.norm(np.diff(self.points[indices], axis=0), axis=1).sum())
 
-    @property
-    def narrowest(self) -> int:
-        """The point with the smallest radius, ends apart: an end's sphere is bounded by the cap as well."""
+    def inner(self) -> np.ndarray:
+        """(k,): points farther than a radius from every closed end, where the sphere is bounded by the end as well."""
         inner = np.ones(len(self.points), dtype=bool)
         for end in self.ends:
-            inner &= np.linalg.norm(self.points - end.centre, axis=1) > end.radius
-        inner = inner if inner.any() else np.ones(len(self.points), dtype=bool)
-        return int(np.flatnonzero(inner)[np.argmin(self.radii[inner])])
+            if not end.is_open:
+                inner &= np.linalg.norm(self.points - end.centre, axis=1) > 1.2 * end.radius
+        return inner if inner.any() else np.ones(len(self.points), dtype=bool)
+
+    @property
+    def narrowest(self) -> int:
+        """The point with the smallest radius, closed ends apart."""
+        inner = np.flatnonzero(self.inner())
+        return int(inner[np.argmin(self.radii[inner])])
 
 
 def find_centreline(mesh: Mesh, rims: list[Rim], root: np.ndarray | None = None) -> Centreline:
@@ -110,7 +115,7 @@ def find_centreline(mesh: Mesh, rims: list[Rim], root: np.ndarray | None = None)
                            "closed on the way")
     known = set(_walk(before, start)) if len(nodes) == 1 else set().union(*(_walk(before, n) for n in nodes))
     blind = graph.blind_ends(known, before, dijkstra(graph.lengths, directed=False, indices=start))
-    return _Builder(graph, wall, rims, nodes, blind, start, before).build()
+    return _Builder(graph, wall, _Wall(mesh) if rims else wall, rims, nodes, blind, start, before).build()
 
 
 class _Wall:
@@ -245,9 +250,9 @@ class _Medial:
 class _Builder:
     """Makes a smooth tree of the paths."""
 
-    def __init__(self, graph: _Medial, wall: _Wall, rims: list[Rim], nodes: list[int], blind: list[int], start: int,
-                 before: np.ndarray) -> None:
-        self._graph, self._wall = graph, wall
+    def __init__(self, graph: _Medial, wall: _Wall, without_caps: _Wall, rims: list[Rim], nodes: list[int],
+                 blind: list[int], start: int, before: np.ndarray) -> None:
+        self._graph, self._wall, self._open = graph, wall, without_caps
         self._start, self._before = start, before
         self._targets = list(nodes) + blind
         self._rims: list[Rim | None] = [*rims, *[None] * (len(self._targets) - len(rims))]
@@ -282,18 +287,21 @@ class _Builder:
         root = self._targets.index(self._start)
         last[root] = 0
         ends = [self._end(number, k, last[k]) for number, k in enumerate(order, 1)]
-        return Centreline(np.array(self._points), np.array(self._radii), np.array(self._parents),
+        radii = np.array([self._open.distance(point) for point in self._points])
+        return Centreline(np.array(self._points), radii, np.array(self._parents),
                           np.array(self._branches), tuple(ends))
 
     def _apart(self, chains: list[list[int]]) -> list[int]:
         """Which paths to keep: rims, the root's, and of blind ends those that are not near the paths before."""
         graph, kept = self._graph, []
+        typical = float(np.median(graph.radii[np.concatenate(chains)]))
         for k, chain in enumerate(chains):
             others = [node for j in kept for node in chains[j]]
             if self._rims[k] is None and self._targets[k] != self._start and others:
                 away = np.linalg.norm(graph.centres[others] - graph.centres[chain[-1]], axis=1)
                 beside = graph.radii[others[int(np.argmin(away))]]
-                if (away < (1.0 + _BLIND) * graph.radii[others]).any() or graph.radii[chain[-1]] < _THIN * beside:
+                if (away < (1.0 + _BLIND) * graph.radii[others]).any() or graph.radii[chain[-1]] < _THIN * min(
+                        beside, typical):
                     continue
             kept.append(k)
         return kept

@@ -200,8 +200,9 @@ def facing(mesh: Mesh) -> np.ndarray:
     return np.isfinite(out) & np.isfinite(into) & (into < 0.7 * out)
 
 
-def ray_lengths(mesh: Mesh, chosen: np.ndarray, directions: np.ndarray) -> np.ndarray:
-    """(k,): how far rays go from the middles of chosen triangles until they meet the mesh; infinite if they do not."""
+def cast_rays(mesh: Mesh, chosen: np.ndarray, directions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(k,): how far rays go from the middles of chosen triangles until they meet the mesh, infinite if they do not; and
+    (k,): the triangle there, or -1."""
     from vtkmodules.vtkCommonCore import mutable
     from vtkmodules.vtkCommonDataModel import vtkGenericCell, vtkStaticCellLocator
 
@@ -213,14 +214,15 @@ def ray_lengths(mesh: Mesh, chosen: np.ndarray, directions: np.ndarray) -> np.nd
     locator.BuildLocator()
     far, skip = 2.0 * mesh.diagonal, 1e-6 * mesh.diagonal
     starts = mesh.corners[chosen].mean(axis=1)
-    lengths = np.full(len(chosen), np.inf)
+    lengths, met = np.full(len(chosen), np.inf), np.full(len(chosen), -1)
     part, sub, number, cell = mutable(0.0), mutable(0), mutable(0), vtkGenericCell()
     point, inner = [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
     for k, (start, direction) in enumerate(zip(starts, directions)):
         if locator.IntersectWithLine(start + skip * direction, start + far * direction, 1e-9 * far, part, point, inner,
                                      sub, number, cell):
             lengths[k] = np.linalg.norm(np.array(point) - start)
-    return lengths
+            met[k] = int(number)
+    return lengths, met
 
 
 def _meetings(mesh: Mesh, inward: bool) -> np.ndarray:
@@ -231,7 +233,7 @@ def _meetings(mesh: Mesh, inward: bool) -> np.ndarray:
     chosen = np.searchsorted(ladder, (np.arange(_RAYS) + 0.5) / _RAYS * ladder[-1])
     chosen = np.unique(chosen[size[chosen] > 0.0])
     normals = areas[chosen] / size[chosen][:, None]
-    return ray_lengths(mesh, chosen, -normals if inward else normals)
+    return cast_rays(mesh, chosen, -normals if inward else normals)[0]
 
 
 def _halves(edges: Edges) -> np.ndarray:

@@ -13,15 +13,15 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import breadth_first_order, connected_components
 
 from anatomy.distance_grid import cut_open, remesh
-from anatomy.inspection import (facing, ray_lengths, sort_rims, typical_radius, weld, weld_exactly, weld_length_of,
+from anatomy.inspection import (facing, cast_rays, sort_rims, typical_radius, weld, weld_exactly, weld_length_of,
                                 without_slivers)
 from anatomy.intersections import self_intersections
 from anatomy.mesh import AnatomyError, Edges, Mesh, Rim, close_rims, find_bodies, find_rims, signed_volume
 from anatomy.surfaces import distances
 
 _CONE = 14  # rays out of a triangle
-_ENCLOSED = 0.8  # of them that meet the wall: the triangle is of a lumen
 _FACING = 0.3
+_LIP = 5.0  # median thicknesses of the wall
 _STRAY = 0.05  # of the largest body's box: a body up to that is a remnant
 
 
@@ -111,11 +111,17 @@ class _Work:
         self.mesh = self.mesh.part(bodies == keep)
 
     def keep_inner_wall(self) -> None:
-        """Of a double wall joined at its ends: the part from which hardly a ray escapes, cut straight at its ends."""
+        """Of a double wall joined at its ends: the side of it from which fewer rays escape, cut straight at its ends."""
         if facing(self.mesh).mean() <= _FACING:
             return
         mesh = self.mesh
-        enclosed = _enclosure(mesh)
+        normals = _normals(mesh)
+        enclosed = _enclosure(mesh, normals)
+        thickness, behind = cast_rays(mesh, np.arange(len(normals)), -normals)
+        # 1 where more rays escape from the other side of the wall.
+        enclosed = np.where(behind >= 0, (enclosed > enclosed[behind]) + 0.5 * (enclosed == enclosed[behind]), 0.0)
+        # Behind a lip, which joins the two walls, the wall is as thick as it is long.
+        enclosed[thickness > _LIP * np.median(thickness)] = 0.0
         pairs = Edges.of(mesh).pairs()
         n = len(mesh.triangles)
         joined = coo_matrix((np.ones(len(pairs)), pairs.T), shape=(n, n)).tocsr()
@@ -123,7 +129,7 @@ class _Work:
         degree = 1.0 + np.asarray(joined.sum(axis=1)).ravel()
         for _ in range(6):
             enclosed = (enclosed + joined @ enclosed) / degree
-        part = mesh.part(enclosed > _ENCLOSED)
+        part = mesh.part(enclosed > 0.5)
         part = part.part(find_bodies(part) == 0)
         count = n - len(part.triangles)
         ends = [rim for rim in sort_rims(part, find_rims(part, Edges.of(part))) if not rim.is_hole]
@@ -220,11 +226,15 @@ class _Work:
         self.mesh = mesh
 
 
-def _enclosure(mesh: Mesh) -> np.ndarray:
-    """(t,): of a cone of rays out of each triangle the fraction that meets the mesh."""
+def _normals(mesh: Mesh) -> np.ndarray:
+    """(t, 3): of length 1, out of what the surface encloses."""
     normals = mesh.area_vectors()
     normals /= np.maximum(np.linalg.norm(normals, axis=1), 1e-300)[:, None]
-    normals *= 1.0 if signed_volume(mesh) > 0.0 else -1.0
+    return normals * (1.0 if signed_volume(mesh) > 0.0 else -1.0)
+
+
+def _enclosure(mesh: Mesh, normals: np.ndarray) -> np.ndarray:
+    """(t,): of a cone of rays out of each triangle the fraction that meets the mesh."""
     u = np.cross(normals, np.eye(3)[np.argmin(np.abs(normals), axis=1)])
     u /= np.maximum(np.linalg.norm(u, axis=1), 1e-300)[:, None]
     w = np.cross(normals, u)
@@ -235,7 +245,7 @@ def _enclosure(mesh: Mesh) -> np.ndarray:
         angle = k * np.pi * (3.0 - np.sqrt(5.0))
         side = np.sqrt(1.0 - height**2)
         rays = height * normals + side * (np.cos(angle) * u + np.sin(angle) * w)
-        total += np.isfinite(ray_lengths(mesh, everything, rays))
+        total += np.isfinite(cast_rays(mesh, everything, rays)[0])
     return total / _CONE
 
 
