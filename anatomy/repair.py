@@ -135,7 +135,8 @@ class _Work:
         ends = [rim for rim in sort_rims(part, find_rims(part, Edges.of(part))) if not rim.is_hole]
         deepest = [((part.vertices[rim.vertices] - rim.centre) @ rim.normal).max() for rim in ends]
         for rim, depth in zip(ends, deepest):
-            part = cut_open(part, rim.centre + 1.01 * max(depth, 0.0) * rim.normal, rim.normal, 1.5 * rim.radius)
+            inside = max(depth, 0.0) + float(np.median(thickness))
+            part = cut_open(part, rim.centre + inside * rim.normal, rim.normal, 1.5 * rim.radius)
         self._note("triangles of an outer wall removed, the lumen's kept", count)
         self.mesh = part
 
