@@ -233,12 +233,14 @@ class _Medial:
         """Ends of branches that no path leads into yet: the farthest vertex from the root that is not near a path, and
         so on. Near is up to so many radii of the path as the corners of an oval or faceted lumen are away."""
         found: list[int] = []
-        tree = cKDTree(self.centres)
         bare = np.isfinite(lengths)
         fresh = list(known)
         while True:
-            for near in tree.query_ball_point(self.centres[fresh], (1.0 + _BLIND) * self.radii[fresh]):
-                bare[near] = False
+            # Along a path radii change slowly, so that the nearest of its spheres decide.
+            count = min(8, len(fresh))
+            away, near = cKDTree(self.centres[fresh]).query(self.centres[bare], k=count)
+            radii = self.radii[np.asarray(fresh)][near]
+            bare[bare] = (away > (1.0 + _BLIND) * radii).reshape(-1, count).all(axis=1)
             if not bare.any():
                 return found
             tip = int(np.flatnonzero(bare)[np.argmax(lengths[bare])])
@@ -446,7 +448,7 @@ def _sample(mesh: Mesh, count: int) -> Mesh:
     area = np.linalg.norm(mesh.area_vectors(), axis=1).sum()
     limit = np.sqrt(2.3 * area / count)
     if len(mesh.vertices) > 2 * count:
-        return _thinned(mesh, limit)
+        return thinned(mesh, limit)
     for _ in range(12):
         edges = Edges.of(mesh)
         ends = mesh.vertices[edges.ends]
@@ -457,7 +459,7 @@ def _sample(mesh: Mesh, count: int) -> Mesh:
     return mesh
 
 
-def _thinned(mesh: Mesh, size: float) -> Mesh:
+def thinned(mesh: Mesh, size: float) -> Mesh:
     """One vertex a cell of a lattice; triangles that lose a corner are dropped."""
     cells = np.floor((mesh.vertices - mesh.vertices.min(axis=0)) / size).astype(np.int64)
     shape = cells.max(axis=0) + 1

@@ -7,11 +7,11 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 
-from anatomy.centreline import Centreline
+from anatomy.centreline import Centreline, thinned
 from anatomy.inspection import Inspection
 from anatomy.mesh import Mesh
 
-_MOST = 30_000  # triangles drawn
+_MOST = 60_000  # triangles drawn
 _LIGHT = np.array([0.3, 0.4, 0.85])
 
 
@@ -50,9 +50,10 @@ def draw(mesh: Mesh, found: Inspection, line: Centreline | None, title: str) -> 
 
 
 def _wall(panel, mesh: Mesh, mm: float, i: int, j: int, depth: int) -> None:
+    if len(mesh.triangles) > _MOST:
+        area = np.linalg.norm(mesh.area_vectors(), axis=1).sum()
+        mesh = thinned(mesh, np.sqrt(2.3 * area / _MOST))
     corners = mesh.corners
-    if len(corners) > _MOST:
-        corners = corners[:: len(corners) // _MOST + 1]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normals /= np.maximum(np.linalg.norm(normals, axis=1), 1e-300)[:, None]
     shade = 0.55 + 0.4 * np.abs(normals[:, [i, j, depth]] @ _LIGHT)
