@@ -283,10 +283,13 @@ class _Builder:
         order = sorted(range(len(chains)), key=lambda k: (self._rims[k] is None, k))
         at: dict[int, int] = {}  # index of the tree's point of a node where branches meet
         last: dict[int, int] = {}
-        for k in order:
-            self._lay(chains[k], self._rims[k], uses, at)
-            last[k] = len(self._points) - 1
         root = self._targets.index(self._start)
+        if len(order) == 1:
+            raise AnatomyError("the lumen has one end only: no path leads through it")
+        for k in order:
+            if k != root:
+                self._lay(chains[k], self._rims[k], uses, at)
+                last[k] = len(self._points) - 1
         last[root] = 0
         ends = [self._end(number, k, last[k]) for number, k in enumerate(order, 1)]
         radii = np.array([self._open.distance(point) for point in self._points])
@@ -455,7 +458,7 @@ def _sample(mesh: Mesh, count: int) -> Mesh:
         long = np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1) > 1.5 * limit
         if not long.any():
             break
-        mesh = _cut(mesh, edges, long)
+        mesh = cut_edges(mesh, edges, long)
     return mesh
 
 
@@ -471,7 +474,7 @@ def thinned(mesh: Mesh, size: float) -> Mesh:
     return Mesh(mesh.vertices[first], triangles[whole])
 
 
-def _cut(mesh: Mesh, edges: Edges, long: np.ndarray) -> Mesh:
+def cut_edges(mesh: Mesh, edges: Edges, long: np.ndarray) -> Mesh:
     """Every triangle cut at the middles of its long edges."""
     middle = np.full(len(edges.ends), -1)
     middle[long] = len(mesh.vertices) + np.arange(long.sum())

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.ndimage import label
+from scipy.ndimage import binary_dilation, label
 
 from anatomy.mesh import AnatomyError, Mesh, Rim, close_rims, find_bodies, signed_volume
-from anatomy.surfaces import contour, farthest, to_vtk
+from anatomy.surfaces import contour, distances, to_vtk
 
 _MOST_NODES = 40_000_000
+_SAMPLES = 8000  # points at which a displacement is measured
 
 
 def remesh(mesh: Mesh, rims: list[Rim], spacing: float) -> tuple[Mesh, float]:
@@ -36,10 +37,22 @@ def remesh(mesh: Mesh, rims: list[Rim], spacing: float) -> tuple[Mesh, float]:
     made = made.part(find_bodies(made) == 0)
     if signed_volume(made) > 0.0:
         made = made.turned()
-    moved = farthest(closed, made, 4000)
+    moved = _displacement(closed, made)
     for rim in rims:
         made = cut_open(made, rim.centre + 1.5 * spacing * rim.normal, rim.normal, 1.5 * rim.radius)
     return made, moved
+
+
+def _displacement(before: Mesh, after: Mesh) -> float:
+    """The largest distance of the new wall from the old one, and of the old one where it is outside of the new one."""
+    from vtkmodules.vtkFiltersCore import vtkImplicitPolyDataDistance
+
+    outside = vtkImplicitPolyDataDistance()
+    outside.SetInput(to_vtk(after if signed_volume(after) > 0.0 else after.turned()))
+    points = np.concatenate([before.vertices, before.corners.mean(axis=1)])
+    points = points[:: max(1, len(points) // _SAMPLES)]
+    lost = max(0.0, max(outside.EvaluateFunction(*point) for point in points))
+    return float(max(lost, distances(after.vertices[:: max(1, len(after.vertices) // _SAMPLES)], before).max()))
 
 
 def signed_distances(mesh: Mesh, origin: np.ndarray, spacing: float, shape: tuple[int, int, int]) -> np.ndarray:
@@ -56,8 +69,6 @@ def signed_distances(mesh: Mesh, origin: np.ndarray, spacing: float, shape: tupl
             for k in range(-1, 3):
                 band[tuple((cells + (i, j, k)).T)] = True
     nodes = np.argwhere(band)
-    from anatomy.surfaces import distances
-
     near[band] = distances(origin + spacing * nodes, mesh)
     # No path between neighbouring nodes farther than 0.9 spacings from the wall crosses it.
     free, count = label(~band | (near > 0.9 * spacing))
@@ -66,6 +77,9 @@ def signed_distances(mesh: Mesh, origin: np.ndarray, spacing: float, shape: tupl
     close = band & (near <= 0.9 * spacing)
     where = np.argwhere(close)
     values[close] = near[close] * _sides(mesh, origin + spacing * where, where, sign, free)
+    # What is not next to the outside is within the lumen, whatever pieces of the surface are there.
+    within = close & ~binary_dilation(free == free[0, 0, 0], np.ones((3, 3, 3)))
+    values[within] = np.maximum(near[within], 0.05 * spacing)
     return values
 
 
@@ -124,9 +138,9 @@ def cut_open(mesh: Mesh, point: np.ndarray, normal: np.ndarray, reach: float) ->
         front = from_vtk(cut.GetOutput())
         joined = Mesh(np.concatenate([rest.vertices, front.vertices]),
                       np.concatenate([rest.triangles, front.triangles + len(rest.vertices)]))
-    from anatomy.inspection import weld, without_slivers
+    from anatomy.inspection import weld, weld_length_of, without_slivers
 
-    joined, _, _ = weld(joined, 1e-9 * mesh.diagonal)
+    joined, _, _ = weld(joined, weld_length_of(mesh))
     joined, _ = without_slivers(joined)
     # What the cut left hanging behind the plane is a body of its own.
     bodies = find_bodies(joined)

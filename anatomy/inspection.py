@@ -16,7 +16,7 @@ UNITS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}
 # Lumen radii and largest sides of vessels as they are imaged, log-normal: from cerebral arteries (1 mm, 80 mm) to
 # the whole aorta with its branches (12 mm, 600 mm).
 _RADIUS, _RADIUS_SPREAD = 3.5e-3, 0.9
-_SIDE, _SIDE_SPREAD = 0.2, 0.7
+_SIDE, _SIDE_SPREAD = 0.15, 0.7
 _WELD = 1e-3  # of the median edge: vertices so near are one
 _HOLE = 2.5  # a lumen so many times wider than its rim: the rim is a hole in its side
 _RAYS = 1500  # sampled for the double wall

@@ -98,16 +98,26 @@ class _Work:
         if bodies.max() == 0:
             return
         keep = _inner_body(self.mesh, bodies)
+        _, pairs = self_intersections(self.mesh)
+        met = bodies[pairs]
+        crossing = set(met[(met == keep).any(axis=1)].ravel().tolist()) - {keep}
+        if crossing:
+            # Bodies that overlap are one lumen; the remesh joins them.
+            place = self.mesh.part(np.isin(bodies, list(crossing))).vertices.mean(axis=0)
+            self._note("bodies that overlap the largest one joined with it", len(crossing), 0.0, place)
+            bodies = np.where(np.isin(bodies, list(crossing)), keep, bodies)
+        if (bodies == keep).all():
+            return
         others = self.mesh.part(bodies != keep)
         size = np.ptp(self.mesh.part(bodies == keep).vertices, axis=0).max()
-        for k in range(bodies.max() + 1):
+        for k in np.unique(bodies):
             extent = np.ptp(self.mesh.part(bodies == k).vertices, axis=0).max()
             if k != keep and extent > _STRAY * size and not _is_around(self.mesh, bodies, k, keep):
                 place = np.round(self.mesh.part(bodies == k).vertices.mean(axis=0), 4).tolist()
-                raise AnatomyError(f"{bodies.max() + 1} separate surfaces; besides the largest one another, around "
+                raise AnatomyError(f"{len(np.unique(bodies))} separate surfaces; besides the largest one another, around "
                                    f"{place}, is {extent / size:.0%} of its size: a vessel is one; take one out, or "
                                    "join them")
-        self._note("stray bodies removed", int(bodies.max()), 0.0, others.vertices.mean(axis=0))
+        self._note("stray bodies removed", len(np.unique(bodies)) - 1, 0.0, others.vertices.mean(axis=0))
         self.mesh = self.mesh.part(bodies == keep)
 
     def keep_inner_wall(self) -> None:
@@ -161,7 +171,7 @@ class _Work:
             return
         bad = np.zeros(len(self.mesh.triangles), dtype=bool)
         bad[pairs.ravel()] = True
-        if bad.sum() <= max(40, 0.02 * len(bad)):
+        if bad.sum() <= max(40, 0.02 * len(bad)) and find_bodies(self.mesh).max() == 0:
             before = self.mesh
             self._take_out(bad, "triangles that passed through others removed")
             self.fill_holes()

@@ -83,8 +83,6 @@ def _arch(rng: np.random.Generator, number: int):
     up, down, back = rng.uniform(50.0, 70.0), rng.uniform(140.0, 180.0), rng.uniform(-35.0, -15.0)
     # Drop of the trunk's origin below the arch's top, in diameters of the left common carotid.
     drop = 2.0 * carotid * (number - 1.0 + rng.uniform(0.2, 0.9))
-    outer = bend + middle
-    first = np.arccos(max(1.0 - drop / outer, -0.2))
     angles = np.linspace(-np.pi / 2.0, np.pi / 2.0, 61)
     around = np.stack([bend * np.sin(angles), back * (angles / np.pi + 0.5), up + bend * np.cos(angles)], axis=1)
     line = np.concatenate([np.linspace([-bend, 0.0, 0.0], around[0], 20)[:-1], around,
@@ -92,6 +90,11 @@ def _arch(rng: np.random.Generator, number: int):
     radii = np.interp(np.linspace(0.0, 1.0, len(line)), [0.0, 0.2, 0.45, 0.75, 1.0],
                       [ascending, ascending, middle, descending, descending])
     tubes = [Tube(line, radii, ends=(True, True))]
+    # Heights of the outer curve from the arch's beginning to its top; the trunk leaves where it is so much lower.
+    heights = up + (bend + radii[19:80]) * np.cos(angles)
+    apex = int(np.argmax(heights))
+    outer = float(heights[apex]) - up
+    first = -float(np.interp(heights[apex] - drop, heights[:apex + 1], angles[:apex + 1]))
     spread = rng.uniform(0.30, 0.38)  # rad, between origins: 13 to 20 mm
     sizes = (0.5 * rng.uniform(11.0, 13.0), carotid, 0.5 * rng.uniform(8.5, 10.0))
     for k, radius in enumerate(sizes):

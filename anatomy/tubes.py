@@ -14,13 +14,16 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from anatomy.centreline import resample
+from anatomy.centreline import cut_edges, resample
 from anatomy.distance_grid import cut_open
-from anatomy.mesh import Mesh, find_bodies, signed_volume
-from anatomy.surfaces import contour
+from anatomy.intersections import self_intersections
+from anatomy.mesh import Edges, Mesh, find_bodies, signed_volume
+from anatomy.surfaces import contour, decimate
 from experiments.vessel import Lumen, near_lines
 
-_FINE = 2.2  # cells a smallest radius
+_FINE = 3.5  # cells a smallest radius
+_FLAT = 0.004  # of the smallest radius: error of the decimation
+_EDGES = 0.5  # longest edge of a triangle at a carina, of its radius
 _CHUNK = 200_000  # nodes evaluated at once
 _STEEPEST = -0.97  # cosine between two walls, up to which an edge is rounded
 
@@ -56,6 +59,9 @@ def mesh_of_tubes(tubes: list[Tube], carina: float) -> Mesh:
     mesh = contour(values, 0.0, low, spacing)
     mesh = mesh.part(find_bodies(mesh) == 0)
     mesh = Mesh(_onto(mesh.vertices, spacing, lambda p: _union(fields, tubes, carina, p)), mesh.triangles)
+    if len(tubes) > 1:
+        mesh = _refined(mesh, fields, tubes, carina)
+    mesh = _relaxed(decimate(mesh, _FLAT * _FINE * spacing))
     if signed_volume(mesh) > 0.0:
         mesh = mesh.turned()
     for tube in tubes:
@@ -115,6 +121,43 @@ def _rounded(a: np.ndarray, m: np.ndarray, b: np.ndarray, n: np.ndarray, radius:
     length = np.sqrt(np.maximum(u * u + v * v + 2.0 * cosine * u * v, 0.0))
     between = (u > 0.0) & (v > 0.0)
     return np.where(between, radius - length, np.minimum(a, b))
+
+
+def _refined(mesh: Mesh, fields: list[_Field], tubes: list[Tube], carina: float) -> Mesh:
+    """The mesh with triangles at rounded edges cut until these are smooth, the new vertices on the wall."""
+    for _ in range(6):
+        edges = Edges.of(mesh)
+        ends = mesh.vertices[edges.ends]
+        long = np.flatnonzero(np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1) > _EDGES * carina)
+        seam = np.zeros(len(long), dtype=bool)
+        for points in (ends[long, 0], ends[long].mean(axis=1), ends[long, 1]):
+            rounded = _union(fields, tubes, carina, points)
+            plain = np.min([field.evaluate(points)[0] for field in fields], axis=0)
+            seam |= rounded < plain - 1e-4 * carina
+        if not seam.any():
+            break
+        chosen = np.zeros(len(edges.ends), dtype=bool)
+        chosen[long[seam]] = True
+        known = len(mesh.vertices)
+        mesh = cut_edges(mesh, edges, chosen)
+        vertices = mesh.vertices.copy()
+        vertices[known:] = _onto(vertices[known:], carina, lambda p: _union(fields, tubes, carina, p))
+        mesh = Mesh(vertices, mesh.triangles)
+    return mesh
+
+
+def _relaxed(mesh: Mesh) -> Mesh:
+    """The mesh with vertices of triangles that cross others moved to the middle of their neighbours, until none do."""
+    for _ in range(10):
+        _, pairs = self_intersections(mesh)
+        if not len(pairs):
+            break
+        vertices = mesh.vertices.copy()
+        for vertex in np.unique(mesh.triangles[pairs.ravel()]):
+            around = np.unique(mesh.triangles[(mesh.triangles == vertex).any(axis=1)])
+            vertices[vertex] = mesh.vertices[around].mean(axis=0)
+        mesh = Mesh(vertices, mesh.triangles)
+    return mesh
 
 
 def _extended(tube: Tube) -> Tube:
