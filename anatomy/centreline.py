@@ -357,6 +357,11 @@ class _Builder:
                 is_free: tuple[bool, bool], is_root: bool) -> tuple[np.ndarray, np.ndarray]:
         """The points of a piece in even steps, each where the inscribed sphere is largest, and their radii."""
         step = _STEP * float(np.median(radii))
+        # A rim bounds no sphere, so its piece is centred with the others; a blind end's wall is met afterwards.
+        if is_free[1] and tail is not None:
+            line = np.vstack([line, tail.centre])
+        if is_root and is_free[0] and head is not None:
+            line = np.vstack([head.centre, line])
         line = resample(line, step)
         for _ in range(_ROUNDS):
             line = _filtered(line)
@@ -364,29 +369,26 @@ class _Builder:
             for k in range(1, len(line) - 1):
                 size = np.linalg.norm(tangents[k])
                 if size > 0.0:
-                    radius = self._wall.distance(line[k])
-                    line[k] = self._wall.centre(line[k], tangents[k] / size, max(radius, 1e-3 * step), 0.5 * radius)
+                    radius = self._open.distance(line[k])
+                    line[k] = self._open.centre(line[k], tangents[k] / size, max(radius, 1e-3 * step), 0.5 * radius)
             line = resample(_filtered(line), step)
-        if is_free[1]:
-            line = np.concatenate([line, self._to_wall(line, tail, step)])
-        if is_root and is_free[0]:
-            line = np.concatenate([self._to_wall(line[::-1], head, step)[::-1], line])
+        if is_free[1] and tail is None:
+            line = np.concatenate([line, self._to_wall(line, step)])
+        if is_root and is_free[0] and head is None:
+            line = np.concatenate([self._to_wall(line[::-1], step)[::-1], line])
         return line, np.array([self._wall.distance(point) for point in line])
 
-    def _to_wall(self, line: np.ndarray, rim: Rim | None, step: float) -> np.ndarray:
-        """From the end of a line to the middle of a rim, or of a blind end straight to its wall."""
-        if rim is not None:
-            end = rim.centre
-        else:
-            back = line[-1] - line[max(0, len(line) - 6)]
-            direction = back / max(np.linalg.norm(back), 1e-300)
-            # Sphere tracing: the distance from the wall is free to go. One radius on is the wall of a round end.
-            end, most = line[-1], 2.0 * self._wall.distance(line[-1])
-            for _ in range(60):
-                free = 0.99 * self._wall.distance(end)
-                end = end + free * direction
-                if free < 1e-3 * step or np.linalg.norm(end - line[-1]) > most:
-                    break
+    def _to_wall(self, line: np.ndarray, step: float) -> np.ndarray:
+        """From the end of a line straight on to the wall of a blind end."""
+        back = line[-1] - line[max(0, len(line) - 6)]
+        direction = back / max(np.linalg.norm(back), 1e-300)
+        # Sphere tracing: the distance from the wall is free to go. One radius on is the wall of a round end.
+        end, most = line[-1], 2.0 * self._wall.distance(line[-1])
+        for _ in range(60):
+            free = 0.99 * self._wall.distance(end)
+            end = end + free * direction
+            if free < 1e-3 * step or np.linalg.norm(end - line[-1]) > most:
+                break
         gap = float(np.linalg.norm(end - line[-1]))
         count = max(1, int(round(gap / step)))
         return line[-1] + np.linspace(0.0, 1.0, count + 1)[1:, None] * (end - line[-1])
