@@ -173,7 +173,7 @@ def guess_unit(mesh: Mesh, given: str | None = None) -> Unit:
     others = sorted(value for name, value in cost.items() if name != best)
     sure = others[0] - cost[best] > 2.0 * np.log(2.0)
     name = given or best
-    reason = (f"{'as asked' if given else 'guessed'}: the lumen's median radius is then "
+    reason = (f"{'as given' if given else 'guessed'}: the lumen's median radius is then "
               f"{1e3 * UNITS[name] * radius:.3g} mm and the vessel {1e3 * UNITS[name] * side:.4g} mm long")
     if given and given != best:
         reason += f"; the sizes look like {best}"

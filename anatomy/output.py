@@ -29,9 +29,10 @@ def write_vessel(folder: Path, mesh: Mesh, line: Centreline, unit: Unit, source:
     digits = max(0, 7 - math.floor(math.log10(mesh.diagonal)))
     write_obj(folder / MESH, mesh.vertices, mesh.triangles, digits)
     ends = [{"number": end.number, "name": end.name, "centre": _numbers(end.centre, digits),
-             "radius": round(end.radius, digits), "direction": _numbers(end.direction, 6), "open": end.is_open,
+             "radius": round(max(end.radius, 10.0**-digits), digits), "direction": _numbers(end.direction, 6), "open": end.is_open,
              "point": end.point} for end in line.ends]
-    points = np.column_stack([line.points, line.radii])
+    # At the wall of a closed end the sphere has no radius; none is rounded to 0.
+    points = np.column_stack([line.points, np.maximum(line.radii, 10.0**-digits)])
     write_whole(folder / ANATOMY, json.dumps({
         "source": source, "unit": unit.name, "metresPerUnit": unit.metres, "mesh": MESH, "ends": ends,
         "centreline": {"points": [_numbers(row, digits) for row in points], "parents": line.parents.tolist(),
@@ -74,7 +75,7 @@ def scene(line: Centreline, unit: Unit, inlet: End, target: End, diameter: float
         "vessel": {"shape": "mesh", "file": MESH, "metresPerUnit": unit.metres, "anatomy": ANATOMY},
         "sheath": {}, "inlet": inlet.number, "target": target.number, "contactDistance": 0.00005,
         "timeStep": _TIME_STEP, "deltaThreshold": 0.0,
-        "maxSimulationSteps": math.ceil(1.1 * way / (1e3 * _SPEED * _TIME_STEP)), "logEvery": 2, "logHub": True,
+        "maxSimulationSteps": math.ceil(way / (1e3 * _SPEED * _TIME_STEP)), "logEvery": 2, "logHub": True,
     }
 
 
