@@ -15,9 +15,11 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components, dijkstra
 from scipy.spatial import Delaunay, QhullError, cKDTree
 
+from anatomy.inspection import narrow_radius
 from anatomy.mesh import AnatomyError, Edges, Mesh, Rim, close_rims, signed_volume
 
-_SAMPLES = 40_000  # points of the wall
+_SAMPLES = (6_000, 40_000)  # points of the wall, at least and at most
+_DENSITY = 40.0  # of them on the square of a narrow radius
 _STEP = 0.25  # between points of the centreline, of the radius
 _BLIND = 1.0  # a blind end is a branch if it goes on so many radii beyond its parent's wall
 _THIN = 0.15  # and is at least so wide, of the nearest path's radius
@@ -100,7 +102,8 @@ def find_centreline(mesh: Mesh, rims: list[Rim], root: np.ndarray | None = None)
     if signed_volume(closed) < 0.0:
         closed = closed.turned()
     wall = _Wall(closed)
-    graph = _Medial(_sample(closed, _SAMPLES))
+    area = np.linalg.norm(closed.area_vectors(), axis=1).sum()
+    graph = _Medial(_sample(closed, int(np.clip(_DENSITY * area / narrow_radius(closed)**2, *_SAMPLES))))
     nodes = [graph.at_rim(rim) for rim in rims]
     if not nodes:
         nodes = graph.two_ends()

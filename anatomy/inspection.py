@@ -189,6 +189,13 @@ def typical_radius(mesh: Mesh) -> float:
     return 0.5 * float(np.median(across)) if len(across) else 0.1 * float(np.ptp(mesh.vertices, axis=0).max())
 
 
+def narrow_radius(mesh: Mesh) -> float:
+    """As the typical radius, but that which a tenth of the wall is below."""
+    across = _meetings(mesh, inward=signed_volume(mesh) > 0.0)
+    across = across[np.isfinite(across)]
+    return 0.5 * float(np.quantile(across, 0.1)) if len(across) else typical_radius(mesh)
+
+
 def facing(mesh: Mesh) -> np.ndarray:
     """(k,) for sampled triangles: whether a ray out of the surface meets it again as a lumen's wall would.
 
