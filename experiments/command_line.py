@@ -7,7 +7,7 @@ import os
 from pathlib import Path
 
 from experiments.arguments import Parser, above_zero, assignment, error_part, finite, path, positive
-from experiments.prepare import DRAWING, SWEEPING, TESTING, VIEWING
+from experiments.prepare import ANATOMY, DRAWING, SWEEPING, TESTING, VIEWING
 from studies.builtin import STUDIES
 
 _DESCRIPTION = "Simulates guidewires as Cosserat rods, without Unity: runs, sweeps, figures, tests."
@@ -99,6 +99,8 @@ def parse(argv: list[str]) -> argparse.Namespace:
                         help="radius of the drawn wire, units (the true one, or larger where it would not be visible)")
     render.set_defaults(packages=DRAWING)
 
+    _add_anatomy(commands)
+
     view = commands.add_parser("view", help="in the browser: open a scene interactively, or replay one or two runs")
     view.add_argument("what", metavar="FILE|RUN", nargs="+", type=Path,
                       help="a parameter file: interactive; folder of a run: replay; two folders: side by side or "
@@ -167,6 +169,32 @@ def parse(argv: list[str]) -> argparse.Namespace:
 def _add_overrides(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], type=assignment, dest="overrides",
                         help="override a parameter of the file; may be given several times")
+
+
+def _add_anatomy(commands: argparse._SubParsersAction) -> None:
+    anatomy = commands.add_parser("anatomy", help="a vessel from a mesh, a segmentation or a centreline, or one made by "
+                                                  "code: inspected, repaired, with its centreline and a scene")
+    source = anatomy.add_mutually_exclusive_group(required=True)
+    source.add_argument("file", metavar="FILE", type=Path, nargs="?",
+                        help=".stl, .obj, .ply, .vtp; masks .nii, .nii.gz, .nrrd; centrelines .csv, .vtp, .mrk.json")
+    source.add_argument("--make", choices=("arch", "iliac", "siphon", "coronary"), help="make a vessel instead")
+    anatomy.add_argument("--type", type=positive, default=1, metavar="K", help="of the arch: 1, 2 or 3 (1)")
+    anatomy.add_argument("--seed", type=positive, default=1, metavar="N", help="of what is made (1)")
+    anatomy.add_argument("--stenosis", type=above_zero, metavar="F", help="made with a stenosis that leaves F of the "
+                                                                          "diameter, such as 0.4")
+    anatomy.add_argument("--aneurysm", type=above_zero, metavar="F", help="made with an aneurysm of F times the diameter")
+    anatomy.add_argument("--out", type=path, help="folder of the results (results/anatomy/<name of FILE>)")
+    anatomy.add_argument("--look", action="store_true", help="report and picture only")
+    anatomy.add_argument("--open", action="store_true", help="cut closed ends open")
+    anatomy.add_argument("--unit", choices=("mm", "cm", "m"), help="of the file's numbers (guessed from the sizes)")
+    anatomy.add_argument("--label", type=finite, metavar="N", help="of a mask: value of the vessel's voxels")
+    anatomy.add_argument("--threshold", type=finite, metavar="T", help="of an image: the vessel is above T")
+    anatomy.add_argument("--error", type=above_zero, metavar="MM", help="of a mask: largest displacement by decimation "
+                                                                        "(a tenth of a voxel)")
+    anatomy.add_argument("--inlet", metavar="END", help="number or name of the end that the wire starts at (1)")
+    anatomy.add_argument("--target", metavar="END", help="number or name of the end it is pushed to (the farthest)")
+    anatomy.add_argument("--wire", type=above_zero, default=0.36, metavar="MM", help="diameter of the wire (0.36)")
+    anatomy.set_defaults(packages=ANATOMY)
 
 
 def _add_workers(parser: argparse.ArgumentParser) -> None:

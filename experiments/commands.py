@@ -287,6 +287,12 @@ def _view(arguments: argparse.Namespace) -> int:
     return view(arguments.what, arguments.html, arguments.frames, arguments.open, _build_runner)
 
 
+def _anatomy(arguments: argparse.Namespace) -> int:
+    from anatomy import command
+
+    return command.run(arguments)
+
+
 def _stress(arguments: argparse.Namespace) -> int:
     from analysis.figures.stress import draw_stress
     from analysis.stress import read_stress
@@ -432,8 +438,8 @@ def _hand_to(command: list[str], cwd: Path | None = None, environment: Mapping[s
 
 _ACTIONS = {
     "demo": _demo, "test": _test, "run": _run, "sweep": _sweep, "figures": _figures, "advise": _advise,
-    "plot": _plot, "keys": _keys, "render": _render, "view": _view, "stress": _stress, "hub": _hub, "modes": _modes,
-    "python": _python, "native": _native, "bench": _bench, "unity-check": _unity_check,
+    "plot": _plot, "anatomy": _anatomy, "keys": _keys, "render": _render, "view": _view, "stress": _stress, "hub": _hub,
+    "modes": _modes, "python": _python, "native": _native, "bench": _bench, "unity-check": _unity_check,
 }
 _LEFT = {  # of a command that was interrupted
     **dict.fromkeys(("demo", "run", "sweep", "figures", "advise"),

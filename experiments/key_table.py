@@ -15,7 +15,7 @@ _KINDS = {
     "true or false": "switch", "one of": "word", "a number": "number", "a whole number": "whole",
     "three numbers": "vector", "a text": "text", "a list": "list", "null, {": "object", "null or {": "object",
     "null or a number": "number",
-    "null or a list": "list",
+    "null or a list": "list", "null, a name": "end",
 }
 _WHOLE = re.compile(r"from (\d+) to (\d+)")
 _LOW = re.compile(r"(>=?) (\S+)")
@@ -29,7 +29,7 @@ class Key:
     Attributes
     ----------
     name : as it stands in files.
-    kind : "switch", "word", "number", "whole", "vector", "text", "list" or "object".
+    kind : "switch", "word", "number", "whole", "vector", "text", "list", "object" or "end" (of a vessel).
     solvers : words of the methods that take it.
     words : what a key of kind "word" allows.
     low, high : the range of a number; infinite where there is no border.

@@ -21,7 +21,11 @@ LOG = ROOT / "results" / "prepare.log"
 DRAWING = ("numpy", "scipy", "matplotlib")
 SWEEPING = ("distributed", "tqdm", "scipy")
 VIEWING = ("aiohttp",)
+ANATOMY = DRAWING + ("vtkmodules",)
 TESTING = DRAWING + SWEEPING + VIEWING + ("pytest", "hypothesis")
+
+_DEBIAN_NAMES = {"vtkmodules": "vtk9"}  # what an import is called elsewhere
+_PIP_NAMES = {"vtkmodules": "vtk"}  # what only some commands need, and so is not in requirements.txt
 
 _HANDED_OVER = "GUIDEWIRE_HANDED_OVER"
 _PIP_SECONDS = 900
@@ -61,7 +65,7 @@ def require_packages(packages):
         made = make(packages)
         if made is not None and has_packages(made, packages):
             _hand_over(made)
-    names = " ".join("python3-" + name for name in packages)
+    names = " ".join("python3-" + _DEBIAN_NAMES.get(name, name) for name in packages)
     raise PreparationError(
         "Python packages {} are missing and could not be installed (log: {}): as root 'apt-get install {}', or with "
         "a network 'python3 -m venv .venv && .venv/bin/pip install -r requirements.txt'; then try again".format(
@@ -97,9 +101,9 @@ def _fill_venv(packages):
     _say("installing {} into .venv with pip".format(", ".join(packages)))
     made = existed or _log_run([sys.executable, "-m", "venv", str(VENV)], seconds=120)
     # Two tries of ten seconds: without a network pip must give up soon, not after its default of minutes.
-    pip = [str(_venv_python()), "-m", "pip", "install", "--retries", "1", "--timeout", "10", "--prefer-binary",
-           "-r", str(ROOT / "requirements.txt")]
-    if made and _log_run(pip, seconds=_PIP_SECONDS):
+    pip = [str(_venv_python()), "-m", "pip", "install", "--retries", "1", "--timeout", "10", "--prefer-binary"]
+    more = [_PIP_NAMES[name] for name in packages if name in _PIP_NAMES]
+    if made and _log_run(pip + ["-r", str(ROOT / "requirements.txt")] + more, seconds=_PIP_SECONDS):
         return _venv_python()
     if not existed:
         shutil.rmtree(str(VENV), ignore_errors=True)
@@ -112,7 +116,7 @@ def _install_with_apt(packages):
     if apt is None or os.name == "nt" or os.geteuid() != 0:
         return None
     _say("pip could not; installing {} with apt".format(", ".join(packages)))
-    names = ["python3-" + name for name in packages]
+    names = ["python3-" + _DEBIAN_NAMES.get(name, name) for name in packages]
     options = ["-q", "-y", "-o", "DPkg::Lock::Timeout=120"]
     install = [apt] + options + ["install", "--no-install-recommends"] + names
     _log_run([apt] + options + ["update"], seconds=300)

@@ -108,6 +108,7 @@ def suites(program: str, full: bool) -> list[Suite]:
     return [
         _pytest_suite("analysis/tests", ["analysis/tests"], needs=""),
         _pytest_suite("unitycheck/tests", ["unitycheck/tests"]),
+        _pytest_suite("anatomy/tests", ["anatomy/tests"], needs=""),
         _pytest_suite(f"{tests}, the rest", [*not_timed, tests, *(f"--ignore={path}" for path in longest)]),
         *(_dotnet_suite(program, name, full) for name in _DOTNET),
         _pytest_suite(f"{tests}, the longest", [*not_timed, *longest]),

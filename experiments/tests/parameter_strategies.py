@@ -194,6 +194,7 @@ FITTED: dict[str, Callable[[Mapping[str, Any]], st.SearchStrategy]] = {
     **{key: stiffness_of(key) for key in ("bendingStiffness", "torsionalStiffness", "axialStiffness", "massPerLength")},
     "loadTables": load_tables, "startFile": start_files,
     "vessel": vessels, "obstacles": obstacles, "sheath": lambda scene: st.just(None),  # needs a vessel that the wire starts in
+    "inlet": lambda scene: st.just(None), "target": lambda scene: st.just(None),  # need the file of an anatomy
 }
 # An explicit step is stable below some 1e-7 s.
 SMALL_STEPS = {"timeStep": log_uniform(1e-9, 1e-6)}

@@ -15,8 +15,11 @@ namespace Guidewire.Core
         /// own, that of the rest of the wire (see <see cref="ElementLayout"/>).</summary>
         public int NumberRodElements { get; set; } = 30;
 
-        /// <summary>z of sphere 0 before its displacement, in units.</summary>
+        /// <summary>z of sphere 0 before its displacement, or its place on <see cref="StartAxis"/>, in units.</summary>
         public double GuidewireOffset { get; set; } = -120.0;
+
+        /// <summary>Where a straight wire starts and where it points, or null: on z from the origin.</summary>
+        public StartAxis? StartAxis { get; set; }
 
         /// <summary>Length of one unit, m.</summary>
         public double MetresPerUnit { get; set; } = 1e-3;

@@ -25,6 +25,14 @@ namespace Guidewire.Core
             return count;
         }
 
+        /// <summary>Length of the last element at rest, units.</summary>
+        /// <exception cref="ArgumentException">As <see cref="ParameterConflict"/> has it.</exception>
+        public static double LastLength(SimulationParameters parameters)
+        {
+            double[] lengths = Lengths(parameters, 1.0, out _);
+            return lengths[lengths.Length - 1];
+        }
+
         /// <summary>A section's length over that of the longest element it touches; 0 where it lies beyond the
         /// wire.</summary>
         public static double FractionOfAnElement(SimulationParameters parameters, WireSection section)

@@ -99,7 +99,11 @@ namespace Guidewire.Core
                         scene.StartTurns);
                     break;
                 default:
-                    Shape.SetStraight(start, Quaterniond.Identity, Stations);
+                    if (scene.StartAxis is StartAxis axis)
+                    {
+                        start = UnitLength * (axis.Origin + scene.GuidewireOffset * axis.Direction);
+                    }
+                    Shape.SetStraight(start, scene.StartAxis?.Frame ?? Quaterniond.Identity, Stations);
                     break;
             }
             if (scene.Start != null)

@@ -66,7 +66,8 @@ namespace Guidewire.Io
                             "smooth");
                         return Tube(fields, scene, placement);
                     case "mesh":
-                        fields.Allow("shape", "frictionCoefficient", "file", "metresPerUnit", "openRims");
+                        fields.Allow("shape", "frictionCoefficient", "file", "metresPerUnit", "openRims",
+                            "anatomy");
                         return Mesh(fields, scene, placement, fileSource);
                     default:
                         throw fields.Wrong("shape", "one of \"plane\", \"tube\", \"mesh\"");
@@ -145,8 +146,13 @@ namespace Guidewire.Io
                 throw fields.Wrong("file", "the name of an .obj or .stl file");
             }
             fields.Replace("file", file);
-            TriangleMesh mesh = MeshFile.Read(
-                file, metresPerUnit / scene.Simulation.Scene.MetresPerUnit, fields.NamedPoints("openRims"));
+            double scale = metresPerUnit / scene.Simulation.Scene.MetresPerUnit;
+            Vector3d[] rims = fields.NamedPoints("openRims");
+            if (scene.Anatomy is Anatomy anatomy && rims.Length == 0)
+            {
+                rims = anatomy.OpenRims;
+            }
+            TriangleMesh mesh = MeshFile.Read(file, scale, rims);
             return new MeshShape(mesh, placement);
         }
 

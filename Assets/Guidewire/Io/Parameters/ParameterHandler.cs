@@ -159,6 +159,7 @@ namespace Guidewire.Io
             LoadTableReader.Read(Values, _given.SourceOf);
             DriveTableReader.Read(Values, _given.SourceOf("driveFile"));
             SheathReader.Read(Values, _given.SourceOf);
+            InletReader.Read(Values, _given);
             if (_isSteered && Values.Sheath != null)
             {
                 simulation.Drive.Steering = new Steering(); // the drive asks for nothing then, and so not for too much
@@ -375,10 +376,15 @@ namespace Guidewire.Io
             using SHA256 sha = SHA256.Create();
             if (Values.Vessel?.DeepClone() is JObject vessel)
             {
-                string mesh = (string?)vessel["file"] ?? "";
+                string[] files = { (string?)vessel["file"] ?? "", (string?)vessel["anatomy"] ?? "" };
                 vessel.Remove("file");
+                vessel.Remove("anatomy");
                 text.Append("vessel=").Append(NumberText.Write(vessel)).Append('\n');
-                text.Append(mesh.Length == 0 ? "" : Convert.ToBase64String(sha.ComputeHash(File.ReadAllBytes(mesh))));
+                foreach (string file in files)
+                {
+                    text.Append(file.Length == 0 ? ""
+                        : Convert.ToBase64String(sha.ComputeHash(File.ReadAllBytes(file))));
+                }
             }
             byte[] digest = sha.ComputeHash(Encoding.UTF8.GetBytes(text.ToString()));
             return BitConverter.ToString(digest).Replace("-", "").ToLowerInvariant();

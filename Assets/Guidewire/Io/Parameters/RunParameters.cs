@@ -71,6 +71,18 @@ namespace Guidewire.Io
         /// <summary>The sheath as its key has it, or null.</summary>
         public JToken? Sheath { get; set; }
 
+        /// <summary>The end at which the wire starts as its key has it, or null.</summary>
+        public JToken? Inlet { get; set; }
+
+        /// <summary>Where the tip is to come as its key has it, or null.</summary>
+        public JToken? Target { get; set; }
+
+        /// <summary>Ends and centreline of the vessel as it is placed, or null where no file says them.</summary>
+        internal Anatomy? Anatomy { get; set; }
+
+        /// <summary>The way from the inlet to the target, or null where there is no inlet.</summary>
+        internal CentrelinePath? Path { get; set; }
+
         /// <summary>The files of loads over time as their key has them, or null.</summary>
         public JToken? LoadTables { get; set; }
 

@@ -25,6 +25,7 @@ namespace Guidewire.Io
         private readonly StepTimes _times = new StepTimes();
         private readonly Stopwatch _clock = new Stopwatch();
         private readonly List<string> _notes = new List<string>();
+        private readonly TargetRecord? _target;
         private double _setUp;    // ms
         private int _lastLogged = -1;
         private bool _lost;
@@ -35,6 +36,7 @@ namespace Guidewire.Io
             _folder = folder;
             _repeat = repeat;
             _logger = logger;
+            _target = handler.Values.Path == null ? null : new TargetRecord(handler.Values.Path);
         }
 
         /// <summary>Wall time since the run's start in ms.</summary>
@@ -81,6 +83,7 @@ namespace Guidewire.Io
         {
             _setUp = setUp;
             _clock.Start();
+            Follow(simulation);
             Log(simulation);
         }
 
@@ -91,6 +94,7 @@ namespace Guidewire.Io
             long before = Stopwatch.GetTimestamp();
             simulation.Step();
             _times.Add((Stopwatch.GetTimestamp() - before) * ToMilliseconds);
+            Follow(simulation);
             if (simulation.StepCount % _handler.Values.LogEvery == 0)
             {
                 Log(simulation);
@@ -160,6 +164,14 @@ namespace Guidewire.Io
         private static bool IsDisk(Exception error)
         {
             return error is IOException || error is UnauthorizedAccessException;
+        }
+
+        private void Follow(Simulation simulation)
+        {
+            if (simulation.HasStateOfStep)
+            {
+                _target?.Update(simulation.State.Positions[simulation.State.ElementCount], simulation.Time);
+            }
         }
 
         private void Log(Simulation simulation)
@@ -247,7 +259,7 @@ namespace Guidewire.Io
         private string Summary(Simulation simulation, string? log)
         {
             return RunSummary.Text(simulation, _handler, _times, 1e-3 * _setUp, _clock.Elapsed.TotalSeconds, _repeat,
-                log, _notes);
+                log, _notes, _target);
         }
     }
 }

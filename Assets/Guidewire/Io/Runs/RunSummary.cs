@@ -29,8 +29,9 @@ namespace Guidewire.Io
         /// <param name="repeat">Number of a timed repeat, or null.</param>
         /// <param name="log">Name of the log in the run's folder, or null where there is none.</param>
         /// <param name="notes">What other than the parameters made the run, one line each.</param>
+        /// <param name="target">The tip on the vessel's centreline, or null.</param>
         internal static string Text(Simulation simulation, ParameterHandler handler, StepTimes times, double setUpTime,
-            double wallTime, int? repeat, string? log, IReadOnlyList<string> notes)
+            double wallTime, int? repeat, string? log, IReadOnlyList<string> notes, TargetRecord? target)
         {
             var json = new JObject
             {
@@ -74,6 +75,10 @@ namespace Guidewire.Io
                 ["parameterHash"] = notes.Count == 0 ? handler.Hash : null,
                 ["complete"] = true,
             };
+            if (target != null)
+            {
+                json.Property("hub")!.AddAfterSelf(new JProperty("centreline", target.ToJson()));
+            }
             SolverReport? report = simulation.Report();
             json.Property("steadyStateStep")!.AddAfterSelf(new JProperty("stiffness",
                 report == null ? "gains" : "material"));

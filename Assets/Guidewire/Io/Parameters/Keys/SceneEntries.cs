@@ -99,10 +99,13 @@ namespace Guidewire.Io
             new JsonEntry("vessel", JTokenType.Object,
                 "null, {\"shape\": \"plane\", \"point\", \"normal\"}, {\"shape\":"
                 + " \"tube\", \"knots\", \"radius\", \"openStart\", \"openEnd\", \"smooth\"} or {\"shape\": \"mesh\","
-                + " \"file\", \"metresPerUnit\", \"openRims\"}",
+                + " \"file\", \"metresPerUnit\", \"openRims\", \"anatomy\"}",
                 "the wall around the wire; smooth (false) rounds a tube's corners, so that contact forces of a"
                 + " sliding wire do not ripple from knot to knot; the path of a mesh is relative to the parameter"
-                + " file's folder, openRims names a point near the middle of each open rim; each shape may have a"
+                + " file's folder, openRims names a point near the middle of each open rim;"
+                + " anatomy is the file of the mesh's ends and"
+                + " centreline that 'guidewire.py anatomy' writes, which names the rims"
+                + " too; each shape may have a"
                 + " \"frictionCoefficient\" (0)")
             {
                 Methods = Takers.Walls,
@@ -115,6 +118,23 @@ namespace Guidewire.Io
                 + " needs a vessel, proximalEnd \"clamped\" and drive \"displace\"")
             {
                 Methods = Takers.Only(Solver.Direct),
+                IsRefusedElsewhere = true,
+            },
+            new EndEntry("inlet",
+                "end of the vessel at which the wire starts, straight along the centreline there, whatever z is;"
+                + " guidewireOffset is then measured from that end, positive into the vessel; its default puts the tip"
+                + " one element out of the sheath, which ends one radius inside; the drive moves along the same"
+                + " direction; a point is that of the nearest end; needs vessel.anatomy")
+            {
+                Methods = Takers.Walls,
+                IsRefusedElsewhere = true,
+            },
+            new EndEntry("target",
+                "end or branch of the vessel, or a point of its lumen: the summary says whether and when the tip comes"
+                + " within a radius of it along the centreline; of a branch: when it is a radius beyond its root; needs"
+                + " inlet")
+            {
+                Methods = Takers.Walls,
                 IsRefusedElsewhere = true,
             },
             new JsonEntry("obstacles", JTokenType.Array, "null or a list of {\"shape\": \"sphere\", \"centre\","

@@ -1,0 +1,54 @@
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+using System.Linq;
+using Guidewire.Core;
+
+namespace Guidewire.Io
+{
+    /// <summary>Ends and centreline of a vessel: a tree of points, each with the radius of the sphere that fits into
+    /// the lumen there. Lengths in units of the scene, the vessel placed.</summary>
+    internal sealed class Anatomy
+    {
+        /// <summary>A point near the middle of each open rim, in the mesh file's own units and frame.</summary>
+        public Vector3d[] OpenRims { get; set; } = Array.Empty<Vector3d>();
+
+        /// <summary>The ends, in the order of their numbers.</summary>
+        public IReadOnlyList<VesselEnd> Ends { get; set; } = Array.Empty<VesselEnd>();
+
+        /// <summary>The k points.</summary>
+        public Vector3d[] Points { get; set; } = Array.Empty<Vector3d>();
+
+        /// <summary>Radius of the sphere at each.</summary>
+        public double[] Radii { get; set; } = Array.Empty<double>();
+
+        /// <summary>The point before each, -1 at the root; smaller than its own index.</summary>
+        public int[] Parents { get; set; } = Array.Empty<int>();
+
+        /// <summary>The branch of each, an index of <see cref="BranchNames"/>.</summary>
+        public int[] Branches { get; set; } = Array.Empty<int>();
+
+        /// <summary>The branches' names.</summary>
+        public IReadOnlyList<string> BranchNames { get; set; } = Array.Empty<string>();
+
+        /// <summary>The end with a name, whatever its case, or null.</summary>
+        public VesselEnd? Find(string name)
+        {
+            return Ends.FirstOrDefault(end => string.Equals(end.Name, name, StringComparison.OrdinalIgnoreCase));
+        }
+
+        /// <summary>The end nearest to a point.</summary>
+        public VesselEnd Nearest(Vector3d point)
+        {
+            return Ends.OrderBy(end => Vector3d.Distance(end.Centre, point)).First();
+        }
+
+        /// <summary>The ends as an error line lists them, with number and place.</summary>
+        public string List()
+        {
+            return string.Join(", ", Ends.Take(12).Select(end => string.Format(CultureInfo.InvariantCulture,
+                "{0} \"{1}\" at [{2:G4}, {3:G4}, {4:G4}]", end.Number, end.Name, end.Centre.X, end.Centre.Y,
+                end.Centre.Z))) + (Ends.Count > 12 ? ", .." : "");
+        }
+    }
+}

@@ -1,0 +1,175 @@
+using System;
+using System.Collections.Generic;
+using Guidewire.Core;
+
+namespace Guidewire.Io
+{
+    /// <summary>Distances along a vessel's centreline from the inlet, and where on it a point of the lumen
+    /// is.</summary>
+    /// <remarks>A point p belongs to the sphere of the centreline with the least |p - c|^2 - r^2, the power of p: not
+    /// to the nearest centre, because beside a wide vessel the middle of a narrow one may be nearer to points of the
+    /// wide one. The centreline is a tree: of a loop of vessels it has the shorter sides.</remarks>
+    internal sealed class CentrelinePath
+    {
+        private readonly Anatomy _anatomy;
+        private readonly int[] _before;   // on the way to the inlet, -1 there
+
+        /// <param name="anatomy">The vessel.</param>
+        /// <param name="inlet">Where distances begin.</param>
+        public CentrelinePath(Anatomy anatomy, VesselEnd inlet)
+        {
+            _anatomy = anatomy;
+            Inlet = inlet;
+            int count = anatomy.Points.Length;
+            _before = (int[])anatomy.Parents.Clone();
+            int after = -1;
+            for (int k = inlet.Point; k >= 0; k = anatomy.Parents[k])
+            {
+                _before[k] = after;    // from the inlet to the root the tree's direction is turned
+                after = k;
+            }
+            Distances = new double[count];
+            var isKnown = new bool[count];
+            isKnown[inlet.Point] = true;
+            var chain = new List<int>();
+            for (int k = 0; k < count; k++)
+            {
+                chain.Clear();
+                for (int i = k; !isKnown[i]; i = _before[i])
+                {
+                    chain.Add(i);
+                }
+                for (int i = chain.Count - 1; i >= 0; i--)
+                {
+                    int own = chain[i];
+                    Distances[own] = Distances[_before[own]]
+                        + Vector3d.Distance(anatomy.Points[own], anatomy.Points[_before[own]]);
+                    isKnown[own] = true;
+                }
+            }
+        }
+
+        /// <summary>Where distances begin.</summary>
+        public VesselEnd Inlet { get; }
+
+        /// <summary>Where the tip is to come: a point of the centreline; -1 where nothing is asked.</summary>
+        public int Target { get; set; } = -1;
+
+        /// <summary>The target as it is called.</summary>
+        public string TargetName { get; set; } = "";
+
+        /// <summary>Of each point of the centreline from the inlet along it, units.</summary>
+        public double[] Distances { get; }
+
+        /// <summary>The point of the centreline whose sphere a point of the lumen belongs to.</summary>
+        public int Locate(in Vector3d point)
+        {
+            int best = 0;
+            double least = double.PositiveInfinity;
+            for (int k = 0; k < Distances.Length; k++)
+            {
+                double radius = _anatomy.Radii[k];
+                double power = (point - _anatomy.Points[k]).LengthSquared - radius * radius;
+                if (power < least)
+                {
+                    least = power;
+                    best = k;
+                }
+            }
+            return best;
+        }
+
+        /// <summary>Distance of a point from the inlet along the centreline: that of its sphere, and how far the point
+        /// is ahead of the centre.</summary>
+        /// <param name="point">Units.</param>
+        /// <param name="near">The point's sphere.</param>
+        public double DistanceOf(in Vector3d point, int near)
+        {
+            int before = _before[near];
+            if (before < 0)
+            {
+                return Distances[near] + Vector3d.Dot(point - _anatomy.Points[near], Inlet.Direction);
+            }
+            Vector3d along = Vector3d.Normalize(_anatomy.Points[near] - _anatomy.Points[before]);
+            double ahead = Vector3d.Dot(point - _anatomy.Points[near], along);
+            double most = Distances[near] - Distances[before];
+            return Distances[near] + Math.Max(-most, Math.Min(most, ahead));
+        }
+
+        /// <summary>Whether a point of the centreline is at the target: within a radius of it along the centreline, or
+        /// beyond it.</summary>
+        public bool IsAtTarget(int near)
+        {
+            if (Target < 0)
+            {
+                return false;
+            }
+            for (int k = near; k >= 0; k = _before[k])
+            {
+                if (k == Target)
+                {
+                    return true;
+                }
+            }
+            for (int k = Target; k >= 0 && Distances[Target] - Distances[k] <= _anatomy.Radii[Target]; k = _before[k])
+            {
+                if (k == near)
+                {
+                    return true;
+                }
+            }
+            return false;
+        }
+
+        /// <summary>Names of the branches from the inlet to a point of the centreline.</summary>
+        public List<string> BranchesTo(int near)
+        {
+            var names = new List<string>();
+            for (int k = near; k >= 0; k = _before[k])
+            {
+                string name = _anatomy.BranchNames[_anatomy.Branches[k]];
+                if (names.Count == 0 || names[names.Count - 1] != name)
+                {
+                    names.Add(name);
+                }
+            }
+            names.Reverse();
+            return names;
+        }
+
+        /// <summary>The first point of a branch, seen from the inlet, that is a radius beyond the branch's root; its
+        /// last point where the branch is shorter. -1 where no branch has the name.</summary>
+        public int Within(string branch)
+        {
+            int first = -1;
+            int found = -1;
+            foreach (int k in Ordered())
+            {
+                if (!string.Equals(_anatomy.BranchNames[_anatomy.Branches[k]], branch,
+                    StringComparison.OrdinalIgnoreCase))
+                {
+                    continue;
+                }
+                first = first < 0 ? k : first;
+                found = k;
+                int root = Math.Max(_before[first], 0);
+                if (Distances[k] - Distances[first] >= _anatomy.Radii[root])
+                {
+                    break;
+                }
+            }
+            return found;
+        }
+
+        private int[] Ordered()
+        {
+            var order = new int[Distances.Length];
+            for (int k = 0; k < order.Length; k++)
+            {
+                order[k] = k;
+            }
+            Array.Sort((double[])Distances.Clone(), order);
+            return order;
+        }
+    }
+}

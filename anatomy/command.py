@@ -1,0 +1,98 @@
+"""`guidewire.py anatomy`: what it is given, and what it writes."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+from pathlib import Path
+
+from anatomy import output, reading
+from anatomy.centreline import find_centreline
+from anatomy.inspection import Inspection, inspect
+from anatomy.mesh import AnatomyError, Mesh
+from anatomy.repair import Repaired, repair
+from experiments import checking
+from experiments.prepare import PreparationError
+from experiments.whole_files import whole_file, write_whole
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Inspect, repair and write a vessel; returns the exit code.
+
+    Raises
+    ------
+    PreparationError : one line, for an input that is no vessel.
+    """
+    name = arguments.file.name.split(".")[0] if arguments.file else f"{arguments.make}-{arguments.seed}"
+    folder = arguments.out or Path("results") / "anatomy" / name
+    checking.check_out(folder)
+    try:
+        return _run(arguments, folder)
+    except AnatomyError as error:
+        text = str(error)
+        known = arguments.file is None or text.startswith(str(arguments.file))
+        raise PreparationError(text if known else f"{arguments.file}: {text}") from error
+
+
+def _run(arguments: argparse.Namespace, folder: Path) -> int:
+    mesh, unit, notes = _mesh_of(arguments)
+    found = inspect(mesh, unit)
+    found.notes += notes
+    if arguments.look:
+        return _tell(folder, mesh, found, None, None, arguments)
+    repaired = repair(mesh)
+    if arguments.open:
+        from anatomy.ends import open_ends
+
+        repaired = open_ends(repaired)
+    line = find_centreline(repaired.mesh, repaired.rims)
+    inlet = output.find_end(line, arguments.inlet) if arguments.inlet else line.ends[0]
+    target = output.find_end(line, arguments.target) if arguments.target else output.farthest_end(line, inlet)
+    source = arguments.file.name if arguments.file else f"{arguments.make}, type {arguments.type}, seed {arguments.seed}"
+    output.write_vessel(folder, repaired.mesh, line, found.unit, source)
+    write_whole(folder / output.SCENE, json.dumps(
+        output.scene(line, found.unit, inlet, target, arguments.wire), indent=2) + "\n")
+    return _tell(folder, repaired.mesh, found, repaired, line, arguments)
+
+
+def _mesh_of(arguments: argparse.Namespace) -> tuple[Mesh, str | None, list[str]]:
+    """The mesh, its unit where it is known, and what was done to make it."""
+    if arguments.make:
+        from anatomy.shapes import make
+
+        return make(arguments.make, arguments.type, arguments.seed, arguments.stenosis, arguments.aneurysm)
+    kind = reading.kind_of(arguments.file)
+    if kind in reading.MASKS:
+        from anatomy.masks import mesh_of_image
+
+        return mesh_of_image(reading.read_image(arguments.file), arguments.label, arguments.threshold,
+                             arguments.error)
+    line = reading.line_of_poly_data(arguments.file) if kind == ".vtp" else None
+    if kind in reading.CENTRELINES or line is not None:
+        from anatomy.shapes import tube_mesh
+
+        line = line or reading.read_line(arguments.file)
+        return tube_mesh(line.points, line.radii), arguments.unit or line.unit or None, [
+            f"a tube around a centreline of {len(line.points)} points"]
+    return reading.read_mesh(arguments.file), arguments.unit, []
+
+
+def _tell(folder: Path, mesh: Mesh, found: Inspection, repaired: Repaired | None, line, arguments) -> int:
+    from anatomy.picture import draw
+
+    lines = output.describe(found, repaired, line, arguments.wire)
+    title = str(arguments.file.name if arguments.file else arguments.make)
+    folder.mkdir(parents=True, exist_ok=True)
+    write_whole(folder / output.REPORT, f"# {title}\n\n" + "\n".join(f"- {line}" for line in lines) + "\n")
+    figure = draw(mesh, found, line, title)
+    with whole_file(folder / output.PICTURE) as partial:
+        figure.savefig(partial, dpi=110)
+    for text in lines:
+        print(text)
+    written = [output.REPORT, output.PICTURE]
+    if line is not None:
+        written = [output.MESH, output.ANATOMY, output.SCENE, *written]
+        print(f"next: python3 guidewire.py run {os.path.relpath(folder / output.SCENE)}")
+    print(f"written: {', '.join(written)} in {os.path.relpath(folder)}")
+    return 0

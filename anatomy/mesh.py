@@ -1,0 +1,190 @@
+"""Triangle meshes as arrays: edges, rims, bodies, normals, volume."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+
+
+class AnatomyError(Exception):
+    """An input that is no vessel, or an answer that there is none. The message is one line."""
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """v vertices and t triangles.
+
+    vertices : ndarray (v, 3), the file's units.
+    triangles : ndarray of int (t, 3).
+    """
+
+    vertices: np.ndarray
+    triangles: np.ndarray
+
+    @property
+    def corners(self) -> np.ndarray:
+        """Positions of the three corners of each triangle, (t, 3, 3)."""
+        return self.vertices[self.triangles]
+
+    @property
+    def diagonal(self) -> float:
+        """Length of the diagonal of the box around it."""
+        return float(np.linalg.norm(np.ptp(self.vertices, axis=0)))
+
+    def area_vectors(self) -> np.ndarray:
+        """(t, 3): along the normal, as long as the triangle is large."""
+        a, b, c = np.moveaxis(self.corners, 1, 0)
+        return 0.5 * np.cross(b - a, c - a)
+
+    def edge_lengths(self) -> np.ndarray:
+        """(3 t,), each inner edge twice."""
+        corners = self.corners
+        return np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2).ravel()
+
+    def vertex_normals(self) -> np.ndarray:
+        """(v, 3): sums of the normals around, weighted with the angle at the vertex, of length 1 (0 where it has none).
+        """
+        corners = self.corners
+        normals = self.area_vectors()
+        normals /= np.maximum(np.linalg.norm(normals, axis=1), 1e-300)[:, None]
+        total = np.zeros_like(self.vertices)
+        for k in range(3):
+            u, w = corners[:, (k + 1) % 3] - corners[:, k], corners[:, (k + 2) % 3] - corners[:, k]
+            angle = np.arctan2(np.linalg.norm(np.cross(u, w), axis=1), np.einsum("ij,ij->i", u, w))
+            np.add.at(total, self.triangles[:, k], normals * angle[:, None])
+        return total / np.maximum(np.linalg.norm(total, axis=1), 1e-300)[:, None]
+
+    def part(self, kept: np.ndarray) -> Mesh:
+        """The triangles of a mask (t,), and only the vertices that they use."""
+        used, triangles = np.unique(self.triangles[kept], return_inverse=True)
+        return Mesh(self.vertices[used], triangles.reshape(-1, 3))
+
+    def turned(self) -> Mesh:
+        """The same with its normals to the other side."""
+        return Mesh(self.vertices, self.triangles[:, ::-1].copy())
+
+
+@dataclass(frozen=True)
+class Edges:
+    """The e edges of a mesh.
+
+    ends : ndarray of int (e, 2), the smaller vertex first; counts : (e,), triangles at each;
+    of_triangles : (t, 3), the edge from corner k to corner k + 1; forward : bool (t, 3), whether it runs from the
+    smaller vertex to the larger.
+    """
+
+    ends: np.ndarray
+    counts: np.ndarray
+    of_triangles: np.ndarray
+    forward: np.ndarray
+
+    @staticmethod
+    def of(mesh: Mesh) -> Edges:
+        """All edges of a mesh."""
+        halves = np.stack([mesh.triangles, np.roll(mesh.triangles, -1, axis=1)], axis=2).reshape(-1, 2)
+        low, high = halves.min(axis=1), halves.max(axis=1)
+        keys, inverse, counts = np.unique(low * len(mesh.vertices) + high, return_inverse=True, return_counts=True)
+        ends = np.stack(np.divmod(keys, max(len(mesh.vertices), 1)), axis=1)
+        return Edges(ends, counts, inverse.reshape(-1, 3), (halves[:, 0] == low).reshape(-1, 3))
+
+    def pairs(self) -> np.ndarray:
+        """(p, 2): triangles on the two sides of the edges that have exactly two, and (p,) those edges."""
+        order = np.argsort(self.of_triangles.ravel(), kind="stable")
+        first = np.concatenate([[0], np.cumsum(self.counts)])[:-1][self.counts == 2]
+        return np.stack([order[first] // 3, order[first + 1] // 3], axis=1)
+
+
+@dataclass(frozen=True)
+class Rim:
+    """A closed chain of edges that have one triangle.
+
+    number : 1 is the largest; centre : (3,); radius : that of a circle of the same area; normal : (3,), of length 1,
+    into the lumen; vertices : indices, in no order; is_hole : it lies in the side of a wider lumen, not at its end.
+    """
+
+    number: int
+    centre: np.ndarray
+    radius: float
+    normal: np.ndarray
+    vertices: np.ndarray
+    is_hole: bool = False
+
+    @property
+    def name(self) -> str:
+        """What reports and parameter files call it."""
+        return f"rim {self.number}"
+
+
+def find_rims(mesh: Mesh, edges: Edges) -> list[Rim]:
+    """All rims, the largest first."""
+    open_halves = np.argwhere(edges.counts[edges.of_triangles] == 1)
+    if not len(open_halves):
+        return []
+    triangle, k = open_halves.T
+    start, end = mesh.triangles[triangle, k], mesh.triangles[triangle, (k + 1) % 3]
+    opposite = mesh.triangles[triangle, (k + 2) % 3]
+    labels = _labels(len(mesh.vertices), start, end)[start]
+    rims = []
+    for label in np.unique(labels):
+        own = labels == label
+        a, b = mesh.vertices[start[own]], mesh.vertices[end[own]]
+        weights = np.linalg.norm(b - a, axis=1)
+        if not weights.sum() > 0.0:
+            continue
+        centre = np.average(0.5 * (a + b), axis=0, weights=weights)
+        area = 0.5 * np.cross(a - centre, b - centre).sum(axis=0)
+        size = float(np.linalg.norm(area))
+        inward = (mesh.vertices[opposite[own]] - 0.5 * (a + b)).mean(axis=0)
+        normal = area / size if size > 0.0 else inward / max(np.linalg.norm(inward), 1e-300)
+        normal = normal if normal @ inward >= 0.0 else -normal
+        rims.append(Rim(0, centre, float(np.sqrt(size / np.pi)), normal, np.unique(np.r_[start[own], end[own]])))
+    rims.sort(key=lambda rim: -rim.radius)
+    return [Rim(number, rim.centre, rim.radius, rim.normal, rim.vertices) for number, rim in enumerate(rims, 1)]
+
+
+def find_bodies(mesh: Mesh) -> np.ndarray:
+    """(t,): the body of each triangle, 0 the one with the most triangles; triangles at one vertex are of one body."""
+    a, b, c = mesh.triangles.T
+    labels = _labels(len(mesh.vertices), np.r_[a, b], np.r_[b, c])[a]
+    _, inverse, counts = np.unique(labels, return_inverse=True, return_counts=True)
+    rank = np.empty(len(counts), dtype=int)
+    rank[np.argsort(-counts, kind="stable")] = np.arange(len(counts))
+    return rank[inverse]
+
+
+def signed_volume(mesh: Mesh, rims: list[Rim] | None = None) -> float:
+    """Volume inside, positive where normals point out of it; rims are closed by fans to their centres."""
+    origin = mesh.vertices.mean(axis=0)
+    a, b, c = np.moveaxis(mesh.corners - origin, 1, 0)
+    total = np.einsum("ij,ij->", a, np.cross(b, c))
+    if rims:
+        edges = Edges.of(mesh)
+        triangle, k = np.argwhere(edges.counts[edges.of_triangles] == 1).T
+        start, end = mesh.triangles[triangle, k], mesh.triangles[triangle, (k + 1) % 3]
+        for rim in rims:
+            own = np.isin(start, rim.vertices)
+            p, q = mesh.vertices[start[own]] - origin, mesh.vertices[end[own]] - origin
+            total += float((np.cross(q, p) @ (rim.centre - origin)).sum())
+    return float(total / 6.0)
+
+
+def close_rims(mesh: Mesh, rims: list[Rim]) -> Mesh:
+    """The mesh with a fan of triangles over each of these rims."""
+    edges = Edges.of(mesh)
+    triangle, k = np.argwhere(edges.counts[edges.of_triangles] == 1).T
+    start, end = mesh.triangles[triangle, k], mesh.triangles[triangle, (k + 1) % 3]
+    vertices, triangles = [mesh.vertices], [mesh.triangles]
+    for count, rim in enumerate(rims):
+        own = np.isin(start, rim.vertices)
+        middle = np.full(own.sum(), len(mesh.vertices) + count)
+        vertices.append(rim.centre[None])
+        triangles.append(np.stack([end[own], start[own], middle], axis=1))
+    return Mesh(np.concatenate(vertices), np.concatenate(triangles))
+
+
+def _labels(count: int, a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    graph = coo_matrix((np.ones(len(a), dtype=np.int8), (a, b)), shape=(count, count))
+    return connected_components(graph, directed=False)[1]

@@ -1,0 +1,133 @@
+"""What is written of a vessel: the mesh, its ends and centreline, a scene with a wire at an inlet, the report."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from anatomy.centreline import Centreline, End
+from anatomy.inspection import Inspection, Unit
+from anatomy.mesh import AnatomyError, Mesh
+from anatomy.repair import Repaired
+from experiments.vessel import write_obj
+from experiments.whole_files import write_whole
+
+MESH, ANATOMY, SCENE, REPORT, PICTURE = "vessel.obj", "anatomy.json", "scene.json", "report.md", "picture.png"
+_SPEED, _TIME_STEP = 0.02, 0.05  # m/s, s: 1 mm a step
+_TIP, _BODY = 30.0, 5.0  # mm: length of the soft tip, with elements of 1 mm; length of the other elements
+_PLACES = 10  # of a kind that a report lists
+
+
+def write_vessel(folder: Path, mesh: Mesh, line: Centreline, unit: Unit, source: str) -> None:
+    """The mesh and the file of its ends and centreline, both in the mesh's own units."""
+    folder.mkdir(parents=True, exist_ok=True)
+    digits = max(0, 7 - math.floor(math.log10(mesh.diagonal)))
+    write_obj(folder / MESH, mesh.vertices, mesh.triangles, digits)
+    ends = [{"number": end.number, "name": end.name, "centre": _numbers(end.centre, digits),
+             "radius": round(max(end.radius, 10.0**-digits), digits), "direction": _numbers(end.direction, 6), "open": end.is_open,
+             "point": end.point} for end in line.ends]
+    # At the wall of a closed end the sphere has no radius; none is rounded to 0.
+    points = np.column_stack([line.points, np.maximum(line.radii, 10.0**-digits)])
+    write_whole(folder / ANATOMY, json.dumps({
+        "source": source, "unit": unit.name, "metresPerUnit": unit.metres, "mesh": MESH, "ends": ends,
+        "centreline": {"points": [_numbers(row, digits) for row in points], "parents": line.parents.tolist(),
+                       "branches": line.branches.tolist(),
+                       "names": [f"branch {k}" for k in range(1, int(line.branches.max()) + 1)]}}) + "\n")
+
+
+def find_end(line: Centreline, asked: str) -> End:
+    """The end with a number or a name.
+
+    Raises
+    ------
+    AnatomyError : there is none; the line lists them.
+    """
+    for end in line.ends:
+        if asked.strip().lower() in (str(end.number), end.name.lower()):
+            return end
+    names = ", ".join(f"{end.number} '{end.name}'" for end in line.ends[:12])
+    raise AnatomyError(f"there is no end '{asked}': there are {names}{', ..' if len(line.ends) > 12 else ''}")
+
+
+def farthest_end(line: Centreline, inlet: End) -> End:
+    """The end with the longest path from an inlet."""
+    return max(line.ends, key=lambda end: line.length(line.path(inlet.point, end.point)))
+
+
+def scene(line: Centreline, unit: Unit, inlet: End, target: End, diameter: float) -> Mapping[str, Any]:
+    """Parameters of a wire that is pushed from an inlet as far as a target; lengths in mm, the vessel's own axes.
+
+    diameter : of the wire, mm.
+    """
+    way = 1e3 * unit.metres * line.length(line.path(inlet.point, target.point))
+    body = _BODY * math.ceil((1.15 * way + 60.0) / _BODY)
+    return {
+        "solver": "direct", "guidewireLength": body + _TIP, "numberRodElements": round(body / _BODY),
+        "wireRadius": 0.5e-3 * diameter, "youngsModulus": 60e9, "shearModulus": 23e9, "density": 6450.0,
+        "wireSections": [{"from": body, "to": body + _TIP, "numberRodElements": round(_TIP), "youngsModulus": 6e9,
+                          "shearModulus": 2.3e9, "restCurvature": [-26.18, 0.0, 0.0]}],
+        "massDamping": 20.0, "proximalEnd": "clamped", "drive": "displace", "insertionSpeed": _SPEED,
+        "vessel": {"shape": "mesh", "file": MESH, "metresPerUnit": unit.metres, "anatomy": ANATOMY},
+        "sheath": {}, "inlet": inlet.number, "target": target.number, "contactDistance": 0.00005,
+        "timeStep": _TIME_STEP, "deltaThreshold": 0.0,
+        "maxSimulationSteps": math.ceil(way / (1e3 * _SPEED * _TIME_STEP)), "logEvery": 2, "logHub": True,
+    }
+
+
+def describe(found: Inspection, repaired: Repaired | None, line: Centreline | None, diameter: float) -> list[str]:
+    """The report: one line a finding."""
+    unit = found.unit
+    mm = 1e3 * unit.metres
+    size = " x ".join(f"{side:.4g}" for side in mm * (found.high - found.low))
+    lines = [f"unit: {unit.name} ({unit.reason})",
+             f"size: {size} mm; {found.triangles} triangles, {found.vertices} vertices",
+             f"orientation: normals {'outward' if found.volume > 0.0 else 'into the lumen'}, volume "
+             f"{abs(found.volume) * mm**3 / 1e3:.4g} ml"]
+    lines += [f"{rim.name}: {'hole in the side' if rim.is_hole else 'end'} at {_place(rim.centre)}, radius "
+              f"{mm * rim.radius:.3g} mm, normal {_place(rim.normal)}" for rim in found.rims]
+    if len(found.body_sizes) > 1:
+        lines.append(f"{len(found.body_sizes)} bodies, of " + ", ".join(
+            f"{count} triangles around {_place(place)}" for count, place in
+            zip(found.body_sizes[:_PLACES], found.body_centres)))
+    if found.near_vertices:
+        lines.append(f"{found.near_vertices} vertices nearer than {found.weld_length:.3g} {unit.name} to another one")
+    for name, places in (("triangles without area or there twice", found.slivers),
+                         ("edges of more than two triangles", found.crowded),
+                         ("edges whose triangles are turned against each other", found.turned),
+                         ("places where the surface passes through itself", found.crossings)):
+        if len(places):
+            listed = ", ".join(_place(place) for place in places[:_PLACES])
+            lines.append(f"{len(places)} {name}: {listed}{', ..' if len(places) > _PLACES else ''}")
+    if found.has_double_wall:
+        lines.append(f"double wall: of rays out of the surface {found.double_wall:.0%} meet it again, so the lumen is "
+                     "outside of the surface")
+    lines += found.notes
+    if repaired is not None:
+        lines += [f"done: {change.name}: {change.count}" + (f", wall moved by {mm * change.moved:.2g} mm at most"
+                                                             if change.moved else "")
+                  + (f", the first at {_place(change.place)}" if change.place is not None else "")
+                  for change in repaired.changes]
+        lines.append(f"wall moved by {mm * repaired.moved:.2g} mm at most; {len(repaired.mesh.triangles)} triangles")
+    if line is not None:
+        lines += [f"end {end.number} '{end.name}': {'open' if end.is_open else 'closed'}, at {_place(end.centre)}, "
+                  f"radius {mm * end.radius:.3g} mm" for end in line.ends]
+        least = line.narrowest
+        lines.append(f"narrowest place: radius {mm * line.radii[least]:.3g} mm at {_place(line.points[least])}, in "
+                     f"branch {line.branches[least]}")
+        narrow = sorted({int(b) for b in line.branches[(2.0 * mm * line.radii < diameter) & line.inner()]})
+        lines.append(f"a wire of {diameter:g} mm " + ("passes everywhere" if not narrow else
+                     f"does not pass all of branch {', '.join(map(str, narrow))}"))
+    return lines
+
+
+def _place(point: np.ndarray) -> str:
+    return "[" + ", ".join(f"{number:.5g}" for number in point) + "]"
+
+
+def _numbers(values: np.ndarray, digits: int) -> list[float]:
+    return [round(float(value), digits) for value in values]

@@ -1,0 +1,341 @@
+"""Repairs of a mesh, each counted and with the largest displacement that it made.
+
+The order is from the smallest change to the largest: what a step mends, no later one touches. A remesh through a signed
+distance comes last, and only where crossings or edges of more than two triangles are left.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import breadth_first_order, connected_components
+
+from anatomy.distance_grid import cut_open, remesh
+from anatomy.inspection import (facing, cast_rays, sort_rims, typical_radius, weld, weld_exactly, weld_length_of,
+                                without_slivers)
+from anatomy.intersections import self_intersections
+from anatomy.mesh import AnatomyError, Edges, Mesh, Rim, close_rims, find_bodies, find_rims, signed_volume
+from anatomy.surfaces import distances
+
+_CONE = 14  # rays out of a triangle
+_FACING = 0.3
+_LIP = 5.0  # median thicknesses of the wall
+_STRAY = 0.05  # of the largest body's box: a body up to that is a remnant
+
+
+@dataclass(frozen=True)
+class Change:
+    """name : what was done; count : how many; moved : largest displacement of the wall, the file's units; place : of
+    the first, or None."""
+
+    name: str
+    count: int
+    moved: float = 0.0
+    place: np.ndarray | None = None
+
+
+@dataclass(frozen=True)
+class Repaired:
+    """mesh : one surface, normals into the lumen, closed but for its rims; rims : ends, the largest first; changes :
+    what was done, in order."""
+
+    mesh: Mesh
+    rims: list[Rim]
+    changes: list[Change]
+
+    @property
+    def moved(self) -> float:
+        """Bound on the displacement of the wall: the sum of the steps'."""
+        return sum(change.moved for change in self.changes)
+
+
+def repair(mesh: Mesh) -> Repaired:
+    """A mesh that the program takes as a vessel.
+
+    Raises
+    ------
+    AnatomyError : what is left cannot be repaired; the line names the first place.
+    """
+    work = _Work(mesh)
+    work.weld()
+    work.drop_slivers()
+    work.drop_bodies()
+    work.keep_inner_wall()
+    work.cut_crowded()
+    work.drop_bodies()
+    work.cut_crossings()
+    work.fill_holes()
+    work.remesh_if_needed()
+    work.mesh = work.mesh.part(find_bodies(work.mesh) == 0)
+    work.orient()
+    rims = [rim for rim in sort_rims(work.mesh, find_rims(work.mesh, Edges.of(work.mesh)))]
+    return Repaired(work.mesh, rims, work.changes)
+
+
+class _Work:
+    def __init__(self, mesh: Mesh) -> None:
+        self.mesh = mesh
+        self.changes: list[Change] = []
+        self._removed: Mesh | None = None  # the wall where triangles were taken out
+
+    def _note(self, name: str, count: int, moved: float = 0.0, place: np.ndarray | None = None) -> None:
+        if count:
+            self.changes.append(Change(name, count, moved, place))
+
+    def weld(self) -> None:
+        exact = weld_exactly(self.mesh)
+        self.mesh, count, moved = weld(exact, weld_length_of(exact))
+        self._note("vertices welded that were nearer than a thousandth of the median edge", count, moved)
+
+    def drop_slivers(self) -> None:
+        self.mesh, places = without_slivers(self.mesh)
+        self._note("triangles without area or there twice removed", len(places), 0.0, places[0] if len(places) else None)
+
+    def drop_bodies(self) -> None:
+        bodies = find_bodies(self.mesh)
+        if bodies.max() == 0:
+            return
+        keep = _inner_body(self.mesh, bodies)
+        _, pairs = self_intersections(self.mesh)
+        met = bodies[pairs]
+        crossing = set(met[(met == keep).any(axis=1)].ravel().tolist()) - {keep}
+        if crossing:
+            # Bodies that overlap are one lumen; the remesh joins them.
+            place = self.mesh.part(np.isin(bodies, list(crossing))).vertices.mean(axis=0)
+            self._note("bodies that overlap the largest one joined with it", len(crossing), 0.0, place)
+            bodies = np.where(np.isin(bodies, list(crossing)), keep, bodies)
+        if (bodies == keep).all():
+            return
+        others = self.mesh.part(bodies != keep)
+        size = np.ptp(self.mesh.part(bodies == keep).vertices, axis=0).max()
+        for k in np.unique(bodies):
+            extent = np.ptp(self.mesh.part(bodies == k).vertices, axis=0).max()
+            if k != keep and extent > _STRAY * size and not _is_around(self.mesh, bodies, k, keep):
+                place = np.round(self.mesh.part(bodies == k).vertices.mean(axis=0), 4).tolist()
+                raise AnatomyError(f"{len(np.unique(bodies))} separate surfaces; besides the largest one another, around "
+                                   f"{place}, is {extent / size:.0%} of its size: a vessel is one; take one out, or "
+                                   "join them")
+        self._note("stray bodies removed", len(np.unique(bodies)) - 1, 0.0, others.vertices.mean(axis=0))
+        self.mesh = self.mesh.part(bodies == keep)
+
+    def keep_inner_wall(self) -> None:
+        """Of a double wall joined at its ends: the side of it from which fewer rays escape, cut straight at its ends."""
+        if facing(self.mesh).mean() <= _FACING:
+            return
+        mesh = self.mesh
+        normals = _normals(mesh)
+        enclosed = _enclosure(mesh, normals)
+        thickness, behind = cast_rays(mesh, np.arange(len(normals)), -normals)
+        # 1 where more rays escape from the other side of the wall.
+        enclosed = np.where(behind >= 0, (enclosed > enclosed[behind]) + 0.5 * (enclosed == enclosed[behind]), 0.0)
+        # Behind a lip, which joins the two walls, the wall is as thick as it is long.
+        enclosed[thickness > _LIP * np.median(thickness)] = 0.0
+        pairs = Edges.of(mesh).pairs()
+        n = len(mesh.triangles)
+        joined = coo_matrix((np.ones(len(pairs)), pairs.T), shape=(n, n)).tocsr()
+        joined = joined + joined.T
+        degree = 1.0 + np.asarray(joined.sum(axis=1)).ravel()
+        for _ in range(6):
+            enclosed = (enclosed + joined @ enclosed) / degree
+        part = mesh.part(enclosed > 0.5)
+        part = part.part(find_bodies(part) == 0)
+        count = n - len(part.triangles)
+        ends = [rim for rim in sort_rims(part, find_rims(part, Edges.of(part))) if not rim.is_hole]
+        deepest = [((part.vertices[rim.vertices] - rim.centre) @ rim.normal).max() for rim in ends]
+        for rim, depth in zip(ends, deepest):
+            inside = max(depth, 0.0) + float(np.median(thickness))
+            part = cut_open(part, rim.centre + inside * rim.normal, rim.normal, 1.5 * rim.radius)
+        self._note("triangles of an outer wall removed, the lumen's kept", count)
+        self.mesh = part
+
+    def cut_crowded(self) -> None:
+        """Fins off, then the triangles around edges of more than two; their holes are filled afterwards."""
+        for _ in range(50):
+            edges = Edges.of(self.mesh)
+            at_edges = edges.counts[edges.of_triangles]
+            fin = (at_edges > 2).any(axis=1) & (at_edges == 1).any(axis=1)
+            if not fin.any():
+                break
+            self._note("triangles of fins removed", int(fin.sum()), 0.0, self.mesh.corners[fin][0].mean(axis=0))
+            self.mesh = self.mesh.part(~fin)
+        edges = Edges.of(self.mesh)
+        bad = (edges.counts[edges.of_triangles] > 2).any(axis=1)
+        if bad.any():
+            self._take_out(bad, "triangles at edges of more than two removed")
+
+    def cut_crossings(self) -> None:
+        _, pairs = self_intersections(self.mesh)
+        if not len(pairs):
+            return
+        bad = np.zeros(len(self.mesh.triangles), dtype=bool)
+        bad[pairs.ravel()] = True
+        if bad.sum() <= max(40, 0.02 * len(bad)) and find_bodies(self.mesh).max() == 0:
+            before = self.mesh
+            self._take_out(bad, "triangles that passed through others removed")
+            self.fill_holes()
+            if not len(self_intersections(self.mesh)[1]):
+                return
+            self.mesh = before
+            self.changes = self.changes[:-1]
+        # What is left goes through the distance grid.
+
+    def _take_out(self, bad: np.ndarray, name: str) -> None:
+        place = self.mesh.corners[bad][0].mean(axis=0)
+        self._note(name, int(bad.sum()), 0.0, place)
+        before = self.mesh
+        work = before.part(~bad)
+        # A vertex between two fans would leave rims that touch: the smaller fan goes as well.
+        for _ in range(20):
+            pinched = _pinched_triangles(work)
+            if not pinched.any():
+                break
+            work = work.part(~pinched)
+        bodies = find_bodies(work)
+        self.mesh = work.part(bodies == 0)
+        self._removed = before.part(~np.isin(_keys(before), _keys(self.mesh)))
+
+    def fill_holes(self) -> None:
+        rims = sort_rims(self.mesh, find_rims(self.mesh, Edges.of(self.mesh)))
+        if not rims:
+            return
+        typical = typical_radius(self.mesh)
+        holes = [rim for rim in rims if rim.is_hole or (self._removed is not None and rim.radius < 0.25 * typical)]
+        if holes:
+            depth = max(_bulge(self.mesh, rim) for rim in holes)
+            filled, _ = without_slivers(close_rims(self.mesh, holes))
+            if self._removed is not None:
+                gone = self._removed
+                depth = float(distances(np.concatenate([gone.vertices, gone.corners.mean(axis=1)]), filled).max())
+            self._note("holes in the side filled", len(holes), depth, holes[0].centre)
+            self.mesh = filled
+
+    def remesh_if_needed(self) -> None:
+        edges = Edges.of(self.mesh)
+        crowded = edges.ends[edges.counts > 2]
+        points, _ = self_intersections(self.mesh)
+        if not len(crowded) and not len(points):
+            return
+        place = points[0] if len(points) else self.mesh.vertices[crowded[0]].mean(axis=0)
+        count = len(points) + len(crowded)
+        rims = sort_rims(self.mesh, find_rims(self.mesh, edges))
+        self.mesh, moved = remesh(self.mesh, [rim for rim in rims if not rim.is_hole], 0.25 * typical_radius(self.mesh))
+        self._note("crossings left: the wall made anew from its signed distance", count, moved, place)
+        points, _ = self_intersections(self.mesh)
+        if len(points):
+            raise AnatomyError(f"the surface passes through itself at {len(points)} places, the first at "
+                               f"{np.round(points[0], 4).tolist()}, and a remesh does not mend it")
+
+    def orient(self) -> None:
+        mesh, turned = _turned_alike(self.mesh)
+        self._note("triangles turned to agree with their neighbours", turned)
+        rims = find_rims(mesh, Edges.of(mesh))
+        if signed_volume(mesh, rims) > 0.0:
+            mesh = mesh.turned()
+            self._note("normals turned into the lumen", len(mesh.triangles))
+        self.mesh = mesh
+
+
+def _normals(mesh: Mesh) -> np.ndarray:
+    """(t, 3): of length 1, out of what the surface encloses."""
+    normals = mesh.area_vectors()
+    normals /= np.maximum(np.linalg.norm(normals, axis=1), 1e-300)[:, None]
+    return normals * (1.0 if signed_volume(mesh) > 0.0 else -1.0)
+
+
+def _enclosure(mesh: Mesh, normals: np.ndarray) -> np.ndarray:
+    """(t,): of a cone of rays out of each triangle the fraction that meets the mesh."""
+    u = np.cross(normals, np.eye(3)[np.argmin(np.abs(normals), axis=1)])
+    u /= np.maximum(np.linalg.norm(u, axis=1), 1e-300)[:, None]
+    w = np.cross(normals, u)
+    everything, total = np.arange(len(normals)), np.zeros(len(normals))
+    for k in range(_CONE):
+        # A golden spiral over the hemisphere, without its rim, where rays graze the wall.
+        height = 1.0 - 0.85 * (k + 0.5) / _CONE
+        angle = k * np.pi * (3.0 - np.sqrt(5.0))
+        side = np.sqrt(1.0 - height**2)
+        rays = height * normals + side * (np.cos(angle) * u + np.sin(angle) * w)
+        total += np.isfinite(cast_rays(mesh, everything, rays)[0])
+    return total / _CONE
+
+
+def _keys(mesh: Mesh) -> np.ndarray:
+    """(t,): a number of each triangle's middle, the same for the same middle."""
+    middles = np.ascontiguousarray(mesh.corners.mean(axis=1) + 0.0)
+    return middles.view(np.dtype((np.void, 24))).ravel()
+
+
+def _bulge(mesh: Mesh, rim: Rim) -> float:
+    """How far the wall may have been from a flat lid over a hole: that of a circle's sphere, at most half its radius."""
+    off = np.abs((mesh.vertices[rim.vertices] - rim.centre) @ rim.normal).max()
+    return float(min(max(off, 0.1 * rim.radius), max(rim.radius, off)))
+
+
+def _inner_body(mesh: Mesh, bodies: np.ndarray) -> int:
+    """The largest body, or the one inside of it that is nearly as large: the lumen of a wall of two surfaces."""
+    sizes = [np.ptp(mesh.part(bodies == k).vertices, axis=0).max() for k in range(bodies.max() + 1)]
+    largest = int(np.argmax(sizes))
+    for k in range(bodies.max() + 1):
+        if k != largest and sizes[k] > 0.5 * sizes[largest] and _is_around(mesh, bodies, largest, k):
+            return k
+    return largest
+
+
+def _is_around(mesh: Mesh, bodies: np.ndarray, outer: int, inner: int) -> bool:
+    """Whether the vertices of one body lie inside of another one."""
+    from vtkmodules.vtkCommonDataModel import vtkPolyData
+    from vtkmodules.vtkFiltersModeling import vtkSelectEnclosedPoints
+
+    from anatomy.surfaces import to_vtk
+
+    select = vtkSelectEnclosedPoints()
+    select.SetSurfaceData(to_vtk(mesh.part(bodies == outer)))
+    select.SetInputData(vtkPolyData())
+    select.Initialize(to_vtk(mesh.part(bodies == outer)))
+    points = mesh.part(bodies == inner).vertices
+    points = points[:: max(1, len(points) // 100)]
+    return np.mean([select.IsInsideSurface(*point) for point in points]) > 0.9
+
+
+def _pinched_triangles(mesh: Mesh) -> np.ndarray:
+    """(t,): triangles at a vertex where more than one piece of rim begins, but for the larger fan there."""
+    edges = Edges.of(mesh)
+    opened = edges.ends[edges.counts == 1].ravel()
+    counts = np.bincount(opened, minlength=len(mesh.vertices))
+    bad = np.zeros(len(mesh.triangles), dtype=bool)
+    for vertex in np.flatnonzero(counts > 2):
+        around = np.flatnonzero((mesh.triangles == vertex).any(axis=1))
+        shared = [[len(set(mesh.triangles[a]) & set(mesh.triangles[b])) >= 2 for b in around] for a in around]
+        _, labels = connected_components(np.array(shared, dtype=int), directed=False)
+        bad[around[labels != np.argmax(np.bincount(labels))]] = True
+    return bad
+
+
+def _turned_alike(mesh: Mesh) -> tuple[Mesh, int]:
+    """The same with all triangles oriented as their neighbours, and how many were turned."""
+    edges = Edges.of(mesh)
+    order = np.argsort(edges.of_triangles.ravel(), kind="stable")
+    first = np.concatenate([[0], np.cumsum(edges.counts)])[:-1][edges.counts == 2]
+    one, other = order[first], order[first + 1]
+    forward = edges.forward.ravel()
+    differs = forward[one] == forward[other]
+    if not differs.any():
+        return mesh, 0
+    a, b = one // 3, other // 3
+    n = len(mesh.triangles)
+    graph = coo_matrix((np.r_[differs + 1, differs + 1].astype(np.int8), (np.r_[a, b], np.r_[b, a])), shape=(n, n))
+    graph = graph.tocsr()
+    nodes, before = breadth_first_order(graph, 0, directed=False)
+    turned = np.zeros(n, dtype=bool)
+    steps = np.asarray(graph[nodes[1:], before[nodes[1:]]]).ravel() == 2
+    for node, parent, step in zip(nodes[1:], before[nodes[1:]], steps):
+        turned[node] = turned[parent] ^ step
+    if (turned[a] ^ turned[b] ^ differs).any():
+        place = mesh.vertices[edges.ends[edges.counts == 2][turned[a] ^ turned[b] ^ differs][0]].mean(axis=0)
+        raise AnatomyError(f"the surface has one side only, at {np.round(place, 4).tolist()}: triangles cannot be "
+                           "turned to agree")
+    turned = turned if turned.sum() * 2 <= n else ~turned
+    triangles = mesh.triangles.copy()
+    triangles[turned] = triangles[turned][:, ::-1]
+    return Mesh(mesh.vertices, triangles), int(turned.sum())

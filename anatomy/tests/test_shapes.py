@@ -1,0 +1,112 @@
+"""Vessels made by code, and their centrelines."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.spatial import cKDTree
+
+pytest.importorskip("vtkmodules", reason="VTK is not installed: apt-get install python3-vtk9, or pip install vtk")
+
+from anatomy.centreline import find_centreline  # noqa: E402
+from anatomy.inspection import inspect  # noqa: E402
+from anatomy.mesh import AnatomyError, Edges, find_rims  # noqa: E402
+from anatomy.shapes import _spline, make, tube_mesh, tubes_of  # noqa: E402
+from anatomy.tubes import Tube, mesh_of_tubes  # noqa: E402
+
+
+# A bent stem and two bent arms of different radius.
+FORK = [Tube(_spline([[0.0, 0.0, -40.0], [3.0, 0.0, -20.0], [0.0, 0.0, 0.0]]), np.linspace(4.0, 3.5, 40),
+             ends=(True, False)),
+        Tube(_spline([[0.0, 0.0, 0.0], [8.0, 2.0, 14.0], [12.0, 2.0, 32.0]]), np.linspace(3.0, 2.6, 40), 0),
+        Tube(_spline([[0.0, 0.0, 0.0], [-9.0, 0.0, 12.0], [-22.0, 3.0, 20.0]]), np.full(40, 2.5), 0)]
+
+
+@pytest.fixture(scope="module")
+def fork():
+    return mesh_of_tubes(FORK, 0.5)
+
+
+def test_tubes_make_a_vessel_with_an_open_rim_at_each_end(fork) -> None:
+    found = inspect(fork)
+    assert not (len(found.crowded) or len(found.crossings) or len(found.turned)) and len(found.body_sizes) == 1
+    assert found.volume < 0.0 and not any(rim.is_hole for rim in found.rims)
+    assert [rim.radius for rim in found.rims] == pytest.approx([4.0, 2.6, 2.5], rel=0.02)
+
+
+def test_the_centreline_lies_on_the_tubes_axes(fork) -> None:
+    line = find_centreline(fork, find_rims(fork, Edges.of(fork)))
+    assert len(line.ends) == 3 and len(np.unique(line.branches)) == 3
+    tree = cKDTree(line.points)
+    off, wrong = [], []
+    for tube in FORK:
+        far = np.linalg.norm(tube.points, axis=1) > 2.0 * 4.0
+        away, nearest = tree.query(tube.points[far])
+        step = 0.13 * tube.radii[far]  # half of that of the centreline's points
+        off += list(np.sqrt(np.maximum(away**2 - step**2, 0.0)) / tube.radii[far])
+        wrong += list(np.abs(line.radii[nearest] / tube.radii[far] - 1.0))
+    assert len(off) > 60
+    assert np.mean(np.array(off) < 0.10) >= 0.95
+    assert np.mean(np.array(wrong) < 0.05) >= 0.95
+
+
+def test_the_same_seed_gives_the_same_mesh_and_another_one_another() -> None:
+    first, again, other = (tubes_of("coronary", 1, seed)[0] for seed in (3, 3, 4))
+    assert all(np.array_equal(a.points, b.points) for a, b in zip(first, again))
+    assert not np.array_equal(first[0].points, other[0].points)
+    one, same = (tube_mesh(first[0].points, first[0].radii) for _ in range(2))
+    assert np.array_equal(one.vertices, same.vertices)
+
+
+@pytest.mark.parametrize("number", [1, 2, 3])
+def test_the_type_of_an_arch_is_the_drop_of_its_first_branch(number: int) -> None:
+    for seed in range(20):
+        tubes, _ = tubes_of("arch", number, seed)
+        arch, carotid = tubes[0], tubes[2].radii[0]
+        # The outer curve: from the centreline outwards, across it and in the plane of the arch.
+        along = np.gradient(arch.points, axis=0)
+        outward = np.stack([-along[:, 2], np.zeros(len(along)), along[:, 0]], axis=1)
+        curve = arch.points[:, 2] + arch.radii * outward[:, 2] / np.linalg.norm(outward, axis=1)
+        at = np.argmin(np.linalg.norm(arch.points - tubes[1].points[0], axis=1))
+        drop = (curve.max() - curve[at]) / (2.0 * carotid)
+        # The trunk's origin lies up to half a step of the arch's points from the nearest one.
+        assert number - 1.0 < drop < number, (seed, drop)
+
+
+@pytest.mark.parametrize("angle, carina", [(40.0, 0.4), (90.0, 0.8)])
+def test_the_edge_between_branches_has_the_stated_radius_of_curvature(angle: float, carina: float) -> None:
+    half = np.radians(0.5 * angle)
+    arms = [Tube(np.linspace([0.0, 0.0, 0.0], [15.0 * np.sin(s * half), 0.0, 15.0 * np.cos(half)], 20),
+                 np.full(20, 2.0), 0) for s in (-1.0, 1.0)]
+    stem = Tube(np.linspace([0.0, 0.0, -10.0], [0.0, 0.0, 0.0], 20), np.full(20, 2.0), ends=(True, False))
+    mesh = mesh_of_tubes([stem, *arms], carina)
+    # In the plane of the axes the walls are straight lines, their distance from the axes 2: the ball between them.
+    near = mesh.vertices[(np.abs(mesh.vertices[:, 1]) < 0.35)]
+    apex = 2.0 / np.sin(half)  # where the two lines meet
+    centre = np.array([0.0, 0.0, apex + carina / np.sin(half)])
+    touching = near[(np.abs(near[:, 0]) < 0.7 * carina * np.cos(half)) & (near[:, 2] > 0.0) & (near[:, 2] < centre[2])]
+    assert len(touching) > 3
+    away = np.hypot(touching[:, 0], touching[:, 2] - centre[2])
+    # Off the plane the walls recede by y^2/4 at most.
+    assert np.abs(away - carina).max() < 0.06 * carina + 0.35**2 / 4.0 / np.sin(half)
+
+
+@pytest.mark.parametrize("stenosis, aneurysm, tube", [(0.4, None, 2), (None, 1.8, 0)])
+def test_stenosis_and_aneurysm_have_the_diameter_asked_for(stenosis, aneurysm, tube) -> None:
+    from anatomy.shapes import _changed
+
+    tubes, places = tubes_of("iliac", 1, 1)
+    factor = stenosis or aneurysm
+    own, place = places[0 if stenosis else 1]
+    changed = _changed(tubes[own], place, factor)
+    ratio = changed.radii / tubes[own].radii
+    assert own == tube and (ratio.min() if factor < 1.0 else ratio.max()) == pytest.approx(factor, rel=0.02)
+    assert ratio[0] == pytest.approx(1.0) and ratio[-1] == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("kind, number, stenosis, aneurysm, expected", [
+    ("arch", 4, None, None, "type 1, 2 or 3"), ("iliac", 1, 1.5, None, "below 1"), ("iliac", 1, None, 0.5, "above 1"),
+])
+def test_what_is_not_made_is_one_line(kind, number, stenosis, aneurysm, expected) -> None:
+    with pytest.raises(AnatomyError, match=expected):
+        make(kind, number, 1, stenosis, aneurysm)
