@@ -9,6 +9,16 @@ namespace Guidewire.Io
         public static ParameterGroup Group { get; } = new ParameterGroup(
             "material", "the wire as a material", new ParameterEntry[]
         {
+            new TextEntry(InstrumentLayer.Key,
+                "name of a file in the folder instruments beside the parameter file or in the program's: it stands for"
+                + " the wire's length, elements, radii, stiffnesses, density, sections and tip shape, and for the"
+                + " frictionCoefficient of walls that state none (docs/instruments.md); other keys of the file override"
+                + " it; on the command line it replaces the file's wire but for guidewireLength and numberRodElements",
+                p => p.Instrument, (p, v) => p.Instrument = v)
+            {
+                Methods = Takers.Material,
+                IsRefusedElsewhere = true,
+            },
             new NumberEntry("youngsModulus", "Pa", NumberRange.Positive, "E",
                 p => p.Simulation.Material.YoungsModulus, (p, v) => p.Simulation.Material.YoungsModulus = v)
             {
