@@ -339,6 +339,17 @@ def _modes(arguments: argparse.Namespace) -> int:
     return 0
 
 
+def _instrument(arguments: argparse.Namespace) -> int:
+    from experiments import instruments
+
+    command = _build_runner()
+    with instruments.opened(command) as bench:
+        if arguments.name is None:
+            print("\n".join(instruments.table(bench)))
+            return 0
+        return instruments.show(bench, arguments.name, arguments.out)
+
+
 def _python(arguments: argparse.Namespace) -> int:
     if not arguments.script.is_file():
         raise PreparationError(f"{arguments.script}: no such file: give a Python script")
@@ -427,10 +438,11 @@ def _hand_to(command: list[str], cwd: Path | None = None, environment: Mapping[s
 _ACTIONS = {
     "demo": _demo, "test": _test, "run": _run, "sweep": _sweep, "figures": _figures, "advise": _advise,
     "plot": _plot, "keys": _keys, "render": _render, "view": _view, "stress": _stress, "hub": _hub, "modes": _modes,
+    "instrument": _instrument,
     "python": _python, "bench": _bench, "unity-check": _unity_check,
 }
 _LEFT = {  # of a command that was interrupted
     **dict.fromkeys(("demo", "run", "sweep", "figures", "advise"),
                     "; completed runs are kept, the same command continues from here"),
-    **dict.fromkeys(("render", "plot", "stress", "hub", "modes"), "; nothing was written"),
+    **dict.fromkeys(("render", "plot", "stress", "hub", "modes", "instrument"), "; nothing was written"),
 }

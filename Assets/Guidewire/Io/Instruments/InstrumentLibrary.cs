@@ -5,8 +5,8 @@ using System.IO;
 namespace Guidewire.Io
 {
     /// <summary>Finds an instrument's file by its name: in the folder <c>instruments</c> beside the parameter file
-    /// first, then in that of the program, which is the nearest above the program or above the current
-    /// folder.</summary>
+    /// first, or in the current folder where there is no such file; then in that of the program, which is the nearest
+    /// above the program or above the current folder.</summary>
     internal static class InstrumentLibrary
     {
         /// <summary>Name of the folder, beside a parameter file or in the program's.</summary>
@@ -51,13 +51,11 @@ namespace Guidewire.Io
         private static List<string> Folders(string? parameterFile)
         {
             var folders = new List<string>();
-            if (parameterFile != null)
+            string? beside = parameterFile == null ? null : Path.GetDirectoryName(Path.GetFullPath(parameterFile));
+            string own = Path.Combine(beside ?? Directory.GetCurrentDirectory(), Folder);
+            if (Directory.Exists(own))
             {
-                string own = Path.Combine(Path.GetDirectoryName(Path.GetFullPath(parameterFile)) ?? "", Folder);
-                if (Directory.Exists(own))
-                {
-                    folders.Add(own);
-                }
+                folders.Add(own);
             }
             foreach (string start in new[] { AppContext.BaseDirectory, Directory.GetCurrentDirectory() })
             {
