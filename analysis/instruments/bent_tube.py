@@ -74,7 +74,7 @@ def bent_tube(wire: Mapping[str, Any], drive: Path, friction: float | None) -> d
     return {"solver": "direct", **wire, "guidewireLength": _LENGTH, "guidewireOffset": 10.0 - _LENGTH,
             "proximalEnd": "clamped", "drive": "displace", "driveFile": str(drive), "vessel": tube,
             "sheath": {"exit": [0.0, 0.0, 0.0]}, "massDamping": 20.0, "timeStep": _STEP, "deltaThreshold": 0.0,
-            "maxSimulationSteps": round(_TURNED / _STEP), "logHub": True}
+            "maxSimulationSteps": round(_TURNED / _STEP), "logHub": True, "logContacts": True}
 
 
 def read_tube(folder: Path) -> TubeTest:
@@ -82,8 +82,8 @@ def read_tube(folder: Path) -> TubeTest:
     run = require_end(folder)
     hub = read_hub(folder)
     pushed = int(np.searchsorted(hub.time, _PUSHED + 1e-6)) - 1
-    turned = hub.time > _RESTED - 1e-6
-    before = hub.twist[pushed]
+    rested = int(np.searchsorted(hub.time, _RESTED + 1e-6)) - 1
+    turned, before = slice(rested, None), hub.twist[rested]
     return TubeTest(hub, float(hub.force[pushed]), 1.0 + float(hub.twist[-1] - before) / (2.0 * math.pi * TURNS),
                     float(np.abs(hub.twist[turned] - before).max()), float(np.abs(hub.torque[turned]).max()),
                     int(run.measured("passages")))
