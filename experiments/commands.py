@@ -342,11 +342,10 @@ def _modes(arguments: argparse.Namespace) -> int:
 def _instrument(arguments: argparse.Namespace) -> int:
     from experiments import instruments
 
-    command = _build_runner()
-    with instruments.opened(command) as bench:
-        if arguments.name is None:
-            print("\n".join(instruments.table(bench)))
-            return 0
+    checking.check_out(arguments.out)
+    if arguments.name is not None:
+        instruments.check_name(arguments.name)
+    with instruments.opened(_build_runner()) as bench:
         return instruments.show(bench, arguments.name, arguments.out)
 
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import difflib
 import json
 import math
 import os
 import tempfile
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,31 +16,36 @@ from typing import Any
 from analysis.instruments import benches, bent_tube, elastica
 from analysis.instruments.library import FOLDER, Stated, find_files, read_stated
 from analysis.instruments.wire import Wire, wire_of
+from analysis.logs import LogError
 from experiments.prepare import ROOT, PreparationError
 from experiments.runner import Request, Runner
 from experiments.whole_files import whole_file
 
 BEYOND_A_GATE = 1
 GATE = 0.01  # of EI, GJ and the tip load
-_GAUGE = 0.02  # m of the tip that is free of the clamp in the test of its load
-_DEFLECTION = 0.005  # m
+_GAUGE = 0.02  # m of the tip that is free of the clamp in the test of its load, deflected by a quarter of that
 _BARE = {"solver": "direct", "proximalEnd": "clamped", "maxSimulationSteps": 0}
 
 
 @dataclass(frozen=True)
 class Line:
-    """A line of the bench tests: the figure, what it is compared with, and the relative error; nan without one."""
+    """A line of the bench tests: the figure, what it is compared with (nan: nothing), or why there is no figure."""
 
     test: str
     value: float
     unit: str
     expected: float = math.nan
-    error: float = math.nan
+    reason: str = ""
+
+    @property
+    def error(self) -> float:
+        """Relative error; nan where there is nothing to compare with."""
+        return self.value / self.expected - 1.0
 
     @property
     def passed(self) -> bool:
-        """Whether the error, if there is one, is within the gate."""
-        return math.isnan(self.expected) or abs(self.error) <= GATE
+        """Whether there is a figure, and its error, if any, is within the gate."""
+        return not self.reason and not abs(self.error) > GATE
 
 
 class Bench:
@@ -67,26 +73,37 @@ class Bench:
     def stiffness(self, wire: Wire) -> Iterator[Line]:
         """Three-point bending of the shaft and of the taper, torque of the shaft, load of the tip."""
         span = benches.span_of(wire)
-        places = {"three-point bending, shaft": 0.0,
-                  "three-point bending, taper": min(wire.shaft + 0.1 * span, wire.straight - 1.2 * span)}
-        for test, start in places.items():
-            bent = benches.read_three_point(self.make(benches.three_point(wire, start)))
-            expected = benches.expected_stiffness(wire, start, bent.arms)
-            if start == 0.0 or expected < (1.0 - GATE) * wire.bending[0]:  # else it has no straight taper
-                yield _compared(test, bent.stiffness, "N m2", expected)
-        torsional = benches.read_torque(self.make(benches.torque(wire)))
-        yield _compared("torque test, GJ", torsional, "N m2", wire.torsional[0])
-        load = elastica.load_at(wire, _GAUGE, _DEFLECTION)
-        tip = benches.read_tip(self.make(benches.tip_load(wire, _GAUGE, load.force)))
-        reached = float(tip[0] - elastica.rest_tip(wire, _GAUGE)[0])
-        expected = elastica.load_at(wire, _GAUGE, reached).force
-        yield _compared(f"tip load at {1e3 * reached:.3g} mm, {1e3 * _GAUGE:.0f} mm free", load.force, "N", expected)
+        taper = min(wire.shaft + 0.1 * span, wire.straight - 1.2 * span)
+        if wire.shaft >= 1.2 * span:
+            yield _tried("three-point bending, shaft", "N m2", lambda: self._bend(wire, 0.0))
+            yield _tried("torque test, GJ", "N m2", lambda: self._twist(wire))
+        if taper > wire.shaft - 0.9 * span:  # else there is no straight taper as long as the span
+            yield _tried("three-point bending, taper", "N m2", lambda: self._bend(wire, taper))
+        gauge = min(_GAUGE, 0.5 * wire.length)
+        label = f"tip load at {250.0 * gauge:.3g} mm, {1e3 * gauge:.3g} mm free"
+        yield _tried(label, "N", lambda: self._load(wire, gauge, 0.25 * gauge))
 
-    def tube(self, name: str, friction: float | None) -> bent_tube.TubeTest:
-        """The test in the bent tube."""
+    def _bend(self, wire: Wire, start: float) -> tuple[float, float]:
+        bent = benches.read_three_point(self.make(benches.three_point(wire, start)))
+        return bent.stiffness, benches.expected_stiffness(wire, start, bent.arms)
+
+    def _twist(self, wire: Wire) -> tuple[float, float]:
+        return benches.read_torque(self.make(benches.torque(wire))), wire.torsional[0]
+
+    def _load(self, wire: Wire, gauge: float, deflection: float) -> tuple[float, float]:
+        """The simulated tip under the load for a deflection, and the load for the deflection that it then has."""
+        load = elastica.load_at(wire, gauge, deflection).force
+        tip = benches.read_tip(self.make(benches.tip_load(wire, gauge, load)))
+        return load, elastica.load_at(wire, gauge, float(tip[0] - elastica.rest_tip(wire, gauge)[0])).force
+
+    def tube(self, wire: Wire, friction: float | None) -> bent_tube.TubeTest:
+        """The test of an instrument in the bent tube. Raises PreparationError where it gives no figure."""
         drive = self._folder / "drive.csv"
         bent_tube.write_drive(drive)
-        return bent_tube.read_tube(self.make(bent_tube.bent_tube({"instrument": name}, drive, friction)))
+        try:
+            return bent_tube.read_tube(self.make(bent_tube.bent_tube(wire, drive, friction)))
+        except LogError as error:
+            raise PreparationError(str(error)) from error
 
 
 @contextmanager
@@ -105,15 +122,27 @@ def files() -> dict[str, Path]:
     return find_files([Path.cwd() / FOLDER, ROOT / FOLDER])
 
 
-def show(bench: Bench, name: str, out: Path) -> int:
-    """Print what an instrument's file states and its bench tests, and draw it; 1 where a gate is not passed."""
+def check_name(name: str) -> None:
+    """Raises PreparationError, one line, for a name that no instrument has."""
+    if name not in files():
+        near = difflib.get_close_matches(name, files(), 1, 0.0)
+        raise PreparationError(f"there is no instrument '{name}': did you mean '{near[0]}'?")
+
+
+def show(bench: Bench, name: str | None, out: Path) -> int:
+    """Print what an instrument's file states and its bench tests, and draw it; 1 where a gate is not passed. Without a
+    name print the table of all."""
     from analysis.figures.instrument import draw_instrument
 
+    if name is None:
+        print("\n".join(table(bench)))
+        return 0
     wire = bench.wire(name)
     print("\n".join(stated_lines(read_stated(files()[name]))))
-    tube, smooth = bench.tube(name, None), bench.tube(name, 0.0)
-    results = [*bench.stiffness(wire), *tube_lines(tube, smooth)]
-    print("\n".join(bench_lines(results)))
+    results = list(bench.stiffness(wire))
+    print("\n".join(bench_lines(results)), flush=True)
+    tube, smooth = bench.tube(wire, None), bench.tube(wire, 0.0)
+    print("\n".join(bench_lines(tube_lines(tube, smooth))))
     out.mkdir(parents=True, exist_ok=True)
     picture = out / f"{name}.png"
     figure = draw_instrument(name, wire, tube, smooth)
@@ -143,9 +172,18 @@ def stated_lines(stated: Sequence[Stated]) -> list[str]:
 
 def bench_lines(results: Sequence[Line]) -> list[str]:
     """Bench tests, a line each."""
-    return [f"{line.test:36} {line.value:.4g} {line.unit}" + (
-        "" if math.isnan(line.expected) else f", expected {line.expected:.4g}, error {100.0 * line.error:+.2f} %, gate"
-        f" {100.0 * GATE:.0f} %: " + ("passed" if line.passed else "NOT passed")) for line in results]
+    lines = []
+    for line in results:
+        text = f"{line.test:36} "
+        if line.reason:
+            lines.append(f"{text}no figure, NOT passed: {line.reason}")
+        elif math.isnan(line.expected):
+            lines.append(f"{text}{line.value:.4g} {line.unit}".rstrip())
+        else:
+            lines.append(f"{text}{line.value:.4g} {line.unit}, expected {line.expected:.4g}, error"
+                         f" {100.0 * line.error:+.2f} %, gate {100.0 * GATE:.0f} %: "
+                         f"{'passed' if line.passed else 'NOT passed'}")
+    return lines
 
 
 def tube_lines(tube: bent_tube.TubeTest, smooth: bent_tube.TubeTest) -> list[Line]:
@@ -158,5 +196,10 @@ def tube_lines(tube: bent_tube.TubeTest, smooth: bent_tube.TubeTest) -> list[Lin
             Line("bent tube: passages", float(tube.passages + smooth.passages), "")]
 
 
-def _compared(test: str, value: float, unit: str, expected: float) -> Line:
-    return Line(test, value, unit, expected, value / expected - 1.0)
+def _tried(test: str, unit: str, bench: Callable[[], tuple[float, float]]) -> Line:
+    """A bench test, or why it gives no figure."""
+    try:
+        value, expected = bench()
+        return Line(test, value, unit, expected)
+    except (LogError, elastica.ElasticaError, PreparationError) as error:
+        return Line(test, math.nan, unit, reason=str(error))

@@ -146,5 +146,5 @@ def require_end(folder: Path) -> Run:
     run = read_run(folder)
     if run.outcome not in ("finished", "converged") or not run.is_reliable:
         reason = run.summary["reason"] if isinstance(run.summary, Mapping) else ""
-        raise LogError(f"{folder}: the bench test is {run.outcome}: {reason}")
+        raise LogError(f"{folder}: the bench test is {run.outcome}{'' if run.is_reliable else ', not reliable'}: {reason}")
     return run

@@ -8,7 +8,6 @@ hub with the instrument's friction beside that without shows what friction costs
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,10 +16,11 @@ import numpy as np
 
 from analysis.hub import HubLog, read_hub
 from analysis.instruments.benches import require_end
+from analysis.instruments.wire import Wire
 
 TURNS = 3.0
 _INSERTION = 0.1  # m
-_STRAIGHT, _RADIUS, _LUMEN = 30.0, 40.0, 2.0  # mm
+_STRAIGHT, _RADIUS, _LUMEN = 30.0, 40.0, 2.0  # mm; the lumen's radius is at least twice the wire's
 _PUSHED, _RESTED, _TURNED = 5.0, 5.5, 15.0  # s
 _STEP = 0.05  # s
 _LENGTH = 300.0  # mm of the instrument, from its tip
@@ -55,23 +55,23 @@ def write_drive(file: Path) -> None:
     file.write_text("".join(f"{time!r},{way!r},{turn!r}\n" for time, way, turn in rows), encoding="utf-8")
 
 
-def bent_tube(wire: Mapping[str, Any], drive: Path, friction: float | None) -> dict[str, Any]:
+def bent_tube(wire: Wire, drive: Path, friction: float | None) -> dict[str, Any]:
     """Parameters of the test.
 
     Parameters
     ----------
-    wire : keys of the wire, such as {"instrument": NAME}.
+    wire : of a run that names an instrument.
     drive : the file that `write_drive` wrote.
     friction : coefficient; None: the instrument's.
     """
     angles = np.linspace(0.0, 0.5 * math.pi, 19)
     arc = [[0.0, _RADIUS * (1.0 - math.cos(a)), _STRAIGHT + _RADIUS * math.sin(a)] for a in angles]
     end = [0.0, _RADIUS + _STRAIGHT + 10.0, _STRAIGHT + _RADIUS]
-    tube = {"shape": "tube", "knots": [[0.0, 0.0, -10.0], *arc, end], "radius": _LUMEN, "openStart": True,
+    tube = {"shape": "tube", "knots": [[0.0, 0.0, -10.0], *arc, end], "radius": max(_LUMEN, 2e3 * wire.radius), "openStart": True,
             "openEnd": True, "smooth": True}
     if friction is not None:
         tube["frictionCoefficient"] = friction
-    return {"solver": "direct", **wire, "guidewireLength": _LENGTH, "guidewireOffset": 10.0 - _LENGTH,
+    return {"solver": "direct", "instrument": wire.parameters["instrument"], "guidewireLength": _LENGTH, "guidewireOffset": 10.0 - _LENGTH,
             "proximalEnd": "clamped", "drive": "displace", "driveFile": str(drive), "vessel": tube,
             "sheath": {"exit": [0.0, 0.0, 0.0]}, "massDamping": 20.0, "timeStep": _STEP, "deltaThreshold": 0.0,
             "maxSimulationSteps": round(_TURNED / _STEP), "logHub": True, "logContacts": True}

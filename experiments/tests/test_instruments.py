@@ -44,7 +44,7 @@ def linear_wire(m, steps=80):
     span, stiffness, radius = 53.34e-3, 1e-3, 0.4445e-3
     edges = np.linspace(0.0, 1.4 * span, steps + 1)
     middle = 0.5 * (edges[1:] + edges[:-1])
-    values = stiffness * (1.0 + m * (0.7 * span - middle) / (0.5 * span))
+    values = stiffness * np.maximum(1.0 + m * (0.7 * span - middle) / (0.5 * span), 0.5 * (1.0 - m))  # beyond: loose
     sections = [{"from": 1e3 * a, "to": 1e3 * b, "bendingStiffness1": ei, "bendingStiffness2": ei,
                  "torsionalStiffness": ei, "restCurvature": [0.0, 0.0, 0.0]}
                 for a, b, ei in zip(edges, edges[1:], values)]
@@ -108,12 +108,13 @@ def test_every_instrument_runs_through_the_vessel_without_a_passage(live, tmp_pa
 
 
 def test_a_straight_tip_follows_the_hub_exactly_without_friction_and_lags_by_the_walls_couple(bench, tmp_path):
-    smooth = bench.tube(STIFFEST, 0.0)
+    wire = bench.wire(STIFFEST)
+    smooth = bench.tube(wire, 0.0)
     assert smooth.response == pytest.approx(1.0, abs=1e-4) and smooth.passages == 0
     drive = tmp_path / "drive.csv"
     bent_tube.write_drive(drive)
-    folder = bench.make(bent_tube.bent_tube({"instrument": STIFFEST}, drive, None))
-    rough, wire = bent_tube.read_tube(folder), bench.wire(STIFFEST)
+    folder = bench.make(bent_tube.bent_tube(wire, drive, None))
+    rough = bent_tube.read_tube(folder)
     *_, (_, entry) = read_entries(folder)
     forces = np.array([[force[axis] for axis in "xyz"] for force in entry["contact"]["sphere"].values()])
     friction = 0.075
