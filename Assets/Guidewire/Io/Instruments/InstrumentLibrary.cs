@@ -23,12 +23,9 @@ namespace Guidewire.Io
         {
             string? nearest = null;
             int best = int.MaxValue;
-            List<string> folders = Folders(parameterFile);
-            foreach (string folder in folders)
+            foreach (string folder in Folders(parameterFile))
             {
-                string[] files = Directory.GetFiles(folder, "*" + Ending);
-                Array.Sort(files, StringComparer.Ordinal);
-                foreach (string file in files)
+                foreach (string file in FilesOf(folder))
                 {
                     string known = Path.GetFileNameWithoutExtension(file);
                     if (known == name)
@@ -46,6 +43,20 @@ namespace Guidewire.Io
             throw new ParameterException(source + ": instrument = \"" + name + "\" is not known: " + (nearest == null
                 ? "there is no folder '" + Folder + "' with files beside the parameter file or above the program"
                 : "did you mean \"" + nearest + "\"?"));
+        }
+
+        private static string[] FilesOf(string folder)
+        {
+            try
+            {
+                string[] files = Directory.GetFiles(folder, "*" + Ending);
+                Array.Sort(files, StringComparer.Ordinal);
+                return files;
+            }
+            catch (Exception error) when (error is IOException || error is UnauthorizedAccessException)
+            {
+                throw new ParameterException(folder + ": cannot be read: " + error.Message);
+            }
         }
 
         private static List<string> Folders(string? parameterFile)
