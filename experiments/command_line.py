@@ -144,6 +144,13 @@ def parse(argv: list[str]) -> argparse.Namespace:
                        help="folder for NAME-modes.png (results)")
     modes.set_defaults(packages=DRAWING)
 
+    instrument = commands.add_parser("instrument", help="all instruments, or one: sources of its numbers, bench tests, "
+                                                        "picture; exit code 1 if a gate is not passed")
+    instrument.add_argument("name", metavar="NAME", nargs="?", help="such as amplatz-super-stiff-0.035")
+    instrument.add_argument("--out", type=path, default=Path("results/instruments"), metavar="DIR",
+                            help="folder for NAME.png (results/instruments)")
+    instrument.set_defaults(packages=DRAWING)
+
     python = commands.add_parser("python", help="run a script that imports guidewire, with a Python that has the "
                                                 "packages it needs")
     python.add_argument("script", metavar="SCRIPT", type=Path, help="Python file: 'from guidewire import Session'")

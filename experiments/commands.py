@@ -345,6 +345,16 @@ def _modes(arguments: argparse.Namespace) -> int:
     return 0
 
 
+def _instrument(arguments: argparse.Namespace) -> int:
+    from experiments import instruments
+
+    checking.check_out(arguments.out)
+    if arguments.name is not None:
+        instruments.check_name(arguments.name)
+    with instruments.opened(_build_runner()) as bench:
+        return instruments.show(bench, arguments.name, arguments.out)
+
+
 def _python(arguments: argparse.Namespace) -> int:
     if not arguments.script.is_file():
         raise PreparationError(f"{arguments.script}: no such file: give a Python script")
@@ -439,10 +449,11 @@ def _hand_to(command: list[str], cwd: Path | None = None, environment: Mapping[s
 _ACTIONS = {
     "demo": _demo, "test": _test, "run": _run, "sweep": _sweep, "figures": _figures, "advise": _advise,
     "plot": _plot, "anatomy": _anatomy, "keys": _keys, "render": _render, "view": _view, "stress": _stress, "hub": _hub,
-    "modes": _modes, "python": _python, "native": _native, "bench": _bench, "unity-check": _unity_check,
+    "modes": _modes, "instrument": _instrument, "python": _python, "native": _native, "bench": _bench,
+    "unity-check": _unity_check,
 }
 _LEFT = {  # of a command that was interrupted
     **dict.fromkeys(("demo", "run", "sweep", "figures", "advise"),
                     "; completed runs are kept, the same command continues from here"),
-    **dict.fromkeys(("render", "plot", "stress", "hub", "modes"), "; nothing was written"),
+    **dict.fromkeys(("render", "plot", "stress", "hub", "modes", "instrument"), "; nothing was written"),
 }

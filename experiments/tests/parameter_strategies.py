@@ -22,7 +22,8 @@ from experiments.key_table import Key
 FULL = os.environ.get("GUIDEWIRE_ALL") == "1"
 SOLVERS = ("pbd", "xpbd", "direct", "explicit")
 # What a run without them would answer another question than the file asks.
-REFUSED_IN_FILES = ("tipMoment", "tipFollowerForce", "damping", "materialDamping", "vessel", "obstacles")
+REFUSED_IN_FILES = ("tipMoment", "tipFollowerForce", "damping", "materialDamping", "vessel", "obstacles",
+                    "instrument")
 LOAD_TABLE = Path(__file__).with_name("load_table.csv")
 DRIVE_TABLE = Path(__file__).with_name("drive_table.csv")
 ARCH = Path(__file__).resolve().parents[2] / "params" / "meshes" / "arch.obj"
@@ -175,6 +176,7 @@ VALUES: dict[str, st.SearchStrategy] = {
     "hubForceLimit": st.one_of(st.just(0), log_uniform(1e-3, 10.0)),
     "totalMass": log_uniform(1e-4, 100.0), "stretchStiffness": st.floats(0.0, 3.0),
     "bendStiffness": log_uniform(1e-3, 100.0),
+    "instrument": st.just(""),  # their runs are those of test_instruments.py
     "youngsModulus": log_uniform(1e6, 1e12), "shearModulus": log_uniform(1e6, 1e12),
     "density": log_uniform(100.0, 3e4), "wireRadius": log_uniform(1e-5, 2e-3), "restCurvature": around(100.0),
     "shearFactor": st.floats(0.3, 1.0), "massDamping": st.one_of(st.just(0), log_uniform(1e-3, 1e4)),

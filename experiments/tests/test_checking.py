@@ -68,7 +68,7 @@ def test_a_bad_assignment_is_refused_before_a_build(unbuilt, assignment, words):
 @pytest.mark.parametrize("out", ["/proc/guidewire", "/dev/null", "a-file", "a-file/below", LONG_NAME,
                                  f"new/{LONG_NAME}"])
 @pytest.mark.parametrize("command", [["run", SCENE], ["sweep", "default"], ["figures", "4.5"], ["demo"],
-                                     ["modes", SCENE]], ids=lambda words: words[0])
+                                     ["modes", SCENE], ["instrument", "amplatz-0.035"]], ids=lambda words: words[0])
 def test_a_folder_that_cannot_be_is_named_before_a_build(unbuilt, tmp_path, command, out):
     (tmp_path / "a-file").write_text("kept")
     line = unbuilt(*command, "--out", out)

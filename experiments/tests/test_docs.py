@@ -20,7 +20,7 @@ from studies.table import Axis, Grid, Study
 
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 RUNS = (ROOT / "docs" / "runs.md").read_text(encoding="utf-8")
-_FOLDERS = "Assets|analysis|docs|experiments|params|studies|unitycheck|viewer"
+_FOLDERS = "Assets|analysis|docs|experiments|instruments|params|studies|unitycheck|viewer"
 _PLACEHOLDERS = {"T": "1", "STUDY": "default", "FILE": "params/default.json", "N": "2", "...": ""}
 
 
@@ -59,7 +59,7 @@ def slug(heading):
 def run(runner_command, folder, parameters, **changes):
     """A run of a parameter file or an object of parameters; its folder."""
     if isinstance(parameters, dict):
-        folder.mkdir()
+        folder.mkdir(exist_ok=True)
         (folder / "parameters-given.json").write_text(json.dumps(parameters), encoding="utf-8")
         parameters = folder / "parameters-given.json"
     words = [word for key, value in changes.items() for word in (f"-{key}", json.dumps(value).strip('"'))]
@@ -99,7 +99,13 @@ def test_every_command_that_a_page_shows_can_be_typed(page):
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_every_parameter_file_that_a_page_shows_can_be_run(page, runner_command, tmp_path):
     for k, block in enumerate(blocks(page.read_text(encoding="utf-8"), "json")):
-        run(runner_command, tmp_path / str(k), json.loads(block), maxSimulationSteps=0)
+        content = json.loads(block)
+        if "kind" in content:  # an instrument, beside a parameter file that names it
+            own = tmp_path / str(k) / "instruments" / "own.json"
+            own.parent.mkdir(parents=True)
+            own.write_text(block, encoding="utf-8")
+            content = {"solver": "direct", "instrument": "own"}
+        run(runner_command, tmp_path / str(k), content, maxSimulationSteps=0)
 
 
 def test_every_python_that_the_page_of_python_shows_runs(runner_command, tmp_path):

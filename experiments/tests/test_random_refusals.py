@@ -18,6 +18,7 @@ from wrong_values import wrong
 EXAMPLE_OF_FITTED = {
     "wireSections": [{"from": 0, "to": 10, "wireRadius": 1e-4}], "startFile": "", "innerRadius": 1e-4,
     "loadTables": {"tipForce": "load_table.csv"}, "driveFile": "", "sheath": {},
+    "instrument": "workhorse-0.014",
     "vessel": {"shape": "plane", "point": [50, 0, 0], "normal": [-1, 0, 0]},
     "obstacles": [{"shape": "sphere", "centre": [50, 0, 0], "radius": 1}],
 }

@@ -67,13 +67,19 @@ namespace Guidewire.Editor
                 return false;
             }
             string folder = Path.GetDirectoryName(path)!;
-            foreach (string file in Directory.GetFiles("params", "*", SearchOption.AllDirectories))
+            CopyAll("params", folder);
+            CopyAll("instruments", folder);
+            return true;
+        }
+
+        private static void CopyAll(string source, string target)
+        {
+            foreach (string file in Directory.GetFiles(source, "*", SearchOption.AllDirectories))
             {
-                string copy = Path.Combine(folder, file);
+                string copy = Path.Combine(target, file);
                 Directory.CreateDirectory(Path.GetDirectoryName(copy)!);
                 File.Copy(file, copy, true);
             }
-            return true;
         }
     }
 }

@@ -23,6 +23,8 @@ namespace Guidewire.Unity.Tests
             Directory.CreateDirectory(Path.Combine(project, "params", "vessels"));
             File.WriteAllText(Path.Combine(project, "params", "a.json"), "{}");
             File.WriteAllText(Path.Combine(project, "params", "vessels", "b.obj"), "");
+            Directory.CreateDirectory(Path.Combine(project, "instruments"));
+            File.WriteAllText(Path.Combine(project, "instruments", "c.json"), "{}");
             Directory.SetCurrentDirectory(project);
             EditorBuildSettings.scenes = new[]
             {
@@ -37,7 +39,7 @@ namespace Guidewire.Unity.Tests
         }
 
         [Test]
-        public void Linux_TakesTheEnabledScenesAndTheParameters()
+        public void Linux_TakesTheEnabledScenesTheParametersAndTheInstruments()
         {
             BuildPipeline.Next = BuildResult.Succeeded;
             PlayerBuild.Linux();
@@ -46,6 +48,7 @@ namespace Guidewire.Unity.Tests
             Assert.That(BuildPipeline.Last.target, Is.EqualTo(BuildTarget.StandaloneLinux64));
             Assert.That(File.Exists("Build/Linux/params/a.json"), Is.True);
             Assert.That(File.Exists("Build/Linux/params/vessels/b.obj"), Is.True);
+            Assert.That(File.Exists("Build/Linux/instruments/c.json"), Is.True);
         }
 
         [TestCase(BuildResult.Failed)]

@@ -80,6 +80,7 @@ namespace Guidewire.Io
                 WireStiffness.Replace(handler._given, pair.Key, file);
             }
             handler._given.RefuseUnknown();
+            InstrumentLayer.Expand(handler._given, file);
             handler.Apply();
             return handler;
         }
@@ -357,8 +358,8 @@ namespace Guidewire.Io
             var text = new StringBuilder();
             foreach (ParameterEntry entry in Taken())
             {
-                if (!entry.IsOutputPath && entry.Key != "startFile" && entry.Key != "vessel"
-                    && entry.Key != "loadTables" && entry.Key != "driveFile")
+                if (!entry.IsOutputPath && entry.Key != InstrumentLayer.Key && entry.Key != "startFile"
+                    && entry.Key != "vessel" && entry.Key != "loadTables" && entry.Key != "driveFile")
                 {
                     text.Append(entry.Key).Append('=').Append(NumberText.Write(entry.Write(Values))).Append('\n');
                 }

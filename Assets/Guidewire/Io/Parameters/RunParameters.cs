@@ -44,6 +44,9 @@ namespace Guidewire.Io
         /// <summary>File with a start other than the straight wire; empty for none.</summary>
         public string StartFile { get; set; } = "";
 
+        /// <summary>Name of the instrument that the wire is; empty for none.</summary>
+        public string Instrument { get; set; } = "";
+
         /// <summary>EI of the whole wire instead of its modulus, N m^2; null where the modulus says it.</summary>
         public double? BendingStiffness { get; set; }
 

@@ -9,6 +9,15 @@ namespace Guidewire.Io
         public static ParameterGroup Group { get; } = new ParameterGroup(
             "material", "the wire as a material", p => p.Simulation.Material, new ParameterEntry[]
         {
+            new TextEntry(InstrumentLayer.Key,
+                "name of a file in the folder instruments beside the parameter file or in the program's: it stands for"
+                + " the wire's length, elements, radii, stiffnesses, density, sections and tip shape, and for the"
+                + " frictionCoefficient of walls that state none (docs/instruments.md); other keys of the file override"
+                + " it; on the command line it replaces the file's wire but for guidewireLength and numberRodElements")
+            {
+                Methods = Takers.Material,
+                IsRefusedElsewhere = true,
+            },
             new NumberEntry("youngsModulus", "Pa", NumberRange.Positive, "E"),
             new NumberEntry("shearModulus", "Pa", NumberRange.Positive, "G"),
             new NumberEntry("density", "kg/m^3", NumberRange.Positive, "rho; the wire's mass follows from it"),

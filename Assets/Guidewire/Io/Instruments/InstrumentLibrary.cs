@@ -1,0 +1,86 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+
+namespace Guidewire.Io
+{
+    /// <summary>Finds an instrument's file by its name: in the folder <c>instruments</c> beside the parameter file
+    /// first, or in the current folder where there is no such file; then in that of the program, which is the nearest
+    /// above the program or above the current folder.</summary>
+    internal static class InstrumentLibrary
+    {
+        /// <summary>Name of the folder, beside a parameter file or in the program's.</summary>
+        public const string Folder = "instruments";
+
+        private const string Ending = ".json";
+
+        /// <summary>The file of an instrument.</summary>
+        /// <param name="name">Its name: that of the file without its ending.</param>
+        /// <param name="source">Who names it: a parameter file, or "command line".</param>
+        /// <param name="parameterFile">The run's parameter file, or null.</param>
+        /// <exception cref="ParameterException">There is none of that name.</exception>
+        public static string Find(string name, string source, string? parameterFile)
+        {
+            string? nearest = null;
+            int best = int.MaxValue;
+            foreach (string folder in Folders(parameterFile))
+            {
+                foreach (string file in FilesOf(folder))
+                {
+                    string known = Path.GetFileNameWithoutExtension(file);
+                    if (known == name)
+                    {
+                        return file;
+                    }
+                    int distance = Spelling.Distance(known.ToUpperInvariant(), name.ToUpperInvariant());
+                    if (distance < best)
+                    {
+                        best = distance;
+                        nearest = known;
+                    }
+                }
+            }
+            throw new ParameterException(source + ": instrument = \"" + name + "\" is not known: " + (nearest == null
+                ? "there is no folder '" + Folder + "' with files beside the parameter file or above the program"
+                : "did you mean \"" + nearest + "\"?"));
+        }
+
+        private static string[] FilesOf(string folder)
+        {
+            try
+            {
+                string[] files = Directory.GetFiles(folder, "*" + Ending);
+                Array.Sort(files, StringComparer.Ordinal);
+                return files;
+            }
+            catch (Exception error) when (error is IOException || error is UnauthorizedAccessException)
+            {
+                throw new ParameterException(folder + ": cannot be read: " + error.Message);
+            }
+        }
+
+        private static List<string> Folders(string? parameterFile)
+        {
+            var folders = new List<string>();
+            string? beside = parameterFile == null ? null : Path.GetDirectoryName(Path.GetFullPath(parameterFile));
+            string own = Path.Combine(beside ?? Directory.GetCurrentDirectory(), Folder);
+            if (Directory.Exists(own))
+            {
+                folders.Add(own);
+            }
+            foreach (string start in new[] { AppContext.BaseDirectory, Directory.GetCurrentDirectory() })
+            {
+                for (string? above = start; above != null; above = Path.GetDirectoryName(above))
+                {
+                    string folder = Path.Combine(above, Folder);
+                    if (Directory.Exists(folder))
+                    {
+                        folders.Add(folder);
+                        return folders;
+                    }
+                }
+            }
+            return folders;
+        }
+    }
+}

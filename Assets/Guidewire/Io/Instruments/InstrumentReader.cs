@@ -1,0 +1,148 @@
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+
+namespace Guidewire.Io
+{
+    /// <summary>Reads an instrument's file (docs/instruments.md). A file that leaves out the source of a number, or a
+    /// number whose unit is not known or measures something else, is refused in one line.</summary>
+    internal static class InstrumentReader
+    {
+        private static readonly string[] Kinds = { "guidewire", "catheter" };
+        private static readonly string[] Profiles = { "uniform", "linear" };
+        private const double Largest = 100.0;   // m, of any length: beyond it a unit is wrong
+
+        /// <summary>The instrument of a file.</summary>
+        /// <exception cref="ParameterException">It cannot be read, or holds no instrument.</exception>
+        public static Instrument Read(string file)
+        {
+            var fields = new InstrumentFields(file, "", JsonText.ReadObject(file), "title", "kind", "note", "diameter",
+                "innerDiameter", "length", "bendingStiffness", "flexuralModulus", "torsionalRatio", "density",
+                "friction", "distalSections", "tip");
+            fields.Text("title");
+            bool isHollow = fields.Word("kind", Kinds) == "catheter";
+            if (isHollow != fields.Has("innerDiameter"))
+            {
+                throw fields.Wrong("innerDiameter", isHollow ? "the inner diameter of the catheter"
+                    : "no such member for a guidewire");
+            }
+            var instrument = new Instrument
+            {
+                Radius = 0.5 * fields.Quantity("diameter", Dimension.Length),
+                InnerRadius = isHollow ? 0.5 * fields.Quantity("innerDiameter", Dimension.Length) : 0.0,
+                Length = fields.Quantity("length", Dimension.Length),
+                TorsionalRatio = fields.Quantity("torsionalRatio", Dimension.Number),
+                Density = fields.Quantity("density", Dimension.Density),
+                Friction = fields.Quantity("friction", Dimension.Number, mayBeZero: true),
+            };
+            if (instrument.InnerRadius >= instrument.Radius)
+            {
+                throw fields.Wrong("innerDiameter", "less than the diameter");
+            }
+            if (instrument.Length > Largest)
+            {
+                throw fields.Wrong("length", "100 m at most");
+            }
+            instrument.BendingStiffness = ReadStiffness(fields, instrument);
+            ReadSections(fields, instrument);
+            ReadTip(fields, instrument);
+            return instrument;
+        }
+
+        // A flexural modulus is that of the solid or hollow section of the given diameters: EI = E pi (d^4 - a^4)/64.
+        private static double ReadStiffness(InstrumentFields fields, Instrument instrument)
+        {
+            if (fields.Has("bendingStiffness") == fields.Has("flexuralModulus"))
+            {
+                throw fields.Wrong("bendingStiffness", "one of bendingStiffness and flexuralModulus");
+            }
+            if (fields.Has("bendingStiffness"))
+            {
+                return fields.Quantity("bendingStiffness", Dimension.Stiffness);
+            }
+            double second = 0.25 * Math.PI
+                * (Math.Pow(instrument.Radius, 4.0) - Math.Pow(instrument.InnerRadius, 4.0));
+            return fields.Quantity("flexuralModulus", Dimension.Modulus) * second;
+        }
+
+        private static void ReadSections(InstrumentFields fields, Instrument instrument)
+        {
+            foreach (InstrumentFields section in fields.List("distalSections", "length", "bendingStiffness", "profile"))
+            {
+                instrument.Sections.Add(new DistalSection(section.Quantity("length", Dimension.Length),
+                    section.Quantity("bendingStiffness", Dimension.Stiffness),
+                    section.Word("profile", Profiles) == "linear"));
+            }
+            if (instrument.DistalLength > instrument.Length)
+            {
+                throw fields.Wrong("length", "at least the " + Millimetres(instrument.DistalLength)
+                    + " mm of the distalSections");
+            }
+        }
+
+        private static void ReadTip(InstrumentFields fields, Instrument instrument)
+        {
+            InstrumentFields tip = fields.Object("tip", "shape", "bends", "basis", "source");
+            string shape = tip.Text("shape");
+            tip.CheckOrigin();
+            double length = 0.0;
+            foreach (InstrumentFields bend in tip.List("bends", "angle", "side", "radius", "straight"))
+            {
+                bool isOpposite = bend.Has("side") && bend.Word("side", new[] { "same", "opposite" }) == "opposite";
+                double angle = bend.Bare("angle", Dimension.Angle);
+                double radius = bend.Bare("radius", Dimension.Length);
+                if (radius < instrument.Radius)
+                {
+                    throw bend.Wrong("radius", "at least the instrument's own radius");
+                }
+                var arc = new TipBend(isOpposite ? -angle : angle, radius,
+                    bend.Bare("straight", Dimension.Length, mayBeZero: true));
+                length += arc.ArcLength + arc.Straight;
+                instrument.Bends.Add(arc);
+            }
+            if (length > instrument.Length)
+            {
+                throw tip.Wrong("bends", "bends within the instrument's length; they are " + Millimetres(length)
+                    + " mm long");
+            }
+            string? needed = FindMismatch(shape, instrument.Bends);
+            if (needed != null)
+            {
+                throw tip.Wrong("shape", needed);
+            }
+        }
+
+        // What the clinical word says must be what the bends are.
+        private static string? FindMismatch(string shape, List<TipBend> bends)
+        {
+            string[] words = shape.Split(' ');
+            if (words[0] == "straight")
+            {
+                return bends.Count == 0 ? null : "no bends for \"straight\"";
+            }
+            if (bends.Count == 0)
+            {
+                return "bends, or \"straight\"";
+            }
+            string size = shape.Substring(words[0].Length).Trim();
+            if (words[0] == "angled")
+            {
+                string? error = UnitTable.FindError(size, Dimension.Angle, out double angle);
+                return error == null && bends.Count == 1 && Math.Abs(bends[0].Angle - angle) < 1e-6 ? null
+                    : "\"angled 45 deg\" with one bend of that angle";
+            }
+            if (words[0] == "J")
+            {
+                string? error = UnitTable.FindError(size, Dimension.Length, out double radius);
+                return error == null && bends.Count == 1 && Math.Abs(bends[0].Radius - radius) < 1e-9 ? null
+                    : "\"J 3 mm\" with one bend of that radius";
+            }
+            return null;
+        }
+
+        private static string Millimetres(double length)
+        {
+            return (1e3 * length).ToString("G6", CultureInfo.InvariantCulture);
+        }
+    }
+}

@@ -1,0 +1,133 @@
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+
+namespace Guidewire.Io
+{
+    /// <summary>What a number of an instrument's file measures.</summary>
+    internal enum Dimension
+    {
+        /// <summary>A length, m.</summary>
+        Length,
+
+        /// <summary>An angle, rad.</summary>
+        Angle,
+
+        /// <summary>A modulus, Pa.</summary>
+        Modulus,
+
+        /// <summary>A bending or torsional stiffness, N m^2.</summary>
+        Stiffness,
+
+        /// <summary>A density, kg/m^3.</summary>
+        Density,
+
+        /// <summary>A plain number.</summary>
+        Number,
+    }
+
+    /// <summary>The units in which instruments are described, and their size in SI: a French is a third of a
+    /// millimetre, an inch 25.4 mm.</summary>
+    internal static class UnitTable
+    {
+        private static readonly (string Unit, Dimension Of, double Size)[] Units =
+        {
+            ("m", Dimension.Length, 1.0),
+            ("cm", Dimension.Length, 1e-2),
+            ("mm", Dimension.Length, 1e-3),
+            ("um", Dimension.Length, 1e-6),
+            ("in", Dimension.Length, 0.0254),
+            ("F", Dimension.Length, 1e-3 / 3.0),
+            ("deg", Dimension.Angle, Math.PI / 180.0),
+            ("rad", Dimension.Angle, 1.0),
+            ("Pa", Dimension.Modulus, 1.0),
+            ("MPa", Dimension.Modulus, 1e6),
+            ("GPa", Dimension.Modulus, 1e9),
+            ("N m2", Dimension.Stiffness, 1.0),
+            ("N mm2", Dimension.Stiffness, 1e-6),
+            ("kg/m3", Dimension.Density, 1.0),
+            ("g/cm3", Dimension.Density, 1e3),
+            ("", Dimension.Number, 1.0),
+        };
+
+        /// <summary>The value of a text such as "0.035 in", in SI.</summary>
+        /// <param name="text">A number, a space and a unit; a number alone where it has no dimension.</param>
+        /// <param name="dimension">What it must measure.</param>
+        /// <param name="value">The value in SI; finite.</param>
+        /// <returns>What is wrong and what is needed, or null.</returns>
+        public static string? FindError(string text, Dimension dimension, out double value)
+        {
+            string trimmed = text.Trim();
+            int space = trimmed.IndexOf(' ');
+            string number = space < 0 ? trimmed : trimmed.Substring(0, space);
+            string unit = space < 0 ? "" : trimmed.Substring(space + 1).Trim();
+            if (!double.TryParse(number, NumberStyles.Float, CultureInfo.InvariantCulture, out value)
+                || double.IsNaN(value) || double.IsInfinity(value))
+            {
+                return "a number, a space and a unit, such as \"" + Example(dimension) + "\"";
+            }
+            foreach ((string known, Dimension of, double size) in Units)
+            {
+                if (known == unit)
+                {
+                    value *= size;
+                    return of == dimension ? null
+                        : Noun(dimension) + ", and " + (unit.Length == 0 ? "this has no unit"
+                            : unit + " is the unit of " + Noun(of)) + ": allowed are " + Of(dimension);
+                }
+            }
+            return Noun(dimension) + " in a known unit, not '" + unit + "': allowed are " + Of(dimension);
+        }
+
+        private static string Of(Dimension dimension)
+        {
+            var words = new List<string>();
+            foreach ((string unit, Dimension of, double _) in Units)
+            {
+                if (of == dimension)
+                {
+                    words.Add(unit.Length == 0 ? "a number alone" : unit);
+                }
+            }
+            return string.Join(", ", words);
+        }
+
+        private static string Noun(Dimension dimension)
+        {
+            switch (dimension)
+            {
+                case Dimension.Length:
+                    return "a length";
+                case Dimension.Angle:
+                    return "an angle";
+                case Dimension.Modulus:
+                    return "a modulus";
+                case Dimension.Stiffness:
+                    return "a stiffness EI or GJ";
+                case Dimension.Density:
+                    return "a density";
+                default:
+                    return "a number without a unit";
+            }
+        }
+
+        private static string Example(Dimension dimension)
+        {
+            switch (dimension)
+            {
+                case Dimension.Length:
+                    return "0.035 in";
+                case Dimension.Angle:
+                    return "45 deg";
+                case Dimension.Modulus:
+                    return "60.3 GPa";
+                case Dimension.Stiffness:
+                    return "1.2e-3 N m2";
+                case Dimension.Density:
+                    return "6450 kg/m3";
+                default:
+                    return "0.05";
+            }
+        }
+    }
+}

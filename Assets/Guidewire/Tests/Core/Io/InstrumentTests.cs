@@ -1,0 +1,253 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using Guidewire.Io;
+using Newtonsoft.Json.Linq;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>What an instrument's name stands for in a parameter file, and how a wrong file is refused.</summary>
+    public sealed class InstrumentTests
+    {
+        // A 2 mm catheter with a bore of 1 mm: I = pi (2^4 - 1^4)/64 mm^4; EI tapers over 8 cm to a quarter.
+        private const string Own = @"{
+            'title': 'Own', 'kind': 'catheter',
+            'diameter': {'value': '6 F', 'basis': 'measured', 'source': 'here'},
+            'innerDiameter': {'value': '1 mm', 'basis': 'measured', 'source': 'here'},
+            'length': {'value': '100 cm', 'basis': 'measured', 'source': 'here'},
+            'flexuralModulus': {'value': '800 MPa', 'basis': 'measured', 'source': 'here'},
+            'torsionalRatio': {'value': '0.5', 'basis': 'assumed', 'source': 'here'},
+            'density': {'value': '1.2 g/cm3', 'basis': 'assumed', 'source': 'here'},
+            'friction': {'value': '0.07', 'basis': 'assumed', 'source': 'here', 'coating': 'PTFE'},
+            'distalSections': [
+                {'length': {'value': '80 mm', 'basis': 'assumed', 'source': 'here'}, 'profile': 'linear',
+                 'bendingStiffness': {'value': '147.262155637 N mm2', 'basis': 'assumed', 'source': 'here'}},
+                {'length': {'value': '0.02 m', 'basis': 'assumed', 'source': 'here'}, 'profile': 'uniform',
+                 'bendingStiffness': {'value': '1e-4 N m2', 'basis': 'assumed', 'source': 'here'}}],
+            'tip': {'shape': 'angled 45 deg', 'basis': 'assumed', 'source': 'here',
+                    'bends': [{'angle': '45 deg', 'radius': '5 mm', 'straight': '3 mm'}]}}";
+
+        private static readonly double Stiffness = 800e6 * Math.PI * (16.0 - 1.0) / 64.0 * 1e-12;   // N m^2
+
+        private string _folder = "";
+
+        private string Scene => Path.Combine(_folder, "scene.json");
+
+        [SetUp]
+        public void MakeFolder()
+        {
+            _folder = Path.Combine(Path.GetTempPath(), Path.GetRandomFileName());
+            Directory.CreateDirectory(Path.Combine(_folder, "instruments"));
+            Write("own", Own);
+        }
+
+        [TearDown]
+        public void RemoveFolder()
+        {
+            Directory.Delete(_folder, true);
+        }
+
+        [Test]
+        public void Instrument_StandsForTheKeysOfItsWire()
+        {
+            ParameterHandler handler = Load("'instrument': 'own'");
+            SimulationParameters simulation = handler.Values.Simulation;
+            CrossSection shaft = CrossSection.At(simulation.Material, 0.1);
+            double area = Math.PI * (4.0 - 1.0) / 4.0 * 1e-6;
+            Assert.That(simulation.Scene.GuidewireLength, Is.EqualTo(1000.0).Within(1e-9));
+            Assert.That(simulation.Material.WireRadius, Is.EqualTo(1e-3).Within(1e-15));
+            Assert.That(simulation.Material.InnerRadius, Is.EqualTo(5e-4).Within(1e-15));
+            Assert.That(shaft.BendStiffness1, Is.EqualTo(Stiffness).Within(1e-12 * Stiffness));
+            Assert.That(shaft.TwistStiffness, Is.EqualTo(0.5 * Stiffness).Within(1e-12 * Stiffness));
+            Assert.That(shaft.LineDensity, Is.EqualTo(1200.0 * area).Within(1e-12));
+            Assert.That(shaft.StretchStiffness, Is.EqualTo(800e6 * area).Within(1e-9 * 800e6 * area));
+            Assert.That((string?)handler.ToJson()["instrument"], Is.EqualTo("own"));
+        }
+
+        // Linear from EI to b = EI/4: the integral of 1/EI over its length is l ln(4)/(EI - b).
+        [Test]
+        public void Taper_HasTheComplianceOfItsLinearStiffness()
+        {
+            double compliance = 0.0;
+            double length = 0.0;
+            double least = double.PositiveInfinity;
+            foreach (WireSection section in Sections("'instrument': 'own'"))
+            {
+                if (section.BendingStiffness1 > 1.0001e-4)
+                {
+                    double piece = 1e-3 * (section.To - section.From);
+                    compliance += piece / section.BendingStiffness1!.Value;
+                    length += piece;
+                    least = Math.Min(least, section.BendingStiffness1.Value);
+                    Assert.That(section.TorsionalStiffness, Is.EqualTo(0.5 * section.BendingStiffness1).Within(1e-15));
+                }
+            }
+            double expected = 0.08 * Math.Log(4.0) / (0.75 * Stiffness);
+            Assert.That(length, Is.EqualTo(0.08).Within(1e-12));
+            Assert.That(compliance, Is.EqualTo(expected).Within(1e-9 * expected));
+            Assert.That(least, Is.GreaterThan(0.25 * Stiffness));
+        }
+
+        [TestCase("", 1000.0)]
+        [TestCase(", 'guidewireLength': 400", 400.0)]
+        [TestCase(", 'guidewireLength': 0.05, 'metresPerUnit': 1", 0.05)]
+        public void Tip_StandsAtTheEndOfAWireOfAnyLength(string more, double units)
+        {
+            ParameterHandler handler = Load("'instrument': 'own'" + more);
+            double unit = handler.Values.Simulation.Scene.MetresPerUnit;
+            double turn = 0.0;
+            double straight = double.PositiveInfinity;
+            foreach (WireSection section in handler.Values.Simulation.Material.Sections)
+            {
+                double curvature = section.RestCurvature?.X ?? 0.0;
+                turn -= curvature * unit * (section.To - section.From);
+                straight = curvature != 0.0 ? unit * (units - section.To) : straight;
+                Assert.That(curvature, Is.EqualTo(0.0).Or.EqualTo(-200.0).Within(1e-9));
+            }
+            Assert.That(turn, Is.EqualTo(Math.PI / 4.0).Within(1e-9));
+            Assert.That(straight, Is.EqualTo(3e-3).Within(1e-9));
+        }
+
+        [TestCase("'bendingStiffness': 2e-3", "bendingStiffness", 2e-3)]
+        [TestCase("'youngsModulus': 5e9", "youngsModulus", 5e9)]
+        [TestCase("'shearModulus': 1e9", "shearModulus", 1e9)]
+        [TestCase("'massPerLength': 0.01", "massPerLength", 0.01)]
+        [TestCase("'wireRadius': 0.0007", "wireRadius", 7e-4)]
+        [TestCase("'numberRodElements': 50", "numberRodElements", 50.0)]
+        public void KeyOfTheFile_OverridesTheInstrument(string key, string name, double expected)
+        {
+            JObject written = Load("'instrument': 'own', " + key).ToJson();
+            Assert.That((double)written[name]!, Is.EqualTo(expected).Within(1e-12 * expected));
+            Assert.That(written["wireSections"]!.HasValues, Is.True, "the rest stays the instrument's");
+        }
+
+        [Test]
+        public void InstrumentOfTheCommandLine_ReplacesTheWireOfTheFile_NotItsLength()
+        {
+            File.WriteAllText(Scene, Quoted("{'solver': 'direct', 'guidewireLength': 321, 'numberRodElements': 40,"
+                + " 'youngsModulus': 1e9, 'axialStiffness': 5, 'massPerLength': 1, 'wireRadius': 2e-4,"
+                + " 'restCurvature': [9, 0, 0]}"));
+            ParameterHandler handler = ParameterHandler.Load(Scene, new Dictionary<string, JToken>
+            {
+                ["instrument"] = "own", ["torsionalStiffness"] = 0.25 * Stiffness,
+            });
+            SimulationParameters simulation = handler.Values.Simulation;
+            CrossSection shaft = CrossSection.At(simulation.Material, 0.1);
+            Assert.That(simulation.Scene.GuidewireLength, Is.EqualTo(321.0));
+            Assert.That(simulation.Scene.NumberRodElements, Is.EqualTo(40));
+            Assert.That(simulation.Material.WireRadius, Is.EqualTo(1e-3).Within(1e-15));
+            Assert.That(simulation.Material.RestCurvature, Is.EqualTo(Vector3d.Zero));
+            Assert.That(simulation.Material.AxialStiffness, Is.Null);
+            Assert.That(shaft.BendStiffness1, Is.EqualTo(Stiffness).Within(1e-12 * Stiffness));
+            Assert.That(shaft.TwistStiffness, Is.EqualTo(0.25 * Stiffness).Within(1e-12 * Stiffness));
+            Assert.That(shaft.LineDensity, Is.LessThan(0.01));
+        }
+
+        [Test]
+        public void Friction_IsTheInstruments_WhereAWallStatesNone()
+        {
+            JObject written = Load("'instrument': 'own', 'numberRodElements': 20, 'vessel': {'shape': 'tube',"
+                + " 'knots': [[0, 0, -400], [0, 0, 2000]], 'radius': 12}, 'obstacles': [{'shape': 'sphere',"
+                + " 'centre': [0, 90, 0], 'radius': 3, 'frictionCoefficient': 0}, {'shape': 'sphere',"
+                + " 'centre': [0, 90, 9], 'radius': 3}]").ToJson();
+            Assert.That((double)written["vessel"]!["frictionCoefficient"]!, Is.EqualTo(0.07));
+            Assert.That((double)written["obstacles"]![0]!["frictionCoefficient"]!, Is.EqualTo(0.0));
+            Assert.That((double)written["obstacles"]![1]!["frictionCoefficient"]!, Is.EqualTo(0.07));
+        }
+
+        [Test]
+        public void EffectiveParameters_RepeatTheRun_WithoutTheInstrumentsFile()
+        {
+            ParameterHandler first = Load("'instrument': 'own', 'shearModulus': 3e8");
+            JObject written = first.ToJson();
+            File.Delete(Path.Combine(_folder, "instruments", "own.json"));
+            File.WriteAllText(Scene, written.ToString());
+            ParameterHandler again = ParameterHandler.Load(Scene, new Dictionary<string, JToken>());
+            Assert.That(again.Hash, Is.EqualTo(first.Hash));
+            Assert.That((string?)again.ToJson()["instrument"], Is.EqualTo("own"));
+        }
+
+        [Test]
+        public void FolderBesideTheParameterFile_IsSearchedFirst()
+        {
+            Assert.That(Load("'instrument': 'lunderquist-extra-stiff-0.035'").Values.Simulation.Material.WireRadius,
+                Is.EqualTo(0.5 * 0.035 * 0.0254).Within(1e-15), "the program's");
+            Write("lunderquist-extra-stiff-0.035", Own);
+            Assert.That(Load("'instrument': 'lunderquist-extra-stiff-0.035'").Values.Simulation.Material.WireRadius,
+                Is.EqualTo(1e-3).Within(1e-15));
+        }
+
+        [TestCase("'instrument': 'owm'", "did you mean \"own\"?")]
+        [TestCase("'instrument': 'amplatz-superstiff-0.035'", "did you mean \"amplatz-super-stiff-0.035\"?")]
+        [TestCase("'instrument': '../instruments/own'", "is not known")]
+        [TestCase("'instrument': 7", "a text in double quotes")]
+        public void UnknownName_IsRefusedWithTheNearest(string keys, string expected)
+        {
+            Assert.That(() => Load(keys), Throws.TypeOf<ParameterException>().With.Message.StartsWith(Scene + ": ")
+                .And.Message.Contains("instrument").And.Message.Contains(expected));
+        }
+
+        [TestCase("'6 F', 'basis': 'measured', 'source': 'here'", "'6 F', 'basis': 'measured'", "diameter.source")]
+        [TestCase("'6 F', 'basis': 'measured', 'source': 'here'", "'6 F', 'basis': 'measured', 'source': ' '",
+            "diameter.source")]
+        [TestCase("'basis': 'measured', 'source': 'here'", "'basis': 'known', 'source': 'here'", "diameter.basis")]
+        [TestCase("'6 F'", "'6 Fr'", "diameter.value", "in a known unit, not 'Fr'")]
+        [TestCase("'6 F'", "'6 MPa'", "diameter.value", "MPa is the unit of a modulus")]
+        [TestCase("'6 F'", "'6'", "diameter.value", "this has no unit")]
+        [TestCase("'6 F'", "'6F'", "diameter.value", "a number, a space and a unit")]
+        [TestCase("'6 F'", "'-6 F'", "diameter.value", "above 0")]
+        [TestCase("'6 F'", "'NaN F'", "diameter.value")]
+        [TestCase("'6 F'", "6", "diameter.value")]
+        [TestCase("'value': '1 mm'", "'value': '0.079 in'", "innerDiameter", "less than the diameter")]
+        [TestCase("'100 cm'", "'9 cm'", "length", "100 mm of the distalSections")]
+        [TestCase("'100 cm'", "'1000 m'", "length", "100 m at most")]
+        [TestCase("'800 MPa'", "'800 N m2'", "flexuralModulus.value", "a modulus")]
+        [TestCase("'kind': 'catheter'", "'kind': 'guidewire'", "innerDiameter")]
+        [TestCase("'kind': 'catheter'", "'kind': 'stent'", "kind")]
+        [TestCase("'title': 'Own', ", "", "title")]
+        [TestCase("'density'", "'densities'", "densities")]
+        [TestCase("'147.262155637 N mm2'", "'0 N mm2'", "distalSections[0].bendingStiffness.value")]
+        [TestCase("'profile': 'linear'", "'profile': 'cubic'", "distalSections[0].profile")]
+        [TestCase("'angled 45 deg'", "'angled 30 deg'", "tip.shape")]
+        [TestCase("'angled 45 deg'", "'straight'", "tip.shape")]
+        [TestCase("'angled 45 deg'", "'J 3 mm'", "tip.shape")]
+        [TestCase("'radius': '5 mm'", "'radius': '0.5 mm'", "tip.bends[0].radius")]
+        [TestCase("'radius': '5 mm'", "'radius': '5 m'", "tip.bends")]
+        [TestCase("'tip'", "'flexuralModulus'", "second time")]
+        public void WrongFile_IsRefusedInOneLineThatNamesTheMember(string part, string wrong, params string[] words)
+        {
+            Assert.That(Own, Does.Contain(part));
+            int at = Own.IndexOf(part, StringComparison.Ordinal);
+            Write("own", Own.Substring(0, at) + wrong + Own.Substring(at + part.Length));
+            string file = Path.Combine(_folder, "instruments", "own.json");
+            var error = Assert.Throws<ParameterException>(() => Load("'instrument': 'own'"))!;
+            Assert.That(error.Message, Does.StartWith(file + ": ").And.Not.Contains("\n"));
+            foreach (string word in words)
+            {
+                Assert.That(error.Message, Does.Contain(word));
+            }
+        }
+
+        private IReadOnlyList<WireSection> Sections(string keys)
+        {
+            return Load(keys).Values.Simulation.Material.Sections;
+        }
+
+        private ParameterHandler Load(string keys)
+        {
+            File.WriteAllText(Scene, Quoted("{'solver': 'direct', " + keys + "}"));
+            return ParameterHandler.Load(Scene, new Dictionary<string, JToken>());
+        }
+
+        private void Write(string name, string text)
+        {
+            File.WriteAllText(Path.Combine(_folder, "instruments", name + ".json"), Quoted(text));
+        }
+
+        private static string Quoted(string text)
+        {
+            return text.Replace('\'', '"');
+        }
+    }
+}
