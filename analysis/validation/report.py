@@ -16,7 +16,7 @@ from analysis.figures.wording import number
 from analysis.logs import LogError
 from analysis.validation import (
     balance, clamp, coil, couples, drum, dynamics, friction, heavy_rods, helix, hub_force, independence, joint, order,
-    planes, ring, stability, statics, tube_buckling, turning, vessel, whip,
+    planes, ring, stability, statics, suite, tube_buckling, turning, vessel, whip,
 )
 from analysis.validation.check import Check, Finding, Result, replay
 from analysis.validation.pictures import SOLVER_MARKERS
@@ -25,7 +25,7 @@ ROWS: tuple[Check, ...] = (
     *clamp.CHECKS, *joint.CHECKS, *statics.CHECKS, *couples.CHECKS, *heavy_rods.CHECKS, *stability.CHECKS, *ring.CHECKS,
     *helix.CHECKS, *dynamics.CHECKS, *balance.CHECKS, *order.CHECKS, *turning.CHECKS, *vessel.CHECKS, *friction.CHECKS,
     *hub_force.CHECKS, *coil.CHECKS, *drum.CHECKS, *planes.CHECKS, *whip.CHECKS, *tube_buckling.CHECKS,
-    *independence.CHECKS,
+    *independence.CHECKS, *suite.CHECKS,
 )
 _QUICK = (
     "clamp-compliance", "clamp-frequencies", "plane", "end-moment", "end-moment-darboux", "localised-helix", "bar",
