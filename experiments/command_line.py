@@ -136,6 +136,13 @@ def parse(argv: list[str]) -> argparse.Namespace:
     hub.add_argument("folder", type=Path, metavar="DIR", help="folder of a run with logHub, for hub.png too")
     hub.set_defaults(packages=DRAWING)
 
+    compare = commands.add_parser("compare", help="draw a run beside a measured force of the hub or shape of the wire")
+    compare.add_argument("folder", type=Path, metavar="RUN", help="folder of a run, for compare.png too")
+    compare.add_argument("measured", type=Path, metavar="MEASURED",
+                         help="CSV file with the first line time,force (s, N; the run needs logHub) or time,x,y,z (s, "
+                              "units: points of the centreline, those of one shape with the same time)")
+    compare.set_defaults(packages=DRAWING)
+
     modes = commands.add_parser("modes", help="lowest natural frequencies and mode shapes of a wire with a material")
     modes.add_argument("file", type=Path, metavar="FILE",
                        help="parameter file; the modes are about its rest shape")

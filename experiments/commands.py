@@ -307,6 +307,18 @@ def _hub(arguments: argparse.Namespace) -> int:
     return _draw_log(arguments.folder, lambda folder: draw_hub(read_hub(folder)), "hub.png")
 
 
+def _compare(arguments: argparse.Namespace) -> int:
+    from analysis.figures.measured import draw_comparison
+    from analysis.measured import compare
+
+    def draw(folder: Path) -> Figure:
+        found = compare(folder, arguments.measured)
+        print(found.told())
+        return draw_comparison(found)
+
+    return _draw_log(arguments.folder, draw, "compare.png")
+
+
 def _draw_log(folder: Path, draw: Callable[[Path], Figure], name: str) -> int:
     """Draw the log of a run into its folder."""
     from analysis.logs import LogError
@@ -449,11 +461,11 @@ def _hand_to(command: list[str], cwd: Path | None = None, environment: Mapping[s
 _ACTIONS = {
     "demo": _demo, "test": _test, "run": _run, "sweep": _sweep, "figures": _figures, "advise": _advise,
     "plot": _plot, "anatomy": _anatomy, "keys": _keys, "render": _render, "view": _view, "stress": _stress, "hub": _hub,
-    "modes": _modes, "instrument": _instrument, "python": _python, "native": _native, "bench": _bench,
-    "unity-check": _unity_check,
+    "compare": _compare, "modes": _modes, "instrument": _instrument, "python": _python, "native": _native,
+    "bench": _bench, "unity-check": _unity_check,
 }
 _LEFT = {  # of a command that was interrupted
     **dict.fromkeys(("demo", "run", "sweep", "figures", "advise"),
                     "; completed runs are kept, the same command continues from here"),
-    **dict.fromkeys(("render", "plot", "stress", "hub", "modes", "instrument"), "; nothing was written"),
+    **dict.fromkeys(("render", "plot", "stress", "hub", "compare", "modes", "instrument"), "; nothing was written"),
 }

@@ -9,7 +9,9 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.linalg import eigh, expm
 
-from analysis.validation import bar, beam, elastica, release, spatial, tube_buckling, tubes, twisted, whip
+from analysis.validation import (
+    bar, beam, drum, elastica, planar_stability, planes, release, spatial, tube_buckling, tubes, twisted, whip,
+)
 from analysis.validation.states import State
 from analysis.validation.wire import BASE, Wire
 
@@ -294,3 +296,31 @@ def test_frames_along_a_curve_have_its_directions() -> None:
     chords = np.diff(nodes, axis=0)
     state = State(0.0, nodes, nodes, frames)
     np.testing.assert_allclose(state.directors, chords / np.linalg.norm(chords, axis=1)[:, None], atol=1e-12)
+
+
+def test_linear_stability_is_that_of_the_column_and_of_thin_strips() -> None:
+    """A column under its own weight buckles at 7.837 EI/L^3 (Greenhill 1881), a thin strip under its at 12.85 sqrt(B2
+    C)/L^3 (Prandtl 1899, Michell)."""
+    column = planar_stability.PlaneRest(0.0, math.pi, 1.0, 1.0)
+    # Both directions across are alike: the shape in the plane is left at the same load.
+    assert column.limits(np.linspace(0.5, 9.0, 8)) == pytest.approx([7.83735], rel=1e-5)
+    thin = planar_stability.PlaneRest(0.0, 0.5 * math.pi, 1e-8, 1e-8)
+    assert thin.limits(np.linspace(1e-9, 2e-7, 9)) == pytest.approx([12.853e-8], rel=1e-3)
+
+
+def test_snap_load_of_a_shallow_arch_grows_with_the_root_of_its_slack() -> None:
+    assert planar_stability.snap(0.004) / planar_stability.snap(0.001) == pytest.approx(2.0, rel=1e-2)
+
+
+def test_column_between_planes_touches_first_under_eulers_load() -> None:
+    assert planes.push(4.0 * math.pi**2 * (1.0 + 1e-9)) == pytest.approx(0.0, abs=1e-5)
+    below, above = planes.push(16.0 * math.pi**2 * (1.0 - 1e-9)), planes.push(16.0 * math.pi**2 * (1.0 + 1e-9))
+    assert below == pytest.approx(above, rel=1e-6) and above == pytest.approx(64.0 * math.pi**2, rel=1e-6)
+
+
+def test_stiff_ropes_capstan_is_the_textbooks_for_a_limp_rope() -> None:
+    """But for the 0.12 mm by which its held end lies beside the drum's tangent, over 85 mm and more."""
+    around = 1e-3 * 50.0 + 0.3e-3
+    grows = math.exp(0.3 * math.pi * 0.05 / around)
+    assert drum.force(0.3, 1e3, True) == pytest.approx(0.02 * grows, rel=1e-3)
+    assert drum.force(0.3, 1e3, False) == pytest.approx(0.02 / grows, rel=1e-3)

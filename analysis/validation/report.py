@@ -15,16 +15,17 @@ from analysis.figures.style import add_caption, new_figure, styled
 from analysis.figures.wording import number
 from analysis.logs import LogError
 from analysis.validation import (
-    balance, clamp, couples, dynamics, friction, helix, hub_force, independence, joint, order, ring, stability, statics,
-    tube_buckling, turning, vessel, whip,
+    balance, clamp, coil, couples, drum, dynamics, friction, heavy_rods, helix, hub_force, independence, joint, order,
+    planes, ring, stability, statics, suite, tube_buckling, turning, vessel, whip,
 )
 from analysis.validation.check import Check, Finding, Result, replay
 from analysis.validation.pictures import SOLVER_MARKERS
 
 ROWS: tuple[Check, ...] = (
-    *clamp.CHECKS, *joint.CHECKS, *statics.CHECKS, *couples.CHECKS, *stability.CHECKS, *ring.CHECKS, *helix.CHECKS,
-    *dynamics.CHECKS, *balance.CHECKS, *order.CHECKS, *turning.CHECKS, *vessel.CHECKS, *friction.CHECKS,
-    *hub_force.CHECKS, *whip.CHECKS, *tube_buckling.CHECKS, *independence.CHECKS,
+    *clamp.CHECKS, *joint.CHECKS, *statics.CHECKS, *couples.CHECKS, *heavy_rods.CHECKS, *stability.CHECKS, *ring.CHECKS,
+    *helix.CHECKS, *dynamics.CHECKS, *balance.CHECKS, *order.CHECKS, *turning.CHECKS, *vessel.CHECKS, *friction.CHECKS,
+    *hub_force.CHECKS, *coil.CHECKS, *drum.CHECKS, *planes.CHECKS, *whip.CHECKS, *tube_buckling.CHECKS,
+    *independence.CHECKS, *suite.CHECKS,
 )
 _QUICK = (
     "clamp-compliance", "clamp-frequencies", "plane", "end-moment", "end-moment-darboux", "localised-helix", "bar",
@@ -33,7 +34,7 @@ _QUICK = (
     *(check.name for check in joint.CHECKS),
 )
 FAST = (  # what tests run
-    *statics.FAST, *stability.FAST, *ring.FAST, *vessel.FAST, *whip.FAST, *tube_buckling.FAST,
+    *statics.FAST, *heavy_rods.FAST, *stability.FAST, *ring.FAST, *vessel.FAST, *whip.FAST, *tube_buckling.FAST,
     *(check for check in ROWS if check.name in _QUICK),
 )
 COLUMNS = ("section", "check", "what", "solver", "value", "reference", "unit", "error", "error in", "gate", "passed",

@@ -1,0 +1,242 @@
+"""Checks of the experiments of a published suite for rod solvers, with its metrics and references, beside its figures.
+
+The suite is cosseratbench (github.com/jakeryderv/cosseratbench, docs/findings.md at 6e1a81b, results-0.2 at c44ae82 and
+dc6c424). Lengths in m, rods of 1 m; the references are computed here from the definitions of its experiments.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.integrate import solve_bvp
+from scipy.optimize import brentq, minimize_scalar
+
+from analysis.figures.wording import number
+from analysis.logs import read_log
+from analysis.runs import Run
+from analysis.validation import pictures, scenes, twisted
+from analysis.validation.check import Check, Finding, Plan, Result
+from analysis.validation.states import last_state, tip_motion, wall_time
+from analysis.validation.wire import Wire
+from studies.table import Case
+
+SECTION = "A published suite"
+SOURCE = "cosseratbench, results-0.2, another machine"
+
+
+@dataclass(frozen=True)
+class Published:
+    """What the suite's results say: error and wall time (s) of PyElastica 1.0.0 and of MuJoCo 3.13.0; not a number where
+    a solver has no error."""
+
+    pyelastica: tuple[float, float]
+    mujoco: tuple[float, float]
+
+
+PUBLISHED = {
+    "cantilever, 20": Published((7.3128e-2, 0.2522), (7.4060e-2, 0.2763)),
+    "cantilever, 40": Published((3.6655e-2, 0.8298), (3.7584e-2, 4.9795)),
+    "catenary, 50": Published((1.3711e-4, 0.6117), (1.2258e-2, 4.8840)),
+    "pendulum, 50": Published((1.3682e-4, 4.5454), (2.0885e-5, 4.9919)),
+    "twist, 50": Published((1.0982e-2, 39.284), (math.nan, math.nan)),
+}
+_GATES = {"cantilever, 20": 1e-3, "cantilever, 40": 1e-3, "catenary, 50": 1e-3, "pendulum, 50": 5e-5, "twist, 50": 1e-2}
+
+_GRAVITY = 9.81
+_BEAM = Wire(1.0, 0.02, 1e6, 1e6 / 3.0, 1000.0)
+_CABLE = Wire(1.0, 0.005, 1e6, 1e6 / 3.0, 1000.0)
+_CORD = Wire(1.0, 0.002, 1e7, 1e7 / 3.0, 1000.0)
+_ROD = Wire(1.0, 0.01, 1e6, 1e6 / 3.0, 1000.0)
+
+_LOAD = 7.5e-3  # N, at the cantilever's tip
+
+
+def _cantilever(n: int) -> Case:
+    return Case(f"cantilever-{n}", {**scenes.wire_parameters(_BEAM), **scenes.at_rest({
+        "numberRodElements": n, "tipForce": [0.0, -_LOAD, 0.0]})}, repeats=3)
+
+
+def _cantilever_error(run: Run) -> float:
+    """Of the deflection, against F L^3/(3 EI)."""
+    exact = _LOAD * _BEAM.length**3 / (3.0 * _BEAM.bending)
+    return abs(-float(last_state(run).positions[-1, 1]) / exact - 1.0)
+
+
+_SPAN = 0.8
+_HINGE = 2e-3  # m of the cable at the far pin, a millionth as stiff in bending
+
+
+def catenary_sag(wire: Wire, span: float) -> float:
+    """Of an elastic cable without bending stiffness between two pins at one height, m (Irvine)."""
+    weight = wire.line_density * _GRAVITY
+    half = 0.5 * weight * wire.length
+
+    def width(tension: float) -> float:
+        return tension * wire.length / wire.stretching + 2.0 * tension / weight * math.asinh(half / tension)
+
+    tension = brentq(lambda h: width(h) - span, 1e-9 * half, 1e6 * half, xtol=1e-15)
+    return 0.25 * half * wire.length / wire.stretching + (math.hypot(tension, half) - tension) / weight
+
+
+def _catenary(n: int) -> Case:
+    """From a circular arc; a pin that is not the first sphere's is a clamp behind a short soft piece."""
+    angle = brentq(lambda a: math.sin(a) / a - _SPAN / _CABLE.length, 1e-3, math.pi)
+    lengths = np.append(np.full(n, (_CABLE.length - _HINGE) / n), _HINGE)
+    arc = np.concatenate([[0.0], np.cumsum(lengths)])
+    turn = (2.0 * arc / _CABLE.length - 1.0) * angle
+    radius = 0.5 * _CABLE.length / angle
+    start = scenes.plane_start(radius * (np.sin(turn) + math.sin(angle)), radius * (np.cos(turn) - math.cos(angle)))
+    length = _CABLE.length / scenes.UNIT
+    soft = {"from": length - _HINGE / scenes.UNIT, "to": length, "numberRodElements": 1,
+            **{key: 1e-6 * _CABLE.bending for key in ("bendingStiffness1", "bendingStiffness2")}}
+    return Case(f"catenary-{n}", {**scenes.wire_parameters(_CABLE), **scenes.at_rest({
+        "numberRodElements": n, "proximalEnd": "held", "distalEnd": "clamped", "wireSections": [soft],
+        "gravity": [0.0, -_GRAVITY, 0.0]})}, start=start, repeats=3)
+
+
+def _catenary_error(run: Run) -> float:
+    """Of the lowest node's depth."""
+    return abs(-float(np.min(last_state(run).positions[:, 1])) / catenary_sag(_CABLE, _SPAN) - 1.0)
+
+
+_SWING, _SECONDS, _STEP = 0.02, 5.0, 5e-3  # m, s, s
+
+
+def first_mode(wire: Wire) -> tuple[float, Any]:
+    """Frequency (rad/s) and shape u(s) of the slowest small swing of a rod that hangs from a pin at s = 0; u(L) = 1.
+
+    EI u'''' - (T u')' = rho A w^2 u with the weight below as T, over 1 + T/EA as it acts along the stretched rod.
+    """
+    weight, length = wire.line_density * _GRAVITY, wire.length
+
+    def slope(s: np.ndarray, y: np.ndarray, unknown: np.ndarray) -> np.ndarray:
+        tension, rise = weight * (length - s), -weight
+        stretch = 1.0 + tension / wire.stretching
+        pull = tension / stretch * y[2] + rise / stretch**2 * y[1]
+        return np.stack([y[1], y[2], y[3], (pull + wire.line_density * unknown[0] * y[0]) / wire.bending])
+
+    def ends(a: np.ndarray, b: np.ndarray, _: np.ndarray) -> np.ndarray:
+        return np.array([a[0], a[2], b[2], b[3], b[0] - 1.0])
+
+    mesh = np.linspace(0.0, length, 201)
+    chain = 1.2024**2 * _GRAVITY / length  # Bernoulli's hanging chain
+    found = solve_bvp(slope, ends, mesh, np.stack([mesh / length, np.full_like(mesh, 1.0 / length), 0.0 * mesh,
+                                                   0.0 * mesh]), p=np.array([chain]), tol=1e-9, max_nodes=100_000)
+    if not found.success:
+        raise ArithmeticError(f"swing of a hanging rod: {found.message}")
+    return math.sqrt(float(found.p[0])), found.sol
+
+
+def _pendulum(n: int) -> Case:
+    _, mode = first_mode(_CORD)
+    s = np.linspace(0.0, _CORD.length, n + 1)
+    across = _SWING * mode(s)[0]
+    middle = 0.5 * (s[1:] + s[:-1])
+    chords = _CORD.length / n * (1.0 + _CORD.line_density * _GRAVITY * (_CORD.length - middle) / _CORD.stretching)
+    along = np.concatenate([[0.0], np.cumsum(np.sqrt(chords**2 - np.diff(across) ** 2))])
+    start = {key: value for key, value in scenes.plane_start(along, across).items() if not key.endswith("Frame")}
+    return Case(f"pendulum-{n}", {
+        **scenes.wire_parameters(_CORD), "numberRodElements": n, "proximalEnd": "held", "integrator": "esdirk4",
+        "gravity": [0.0, 0.0, _GRAVITY], "timeStep": _STEP, "maxSimulationSteps": round(_SECONDS / _STEP),
+        "logSpheres": "last", "deltaThreshold": 0.0}, start=start)
+
+
+def _pendulum_error(run: Run) -> float:
+    """Of the period of the one sinusoid that is nearest to the tip's motion across."""
+    time, tip = tip_motion(run)
+    exact, _ = first_mode(_CORD)
+
+    def left(frequency: float) -> float:
+        basis = np.stack([np.cos(frequency * time), np.sin(frequency * time), np.ones_like(time)], axis=1)
+        return float(np.linalg.norm(tip[:, 1] - basis @ np.linalg.lstsq(basis, tip[:, 1], rcond=None)[0]))
+
+    found = minimize_scalar(left, bounds=(0.97 * exact, 1.03 * exact), method="bounded", options={"xatol": 1e-10})
+    return abs(exact / float(found.x) - 1.0)
+
+
+_LEVELS = (0.96, 0.98, 1.00, 1.02, 1.04, 1.06)  # of the critical twist
+_TENSION, _BUMP = 10.0, 1e-4  # EI/L^2, L
+_RAMP, _HELD, _END, _FRAME = 6.0, 8.0, 16.0, 0.05  # s: twisted, growth is exponential from, end, between frames
+_DRAG = 2.0  # 1/s
+
+
+def _twist(n: int, level: float) -> Case:
+    twist = level * twisted.clamped_moment(_TENSION) * _ROD.bending / _ROD.torsion
+    arc = np.linspace(0.0, 1.0, n + 1)
+    start = scenes.plane_start(_ROD.length * arc, 0.5 * _BUMP * _ROD.length * (1.0 - np.cos(2.0 * np.pi * arc)))
+    return Case(f"twist-{n}-{level:g}", {
+        **scenes.wire_parameters(_ROD), "numberRodElements": n, "distalEnd": "sliding", "distalRotation": twist,
+        "distalRampTime": _RAMP, "axialForce": _TENSION * _ROD.bending / _ROD.length**2, "massDamping": _DRAG,
+        "timeStep": _FRAME, "maxSimulationSteps": round(_END / _FRAME), "deltaThreshold": 0.0}, start=start)
+
+
+def _growth(run: Run) -> float:
+    """Of the largest distance from the axis while the twist is held and that is small, 1/s."""
+    log = read_log(run.folder, spheres="all")
+    aside = scenes.UNIT * np.max(np.linalg.norm(log.positions[:, :, :2], axis=2), axis=1)
+    use = (log.time >= _HELD) & (aside > 0.0) & (aside < 1e-2)
+    return float(np.polyfit(log.time[use], np.log(aside[use]), 1)[0]) if np.count_nonzero(use) >= 5 else math.nan
+
+
+def critical_level(rates: Mapping[float, float]) -> float:
+    """Level at which growth begins: s^2 + c s = a (level - critical) through the lowest three that grow."""
+    growing = [(level, s) for level, s in rates.items() if s > 0.05][:3]
+    if len(growing) < 3:
+        return math.nan
+    level, s = np.array(growing).T
+    c, a, b = np.linalg.solve(np.stack([-s, level, np.ones(3)], axis=1), s**2)
+    return float(-b / a)
+
+
+def _plan() -> Plan:
+    cases = {"cantilever, 20": [_cantilever(20)], "cantilever, 40": [_cantilever(40)], "catenary, 50": [_catenary(50)],
+             "pendulum, 50": [_pendulum(50)], "twist, 50": [_twist(50, level) for level in _LEVELS]}
+    runs = yield [case for made in cases.values() for case in made]
+    measures = {"cantilever": _cantilever_error, "catenary": _catenary_error, "pendulum": _pendulum_error}
+    units = {"cantilever": "error of the tip's deflection", "catenary": "error of the sag",
+             "pendulum": "error of the period", "twist": "error of the critical twist"}
+    results, ours = [], {}
+    for name, made in cases.items():
+        kind = name.split(",")[0]
+        if kind == "twist":
+            error = abs(critical_level({level: _growth(runs[case.key]) for level, case in zip(_LEVELS, made)}) - 1.0)
+        else:
+            error = measures[kind](runs[made[0].key])
+        cost = sum(wall_time(runs[case.key], case.repeats) for case in made)
+        ours[name] = (error, cost)
+        results.append(Result(f"{name} elements: {units[kind]}", "direct", error, 0.0, error, _GATES[name], "", cost,
+                              "of the suite's reference"))
+        for solver, figures in (("PyElastica 1.0.0", PUBLISHED[name].pyelastica),
+                                ("MuJoCo 3.13.0", PUBLISHED[name].mujoco)):
+            if math.isfinite(figures[0]):
+                results.append(Result(f"{name} elements: {units[kind]}; {SOURCE}", solver, figures[0], 0.0, figures[0],
+                                      None, "", figures[1], "of the suite's reference"))
+
+    def draw(figure: Any) -> None:
+        axes = figure.add_subplot()
+        for color, name in enumerate(cases):
+            series = (("o", "direct", ours[name]), ("s", "PyElastica", PUBLISHED[name].pyelastica),
+                      ("^", "MuJoCo", PUBLISHED[name].mujoco))
+            for marker, solver, (error, cost) in series:
+                if math.isfinite(error):
+                    axes.plot(cost, error, marker, color=f"C{color}", label=f"{name}: {solver}",
+                              fillstyle="full" if solver == "direct" else "none")
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        axes.set_xlabel("wall time (s; of others: another machine)")
+        axes.set_ylabel("error (1)")
+        pictures.outside_legend(axes)
+
+    return Finding(tuple(results), draw, (
+        "Experiments of cosseratbench with its metrics and references: ours (full; steps and search alone) beside its "
+        "published figures (results-0.2, another machine). "
+        + " ".join(f"{name} elements: {number(error, 2)} in {number(cost, 2)} s."
+                   for name, (error, cost) in ours.items())
+        + " MuJoCo has no result of the twist: it diverges."), width=10.0)
+
+
+CHECKS = (Check("suite", SECTION, "experiments of a published suite", _plan),)
