@@ -47,7 +47,8 @@ namespace Guidewire.Core.Tests
         }
 
         /// <summary>The means over a step balance its change of momentum, however many parts and stages it has; the
-        /// forces at its end are those of the wire as it is logged: the first element bears what the hub exerts.</summary>
+        /// forces at its end are those of the wire as it is logged: the first element bears what the hub
+        /// exerts.</summary>
         [TestCase(Integrator.ImplicitEuler, 50.0)]
         [TestCase(Integrator.ImplicitEuler, 1500.0)]
         [TestCase(Integrator.Trbdf2, 300.0)]
