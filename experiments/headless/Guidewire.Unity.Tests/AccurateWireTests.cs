@@ -108,7 +108,8 @@ namespace Guidewire.Unity.Tests
                 Stage.Frames(1);
             }
             Engine.Release(KeyCode.W);
-            Assert.That(Stage.Loop.Problem, Does.StartWith("failed: the step to t = ").And.Contain("maxNewtonIterations"));
+            Assert.That(Stage.Loop.Problem,
+                Does.StartWith("failed: the step to t = ").And.Contain("maxNewtonIterations"));
             Stage.Frames(1);
             Assert.That(Engine.Find<Hud>().Text, Does.Contain("STOPPED: failed"));
             Stage.Loop.Choose("params/insertion-accurate.json", new[] { "insertionSpeed=0" }, "", true);

@@ -70,7 +70,8 @@ namespace Guidewire.Core
                     worst = k;
                 }
             }
-            double clamp = _supports.HasProximalJoint && _supports.Sheath == null ? Cosine(shape.ProximalFrame, q[0]) : 1.0;
+            double clamp = _supports.HasProximalJoint && _supports.Sheath == null
+                ? Cosine(shape.ProximalFrame, q[0]) : 1.0;
             if (clamp < least)
             {
                 least = clamp;

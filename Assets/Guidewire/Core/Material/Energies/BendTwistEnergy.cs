@@ -56,8 +56,8 @@ namespace Guidewire.Core
             return _joint[0].Twist * (_joint[0].Rest.Z - TurnOf(shape, 0).Z);
         }
 
-        /// <summary>Joint 0, if it winds, is measured from where it is in this shape once it is far from its winding: no
-        /// iteration turns it by as much as is left until pi.</summary>
+        /// <summary>Joint 0, if it winds, is measured from where it is in this shape once it is far from its winding:
+        /// no iteration turns it by as much as is left until pi.</summary>
         public override void Anchor(RodShape shape)
         {
             _rewound = 0.0;
@@ -174,8 +174,8 @@ namespace Guidewire.Core
 
         // A joint that is at rest where it is has no couple.
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private void AddJoint(in Joint joint, in Quaterniond relative, ref RodVector a, ref RodVector b, ref RodBlock blockA,
-            ref RodBlock blockB)
+        private void AddJoint(in Joint joint, in Quaterniond relative, ref RodVector a, ref RodVector b,
+            ref RodBlock blockA, ref RodBlock blockB)
         {
             if (!_isStiffened)
             {

@@ -73,8 +73,8 @@ namespace Guidewire.Core
             return Position - (Vector3d.Dot(Force(shape), Axis) / _stiffness) * Axis;
         }
 
-        /// <summary>By how much along the axis, m, the support would have to move back for the axial force to be no more
-        /// than the hub's.</summary>
+        /// <summary>By how much along the axis, m, the support would have to move back for the axial force to be no
+        /// more than the hub's.</summary>
         public double SlipOf(RodShape shape)
         {
             return Excess(shape) / _axial;

@@ -6,8 +6,8 @@ namespace Guidewire.Core
     /// <summary>Steps of a motion that are halved where they have no solution, and those halves again, down to 1/4096:
     /// a snap or a violent release goes far in one step, and where it ends depends on what came between.</summary>
     /// <remarks>Pieces are doubled again once some of one length are solved, twice as many after each doubling that
-    /// failed, half as many after one that did not; so where only short pieces have a solution, for many steps as it may
-    /// be, few longer ones are tried. The next step begins with the length with which the last one ended.
+    /// failed, half as many after one that did not; so where only short pieces have a solution, for many steps as it
+    /// may be, few longer ones are tried. The next step begins with the length with which the last one ended.
     ///
     /// A wire that snaps between walls is far from where it was after however short a piece: Newton's method then
     /// descends far, energy falling in every iteration. So there the shortest piece has <see cref="MoreIterations"/>
@@ -86,7 +86,7 @@ namespace Guidewire.Core
                 if (Iterations > most && done < Whole)
                 {
                     return last + string.Format(CultureInfo.InvariantCulture,
-                        "; halved to pieces of {0:G3} s the step took more than {1} times maxNewtonIterations iterations", h,
+                        "; halved to pieces of {0:G3} s the step took more than {1} times maxNewtonIterations", h,
                         MostSolutions);
                 }
             }

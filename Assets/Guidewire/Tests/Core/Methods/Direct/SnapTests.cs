@@ -34,9 +34,9 @@ namespace Guidewire.Core.Tests
             }
         }
 
-        /// <summary>An arch under a weight that grows through it: from where the arch without disturbances is unstable on
-        /// only steps of milliseconds have a solution, and steps of 0.1 s are followed in such pieces until it has snapped
-        /// through. Where each step began from its whole length, 3735 pieces had none.</summary>
+        /// <summary>An arch under a weight that grows through it: from where the arch without disturbances is unstable
+        /// on only steps of milliseconds have a solution, and steps of 0.1 s are followed in such pieces until it has
+        /// snapped through. Where each step began from its whole length, 3735 pieces had none.</summary>
         [TestCase(0.1)]
         [TestCase(0.07)]
         public void ArchUnderAGrowingWeight_SnapsThrough_InFewPiecesWithoutASolution(double timeStep)
@@ -63,8 +63,8 @@ namespace Guidewire.Core.Tests
             Assert.That(run.Report()!.HalvedSteps, Is.InRange(5.0, 100.0));
         }
 
-        /// <summary>Between walls, with so few iterations that only the shortest pieces have a solution, or none: the run
-        /// fails at once and says what is too small.</summary>
+        /// <summary>Between walls, with so few iterations that only the shortest pieces have a solution, or none: the
+        /// run fails at once and says what is too small.</summary>
         [TestCase(1)]
         [TestCase(2)]
         [TestCase(3)]
