@@ -69,7 +69,8 @@ namespace Guidewire.Core
             _path.Clear();
             _path.Add((0.0, centre, along, first));
             _narrowest = first;
-            return Walk(centre, first, along, 1.0, out double last) && Walk(centre, first, -along, -1.0, out double from)
+            return Walk(centre, first, along, 1.0, out double last)
+                && Walk(centre, first, -along, -1.0, out double from)
                 ? Bottom(from, last) : double.PositiveInfinity;
         }
 

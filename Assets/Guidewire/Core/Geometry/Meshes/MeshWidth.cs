@@ -30,7 +30,8 @@ namespace Guidewire.Core
                 size = Math.Max(size, Vector3d.Distance(mesh.Corners[3 * t], mesh.Corners[0]));
             }
             double least = Math.Max(above, Least * size);
-            double cell = area / Math.Min(Math.Max(SamplesOverRadius * area / (least * least), LeastSamples), MostSamples);
+            double samples = SamplesOverRadius * area / (least * least);
+            double cell = area / Math.Min(Math.Max(samples, LeastSamples), MostSamples);
             var walk = new LumenWalk(wall, least);
             double narrowest = below;
             double covered = 0.5 * cell;

@@ -71,9 +71,9 @@ namespace Guidewire.Core.Tests
             }
         }
 
-        /// <summary>Half the clearance at the narrowest position, from a hundredth to 0.3 of a wire's radius, is that of
-        /// the same surface however it is cut: of a vessel whose corners lie off a circle by up to 15 % by chance,
-        /// where a fold or a closed end has balls of every size.</summary>
+        /// <summary>Half the clearance at the narrowest position, from a hundredth to 0.3 of a wire's radius, is that
+        /// of the same surface however it is cut: of a vessel whose corners lie off a circle by up to 15 % by chance,
+        /// whose folds have balls of every size.</summary>
         [Test]
         public void RoughVessel_HasOneClearance_HoweverItIsCut([Values(0.6, 0.8)] double radius)
         {
