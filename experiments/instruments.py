@@ -92,9 +92,9 @@ class Bench:
 
     def _load(self, wire: Wire, gauge: float, deflection: float) -> tuple[float, float]:
         """The simulated tip under the load for a deflection, and the load for the deflection that it then has."""
-        load = elastica.load_at(wire, gauge, deflection).force
+        load = elastica.load_at(wire, gauge, deflection)
         tip = benches.read_tip(self.make(benches.tip_load(wire, gauge, load)))
-        return load, elastica.load_at(wire, gauge, float(tip[0] - elastica.rest_tip(wire, gauge)[0])).force
+        return load, elastica.load_at(wire, gauge, float(tip[0] - elastica.rest_tip(wire, gauge)[0]))
 
     def tube(self, wire: Wire, friction: float | None) -> bent_tube.TubeTest:
         """The test of an instrument in the bent tube. Raises PreparationError where it gives no figure."""

@@ -15,7 +15,7 @@ _TIP = 0.12  # m of the tip that is drawn
 
 @styled
 def draw_instrument(name: str, wire: Wire, tube: TubeTest, smooth: TubeTest) -> Figure:
-    """The tip at rest, stiffness along the wire, and the test in a bent tube with the instrument's friction and without.
+    """The tip at rest, stiffness along the wire, and the test in a bent tube with friction and without.
 
     Parameters
     ----------
@@ -45,6 +45,6 @@ def draw_instrument(name: str, wire: Wire, tube: TubeTest, smooth: TubeTest) -> 
     push.set(title="force through the bent tube", xlabel="insertion (mm)", ylabel="force at the hub (N)")
     push.legend()
     turn.set(title="torque response", xlabel="turn of the hub (degrees)", ylabel="turn of the tip (degrees)")
-    add_caption(figure, "Tip without loads; bending and torsional stiffness as simulated. The tube bends by 90 degrees at"
-                        " a radius of 40 mm; after the push the hub makes three turns.")
+    add_caption(figure, "Tip without loads; bending and torsional stiffness as simulated. The tube bends by 90 degrees"
+                        " at a radius of 40 mm; after the push the hub makes three turns.")
     return figure

@@ -57,16 +57,6 @@ def span_of(wire: Wire) -> float:
     return max(LEAST_SPAN, SPAN_DIAMETERS * 2.0 * wire.radius)
 
 
-def taper_factor(m: float) -> float:
-    """Compliance of a beam with EI = EI0 (1 + m x) under a force in its middle, over that of EI0; x from -1 to 1.
-
-    (3/2) times the integral of (1 - |x|)^2/(1 + m x): 1 + m^2/10 for small m.
-    """
-    x, weights = np.polynomial.legendre.leggauss(40)
-    x, weights = 0.5 * (x + 1.0), 0.5 * weights
-    return float(1.5 * np.sum(weights * (1.0 - x) ** 2 * (1.0 / (1.0 + m * x) + 1.0 / (1.0 - m * x))))
-
-
 def expected_stiffness(wire: Wire, start: float, arms: tuple[float, float]) -> float:
     """What three-point bending of a piece gives by the method of unit loads: the integral of m^2/EI, m the moment of a
     unit force, in place of the compliance of a uniform beam."""
@@ -146,5 +136,6 @@ def require_end(folder: Path) -> Run:
     run = read_run(folder)
     if run.outcome not in ("finished", "converged") or not run.is_reliable:
         reason = run.summary["reason"] if isinstance(run.summary, Mapping) else ""
-        raise LogError(f"{folder}: the bench test is {run.outcome}{'' if run.is_reliable else ', not reliable'}: {reason}")
+        doubt = "" if run.is_reliable else ", not reliable"
+        raise LogError(f"{folder}: the bench test is {run.outcome}{doubt}: {reason}")
     return run

@@ -67,14 +67,15 @@ def bent_tube(wire: Wire, drive: Path, friction: float | None) -> dict[str, Any]
     angles = np.linspace(0.0, 0.5 * math.pi, 19)
     arc = [[0.0, _RADIUS * (1.0 - math.cos(a)), _STRAIGHT + _RADIUS * math.sin(a)] for a in angles]
     end = [0.0, _RADIUS + _STRAIGHT + 10.0, _STRAIGHT + _RADIUS]
-    tube = {"shape": "tube", "knots": [[0.0, 0.0, -10.0], *arc, end], "radius": max(_LUMEN, 2e3 * wire.radius), "openStart": True,
-            "openEnd": True, "smooth": True}
+    tube = {"shape": "tube", "knots": [[0.0, 0.0, -10.0], *arc, end], "radius": max(_LUMEN, 2e3 * wire.radius),
+            "openStart": True, "openEnd": True, "smooth": True}
     if friction is not None:
         tube["frictionCoefficient"] = friction
-    return {"solver": "direct", "instrument": wire.parameters["instrument"], "guidewireLength": _LENGTH, "guidewireOffset": 10.0 - _LENGTH,
-            "proximalEnd": "clamped", "drive": "displace", "driveFile": str(drive), "vessel": tube,
-            "sheath": {"exit": [0.0, 0.0, 0.0]}, "massDamping": 20.0, "timeStep": _STEP, "deltaThreshold": 0.0,
-            "maxSimulationSteps": round(_TURNED / _STEP), "logHub": True, "logContacts": True}
+    return {"solver": "direct", "instrument": wire.parameters["instrument"], "guidewireLength": _LENGTH,
+            "guidewireOffset": 10.0 - _LENGTH, "proximalEnd": "clamped", "drive": "displace", "driveFile": str(drive),
+            "vessel": tube, "sheath": {"exit": [0.0, 0.0, 0.0]}, "massDamping": 20.0, "timeStep": _STEP,
+            "deltaThreshold": 0.0, "maxSimulationSteps": round(_TURNED / _STEP), "logHub": True,
+            "logContacts": True}
 
 
 def read_tube(folder: Path) -> TubeTest:

@@ -7,34 +7,18 @@ Shear adds 1 % to the deflection of a short thick tip.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from scipy.integrate import solve_bvp
 
 from analysis.instruments.wire import Wire
 
 
-@dataclass(frozen=True)
-class TipLoad:
-    """A load at a deflection.
-
-    Attributes
-    ----------
-    force : across the clamped axis, N.
-    tip : (2,), where the tip then stands, (y, z) in m from the clamp.
-    """
-
-    force: float
-    tip: np.ndarray
-
-
 class ElasticaError(Exception):
     """The boundary value problem has not converged. The message is one line."""
 
 
-def load_at(wire: Wire, gauge: float, deflection: float) -> TipLoad:
-    """The force that displaces the tip across by deflection (m) from its rest shape; gauge (m) is free of the clamp.
+def load_at(wire: Wire, gauge: float, deflection: float) -> float:
+    """The force (N) that displaces the tip across by deflection (m) from its rest; gauge (m) is free of the clamp.
 
     Each uniform piece is mapped to [0, 1], with its own four functions, continuous from piece to piece.
 
@@ -73,7 +57,7 @@ def load_at(wire: Wire, gauge: float, deflection: float) -> TipLoad:
     solution = solve_bvp(slopes, ends, x, guess, p=[1.0], tol=1e-5, max_nodes=2000)
     if not solution.success:
         raise ElasticaError(f"the boundary value problem of the tip has no solution: {solution.message}")
-    return TipLoad(float(solution.p[0]) * load, solution.y[-2:, -1])
+    return float(solution.p[0]) * load
 
 
 def rest_tip(wire: Wire, gauge: float) -> np.ndarray:

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-PIECEWISE = ("numberRodElements", "wireSections", "guidewireLength")
 WIRE_KEYS = ("wireRadius", "innerRadius", "shearFactor", "bendingStiffness", "torsionalStiffness", "density")
 
 
