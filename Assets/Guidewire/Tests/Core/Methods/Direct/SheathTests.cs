@@ -269,7 +269,7 @@ namespace Guidewire.Core.Tests
             }
             Assert.That(way * (end.Z - run.State.Positions[0].Z), Is.EqualTo(10.0).Within(1e-3));
             run.End(Outcome.Interrupted, "that will do");
-            Assert.That(run.Reason, Does.Contain("came to an end"));
+            Assert.That(run.Reason, Does.Contain("reached an end of its sheath"));
         }
 
         [Test]
