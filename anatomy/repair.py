@@ -119,8 +119,8 @@ class _Work:
             if k != keep and extent > _STRAY * size and not _is_around(self.mesh, bodies, k, keep):
                 place = np.round(self.mesh.part(bodies == k).vertices.mean(axis=0), 4).tolist()
                 raise AnatomyError(f"{len(np.unique(bodies))} separate surfaces; besides the largest one "
-                                   f"another, around {place}, is {extent / size:.0%} of its size: a vessel is one; take one out, or "
-                                   "join them")
+                                   f"another, around {place}, is {extent / size:.0%} of its size: a vessel is one; "
+                                   "take one out, or join them")
         self._note("stray bodies removed", len(np.unique(bodies)) - 1, 0.0, others.vertices.mean(axis=0))
         self.mesh = self.mesh.part(bodies == keep)
 
