@@ -36,6 +36,20 @@ def self_intersections(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
     return points[kept], found[kept]
 
 
+def relaxed(mesh: Mesh) -> Mesh:
+    """The mesh with vertices of triangles that cross others moved to the middle of their neighbours, until none do."""
+    for _ in range(10):
+        _, pairs = self_intersections(mesh)
+        if not len(pairs):
+            break
+        vertices = mesh.vertices.copy()
+        for vertex in np.unique(mesh.triangles[pairs.ravel()]):
+            around = np.unique(mesh.triangles[(mesh.triangles == vertex).any(axis=1)])
+            vertices[vertex] = mesh.vertices[around].mean(axis=0)
+        mesh = Mesh(vertices, mesh.triangles)
+    return mesh
+
+
 def _candidates(low: np.ndarray, high: np.ndarray, size: float):
     """Pairs of triangles whose boxes share a cell, in chunks, each pair once per common cell."""
     origin = low.min(axis=0)

@@ -29,8 +29,8 @@ def write_vessel(folder: Path, mesh: Mesh, line: Centreline, unit: Unit, source:
     digits = max(0, 7 - math.floor(math.log10(mesh.diagonal)))
     write_obj(folder / MESH, mesh.vertices, mesh.triangles, digits)
     ends = [{"number": end.number, "name": end.name, "centre": _numbers(end.centre, digits),
-             "radius": round(max(end.radius, 10.0**-digits), digits), "direction": _numbers(end.direction, 6), "open": end.is_open,
-             "point": end.point} for end in line.ends]
+             "radius": round(max(end.radius, 10.0**-digits), digits), "direction": _numbers(end.direction, 6),
+             "open": end.is_open, "point": end.point} for end in line.ends]
     # At the wall of a closed end the sphere has no radius; none is rounded to 0.
     points = np.column_stack([line.points, np.maximum(line.radii, 10.0**-digits)])
     write_whole(folder / ANATOMY, json.dumps({

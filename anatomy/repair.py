@@ -13,14 +13,16 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import breadth_first_order, connected_components
 
 from anatomy.distance_grid import cut_open, remesh
-from anatomy.inspection import (facing, cast_rays, sort_rims, typical_radius, weld, weld_exactly, weld_length_of,
-                                without_slivers)
-from anatomy.intersections import self_intersections
+from anatomy.inspection import (cast_rays, facing, narrow_radius, sort_rims, typical_radius, weld, weld_exactly,
+                                weld_length_of, without_slivers)
+from anatomy.intersections import relaxed, self_intersections
 from anatomy.mesh import AnatomyError, Edges, Mesh, Rim, close_rims, find_bodies, find_rims, signed_volume
 from anatomy.surfaces import distances
 
 _CONE = 14  # rays out of a triangle
 _FACING = 0.3
+_ROUNDS = 3
+_MOST_MOVED = 0.25  # of the typical radius, by a lid
 _LIP = 5.0  # median thicknesses of the wall
 _STRAY = 0.05  # of the largest body's box: a body up to that is a remnant
 
@@ -67,6 +69,7 @@ def repair(mesh: Mesh) -> Repaired:
     work.drop_bodies()
     work.cut_crossings()
     work.fill_holes()
+    work.cut_crossings_of_lids()
     work.remesh_if_needed()
     work.mesh = work.mesh.part(find_bodies(work.mesh) == 0)
     work.orient()
@@ -91,7 +94,8 @@ class _Work:
 
     def drop_slivers(self) -> None:
         self.mesh, places = without_slivers(self.mesh)
-        self._note("triangles without area or there twice removed", len(places), 0.0, places[0] if len(places) else None)
+        self._note("triangles without area or there twice removed", len(places), 0.0,
+                   places[0] if len(places) else None)
 
     def drop_bodies(self) -> None:
         bodies = find_bodies(self.mesh)
@@ -114,14 +118,14 @@ class _Work:
             extent = np.ptp(self.mesh.part(bodies == k).vertices, axis=0).max()
             if k != keep and extent > _STRAY * size and not _is_around(self.mesh, bodies, k, keep):
                 place = np.round(self.mesh.part(bodies == k).vertices.mean(axis=0), 4).tolist()
-                raise AnatomyError(f"{len(np.unique(bodies))} separate surfaces; besides the largest one another, around "
-                                   f"{place}, is {extent / size:.0%} of its size: a vessel is one; take one out, or "
-                                   "join them")
+                raise AnatomyError(f"{len(np.unique(bodies))} separate surfaces; besides the largest one "
+                                   f"another, around {place}, is {extent / size:.0%} of its size: a vessel is one; "
+                                   "take one out, or join them")
         self._note("stray bodies removed", len(np.unique(bodies)) - 1, 0.0, others.vertices.mean(axis=0))
         self.mesh = self.mesh.part(bodies == keep)
 
     def keep_inner_wall(self) -> None:
-        """Of a double wall joined at its ends: the side of it from which fewer rays escape, cut straight at its ends."""
+        """Of a double wall joined at its ends: the side from which fewer rays escape, cut straight at its ends."""
         if facing(self.mesh).mean() <= _FACING:
             return
         mesh = self.mesh
@@ -181,6 +185,21 @@ class _Work:
             self.changes = self.changes[:-1]
         # What is left goes through the distance grid.
 
+    def cut_crossings_of_lids(self) -> None:
+        """Few crossings that are left, or that lids over holes made: out with a ring of triangles around them."""
+        for _ in range(_ROUNDS):
+            _, pairs = self_intersections(self.mesh)
+            if not 0 < len(pairs) <= 40 or find_bodies(self.mesh).max() > 0:
+                return
+            before, known = self.mesh, list(self.changes)
+            at = np.unique(before.triangles[pairs.ravel()])
+            self._take_out(np.isin(self.mesh.triangles, at).any(axis=1),
+                           "triangles that passed through others removed, with those around")
+            self.fill_holes()
+            if self.changes[-1].moved > _MOST_MOVED * typical_radius(before):
+                self.mesh, self.changes = before, known  # a piece of the vessel went with them
+                return
+
     def _take_out(self, bad: np.ndarray, name: str) -> None:
         place = self.mesh.corners[bad][0].mean(axis=0)
         self._note(name, int(bad.sum()), 0.0, place)
@@ -220,7 +239,8 @@ class _Work:
         place = points[0] if len(points) else self.mesh.vertices[crowded[0]].mean(axis=0)
         count = len(points) + len(crowded)
         rims = sort_rims(self.mesh, find_rims(self.mesh, edges))
-        self.mesh, moved = remesh(self.mesh, [rim for rim in rims if not rim.is_hole], 0.25 * typical_radius(self.mesh))
+        self.mesh, moved = remesh(self.mesh, [rim for rim in rims if not rim.is_hole], 0.25 * narrow_radius(self.mesh))
+        self.mesh = relaxed(self.mesh)
         self._note("crossings left: the wall made anew from its signed distance", count, moved, place)
         points, _ = self_intersections(self.mesh)
         if len(points):
@@ -267,7 +287,7 @@ def _keys(mesh: Mesh) -> np.ndarray:
 
 
 def _bulge(mesh: Mesh, rim: Rim) -> float:
-    """How far the wall may have been from a flat lid over a hole: that of a circle's sphere, at most half its radius."""
+    """How far the wall may have been from a flat lid over a hole: that of a sphere, at most its radius."""
     off = np.abs((mesh.vertices[rim.vertices] - rim.centre) @ rim.normal).max()
     return float(min(max(off, 0.1 * rim.radius), max(rim.radius, off)))
 

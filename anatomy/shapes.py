@@ -4,8 +4,8 @@ Sizes are drawn with a seed from normal distributions cut at two standard deviat
 
 - thoracic aorta: diameters from Hager et al., J Thorac Cardiovasc Surg 123 (2002) 1060: ascending 30.9 +- 4.1 mm, arch
   27.7 +- 3.7, descending 24.3 +- 3.5;
-- types of the arch: Madhwal et al., J Invasive Cardiol 20 (2008) 200: from the top of the arch down to the origin of the
-  brachiocephalic trunk it is less than one diameter of the left common carotid (I), one to two (II), more (III);
+- types of the arch: Madhwal et al., J Invasive Cardiol 20 (2008) 200: from the top of the arch down to the origin of
+  the brachiocephalic trunk it is less than one diameter of the left common carotid (I), one to two (II), more (III);
 - carotids: Krejza et al., Stroke 37 (2006) 1103: common 6.1 +- 0.8 mm, internal 4.7 +- 0.8 (women);
 - left coronary tree: Dodge et al., Circulation 86 (1992) 232: main 4.5 +- 0.5 mm, anterior descending 3.7 +- 0.4 to
   1.9 +- 0.4, circumflex 3.4 +- 0.5; angle of the bifurcation: Pflederer et al., Eur Radiol 16 (2006) 2582: 80 +- 27

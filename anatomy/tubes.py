@@ -3,8 +3,8 @@
 A tube's outer distance at p is |p - c| - r, with c the nearest point of its centreline. Where two tubes meet, a ball of
 the carina's radius R that touches both from outside rounds the edge between them. With the distances a, b and their
 gradients m, n the ball's centre is at p + u m + v n with m.(u m + v n) = R - a, n.(u m + v n) = R - b; between the two
-points of contact, where u and v are positive, the distance is R - |u m + v n|, elsewhere the smaller of a and b. That is
-exact where the walls are flat over a length R.
+points of contact, where u and v are positive, the distance is R - |u m + v n|, elsewhere the smaller of a and b.
+That is exact where the walls are flat over a length R.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from scipy.spatial import cKDTree
 
 from anatomy.centreline import cut_edges, resample
 from anatomy.distance_grid import cut_open
-from anatomy.intersections import self_intersections
+from anatomy.intersections import relaxed
 from anatomy.mesh import Edges, Mesh, find_bodies, signed_volume
 from anatomy.surfaces import contour, decimate
 from experiments.vessel import Lumen, near_lines
@@ -61,7 +61,7 @@ def mesh_of_tubes(tubes: list[Tube], carina: float) -> Mesh:
     mesh = Mesh(_onto(mesh.vertices, spacing, lambda p: _union(fields, tubes, carina, p)), mesh.triangles)
     if len(tubes) > 1:
         mesh = _refined(mesh, fields, tubes, carina)
-    mesh = _relaxed(decimate(mesh, _FLAT * _FINE * spacing))
+    mesh = relaxed(decimate(mesh, _FLAT * _FINE * spacing))
     if signed_volume(mesh) > 0.0:
         mesh = mesh.turned()
     for tube in tubes:
@@ -142,20 +142,6 @@ def _refined(mesh: Mesh, fields: list[_Field], tubes: list[Tube], carina: float)
         mesh = cut_edges(mesh, edges, chosen)
         vertices = mesh.vertices.copy()
         vertices[known:] = _onto(vertices[known:], carina, lambda p: _union(fields, tubes, carina, p))
-        mesh = Mesh(vertices, mesh.triangles)
-    return mesh
-
-
-def _relaxed(mesh: Mesh) -> Mesh:
-    """The mesh with vertices of triangles that cross others moved to the middle of their neighbours, until none do."""
-    for _ in range(10):
-        _, pairs = self_intersections(mesh)
-        if not len(pairs):
-            break
-        vertices = mesh.vertices.copy()
-        for vertex in np.unique(mesh.triangles[pairs.ravel()]):
-            around = np.unique(mesh.triangles[(mesh.triangles == vertex).any(axis=1)])
-            vertices[vertex] = mesh.vertices[around].mean(axis=0)
         mesh = Mesh(vertices, mesh.triangles)
     return mesh
 

@@ -186,8 +186,8 @@ def _add_overrides(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_anatomy(commands: argparse._SubParsersAction) -> None:
-    anatomy = commands.add_parser("anatomy", help="a vessel from a mesh, a segmentation or a centreline, or one made by "
-                                                  "code: inspected, repaired, with its centreline and a scene")
+    anatomy = commands.add_parser("anatomy", help="a vessel from a mesh, a segmentation or a centreline, or one made "
+                                                  "by code: inspected, repaired, with its centreline and a scene")
     source = anatomy.add_mutually_exclusive_group(required=True)
     source.add_argument("file", metavar="FILE", type=Path, nargs="?",
                         help=".stl, .obj, .ply, .vtp; masks .nii, .nii.gz, .nrrd; centrelines .csv, .vtp, .mrk.json")
@@ -196,7 +196,7 @@ def _add_anatomy(commands: argparse._SubParsersAction) -> None:
     anatomy.add_argument("--seed", type=positive, default=1, metavar="N", help="of what is made (1)")
     anatomy.add_argument("--stenosis", type=above_zero, metavar="F", help="made with a stenosis that leaves F of the "
                                                                           "diameter, such as 0.4")
-    anatomy.add_argument("--aneurysm", type=above_zero, metavar="F", help="made with an aneurysm of F times the diameter")
+    anatomy.add_argument("--aneurysm", type=above_zero, metavar="F", help="made with an aneurysm of F diameters")
     anatomy.add_argument("--out", type=path, help="folder of the results (results/anatomy/<name of FILE>)")
     anatomy.add_argument("--look", action="store_true", help="report and picture only")
     anatomy.add_argument("--open", action="store_true", help="cut closed ends open")

@@ -59,8 +59,8 @@ BAD = {
     "c.stl": (b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n", "breaks off"),
     "d.stl": (b"solid words and nothing else, for a hundred characters or so, that no reader of meshes can use at all",
               "a text, but not an STL"),
-    "e.stl": (b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 nan 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
-              b"endsolid a\n", "line 4"),
+    "e.stl": (b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 nan 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
+              b"endfacet\nendsolid a\n", "line 4"),
     "a.obj": (b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "line 4: a face of '1 2 9'"),
     "b.obj": (b"v 0 0\n", "line 1"),
     "c.obj": (b"hello\n", "no triangles"),

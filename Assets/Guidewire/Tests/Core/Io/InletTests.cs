@@ -108,7 +108,7 @@ namespace Guidewire.Core.Tests
             Assert.That(path.Distances[0], Is.EqualTo(20.0).Within(1e-12));
             Assert.That(path.Distances[30], Is.EqualTo(20.0).Within(1e-12));
             Assert.That(path.BranchesTo(30), Is.EqualTo(new[] { "left", "stem", "right" }));
-            // The branch goes along (0, -1, 1)/sqrt(2): of a displacement across its axis only the part along it counts.
+            // The branch goes along (0, -1, 1)/sqrt(2): only the part of a displacement along it counts.
             Assert.That(path.DistanceOf(fork.Points[30] - new Vector3d(0.0, 0.1, 0.0), 30),
                 Is.EqualTo(20.0 + 0.1 * Math.Sqrt(0.5)).Within(1e-12));
         }
