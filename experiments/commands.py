@@ -304,9 +304,13 @@ def _hub(arguments: argparse.Namespace) -> int:
 def _compare(arguments: argparse.Namespace) -> int:
     from analysis.figures.measured import draw_comparison
     from analysis.measured import compare
+    from analysis.runs import read_run
 
     def draw(folder: Path) -> Figure:
         found = compare(folder, arguments.measured)
+        ended = read_run(folder).outcome
+        if ended not in ("finished", "converged"):
+            print(f"guidewire: {folder}: the run ended {ended}, compared up to there", file=sys.stderr)
         print(found.told())
         return draw_comparison(found)
 

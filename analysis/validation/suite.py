@@ -1,6 +1,6 @@
 """Checks of the experiments of a published suite for rod solvers, with its metrics and references, beside its figures.
 
-The suite is cosseratbench (github.com/jakeryderv/cosseratbench, docs/findings.md at 6e1a81b, results-0.2 at c44ae82 and
+The suite is cosseratbench (github.com/jakeryderv/cosseratbench, its findings at 6e1a81b, results-0.2 at c44ae82 and
 dc6c424). Lengths in m, rods of 1 m; the references are computed here from the definitions of its experiments.
 """
 
@@ -230,7 +230,7 @@ _WAITED, _PAUSE = 2.0, 1e-2  # s: how long the rope may move, in steps of
 
 
 def holding_overhang() -> float:
-    """Length of the heavy side up to which the rope holds, m: T' = mu T + w a (cos phi + mu sin phi) over half the drum."""
+    """Length of the heavy side up to which the rope holds, m: T' = mu T + w a (cos phi + mu sin phi) on the drum."""
     grows, around = math.exp(_FRICTION * math.pi), _DRUM + _ROPE.radius
     return grows * _LIGHT + around * 2.0 * _FRICTION / (1.0 + _FRICTION**2) * (grows + 1.0)
 
@@ -239,7 +239,8 @@ def _capstan(n: int, overhang: float) -> Case:
     """The rope starts as it hangs in balance, its tension on the drum by a part m of the friction's coefficient."""
     weight, heavy = _ROPE.line_density * _GRAVITY, overhang * holding_overhang()
     radii = _DRUM + _ROPE.radius
-    piece = 1.05 * (_LIGHT + math.pi * radii + heavy) / n  # longer than any stretched element, whose chord clears the drum:
+    # The chord of any element, stretched, clears the drum.
+    piece = 1.05 * (_LIGHT + math.pi * radii + heavy) / n
     around = radii / math.cos(0.5 * piece / radii)
     phi = np.linspace(0.0, math.pi, 2001)
 
