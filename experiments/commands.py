@@ -308,9 +308,10 @@ def _compare(arguments: argparse.Namespace) -> int:
 
     def draw(folder: Path) -> Figure:
         found = compare(folder, arguments.measured)
-        ended = read_run(folder).outcome
-        if ended not in ("finished", "converged"):
-            print(f"guidewire: {folder}: the run ended {ended}, compared up to there", file=sys.stderr)
+        run = read_run(folder)
+        if not run.is_reliable:
+            print(f"guidewire: {folder}: the run ended {run.outcome}, and by its summary it is not reliable",
+                  file=sys.stderr)
         print(found.told())
         return draw_comparison(found)
 
