@@ -95,8 +95,8 @@ def compare(folder: Path, file: Path) -> ComparedForce | ComparedShapes:
     if rows.shape[1] == 2:
         hub = read_hub(folder)
         use = _within(rows[:, 0], hub.time, file)
-        return ComparedForce(rows[use, 0], rows[use, 1], np.interp(rows[use, 0], hub.time, hub.force),
-                             int(np.count_nonzero(~use)))
+        force = _finite(np.interp(rows[use, 0], hub.time, hub.force), folder)
+        return ComparedForce(rows[use, 0], rows[use, 1], force, int(np.count_nonzero(~use)))
     log = read_log(folder, spheres="all")
     if len(log.spheres) < 2:
         raise LogError(f"{log.source}: holds one sphere only; a shape needs a run with logSpheres = \"all\"")
@@ -104,7 +104,7 @@ def compare(folder: Path, file: Path) -> ComparedForce | ComparedShapes:
     shapes = np.split(rows[:, 1:], first[1:])
     use = _within(times, log.time, file)
     kept = tuple(shape for shape, kept in zip(shapes, use) if kept)
-    nodes = np.array([_nodes_at(log, time) for time in times[use]])
+    nodes = _finite(np.array([_nodes_at(log, time) for time in times[use]]), folder)
     distances = tuple(_distances(points, line) for points, line in zip(kept, nodes))
     return ComparedShapes(times[use], kept, nodes, distances, int(np.count_nonzero(~use)))
 
@@ -136,6 +136,12 @@ def _read(file: Path) -> np.ndarray:
     if not rows:
         raise LogError(f"{file}: holds no line of numbers after the first line")
     return np.array(rows)
+
+
+def _finite(values: np.ndarray, folder: Path) -> np.ndarray:
+    if not np.all(np.isfinite(values)):
+        raise LogError(f"{folder}: the run's log has numbers that are not finite at the measured times")
+    return values
 
 
 def _within(times: np.ndarray, run: np.ndarray, file: Path) -> np.ndarray:

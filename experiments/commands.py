@@ -310,9 +310,14 @@ def _hub(arguments: argparse.Namespace) -> int:
 def _compare(arguments: argparse.Namespace) -> int:
     from analysis.figures.measured import draw_comparison
     from analysis.measured import compare
+    from analysis.runs import read_run
 
     def draw(folder: Path) -> Figure:
         found = compare(folder, arguments.measured)
+        run = read_run(folder)
+        if not run.is_reliable:
+            print(f"guidewire: {folder}: the run ended {run.outcome}, and by its summary it is not reliable",
+                  file=sys.stderr)
         print(found.told())
         return draw_comparison(found)
 

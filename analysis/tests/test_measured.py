@@ -89,6 +89,16 @@ def test_file_that_is_none_or_no_text_is_named(tmp_path):
         compare(tmp_path, tmp_path / "picture.csv")
 
 
+def test_run_that_is_not_finite_is_refused(tmp_path):
+    log = json.loads((_run(tmp_path) / "positions.json").read_text())
+    log["1"]["hub"]["force"] = float("nan")
+    log["1"]["sphere"]["2"]["y"] = float("inf")
+    (tmp_path / "positions.json").write_text(json.dumps(log))
+    for text in ("time,force\n0.5,1\n", "time,x,y,z\n0.4,1,1,1\n"):
+        with pytest.raises(LogError, match="not finite"):
+            compare(tmp_path, _csv(tmp_path, text))
+
+
 def test_run_that_does_not_log_what_was_measured_is_refused(tmp_path):
     _run(tmp_path, spheres=1, hub=False)
     with pytest.raises(LogError, match="logHub"):

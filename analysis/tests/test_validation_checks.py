@@ -226,4 +226,5 @@ def test_picture_shows_points_gate_and_caption() -> None:
 def test_every_check_has_its_own_name() -> None:
     assert len({check.name for check in ROWS}) == len(ROWS)
     assert {check.section for check in ROWS} == {
-        "The clamp", "Statics", "Stability limits", "Dynamics", "In the vessel", "Independence"}
+        "The clamp", "Statics", "Stability limits", "Dynamics", "In the vessel", "Independence",
+        "A published suite"}

@@ -10,7 +10,8 @@ from scipy.integrate import solve_ivp
 from scipy.linalg import eigh, expm
 
 from analysis.validation import (
-    bar, beam, drum, elastica, planar_stability, planes, release, spatial, tube_buckling, tubes, twisted, whip,
+    bar, beam, drum, elastica, planar_stability, planes, release, spatial, suite, tube_buckling, tubes,
+    twisted, twisted_tube, whip,
 )
 from analysis.validation.states import State
 from analysis.validation.wire import BASE, Wire
@@ -316,6 +317,25 @@ def test_column_between_planes_touches_first_under_eulers_load() -> None:
     assert planes.push(4.0 * math.pi**2 * (1.0 + 1e-9)) == pytest.approx(0.0, abs=1e-5)
     below, above = planes.push(16.0 * math.pi**2 * (1.0 - 1e-9)), planes.push(16.0 * math.pi**2 * (1.0 + 1e-9))
     assert below == pytest.approx(above, rel=1e-6) and above == pytest.approx(64.0 * math.pi**2, rel=1e-6)
+
+
+def test_rod_twisted_in_a_tube_first_touches_at_greenhills_couple_and_then_splits_its_contact() -> None:
+    """The couples of Li (2010)."""
+    assert twisted_tube.middle(twisted.clamped_moment() + 1e-7)[2] == pytest.approx(0.0, abs=1e-4)
+    assert twisted_tube.splits() == pytest.approx(11.472, abs=1e-3)
+
+
+def test_stiff_cable_and_its_swing_are_the_limp_ones_as_its_bending_vanishes() -> None:
+    limp = Wire(1.0, 1e-3, 1e7, 1e7 / 3.0, 1000.0)
+    assert suite.stiff_cable_sag(limp, 0.8) == pytest.approx(suite.catenary_sag(limp, 0.8), rel=2e-4)
+    frequency, _ = suite.first_mode(limp)
+    chain = 0.5 * 2.404825557695773 * math.sqrt(9.81 / (1.0 + 0.5 * limp.line_density * 9.81 / limp.stretching))
+    assert frequency == pytest.approx(chain, rel=2e-3)
+
+
+def test_critical_level_is_where_the_growth_begins() -> None:
+    rates = {level: (-2.0 + math.sqrt(4.0 + 4.0 * 9.0 * (level - 0.99))) / 2.0 for level in (1.0, 1.02, 1.04, 1.06)}
+    assert suite.critical_level({0.96: -0.1, **rates}) == pytest.approx(0.99, rel=1e-9)
 
 
 def test_stiff_ropes_capstan_is_the_textbooks_for_a_limp_rope() -> None:

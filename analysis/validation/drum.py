@@ -58,7 +58,7 @@ def force(mu: float, young: float, drawn: bool) -> float:
             m * (math.pi + aside(f) - lift(_PULL) - lift(f)))
         return f - b - on - m * f * math.sin(lift(f))
 
-    found = float(brentq(excess, b, 10.0 * _PULL, xtol=1e-12))
+    found = float(brentq(excess, b, 100.0 * _PULL, xtol=1e-12))
     return found * math.cos(aside(found))
 
 

@@ -16,7 +16,7 @@ from analysis.figures.wording import number
 from analysis.logs import LogError
 from analysis.validation import (
     balance, clamp, coil, couples, drum, dynamics, friction, heavy_rods, helix, hub_force, independence, joint, order,
-    planes, ring, stability, statics, suite, tube_buckling, turning, vessel, whip,
+    planes, ring, stability, statics, suite, tube_buckling, turning, twisted_tube, vessel, whip,
 )
 from analysis.validation.check import Check, Finding, Result, replay
 from analysis.validation.pictures import SOLVER_MARKERS
@@ -24,13 +24,13 @@ from analysis.validation.pictures import SOLVER_MARKERS
 ROWS: tuple[Check, ...] = (
     *clamp.CHECKS, *joint.CHECKS, *statics.CHECKS, *couples.CHECKS, *heavy_rods.CHECKS, *stability.CHECKS, *ring.CHECKS,
     *helix.CHECKS, *dynamics.CHECKS, *balance.CHECKS, *order.CHECKS, *turning.CHECKS, *vessel.CHECKS, *friction.CHECKS,
-    *hub_force.CHECKS, *coil.CHECKS, *drum.CHECKS, *planes.CHECKS, *whip.CHECKS, *tube_buckling.CHECKS,
-    *independence.CHECKS, *suite.CHECKS,
+    *hub_force.CHECKS, *coil.CHECKS, *drum.CHECKS, *planes.CHECKS, *twisted_tube.CHECKS, *whip.CHECKS,
+    *tube_buckling.CHECKS, *independence.CHECKS, *suite.CHECKS,
 )
 _QUICK = (
     "clamp-compliance", "clamp-frequencies", "plane", "end-moment", "end-moment-darboux", "localised-helix", "bar",
     "force-balance", "force-balance-default", "order-in-time", "order-in-time-axial", "large-turns", "elements",
-    "tolerance",
+    "tolerance", "twisted-tube",
     *(check.name for check in joint.CHECKS),
 )
 FAST = (  # what tests run

@@ -1,6 +1,6 @@
 """Checks of the experiments of a published suite for rod solvers, with its metrics and references, beside its figures.
 
-The suite is cosseratbench (github.com/jakeryderv/cosseratbench, docs/findings.md at 6e1a81b, results-0.2 at c44ae82 and
+The suite is cosseratbench (github.com/jakeryderv/cosseratbench, its findings at 6e1a81b, results-0.2 at c44ae82 and
 dc6c424). Lengths in m, rods of 1 m; the references are computed here from the definitions of its experiments.
 """
 
@@ -30,7 +30,7 @@ SOURCE = "cosseratbench, results-0.2, another machine"
 
 @dataclass(frozen=True)
 class Published:
-    """What the suite's results say: error and wall time (s) of PyElastica 1.0.0 and of MuJoCo 3.13.0; not a number where
+    """The suite's results: error and wall time (s) of PyElastica 1.0.0 and of MuJoCo 3.13.0; not a number where
     a solver has no error."""
 
     pyelastica: tuple[float, float]
@@ -43,9 +43,12 @@ PUBLISHED = {
     "catenary, 50": Published((1.3711e-4, 0.6117), (1.2258e-2, 4.8840)),
     "pendulum, 50": Published((1.3682e-4, 4.5454), (2.0885e-5, 4.9919)),
     "twist, 50": Published((1.0982e-2, 39.284), (math.nan, math.nan)),
+    "capstan, 100": Published((0.14214, 2.1888), (2.4566e-3, 24.816)),
 }
-_GATES = {"cantilever, 20": 1e-3, "cantilever, 40": 1e-3, "catenary, 50": 1e-3, "pendulum, 50": 5e-5, "twist, 50": 1e-2}
+_GATES = {"cantilever, 20": 1e-3, "cantilever, 40": 1e-3, "catenary, 50": 1e-3, "pendulum, 50": 5e-5, "twist, 50": 1e-2,
+          "capstan, 100": 5e-5}
 
+_FINE = 200  # elements of the catenary that is compared with a stiff cable
 _GRAVITY = 9.81
 _BEAM = Wire(1.0, 0.02, 1e6, 1e6 / 3.0, 1000.0)
 _CABLE = Wire(1.0, 0.005, 1e6, 1e6 / 3.0, 1000.0)
@@ -82,6 +85,31 @@ def catenary_sag(wire: Wire, span: float) -> float:
     return 0.25 * half * wire.length / wire.stretching + (math.hypot(tension, half) - tension) / weight
 
 
+def stiff_cable_sag(wire: Wire, span: float) -> float:
+    """The same with its bending stiffness, m: half of it as a boundary value problem.
+
+    EI t'' = -(1 + e) (V cos t - H sin t) with V = -w (L/2 - s) and e = (H cos t + V sin t)/EA; t' = 0 at the pin.
+    """
+    weight, half = wire.line_density * _GRAVITY, 0.5 * wire.length
+
+    def rates(s: np.ndarray, y: np.ndarray, unknown: np.ndarray) -> np.ndarray:
+        along, down, cos, sin = unknown[0], -weight * (half - s), np.cos(y[0]), np.sin(y[0])
+        stretch = 1.0 + (along * cos + down * sin) / wire.stretching
+        return np.stack([y[1], -stretch * (down * cos - along * sin) / wire.bending, stretch * cos, stretch * sin])
+
+    def ends(a: np.ndarray, b: np.ndarray, _: np.ndarray) -> np.ndarray:
+        return np.array([a[1], a[2], a[3], b[0], b[2] - 0.5 * span])
+
+    s = np.linspace(0.0, half, 201)
+    along = 0.5 * weight * wire.length
+    angle = -np.arctan2(weight * (half - s), along)
+    guess = np.stack([angle, np.gradient(angle, s), span / wire.length * s, 0.6 * (s - half) - 0.3 * wire.length])
+    found = solve_bvp(rates, ends, s, guess, p=np.array([along]), tol=1e-8, max_nodes=100_000)
+    if not found.success:
+        raise ArithmeticError(f"cable between pins: {found.message}")
+    return -float(found.y[3, -1])
+
+
 def _catenary(n: int) -> Case:
     """From a circular arc; a pin that is not the first sphere's is a clamp behind a short soft piece."""
     angle = brentq(lambda a: math.sin(a) / a - _SPAN / _CABLE.length, 1e-3, math.pi)
@@ -98,9 +126,13 @@ def _catenary(n: int) -> Case:
         "gravity": [0.0, -_GRAVITY, 0.0]})}, start=start, repeats=3)
 
 
+def _sag(run: Run) -> float:
+    """Depth of the lowest node, m."""
+    return -float(np.min(last_state(run).positions[:, 1]))
+
+
 def _catenary_error(run: Run) -> float:
-    """Of the lowest node's depth."""
-    return abs(-float(np.min(last_state(run).positions[:, 1])) / catenary_sag(_CABLE, _SPAN) - 1.0)
+    return abs(_sag(run) / catenary_sag(_CABLE, _SPAN) - 1.0)
 
 
 _SWING, _SECONDS, _STEP = 0.02, 5.0, 5e-3  # m, s, s
@@ -192,13 +224,73 @@ def critical_level(rates: Mapping[float, float]) -> float:
     return float(-b / a)
 
 
+_DRUM, _ROPE, _FRICTION, _LIGHT = 0.05, Wire(1.0, 1e-3, 3e5, 1e5, 1000.0), 0.3, 0.15  # m; and the light side, m
+_OFF = 0.1  # m: it slides
+_WAITED, _PAUSE = 2.0, 1e-2  # s: how long the rope may move, in steps of
+
+
+def holding_overhang() -> float:
+    """Length of the heavy side up to which the rope holds, m: T' = mu T + w a (cos phi + mu sin phi) on the drum."""
+    grows, around = math.exp(_FRICTION * math.pi), _DRUM + _ROPE.radius
+    return grows * _LIGHT + around * 2.0 * _FRICTION / (1.0 + _FRICTION**2) * (grows + 1.0)
+
+
+def _capstan(n: int, overhang: float) -> Case:
+    """The rope starts as it hangs in balance, its tension on the drum by a part m of the friction's coefficient."""
+    weight, heavy = _ROPE.line_density * _GRAVITY, overhang * holding_overhang()
+    radii = _DRUM + _ROPE.radius
+    # The chord of any element, stretched, clears the drum.
+    piece = 1.05 * (_LIGHT + math.pi * radii + heavy) / n
+    around = radii / math.cos(0.5 * piece / radii)
+    phi = np.linspace(0.0, math.pi, 2001)
+
+    def tension(m: float) -> np.ndarray:
+        inside = np.exp(-m * phi) * weight * around * (np.cos(phi) + m * np.sin(phi))
+        step = 0.5 * (inside[1:] + inside[:-1]) * np.diff(phi)
+        return np.exp(m * phi) * (weight * _LIGHT + np.concatenate([[0.0], np.cumsum(step)]))
+
+    used = brentq(lambda m: tension(m)[-1] - weight * heavy, -1.0, 2.0)
+    on = tension(used)
+    # Of points along the path: the angle or the way beyond the drum, and the unstretched length between them.
+    stretch = 1.0 + 0.5 * (on[1:] + on[:-1]) / _ROPE.stretching
+    wrapped = np.concatenate([[0.0], np.cumsum(around * np.diff(phi) / stretch)])
+    length = _LIGHT + float(wrapped[-1]) + heavy
+    s = length * np.linspace(0.0, 1.0, n + 1)
+    angle = np.interp(s - _LIGHT, wrapped, phi)
+
+    def hung(rest: np.ndarray, side: float) -> np.ndarray:
+        """Stretched length between the drum and a point that is `rest` above the free end of a side."""
+        return (side - rest) + 0.5 * weight / _ROPE.stretching * (side**2 - rest**2)
+
+    below = np.where(s < _LIGHT, hung(np.minimum(s, _LIGHT), _LIGHT), hung(np.minimum(length - s, heavy), heavy))
+    start = scenes.plane_start(-around * np.cos(angle), below - around * np.sin(angle))
+    rope = Wire(length, _ROPE.radius, _ROPE.youngs_modulus, _ROPE.shear_modulus, _ROPE.density)
+    return Case(f"capstan-{overhang:g}", {
+        **scenes.wire_parameters(rope), "numberRodElements": n, "integrator": "implicitEuler", "proximalEnd": "free",
+        "gravity": [0.0, -_GRAVITY, 0.0], "massDamping": 5.0, "timeStep": _PAUSE, "deltaThreshold": 0.0,
+        "maxSimulationSteps": round(_WAITED / _PAUSE),
+        "obstacles": [{"shape": "capsule", "from": [-50.0, 0.0, 0.0], "to": [50.0, 0.0, 0.0],
+                       "radius": _DRUM / scenes.UNIT, "frictionCoefficient": _FRICTION}],
+    }, start={key: value for key, value in start.items() if not key.endswith("Frame")})
+
+
+def _slide(run: Run) -> float:
+    """How far the light end rose, m."""
+    height = scenes.UNIT * read_log(run.folder, spheres=(0,)).positions[:, 0, 1]
+    return float(np.max(height) - height[0])
+
+
 def _plan() -> Plan:
     cases = {"cantilever, 20": [_cantilever(20)], "cantilever, 40": [_cantilever(40)], "catenary, 50": [_catenary(50)],
-             "pendulum, 50": [_pendulum(50)], "twist, 50": [_twist(50, level) for level in _LEVELS]}
-    runs = yield [case for made in cases.values() for case in made]
-    measures = {"cantilever": _cantilever_error, "catenary": _catenary_error, "pendulum": _pendulum_error}
+             "pendulum, 50": [_pendulum(50)], "twist, 50": [_twist(50, level) for level in _LEVELS],
+             "capstan, 100": [_capstan(100, 0.8)]}
+    fine, others = _catenary(_FINE), {overhang: _capstan(100, overhang) for overhang in (0.95, 1.1)}
+    runs = yield [*(case for made in cases.values() for case in made), fine, *others.values()]
+    measures = {"cantilever": _cantilever_error, "catenary": _catenary_error, "pendulum": _pendulum_error,
+                "capstan": _slide}
     units = {"cantilever": "error of the tip's deflection", "catenary": "error of the sag",
-             "pendulum": "error of the period", "twist": "error of the critical twist"}
+             "pendulum": "error of the period", "twist": "error of the critical twist",
+             "capstan": "slide of the light end in 2 s at 0.8 of the overhang that holds, m"}
     results, ours = [], {}
     for name, made in cases.items():
         kind = name.split(",")[0]
@@ -216,6 +308,20 @@ def _plan() -> Plan:
                 results.append(Result(f"{name} elements: {units[kind]}; {SOURCE}", solver, figures[0], 0.0, figures[0],
                                       None, "", figures[1], "of the suite's reference"))
 
+    sag, exact = _sag(runs[fine.key]), stiff_cable_sag(_CABLE, _SPAN)
+    results.append(Result(f"catenary, {_FINE} elements: sag, against a cable with bending stiffness, "
+                          f"{number(exact / catenary_sag(_CABLE, _SPAN) - 1.0, 2)} off the suite's reference", "direct",
+                          sag, exact, abs(sag / exact - 1.0), 1e-4, "m", wall_time(runs[fine.key], fine.repeats)))
+
+    for overhang, case in others.items():
+        slide, cost = _slide(runs[case.key]), wall_time(runs[case.key])
+        what = f"capstan, 100 elements, {overhang:g} of the overhang that holds: slide of the light end in 2 s"
+        results.append(
+            Result(f"{what}, none", "direct", slide, 0.0, slide, _GATES["capstan, 100"], "m", cost, "m")
+            if overhang < 1.0 else
+            Result(f"{what}, at least {_OFF:g} m", "direct", slide, _OFF, max(0.0, _OFF - slide), 0.0, "m", cost,
+                   "m short of it"))
+
     def draw(figure: Any) -> None:
         axes = figure.add_subplot()
         for color, name in enumerate(cases):
@@ -228,7 +334,7 @@ def _plan() -> Plan:
         axes.set_xscale("log")
         axes.set_yscale("log")
         axes.set_xlabel("wall time (s; of others: another machine)")
-        axes.set_ylabel("error (1)")
+        axes.set_ylabel("error (1; capstan: slide in m)")
         pictures.outside_legend(axes)
 
     return Finding(tuple(results), draw, (

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from experiments import building, commands
-from experiments.prepare import ROOT
+from experiments.prepare import ROOT, PreparationError
 
 
 def guidewire(*arguments, cwd=ROOT):
@@ -91,6 +91,19 @@ def test_paths_are_those_of_the_folder_where_the_user_stands(tmp_path):
     (tmp_path / "mine.json").write_text(json.dumps({"maxSimulationSteps": 2}))
     assert guidewire("run", "mine.json", cwd=tmp_path).returncode == 0
     assert (tmp_path / "results" / "mine" / "summary.json").exists()
+
+
+def test_a_run_is_drawn_beside_a_measurement_and_what_cannot_be_compared_is_one_line(demo, tmp_path, capsys):
+    run = next(log.parent for log in demo[0].glob("runs/*/*/positions.json") if '"all"' in
+               (log.parent / "parameters.json").read_text())
+    measured = tmp_path / "measured.csv"
+    measured.write_text("time,x,y,z\n0,0,0,0\n0.1,0,0,1e2\n")
+    assert commands.run(commands.parse(["compare", str(run), str(measured)])) == 0
+    assert "centreline: RMS distance" in capsys.readouterr().out and (run / "compare.png").stat().st_size > 10_000
+    measured.write_text("time,force\n0,1\n")
+    with pytest.raises(PreparationError, match="needs a run of solver direct with logHub") as error:
+        commands.run(commands.parse(["compare", str(run), str(measured)]))
+    assert "\n" not in str(error.value)
 
 
 def test_an_unknown_figure_is_one_line_that_names_those_there_are():
