@@ -14,7 +14,7 @@ from anatomy.centreline import Centreline, End
 from anatomy.inspection import Inspection, Unit
 from anatomy.mesh import AnatomyError, Mesh
 from anatomy.repair import Repaired
-from experiments.vessel import write_obj
+from experiments.campaigns.vessel import write_obj
 from experiments.whole_files import write_whole
 
 MESH, ANATOMY, SCENE, REPORT, PICTURE = "vessel.obj", "anatomy.json", "scene.json", "report.md", "picture.png"

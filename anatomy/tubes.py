@@ -19,7 +19,7 @@ from anatomy.distance_grid import cut_open
 from anatomy.intersections import relaxed
 from anatomy.mesh import Edges, Mesh, find_bodies, signed_volume
 from anatomy.surfaces import contour, decimate
-from experiments.vessel import Lumen, near_lines
+from experiments.campaigns.vessel import Lumen, near_lines
 
 _FINE = 3.5  # cells a smallest radius
 _FLAT = 0.004  # of the smallest radius: error of the decimation

@@ -119,7 +119,7 @@ def assert_true_outcome(answer: Answer, out: Path, own_keys: set[str]) -> dict:
     elif answer.outcome == "diverged":
         assert summary["steps"] > 0
         if not has_material:
-            assert_lost(log, parameters)
+            assert_lost(log, summary, parameters)
     else:
         assert_numbers_are_finite(log, summary)
         assert_motion(log, summary, parameters)
@@ -215,10 +215,12 @@ def bend_force(parameters: dict) -> float:
     return parameters["youngsModulus"] * 0.25 * math.pi * parameters["wireRadius"]**4 / length**2
 
 
-def assert_lost(log: dict, parameters: dict) -> None:
-    """What the word diverged means of gains; what the log does not hold is given the benefit of the doubt."""
-    if list(_not_finite("log", log)):
+def assert_lost(log: dict, summary: dict, parameters: dict) -> None:
+    """What the word diverged means of pbd; what the log does not hold is given the benefit of the doubt."""
+    if str(summary["steps"]) not in log:    # a state that is not finite is not logged
+        assert "finite" in summary["reason"], summary["reason"]
         return
+    assert not list(_not_finite("log", log)), "a value of the log is not finite"
     positions = positions_of(log)
     with np.errstate(over="ignore"):
         ways = np.linalg.norm(positions - positions[0, 0], axis=-1)

@@ -81,7 +81,8 @@ namespace Guidewire.Core
         /// <summary>The displacement asked for in the present step, m, never negative.</summary>
         public double Asked { get; private set; }
 
-        /// <summary>How far node 0 is beyond the displacement that it may be moved to, m; negative where it is not.</summary>
+        /// <summary>How far node 0 is beyond the displacement that it may be moved to, m; negative where it is
+        /// not.</summary>
         public double BeyondLimit => Insertion - _mostInsertion;
 
         /// <summary>From where it is it may move node 0 no farther than these displacements, m.</summary>

@@ -24,11 +24,20 @@ namespace Guidewire.Core
         /// <summary>Largest force of the hub along its axis, thrust or pull, N; NaN without walls.</summary>
         public double AxialForce { get; private set; } = double.NaN;
 
+        /// <summary>When the hub's force was the largest, s; NaN without walls.</summary>
+        public double AxialForceTime { get; private set; } = double.NaN;
+
         /// <summary>Largest torque of the hub about its axis, in either sense, N m; NaN without walls.</summary>
         public double AxialTorque { get; private set; } = double.NaN;
 
+        /// <summary>When the hub's torque was the largest, s; NaN without walls.</summary>
+        public double AxialTorqueTime { get; private set; } = double.NaN;
+
         /// <summary>Largest normal force of the walls on one element, N; NaN without walls.</summary>
         public double ElementForce { get; private set; } = double.NaN;
+
+        /// <summary>When that force was the largest, s; NaN without walls.</summary>
+        public double ElementForceTime { get; private set; } = double.NaN;
 
         /// <summary>Largest of these forces over the element's length and diameter, Pa; NaN without walls.</summary>
         public double WallPressure { get; private set; } = double.NaN;
@@ -86,17 +95,22 @@ namespace Guidewire.Core
         /// <summary>Takes what the hub does.</summary>
         /// <param name="force">Along its axis, N.</param>
         /// <param name="torque">About it, N m.</param>
-        internal void TakeHub(double force, double torque)
+        /// <param name="time">s.</param>
+        internal void TakeHub(double force, double torque, double time)
         {
+            AxialForceTime = AxialForce >= Math.Abs(force) ? AxialForceTime : time;
             AxialForce = Larger(AxialForce, Math.Abs(force));
+            AxialTorqueTime = AxialTorque >= Math.Abs(torque) ? AxialTorqueTime : time;
             AxialTorque = Larger(AxialTorque, Math.Abs(torque));
         }
 
         /// <summary>Takes the normal forces of walls on elements.</summary>
         /// <param name="force">Largest on an element, N.</param>
         /// <param name="pressure">Largest of an element, Pa.</param>
-        internal void TakeWalls(double force, double pressure)
+        /// <param name="time">s.</param>
+        internal void TakeWalls(double force, double pressure, double time)
         {
+            ElementForceTime = ElementForce >= force ? ElementForceTime : time;
             ElementForce = Larger(ElementForce, force);
             WallPressure = Larger(WallPressure, pressure);
         }
@@ -115,8 +129,11 @@ namespace Guidewire.Core
             _curvatureSquared = snapshot.Serialize(_curvatureSquared);
             Strain = snapshot.Serialize(Strain);
             AxialForce = snapshot.Serialize(AxialForce);
+            AxialForceTime = snapshot.Serialize(AxialForceTime);
             AxialTorque = snapshot.Serialize(AxialTorque);
+            AxialTorqueTime = snapshot.Serialize(AxialTorqueTime);
             ElementForce = snapshot.Serialize(ElementForce);
+            ElementForceTime = snapshot.Serialize(ElementForceTime);
             WallPressure = snapshot.Serialize(WallPressure);
             FrictionPower = snapshot.Serialize(FrictionPower);
             FrictionWork = snapshot.Serialize(FrictionWork);

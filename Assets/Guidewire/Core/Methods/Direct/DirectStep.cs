@@ -203,10 +203,10 @@ namespace Guidewire.Core
             }
             _elementForces.Take(Shape, Contacts!.ElementForces);
             Contacts.Pressure = _elementForces.LargestPressure;
-            _extremes.TakeWalls(_elementForces.LargestForce, _elementForces.LargestPressure);
+            _extremes.TakeWalls(_elementForces.LargestForce, _elementForces.LargestPressure, Time);
             if (Terms.Walls()!.HoldsStart)
             {
-                _extremes.TakeHub(Terms.HubForce(Shape), _dynamics.Reactions.HubTorque);
+                _extremes.TakeHub(Terms.HubForce(Shape), _dynamics.Reactions.HubTorque, Time);
             }
             if (Terms.Walls()!.Friction != null)
             {
