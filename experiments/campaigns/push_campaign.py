@@ -50,6 +50,7 @@ class Push:
     seconds : wall time of the run.
     outcome : how it ended; None where it did not.
     reason : its reason.
+    is_reliable : whether its summary says that nothing speaks against its result.
     """
 
     seed: int
@@ -58,6 +59,7 @@ class Push:
     seconds: float
     outcome: str | None = None
     reason: str = ""
+    is_reliable: bool = False
 
 
 def triangles_of(scene: dict[str, Any]) -> np.ndarray:
@@ -111,7 +113,7 @@ def make(runner: Runner, seed: int, method: str, folder: Path) -> Push | None:
     known = OF_ENDS if scene["vessel"]["shape"] == "mesh" else (*OF_ENDS, push_claims.RIM)
     claims += [f"warning: {warning}" for warning in summary["warnings"]
                if not any(words in warning for words in known)]
-    return Push(seed, kind, claims, seconds, answer.outcome, summary["reason"])
+    return Push(seed, kind, claims, seconds, answer.outcome, summary["reason"], summary["reliable"])
 
 
 def starts_in_a_wall(scene: dict[str, Any], walls: Walls) -> bool:
@@ -157,6 +159,7 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--keep", type=Path, help="folder for the scenes of runs that break a claim")
     given = parser.parse_args(arguments)
     broken = 0
+    reliable = 0
     slowest = 0.0
     outcomes: Counter[str] = Counter()
     with tempfile.TemporaryDirectory() as scratch:
@@ -166,13 +169,14 @@ def main(arguments: Sequence[str]) -> int:
         for push in itertools.islice(runs, given.runs):
             slowest = max(slowest, push.seconds)
             broken += bool(push.claims)
+            reliable += push.is_reliable
             outcomes[str(push.outcome)] += 1
             if push.claims:
                 print(f"{push.seed} {push.kind}: {'; '.join(push.claims)}", flush=True)
             elif push.outcome != "finished":
                 print(f"{push.seed} {push.kind} {push.outcome}: {push.reason}", flush=True)
     ends = ", ".join(f"{count} {outcome}" for outcome, count in sorted(outcomes.items()))
-    print(f"{given.runs} runs ({ends}), {broken} break a claim, slowest {slowest:.1f} s")
+    print(f"{given.runs} runs ({ends}; {reliable} reliable), {broken} break a claim, slowest {slowest:.1f} s")
     return 1 if broken else 0
 
 

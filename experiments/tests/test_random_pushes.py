@@ -62,6 +62,20 @@ def test_a_thin_tip_that_snaps_round_under_a_weak_hub_passes_no_wall_and_goes_to
     assert np.ptp(hub.turn + hub.twist) > 2.0 * np.pi  # of the tip: it snapped round
 
 
+def test_a_wire_that_buckles_at_the_exit_of_its_sheath_fails_before_it_is_outside(runner_command, tmp_path):
+    done = subprocess.run([*runner_command, "-parameters", str(CASES / "jammed_at_the_exit.json"), "-out",
+                           str(tmp_path / "run")], capture_output=True, text=True)
+    assert done.returncode == 5 and "the wire buckles at the exit of its sheath, under 22." in done.stderr
+    summary = json.loads((tmp_path / "run" / "summary.json").read_text())
+    assert summary["passages"] == 0 and "a hubForceLimit lets the hub slip" in summary["reason"]
+    data = np.frombuffer((CASES / "jammed_at_the_exit.stl").read_bytes()[84:],
+                         np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("count", "<u2")]))
+    mesh = MeshSearch(data["corners"].astype(float))
+    positions = read_log(tmp_path / "run", spheres="all").positions
+    out = positions[positions[..., 2] > json.loads((CASES / "jammed_at_the_exit.json").read_text())["sheath"]["exit"][2]]
+    assert len(out) > 1000 and mesh.inside(out).all()
+
+
 def test_a_mesh_that_crosses_itself_is_known():
     box = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
     quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
