@@ -164,8 +164,8 @@ def parse(argv: list[str]) -> argparse.Namespace:
     python.add_argument("words", metavar="...", nargs=argparse.REMAINDER, help="the script's own arguments")
     python.set_defaults(packages=DRAWING)
 
-    native = commands.add_parser("native", help="build the native library (needs gcc), with which sessions of scripts "
-                                                "take half the time a call")
+    native = commands.add_parser("native", help="build the native library (needs gcc), with which short calls of "
+                                                "sessions take two thirds of the time")
     native.set_defaults(packages=())
 
     bench = commands.add_parser("bench", help="cost of a step, part by part, or overhead of short runs")
