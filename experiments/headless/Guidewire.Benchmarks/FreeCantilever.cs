@@ -32,7 +32,10 @@ namespace Guidewire.Benchmarks
             _parameters.Scene.InitialState = InitialState.Equilibrium;
             RodState rest = Simulation.Create(_parameters).State;
             _parameters.Scene.Start = new RodStart(rest.Positions, rest.Orientations, rest.Velocities,
-                rest.AngularVelocities);
+                rest.AngularVelocities)
+            {
+                ProximalFrame = Quaterniond.Identity,    // the clamp's; the first element is bent against it
+            };
             _parameters.Scene.TipForce = Vector3d.Zero;
             _parameters.Scene.InitialState = InitialState.Straight;
         }
