@@ -24,7 +24,7 @@ from typing import Any
 import numpy as np
 
 from experiments import building
-from experiments.session_hosts import Ended, Library, Process, is_usable
+from experiments.session_hosts import Ended, Library, Process, obstacle
 
 _COLUMNS = {
     "positions": 3, "velocities": 3, "orientations": 4, "angularVelocities": 3, "contactForces": 3, "reaction": 3,
@@ -271,9 +271,10 @@ class Session:
 
 
 def _host(native: bool | None) -> Library | Process:
-    if native and not is_usable():
-        raise SessionError("a process forked from one with native sessions cannot have its own: start it by 'spawn'")
-    library = building.native_library() if native is not False and is_usable() else None
+    reason = "" if native is False else obstacle()
+    if native and reason:
+        raise SessionError(reason)
+    library = None if native is False or reason else building.native_library()
     if library is None and native:
         raise SessionError("the native library is not built from these sources: 'guidewire.py native' builds it")
     if library is not None:

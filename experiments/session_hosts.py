@@ -151,10 +151,8 @@ class Library:
 @cache
 def _load(path: str) -> ctypes.CDLL:
     global _loaded_by
-    if not is_usable():
-        raise PreparationError(f"{path}: was loaded before this process was forked: start it by 'spawn'")
-    if not _runs_here():
-        raise PreparationError(f"{path}: needs a processor of x86-64-v3 (AVX2)")
+    if reason := obstacle():
+        raise PreparationError(f"{path}: {reason}")
     try:
         functions = ctypes.CDLL(path)
     except OSError as error:
@@ -180,10 +178,11 @@ def _runs_here() -> bool:
     return _FLAGS <= set(flags)
 
 
-def is_usable() -> bool:
-    """Whether this process may load the library: a fork of one that has it loaded may not, as the threads that collect
-    its memory are not there."""
-    return _loaded_by in (None, os.getpid())
+def obstacle() -> str:
+    """Why this process may not load the library, in one line; empty where it may."""
+    if _loaded_by not in (None, os.getpid()):    # the threads that collect its memory are not there
+        return "a process forked from one with native sessions cannot have its own: start it by 'spawn'"
+    return "" if _runs_here() else "the native library needs a processor of x86-64-v3 (AVX2)"
 
 
 def lanes(path: Path) -> int:

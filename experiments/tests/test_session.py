@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from analysis.logs import read_log
+from experiments import building, session_hosts
 from experiments.prepare import ROOT
 from experiments.session import Session, SessionError
 
@@ -223,6 +224,15 @@ def test_a_runner_that_dies_is_said_and_leaves_no_process():
     with Session(**WIRE, native=False) as session:
         process = session._host.process
     assert process.poll() == 0
+
+
+def test_an_older_processor_takes_runners(monkeypatch):
+    monkeypatch.setattr(session_hosts, "_runs_here", lambda: False)
+    monkeypatch.setattr(building, "native_library", lambda: ROOT / "library.so")
+    with Session(**WIRE) as session:
+        assert session.step().step == 1 and isinstance(session._host, session_hosts.Process)
+    with pytest.raises(SessionError, match="needs a processor of x86-64-v3"):
+        Session(**WIRE, native=True)
 
 
 def test_a_key_of_a_file_that_is_passed_over_is_warned_of(tmp_path):
