@@ -28,8 +28,7 @@ from analysis.logs import read_log
 from analysis.surfaces import read_obj
 from experiments import building
 from experiments.campaigns import material_claims, material_pushes, push_claims, pushes
-from experiments.campaigns.push_claims import Walls
-from experiments.campaigns.wall_search import crosses_itself
+from experiments.campaigns.wall_search import Walls, crosses_itself, triangles_of
 from experiments.runner import Request, Runner
 
 RUN_LIMIT = 60.0  # s of wall time of one run
@@ -62,18 +61,6 @@ class Push:
     is_reliable: bool = False
 
 
-def triangles_of(scene: dict[str, Any]) -> np.ndarray:
-    """Corners (t, 3, 3) in units of a scene's mesh at its place."""
-    if scene["vessel"]["shape"] != "mesh":
-        return np.empty((0, 3, 3))
-    mesh = read_obj(Path(scene["vessel"]["file"]))
-    vertices = mesh.vertices
-    if "position" in scene:
-        turn = pushes.rotation_of(np.array(scene["rotation"]))
-        vertices = (vertices * scene["scale"]) @ turn.T + scene["position"]
-    return vertices[mesh.triangles]
-
-
 def write(seed: int, method: str, folder: Path) -> tuple[str, Path]:
     """Draw a push of a method and write its parameter file; returns the kind of its vessel and the file."""
     drawn = pushes.draw(seed, folder) if method == "pbd" else material_pushes.draw(seed, method, folder)
@@ -90,7 +77,7 @@ def make(runner: Runner, seed: int, method: str, folder: Path) -> Push | None:
         mesh = read_obj(Path(scene["vessel"]["file"]))
         if crosses_itself(mesh.vertices, mesh.triangles):
             return None
-    walls = Walls.of(scene, triangles_of(scene), pushes.rotation_of)
+    walls = Walls.of(scene, triangles_of(scene, path.parent))
     if method != "pbd" and starts_in_a_wall(scene, walls):
         return None
     out = folder / f"run-{seed}"

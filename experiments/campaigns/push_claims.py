@@ -4,14 +4,12 @@ element, true figures in the summary."""
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from analysis.passages import SAMPLES, sample_wire
-from experiments.campaigns.wall_search import ClosedForm, MeshSearch, closed_form
+from experiments.campaigns.wall_search import ClosedForm, MeshSearch, Walls
 
 FINE_SAMPLES = 40  # points an element, on the last entry of a log
 FROZEN_STEPS = 20
@@ -19,30 +17,6 @@ FROZEN_STEPS = 20
 DOUBTS = re.compile(r"\d+ points of the wire passed a wall|a wall reached |the wire is [\d.]+ % |the drive fell short: ")
 RIM = "the tip left the vessel by an open rim"
 SAME = 1e-9  # of the radius, or of the way asked for: what figures may differ by
-
-
-@dataclass(frozen=True)
-class Walls:
-    """The walls of a scene: the vessel's closed mesh, or None, and all others in closed form."""
-
-    mesh: MeshSearch | None
-    others: list[ClosedForm]
-
-    @classmethod
-    def of(cls, scene: dict[str, Any], triangles: np.ndarray, rotation: Callable) -> Walls:
-        """Of a parameter file; triangles (t, 3, 3) in units are those of its mesh at their place, if it has one."""
-        others = list(scene.get("obstacles") or [])
-        is_mesh = scene["vessel"]["shape"] == "mesh"
-        others += [] if is_mesh else [scene["vessel"]]
-        return cls(MeshSearch(triangles) if is_mesh else None, [closed_form(wall, rotation) for wall in others])
-
-    def beyond(self, points: np.ndarray) -> np.ndarray:
-        """Whether points (..., 3) are beyond each wall, shape (walls, ...)."""
-        flat = points.reshape(-1, 3)
-        answers = [wall.distance(flat) <= 0.0 for wall in self.others]
-        if self.mesh:
-            answers.append(~self.mesh.inside(flat))
-        return np.array(answers).reshape(-1, *points.shape[:-1])
 
 
 def judge(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray, walls: Walls) -> list[str]:
@@ -56,8 +30,8 @@ def judge(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray,
     """
     rubs = scene["vessel"].get("frictionCoefficient", 0.0) > 0.0  # friction may hold an element where it is
     return [*contradictions(summary), *_passages(scene["elementContact"], summary, positions, walls),
-            *([] if rubs else _frozen(positions)), *_drive(scene, summary, positions),
-            *_penetration(scene, summary, positions, walls)]
+            *([] if rubs else _frozen(positions)), *drive_claims(scene, summary, positions),
+            *penetration_claims(scene, summary, positions, walls)]
 
 
 def contradictions(summary: dict[str, Any]) -> list[str]:
@@ -87,10 +61,10 @@ def _passages(rule: str, summary: dict[str, Any], positions: np.ndarray, walls: 
         last = positions[-1]
         if walls.beyond((1.0 - share) * last[:-1] + share * last[1:]).any():
             claims.append("a point of the wire ends beyond a wall")
-        crossings = _crossings(positions, walls)
-        if len(crossings):
-            claims.append(f"element {crossings[0] % n} crosses a wall after step {crossings[0] // n};"
-                          f" {len(crossings)} times in all")
+        through = crossings(positions, walls)
+        if len(through):
+            claims.append(f"element {through[0] % n} crosses a wall after step {through[0] // n};"
+                          f" {len(through)} times in all")
     return claims
 
 
@@ -98,15 +72,9 @@ def _elements(positions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return positions[:, :-1].reshape(-1, 3), positions[:, 1:].reshape(-1, 3)
 
 
-def _crossings(positions: np.ndarray, walls: Walls) -> np.ndarray:
+def crossings(positions: np.ndarray, walls: Walls) -> np.ndarray:
     """Elements, numbered through all entries, whose core line goes through a wall."""
-    a, b = _elements(positions)
-    through = walls.mesh.crosses(a, b) if walls.mesh else np.zeros(len(a), bool)
-    for wall in walls.others:
-        near = np.flatnonzero(wall.distance(a) + wall.distance(b) <= np.linalg.norm(b - a, axis=1))
-        for k in near:
-            through[k] = through[k] or wall.least_along(a[k:k + 1], b[k:k + 1], 0.0) < 0.0
-    return np.flatnonzero(through)
+    return np.flatnonzero(walls.crosses(*_elements(positions)))
 
 
 def _frozen(positions: np.ndarray) -> list[str]:
@@ -124,7 +92,7 @@ def _frozen(positions: np.ndarray) -> list[str]:
     return []
 
 
-def _drive(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray) -> list[str]:
+def drive_claims(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray) -> list[str]:
     asked = scene["displacementPerStep"] * (len(positions) - 1)
     gone = np.linalg.norm(np.diff(positions[:, 0], axis=0), axis=1).sum()
     claims = []
@@ -135,7 +103,9 @@ def _drive(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray
     return claims
 
 
-def _penetration(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray, walls: Walls) -> list[str]:
+def penetration_claims(
+    scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray, walls: Walls
+) -> list[str]:
     radius = scene["sphereRadius"]
     a, b = _elements(positions)
     least = radius

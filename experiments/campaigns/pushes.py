@@ -14,6 +14,8 @@ from typing import Any
 
 import numpy as np
 
+from experiments.campaigns.wall_search import rotation_of
+
 CONTACT_RULES = ("barycentric", "none", "thesis")
 ROOM = 1.07  # least width of a lumen on the way, over the wire's radius
 
@@ -281,15 +283,6 @@ def obstacle(random, vessel: Vessel, radius: float) -> dict[str, Any]:
         return {"shape": shape, "from": (centre - along).tolist(), "to": (centre + along).tolist(),
                 "radius": 0.5 * size}
     return {"shape": shape, "centre": centre.tolist(), "radius": size}
-
-
-def rotation_of(degrees: np.ndarray) -> np.ndarray:
-    """The matrix of Euler angles in degrees, about z first, then x, then y, all about fixed axes."""
-    x, y, z = np.radians(degrees)
-    about_x = np.array([[1, 0, 0], [0, np.cos(x), -np.sin(x)], [0, np.sin(x), np.cos(x)]])
-    about_y = np.array([[np.cos(y), 0, np.sin(y)], [0, 1, 0], [-np.sin(y), 0, np.cos(y)]])
-    about_z = np.array([[np.cos(z), -np.sin(z), 0], [np.sin(z), np.cos(z), 0], [0, 0, 1]])
-    return about_y @ about_x @ about_z
 
 
 def write_mesh(random, scene: dict[str, Any], vessel: Vessel, file: Path) -> None:

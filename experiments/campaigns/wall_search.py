@@ -10,13 +10,19 @@ least value along a segment is found by halving it.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
+from scipy.spatial import ConvexHull
+
+from analysis.surfaces import read_obj
 
 _LEAF = 4  # triangles
 _BLOCK = 200_000  # pairs at a time
 _FINEST = 1e-12  # of a segment's length
+_FLAT = 1e-9  # height over width below which a hull is a plate
 
 
 def dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
@@ -241,14 +247,60 @@ class ClosedForm:
         return known
 
 
-def closed_form(wall: dict[str, Any], rotation: Callable) -> ClosedForm:
-    """A wall in closed form.
+def rotation_of(degrees: np.ndarray) -> np.ndarray:
+    """The matrix of Euler angles in degrees, about z first, then x, then y, all about fixed axes."""
+    x, y, z = np.radians(degrees)
+    about_x = np.array([[1, 0, 0], [0, np.cos(x), -np.sin(x)], [0, np.sin(x), np.cos(x)]])
+    about_y = np.array([[np.cos(y), 0, np.sin(y)], [0, 1, 0], [-np.sin(y), 0, np.cos(y)]])
+    about_z = np.array([[np.cos(z), -np.sin(z), 0], [np.sin(z), np.cos(z), 0], [0, 0, 1]])
+    return about_y @ about_x @ about_z
 
-    Parameters
-    ----------
-    wall : a vessel that is a plane or a tube with open ends and corners, or an obstacle that is a sphere, capsule or box.
-    rotation : the matrix of Euler angles in degrees.
-    """
+
+def triangles_of(scene: dict[str, Any], folder: Path) -> np.ndarray:
+    """Corners (t, 3, 3) in units of the mesh of a parameter file that lies in a folder, where position, rotation and
+    scale put them: x -> position + R (scale x). Empty where the vessel is none."""
+    if scene["vessel"]["shape"] != "mesh":
+        return np.empty((0, 3, 3))
+    mesh = read_obj(folder / scene["vessel"]["file"])
+    vertices = mesh.vertices * scene.get("scale", 1.0) @ rotation_of(scene.get("rotation", (0.0, 0.0, 0.0))).T
+    return (vertices + scene.get("position", 0.0))[mesh.triangles]
+
+
+@dataclass(frozen=True)
+class Walls:
+    """The walls of a scene: the vessel's mesh, or None, and all others in closed form."""
+
+    mesh: MeshSearch | None
+    others: list[ClosedForm]
+
+    @classmethod
+    def of(cls, scene: dict[str, Any], triangles: np.ndarray) -> Walls:
+        """Of a parameter file; triangles (t, 3, 3) in units are those of its mesh at their place, if it has one."""
+        others = list(scene.get("obstacles") or [])
+        is_mesh = scene["vessel"]["shape"] == "mesh"
+        others += [] if is_mesh else [scene["vessel"]]
+        return cls(MeshSearch(triangles) if is_mesh else None, [closed_form(wall) for wall in others])
+
+    def beyond(self, points: np.ndarray) -> np.ndarray:
+        """Whether points (..., 3) are beyond each wall, shape (walls, ...); a mesh must be closed for it."""
+        flat = points.reshape(-1, 3)
+        answers = [wall.distance(flat) <= 0.0 for wall in self.others]
+        if self.mesh:
+            answers.append(~self.mesh.inside(flat))
+        return np.array(answers).reshape(-1, *points.shape[:-1])
+
+    def crosses(self, a: np.ndarray, b: np.ndarray) -> np.ndarray:
+        """Whether each segment a b, shapes (p, 3), goes through a wall, shape (p,)."""
+        through = self.mesh.crosses(a, b) if self.mesh else np.zeros(len(a), bool)
+        for wall in self.others:
+            near = np.flatnonzero(wall.distance(a) + wall.distance(b) <= np.linalg.norm(b - a, axis=1))
+            for k in near:
+                through[k] = through[k] or wall.least_along(a[k:k + 1], b[k:k + 1], 0.0) < 0.0
+        return through
+
+
+def closed_form(wall: dict[str, Any]) -> ClosedForm:
+    """A wall in closed form: a vessel that is a plane or a tube with corners, or any obstacle."""
     shape = wall["shape"]
     if shape == "plane":
         normal = np.array(wall["normal"], float)
@@ -257,13 +309,16 @@ def closed_form(wall: dict[str, Any], rotation: Callable) -> ClosedForm:
     if wall.get("smooth"):
         raise ValueError("a tube with rounded corners is not searched here")
     if shape == "tube":
-        return ClosedForm(_tube(np.array(wall["knots"], float), np.array(wall["radius"], float)), True)
+        knots, radii = np.array(wall["knots"], float), np.array(wall["radius"], float)
+        return ClosedForm(_tube(knots, radii, wall.get("openStart", True), wall.get("openEnd", True)), True)
     if shape == "sphere":
         return ClosedForm(lambda x: (np.linalg.norm(x - wall["centre"], axis=1) - wall["radius"])[None], False)
     if shape == "capsule":
         start, end = np.array(wall["from"], float), np.array(wall["to"], float)
         return ClosedForm(lambda x: (_point_segment(x, start, end) - wall["radius"])[None], False)
-    turn, half = rotation(np.array(wall["rotation"], float)), np.array(wall["halfSize"], float)
+    if shape == "hull":
+        return ClosedForm(_hull(np.array(wall["points"], float), wall.get("radius", 0.0)), False)
+    turn, half = rotation_of(np.array(wall["rotation"], float)), np.array(wall["halfSize"], float)
 
     def box(x: np.ndarray) -> np.ndarray:
         beyond = np.abs((x - wall["centre"]) @ turn) - half
@@ -272,20 +327,41 @@ def closed_form(wall: dict[str, Any], rotation: Callable) -> ClosedForm:
     return ClosedForm(box, False)
 
 
-def _tube(knots: np.ndarray, radii: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
-    """R - |x - c| over balls on each piece of a line whose radius changes linearly from knot to knot; its ends go on
-    straight with the radius that they have."""
+def _hull(points: np.ndarray, radius: float) -> Callable[[np.ndarray], np.ndarray]:
+    """Distance from what is within a radius of the convex hull of points (p, 3), which may lie in a plane."""
+    _, sizes, axes = np.linalg.svd(points - points.mean(axis=0))
+    if sizes[2] > _FLAT * sizes[0]:
+        hull = ConvexHull(points)
+        corners, planes = points[hull.simplices], hull.equations
+    else:
+        rim = points[ConvexHull((points - points.mean(axis=0)) @ axes[:2].T).vertices]
+        corners = np.array([[rim[0], rim[k], rim[k + 1]] for k in range(1, len(rim) - 1)])
+        planes = np.array([[0.0, 0.0, 0.0, np.inf]])    # nothing is inside a plate
+
+    def terms(x: np.ndarray) -> np.ndarray:
+        height = (x @ planes[:, :3].T + planes[:, 3]).max(axis=1)
+        pairs = np.repeat(x, len(corners), axis=0), np.tile(corners, (len(x), 1, 1))
+        outside = _point_triangle(*pairs).reshape(len(x), len(corners)).min(axis=1)
+        return (np.where(height < 0.0, height, outside) - radius)[None]
+
+    return terms
+
+
+def _tube(knots: np.ndarray, radii: np.ndarray, open_start: bool, open_end: bool
+          ) -> Callable[[np.ndarray], np.ndarray]:
+    """R - |x - c| over balls on each piece of a line whose radius changes linearly from knot to knot; its open ends go
+    on straight with the radius that they have."""
     far = 1e4 * np.linalg.norm(np.diff(knots, axis=0), axis=1).sum()
     before = knots[0] + far * (knots[0] - knots[1]) / np.linalg.norm(knots[0] - knots[1])
     behind = knots[-1] + far * (knots[-1] - knots[-2]) / np.linalg.norm(knots[-1] - knots[-2])
-    starts = np.concatenate([[knots[0]], knots[:-1], [knots[-1]]])
-    ends = np.concatenate([[before], knots[1:], [behind]])
-    first = np.concatenate([[radii[0]], radii[:-1], [radii[-1]]])
-    last = np.concatenate([[radii[0]], radii[1:], [radii[-1]]])
+    if open_start:
+        knots, radii = np.vstack([before, knots]), np.r_[radii[0], radii]
+    if open_end:
+        knots, radii = np.vstack([knots, behind]), np.r_[radii, radii[-1]]
 
     def terms(x: np.ndarray) -> np.ndarray:
         values = []
-        for a, b, r, s in zip(starts, ends, first, last):
+        for a, b, r, s in zip(knots, knots[1:], radii, radii[1:]):
             length = np.linalg.norm(b - a)
             axis = (b - a) / length
             along = (x - a) @ axis

@@ -14,8 +14,8 @@ from analysis.passages import Wall, inside
 from analysis.surfaces import read_obj
 from experiments.campaigns import material_claims, material_pushes, pushes
 from experiments.campaigns.push_campaign import campaign
-from experiments.campaigns.push_claims import Walls, judge
-from experiments.campaigns.wall_search import MeshSearch, closed_form, crosses_itself
+from experiments.campaigns.push_claims import judge
+from experiments.campaigns.wall_search import MeshSearch, Walls, closed_form, crosses_itself
 
 FULL = os.environ.get("GUIDEWIRE_ALL") == "1"
 # In the fraction six kinds with one rule each, and each rule with two of them.
@@ -51,7 +51,7 @@ def test_a_thin_tip_that_snaps_round_under_a_weak_hub_passes_no_wall_and_goes_to
     assert summary["outcome"] == "finished" and summary["steps"] == scene["maxSimulationSteps"]
     mesh = read_obj(CASES / scene["vessel"]["file"])
     assert not crosses_itself(mesh.vertices, mesh.triangles)
-    walls = Walls.of(scene, mesh.vertices[mesh.triangles], pushes.rotation_of)
+    walls = Walls.of(scene, mesh.vertices[mesh.triangles])
     scene["displacementPerStep"] = every * 1e3 * scene["insertionSpeed"] * scene["timeStep"]
     positions = read_log(tmp_path / "run", spheres="all").positions
     radii = material_pushes.radii_of(scene)
@@ -116,7 +116,7 @@ def test_the_search_knows_a_box_from_its_formula():
     assert np.array_equal(mesh.inside(points), signed < 0.0)
     assert mesh.distance(points) == pytest.approx(np.abs(signed), abs=1e-12)
     box = {"shape": "box", "centre": [0, 0, 0], "halfSize": half.tolist(), "rotation": [0, 0, 0]}
-    wall = closed_form(box, pushes.rotation_of)
+    wall = closed_form(box)
     distance = wall.distance
     assert distance(points) == pytest.approx(signed, abs=1e-12)
     a, b = points[:1000], points[1000:]
@@ -135,14 +135,14 @@ def test_the_search_knows_a_box_from_its_formula():
 
 def test_the_search_knows_a_tube_on_its_axis_and_beyond_its_open_end():
     tube = {"shape": "tube", "knots": [[0, 0, 0], [0, 0, 50], [0, 20, 90]], "radius": [10, 8, 6]}
-    wall = closed_form(tube, pushes.rotation_of)
+    wall = closed_form(tube)
     assert wall.distance(np.array([[0.0, 3.0, -70.0], [0.0, 0.0, 25.0]])) == pytest.approx(
         [7.0, 9.0], abs=1e-12)
 
 
 def _judged(scene, summary, positions):
     """The first words of what a claim is made of."""
-    walls = Walls.of(scene, _box_mesh(np.array([10.0, 10.0, 100.0])), pushes.rotation_of)
+    walls = Walls.of(scene, _box_mesh(np.array([10.0, 10.0, 100.0])))
     return [claim.split(" = ")[0] for claim in judge(scene, summary, positions, walls)]
 
 
@@ -177,7 +177,7 @@ def test_the_judge_finds_what_was_made_wrong():
 @pytest.mark.parametrize("solver", ["direct", "xpbd"])
 def test_the_judge_of_a_wire_with_a_material_excuses_but_a_depth_that_is_named(solver):
     scene = {"solver": solver, "vessel": {"shape": "mesh"}, "displacementPerStep": 0.5, "guidewireLength": 30.0}
-    walls = Walls.of(scene, _box_mesh(np.array([10.0, 10.0, 100.0])), pushes.rotation_of)
+    walls = Walls.of(scene, _box_mesh(np.array([10.0, 10.0, 100.0])))
     radii = np.full(3, 2.0)
     entries = 11
 
