@@ -6,7 +6,7 @@ namespace Guidewire.Core
 {
     /// <summary>Finds a joint that is turned so far that the wire is about to lose a turn, or has lost it.</summary>
     /// <remarks>A joint's couple follows from its orientation alone, which is the same after a turn by a as after one
-    /// by a - 2 pi: beyond half a turn it pulls the shorter way round, and 2 pi of twist are gone. Already before, at
+    /// by a - 2 pi: beyond half a turn it pulls in the opposite sense, and 2 pi of twist are lost. Already before, at
     /// an angle a, a joint has (a/2) cot(a/2) of its stiffness left against turns about its other axes; at 0.98 pi,
     /// the limit here, that is 5 %.
     ///

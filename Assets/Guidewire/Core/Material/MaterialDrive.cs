@@ -85,7 +85,7 @@ namespace Guidewire.Core
         /// not.</summary>
         public double BeyondLimit => Insertion - _mostInsertion;
 
-        /// <summary>From where it is it may move node 0 no farther than these displacements, m.</summary>
+        /// <summary>Largest displacements of node 0 from its present position, m.</summary>
         /// <param name="back">0 or less.</param>
         /// <param name="forward">0 or more.</param>
         public void Limit(double back, double forward)

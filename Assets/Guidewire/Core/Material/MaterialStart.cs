@@ -2,8 +2,7 @@ using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>Where a wire with a material may start between walls: with the surface of every element in the
-    /// free.</summary>
+    /// <summary>Where a wire with a material may start: no element touches a wall with its surface.</summary>
     internal static class MaterialStart
     {
         /// <summary>What is wrong with the start of a scene, in one phrase, or null. What goes on without barriers

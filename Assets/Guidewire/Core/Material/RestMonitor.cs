@@ -119,7 +119,7 @@ namespace Guidewire.Core
             snapshot.Serialize(ref _nextCheck);
         }
 
-        // The Newton step; false where the equilibrium near by is none that a wire stays in.
+        // The Newton step; false where the nearby equilibrium is unstable.
         private bool Factorise()
         {
             for (double shift = _regularisation; shift <= Neutral * _bendForce; shift *= 10.0)

@@ -14,7 +14,7 @@ namespace Guidewire.Core
     /// error at a border is of second order in the element's length.</remarks>
     internal sealed class WireProfile
     {
-        private const double Rounding = 1e-9;  // of an element: less than this of another piece is none of it
+        private const double Rounding = 1e-9;  // of an element: shorter parts of another piece are ignored
 
         private readonly double[] _border;     // units; of the pieces, first 0, last L
         private readonly CrossSection[] _piece;

@@ -6,7 +6,7 @@ using Guidewire.Core;
 namespace Guidewire.Io
 {
     /// <summary>Wavefront OBJ: lines "v x y z" and "f i j k ..." with indices from 1, or from the end when negative. A
-    /// polygon becomes a fan; texture and normal indices, groups and materials are passed over.</summary>
+    /// polygon becomes a fan; texture and normal indices, groups and materials are ignored.</summary>
     internal static class ObjReader
     {
         private static readonly string[] PassedOver =

@@ -7,7 +7,7 @@ using Guidewire.Core;
 namespace Guidewire.Io
 {
     /// <summary>STL, binary (80 bytes, a count, 50 bytes a triangle, little-endian single precision) or text ("solid",
-    /// "vertex x y z"). The normals in the file are passed over: the order of the corners says the same.</summary>
+    /// "vertex x y z"). The normals in the file are ignored: the order of the corners gives them.</summary>
     internal static class StlReader
     {
         private const int Header = 84;

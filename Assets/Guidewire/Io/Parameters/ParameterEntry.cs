@@ -143,7 +143,7 @@ namespace Guidewire.Io
             return null;
         }
 
-        /// <summary>The word that stands today for a word of older files; null where the value is none.</summary>
+        /// <summary>The present word for a word of older files; null for any other value.</summary>
         internal virtual string? NewerWord(JToken value)
         {
             return null;

@@ -38,7 +38,7 @@ namespace Guidewire.Io
         /// <summary>The effective values.</summary>
         public RunParameters Values { get; private set; } = new RunParameters(Solver.Pbd);
 
-        /// <summary>Keys that a file holds and the method does not take: they were passed over.</summary>
+        /// <summary>Keys of a file that the method does not use: they were ignored.</summary>
         public IReadOnlyList<string> Ignored => _ignored;
 
         /// <summary>What is allowed but most likely not meant, one line each.</summary>

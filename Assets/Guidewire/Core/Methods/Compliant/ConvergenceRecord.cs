@@ -23,7 +23,7 @@ namespace Guidewire.Core
         private const int Twist = 1;
         private const int Stretch = 2;
         private const int Contact = 3;
-        private const double Floor = 1e-9;      // radians, or of L: less strain than this is none
+        private const double Floor = 1e-9;      // radians, or of L: smaller strains are ignored
         private const double Smallest = 1e-18;
         private const double Ratio = 1.05;
         private const int ClassCount = 1200;    // up to 2.7e7

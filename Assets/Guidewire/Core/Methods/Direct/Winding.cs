@@ -3,7 +3,7 @@ using System;
 namespace Guidewire.Core
 {
     /// <summary>A clamp's turn at once is made in parts, each solved before the next: a rod is then wound up, and not
-    /// turned the shorter way round.</summary>
+    /// turned through the smaller angle.</summary>
     internal static class Winding
     {
         private const double LargestTurn = 0.5;   // radians a part

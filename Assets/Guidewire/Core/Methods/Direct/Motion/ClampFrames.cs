@@ -3,7 +3,7 @@ using System;
 namespace Guidewire.Core
 {
     /// <summary>Turns the frames of the clamps as the schedule has it; a large turn in parts, each solved on its own,
-    /// so that the rod winds up as it would under a fast turn and not the shorter way round.</summary>
+    /// so that the rod winds up in the sense of the turn, also beyond half a turn.</summary>
     internal sealed class ClampFrames
     {
         private readonly RodSchedule _schedule;

@@ -20,7 +20,7 @@ namespace Guidewire.Core
         /// <summary>Whether the scheme tells its steps' errors.</summary>
         public virtual bool HasErrorEstimate => false;
 
-        /// <summary>Sum of the magnitudes of the weights: by what the errors of the stages enter a step.</summary>
+        /// <summary>Sum of the magnitudes of the weights: the factor by which stage errors enter a step.</summary>
         public virtual double WeightSum => 1.0;
 
         /// <summary>Names the scheme: another's history means nothing to it.</summary>

@@ -48,7 +48,7 @@ namespace Guidewire.Core
         /// <summary>c_i, the stages' times in units of the time step.</summary>
         public double[] Times { get; }
 
-        /// <summary>Sum of the magnitudes of the weights b_i: by what the errors of the stages enter a step.</summary>
+        /// <summary>Sum of the magnitudes of the weights b_i: the factor by which stage errors enter a step.</summary>
         public double WeightSum { get; }
 
         /// <summary>From which stages each is predicted.</summary>
