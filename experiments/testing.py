@@ -32,8 +32,12 @@ _DOTNET = {
     BY_TARGET[0]: "Guidewire.Core.Tests/bin/Release/netstandard2.1/Guidewire.Core.Tests.dll",
     "Guidewire.Unity.Tests": "Guidewire.Unity.Tests/bin/Release/net10.0/Guidewire.Unity.Tests.dll",
 }
-# The longest files of experiments/tests: a suite of their own, so that the rest runs beside it.
-LONGEST = ("test_validation.py", "test_random_parameters.py", "test_core_against_reference.py")
+# Files of experiments/tests that are suites of their own, so that the rest runs beside them: those of random and checked
+# runs, and those that mostly wait for processes, pages and workers.
+RUNS = ("test_validation.py", "test_random_parameters.py", "test_core_against_reference.py", "test_random_pushes.py",
+        "test_contact_cases.py", "test_wide_material.py")
+WAITING = ("test_view.py", "test_view_browser.py", "test_endings.py", "test_cluster.py", "test_whole_files.py",
+           "test_sweep.py", "test_testing.py", "test_building.py", "test_session.py", "test_native.py")
 _SUITE_SECONDS = {False: 900, True: 6 * 3600}
 _POLL_SECONDS = 0.05
 
@@ -103,14 +107,14 @@ def suites(program: str, full: bool) -> list[Suite]:
     full : each with all of its tests.
     """
     tests = "experiments/tests"
-    longest = [f"{tests}/{name}" for name in LONGEST]
+    runs, waiting = ([f"{tests}/{name}" for name in group] for group in (RUNS, WAITING))
     not_timed = ["-m", "not timed"]
     return [
         _pytest_suite("analysis/tests", ["analysis/tests"], needs=""),
-        _pytest_suite(f"{tests}, the rest", [*not_timed, tests, *(f"--ignore={path}" for path in longest)],
-                      needs="Runner"),
+        _pytest_suite(f"{tests}, waiting", [*not_timed, *waiting]),
         _pytest_suite("anatomy/tests", ["anatomy/tests"], needs=""),
-        _pytest_suite(f"{tests}, the longest", [*not_timed, *longest], needs="Runner"),
+        _pytest_suite(f"{tests}, the rest", [*not_timed, tests, *(f"--ignore={path}" for path in runs + waiting)]),
+        _pytest_suite(f"{tests}, runs", [*not_timed, *runs]),
         _pytest_suite("unitycheck/tests", ["unitycheck/tests"], needs="Runner"),
         *(_dotnet_suite(program, name, full) for name in _DOTNET),
         _pytest_suite(f"{tests}, timed", ["-m", "timed", tests], alone=True),
