@@ -6,6 +6,7 @@ import difflib
 import os
 import warnings
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -24,7 +25,7 @@ RUNS = "runs"  # folder of all runs, in that of the results
 
 
 def sweep(study: str | Path, out: str | Path = "results", jobs: int | None = None) -> dict[str, Run]:
-    """Make a study's runs, those that are not there already.
+    """Make a study's runs with their logs, those that are not there already.
 
     Parameters
     ----------
@@ -49,7 +50,7 @@ def sweep(study: str | Path, out: str | Path = "results", jobs: int | None = Non
     _require(prepare.SWEEPING)
     out = Path(out)
     checking.check_out(out)
-    found = find_study(study, LIMIT)
+    found = replace(find_study(study, LIMIT), logs=True)
     means = Means(_runner(), jobs or os.cpu_count() or 1, folder=found.file and found.file.parent)
     _warn_of(make([(found, out)], out, means))
     return read_runs(out / found.name)

@@ -11,7 +11,7 @@ from viewer.parts import THREE, three
 
 # The first-party packages; one that is not there is left out.
 PACKAGES = ("analysis", "anatomy", "environments", "experiments", "studies", "viewer")
-_LEFT_OUT = {"tests", "headless", "campaigns", "__pycache__"}
+_LEFT_OUT = {"tests", "headless", "__pycache__"}
 _DATA = {  # folder, endings
     "params": (".json", ".csv", ".obj"), "instruments": (".json",), "viewer/page": (".js", ".html", ".css", ".json"),
     "environments": (".json", ".csv", ".obj"),

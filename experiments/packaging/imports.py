@@ -28,7 +28,9 @@ def rewrite(source: str, packages: Collection[str], name: str) -> str:
     UnclearImport : for `import package`, which would bind another name, and for a module named in a text.
     """
     lines = source.splitlines(keepends=True)
-    for node in ast.walk(ast.parse(source)):
+    last_first = sorted((node for node in ast.walk(ast.parse(source)) if hasattr(node, "lineno")),
+                        key=lambda node: (-node.lineno, -node.col_offset))  # an earlier column stays where it is
+    for node in last_first:
         if isinstance(node, ast.Import):
             for alias in node.names:
                 if _is_of(alias.name, packages):
