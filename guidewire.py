@@ -10,24 +10,46 @@ read_log` (docs/python.md).
 
 import importlib
 import sys
+from typing import TYPE_CHECKING
 
 from experiments import prepare
 
+if TYPE_CHECKING:  # the same names for type checkers
+    import types
+
+    from analysis.advice.plan import Advice as Advice
+    from analysis.logs import LogError as LogError, PositionLog as PositionLog
+    from analysis.logs import read_entries as read_entries, read_log as read_log
+    from analysis.runs import Run as Run, read_run as read_run, read_runs as read_runs
+    from experiments.library import advise as advise, sweep as sweep
+    from experiments.session import Session as Session, SessionError as SessionError, State as State
+
+    anatomy: types.ModuleType
 
 _LENT = {  # name to where it stands; looked up when it is asked for, because it needs numpy
     "Session": "experiments.session", "SessionError": "experiments.session", "State": "experiments.session",
     "read_run": "analysis.runs", "read_runs": "analysis.runs", "Run": "analysis.runs",
     "read_log": "analysis.logs", "read_entries": "analysis.logs", "PositionLog": "analysis.logs",
-    "LogError": "analysis.logs",
+    "LogError": "analysis.logs", "sweep": "experiments.library", "advise": "experiments.library",
+    "Advice": "analysis.advice.plan",
 }
-__all__ = sorted(_LENT)
+_MODULES = {"anatomy": "anatomy"}  # name to the module that it is
+__all__ = sorted([*_LENT, *_MODULES])
 
 
 def __getattr__(name):
     """What scripts import from here."""
+    home = "guidewire." if prepare.INSTALLED else ""
+    if name in _MODULES:
+        return importlib.import_module(home + _MODULES[name])
     if name not in _LENT:
         raise AttributeError("module 'guidewire' has no attribute '{}'".format(name))
-    return getattr(importlib.import_module(_LENT[name]), name)
+    return getattr(importlib.import_module(home + _LENT[name]), name)
+
+
+def command():
+    """The command `guidewire` of the installed package."""
+    sys.exit(main())
 
 
 def main():

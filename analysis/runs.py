@@ -16,6 +16,8 @@ from studies.keys import TABLE, Value
 PARAMETERS_NAME = "parameters.json"
 SUMMARY_NAME = "summary.json"
 LOAD_NAME = "load.json"
+FORMAT = 1  # of a run's files, the newest that is read here; what states none is of version 1
+FORMAT_KEY = "formatVersion"
 
 
 @dataclass(frozen=True)
@@ -152,11 +154,16 @@ def read_run(
     Raises
     ------
     LogError
-        parameters.json is missing, or one of the two files is not a JSON object.
+        parameters.json is missing, one of the two files is not a JSON object, or they are of a format newer than FORMAT.
     """
     summary_file = folder / SUMMARY_NAME
     summary = _read_object(summary_file) if summary_file.is_file() else None
-    return Run(folder, _read_object(folder / PARAMETERS_NAME), summary, key, repeat, variant, values or {})
+    parameters = _read_object(folder / PARAMETERS_NAME)
+    stated = parameters.get(FORMAT_KEY, FORMAT)
+    if isinstance(stated, bool) or not isinstance(stated, int) or not 1 <= stated <= FORMAT:
+        raise LogError(f"{folder / PARAMETERS_NAME}: {FORMAT_KEY} = {json.dumps(stated)} is not allowed: versions 1 to "
+                       f"{FORMAT} are read here")
+    return Run(folder, parameters, summary, key, repeat, variant, values or {})
 
 
 def read_repeats(run: Run, repeats: int) -> list[Run]:

@@ -13,7 +13,7 @@ from anatomy.inspection import Inspection, inspect
 from anatomy.mesh import AnatomyError, Mesh
 from anatomy.repair import Repaired, repair
 from experiments import checking
-from experiments.prepare import PreparationError
+from experiments.prepare import DOOR, PreparationError
 from experiments.whole_files import whole_file, write_whole
 
 
@@ -94,6 +94,6 @@ def _tell(folder: Path, mesh: Mesh, found: Inspection, repaired: Repaired | None
     written = [output.REPORT, output.PICTURE]
     if line is not None:
         written = [output.MESH, output.ANATOMY, output.SCENE, *written]
-        print(f"next: python3 guidewire.py run {os.path.relpath(folder / output.SCENE)}")
+        print(f"next: {DOOR} run {os.path.relpath(folder / output.SCENE)}")
     print(f"written: {', '.join(written)} in {os.path.relpath(folder)}")
     return 0

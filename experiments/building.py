@@ -27,7 +27,8 @@ from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from experiments.prepare import ROOT, PreparationError
+from experiments import installed
+from experiments.prepare import INSTALLED, ROOT, PreparationError
 
 try:
     import fcntl
@@ -81,6 +82,10 @@ def build(project: str, tell: Callable[[str], None]) -> list[str]:
     ------
     PreparationError : with the first compiler error where it does not build; all output is in results/build.log.
     """
+    if INSTALLED:
+        if project != RUNNER:
+            installed.refuse(project)
+        return installed.runner()
     program, sdks = dotnet()
     _bring_up_to_date(program, sdks, HEADLESS / project / f"{project}.csproj", (project,), tell)
     return [program, str(_output(project) / f"net{SDK_MAJOR}.0" / f"{project}.dll")]
@@ -102,7 +107,9 @@ def build_native(tell: Callable[[str], None]) -> Path:
 
 
 def native_library() -> Path | None:
-    """The native library where it was built from what is there now; None elsewhere."""
+    """The native library where it was built from what is there now; None elsewhere. The package always has one."""
+    if INSTALLED:
+        return installed.library()
     if not _stamp_path(NATIVE).is_file():
         return None
     return _output(NATIVE) / f"{NATIVE}.so" if _all_hold((NATIVE,), dotnet()[1], _sources()) else None

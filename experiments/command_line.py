@@ -7,7 +7,8 @@ import os
 from pathlib import Path
 
 from experiments.arguments import Parser, above_zero, assignment, error_part, finite, path, positive
-from experiments.prepare import ANATOMY, DRAWING, SWEEPING, TESTING, VIEWING
+from experiments.installed import version
+from experiments.prepare import ANATOMY, DRAWING, INSTALLED, SWEEPING, TESTING, VIEWING
 from studies.builtin import STUDIES
 
 _DESCRIPTION = "Simulates guidewires as Cosserat rods, without Unity: runs, sweeps, figures, tests."
@@ -18,7 +19,8 @@ def parse(argv: list[str]) -> argparse.Namespace:
 
     Exits with 2 and one line on stderr where it cannot be read.
     """
-    parser = Parser(prog="guidewire.py", description=_DESCRIPTION)
+    parser = Parser(prog="guidewire" if INSTALLED else "guidewire.py", description=_DESCRIPTION)
+    parser.add_argument("--version", action="version", version=f"guidewire {version()}")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True, parser_class=Parser,
                                      dest="command")
 
@@ -167,6 +169,16 @@ def parse(argv: list[str]) -> argparse.Namespace:
     native = commands.add_parser("native", help="build the native library (needs gcc), with which short calls of "
                                                 "sessions take two thirds of the time")
     native.set_defaults(packages=())
+
+    package = commands.add_parser("package", help="build the Python wheel and the NuGet packages (needs gcc)")
+    package.add_argument("kinds", metavar="KIND", nargs="*", choices=("wheel", "nuget", []),
+                         help="wheel or nuget; default: both")
+    package.add_argument("--out", type=path, default=Path("dist"), metavar="DIR", help="folder of the files (dist)")
+    package.set_defaults(packages=())
+
+    scenes = commands.add_parser("scenes", help="list the scenes that come with the program, or copy them")
+    scenes.add_argument("--copy", type=path, metavar="DIR", help="copy them into DIR/params")
+    scenes.set_defaults(packages=())
 
     bench = commands.add_parser("bench", help="cost of a step, part by part, or overhead of short runs")
     bench.add_argument("--runs", type=positive, metavar="N",

@@ -3,30 +3,29 @@
 from __future__ import annotations
 
 import argparse
-import difflib
 import json
 import os
-import signal
 import subprocess
 import sys
 import tempfile
 import traceback
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from experiments import building, checking, command_line
+from experiments import building, checking, command_line, installed, library
 from experiments.arguments import value_of
-from experiments.prepare import ROOT, PreparationError
-from experiments.progress import seconds_counted
+from experiments.prepare import INSTALLED, ROOT, PreparationError
+from experiments.process import hand_to
+from experiments.progress import bar_of, seconds_counted, tell_frames
 from experiments.runner import INTERNAL_ERROR, INTERRUPTED
-from experiments.sweep import FAILED, Bar, Means, SweepResult, sweep
+from experiments.sweep import FAILED, Means, SweepResult
 from experiments.whole_files import FULL, whole_file, write_whole
 from studies.builtin import STUDIES
 from studies.keys import RESULTS
-from studies.study_file import LIMIT, StudyFileError, read_study_file
-from studies.table import Source, Study
+from studies.study_file import LIMIT
+from studies.table import Source
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -34,15 +33,17 @@ if TYPE_CHECKING:
     from experiments.gallery import Gallery  # itself imported only where its packages are there
 
 BEYOND_A_GATE = 1  # all that was asked for is there, and a check is not passed
-_RUNS = "runs"  # folder of all runs, in that of the results
 
 
 def parse(argv: list[str]) -> argparse.Namespace:
     """Read the command line. `packages` of the result names what the command imports, `action` runs it.
 
-    Exits with 2 and one line on stderr where it cannot be read.
+    Exits with 2 and one line on stderr where it cannot be read. Raises PreparationError for a command that only the
+    repository has, in the package.
     """
     arguments = command_line.parse(argv)
+    if arguments.command in _OF_THE_REPOSITORY:
+        installed.refuse(f"'{arguments.command}'")
     arguments.action = _ACTIONS[arguments.command]
     return arguments
 
@@ -79,7 +80,7 @@ def _demo(arguments: argparse.Namespace) -> int:
     from experiments import gallery
 
     checking.check_out(arguments.out)
-    means = Means(_build_runner(), bar=_bar_of("default"))
+    means = Means(_build_runner(), bar=bar_of("default"))
     if _make([(STUDIES["default"], arguments.out)], arguments.out, means).failures:
         return FAILED
     study = arguments.out / "default"
@@ -106,35 +107,18 @@ def _run(arguments: argparse.Namespace) -> int:
         command += [f"-{key}", value]
     if arguments.force:
         command.append("-force")
-    return _hand_to(command)
+    return hand_to(command)
 
 
 def _sweep(arguments: argparse.Namespace) -> int:
     checking.check_out(arguments.out)
-    study = _study_of(arguments)
+    study = library.find_study(arguments.study, None if arguments.yes else LIMIT)
+    study = replace(study, logs=study.logs or arguments.logs)
     means = _means_of(arguments, _runner_of(arguments), study.name, study.file and study.file.parent)
     result = _make([(study, arguments.out)], arguments.out, means)
     print(f"{result.made} runs made, {result.found} there already: "
           f"{os.path.relpath(arguments.out / study.name / RESULTS)}")
     return FAILED if result.failures else 0
-
-
-def _study_of(arguments: argparse.Namespace) -> Study:
-    """The study with this name, or in this file."""
-    if arguments.study in STUDIES:
-        return STUDIES[arguments.study]
-    path = Path(arguments.study)
-    if path.suffix != ".json" and not path.is_file():
-        near = difflib.get_close_matches(arguments.study, STUDIES, 1)
-        hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(STUDIES)}, or a JSON file"
-        raise PreparationError(f"there is no study '{arguments.study}': {hint}")
-    try:
-        study = read_study_file(path, None if arguments.yes else LIMIT)
-    except StudyFileError as error:
-        raise PreparationError(str(error)) from error
-    if study.name in (*STUDIES, _RUNS):
-        raise PreparationError(f"{path}: study = \"{study.name}\" is not allowed: another name, that one is ours")
-    return replace(study, logs=study.logs or arguments.logs)
 
 
 def _figures(arguments: argparse.Namespace) -> int:
@@ -161,23 +145,18 @@ def _figures(arguments: argparse.Namespace) -> int:
 def _advise(arguments: argparse.Namespace) -> int:
     from analysis.advice import chart, plan, report
     from analysis.advice.quantity import Quantity
-    from analysis.logs import LogError
-    from analysis.validation.check import replay
 
     checking.check_file(arguments.file)
     checking.check_overrides(arguments.overrides)
     checking.check_out(arguments.out)
     wish = plan.Wish(arguments.error, arguments.budget, Quantity(arguments.of, arguments.at))
     overrides = {key: value_of(text) for key, text in arguments.overrides}
-    check, folder = plan.check_of(arguments.file, wish, overrides=overrides), plan.folder_of(arguments.out)
-    means = _means_of(arguments, _build_runner(), check.name)
-    try:
-        if _make([(check, folder)], arguments.out, means).failures:
-            return FAILED
-        advice = replay(check, folder)
-    except LogError as error:
-        raise PreparationError(f"{arguments.file}: {error}") from error
-    place = (folder / check.name).resolve()
+    means = _means_of(arguments, _build_runner(), arguments.file.stem)
+    result, advice = library.find_advice(arguments.file, wish, overrides, arguments.out, means)
+    if advice is None:
+        _tell_failures(result)
+        return FAILED
+    place = (plan.folder_of(arguments.out) / arguments.file.stem).resolve()
     write_whole(place / "advice.md", report.as_markdown(arguments.file.name, wish, advice))
     print(report.verdict(wish, advice))
     print(f"evidence: {os.path.relpath(place / 'advice.md')}")
@@ -228,7 +207,7 @@ def _render(arguments: argparse.Namespace) -> int:
                            arguments.follow == "tip")
         out.parent.mkdir(parents=True, exist_ok=True)
         if out.suffix == ".gif":
-            images = render.draw_film(run, log, surfaces, view, arguments.frames, _tell_frames)
+            images = render.draw_film(run, log, surfaces, view, arguments.frames, tell_frames)
         else:
             images = [render.draw_picture(run, log, surfaces, view, arguments.times)]
         with whole_file(out) as partial:
@@ -239,14 +218,6 @@ def _render(arguments: argparse.Namespace) -> int:
         print(f"guidewire: warning: {log.warning}", file=sys.stderr)
     print(f"{'film' if out.suffix == '.gif' else 'picture'}: {os.path.relpath(out)}")
     return 0
-
-
-def _tell_frames(done: int, count: int) -> None:
-    """On a terminal a line that counts; elsewhere a line now and then."""
-    if sys.stderr.isatty():
-        print(f"\rframe {done} of {count}", end="\n" if done == count else "", file=sys.stderr, flush=True)
-    elif done % max(1, count // 4) == 0:
-        print(f"frame {done} of {count}", file=sys.stderr, flush=True)
 
 
 def _plot(arguments: argparse.Namespace) -> int:
@@ -375,8 +346,10 @@ def _instrument(arguments: argparse.Namespace) -> int:
 def _python(arguments: argparse.Namespace) -> int:
     if not arguments.script.is_file():
         raise PreparationError(f"{arguments.script}: no such file: give a Python script")
+    if INSTALLED:
+        return hand_to([sys.executable, str(arguments.script), *arguments.words])
     path = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")]))
-    return _hand_to([sys.executable, str(arguments.script), *arguments.words], environment={"PYTHONPATH": path})
+    return hand_to([sys.executable, str(arguments.script), *arguments.words], environment={"PYTHONPATH": path})
 
 
 def _native(arguments: argparse.Namespace) -> int:
@@ -385,9 +358,27 @@ def _native(arguments: argparse.Namespace) -> int:
     return 0
 
 
+def _package(arguments: argparse.Namespace) -> int:
+    from experiments.packaging.command import package
+
+    checking.check_out(arguments.out)
+    return package(arguments.kinds, arguments.out)
+
+
+def _scenes(arguments: argparse.Namespace) -> int:
+    from experiments import scenes
+
+    if arguments.copy is None:
+        print("\n".join(scenes.names()))
+        return 0
+    checking.check_out(arguments.copy)
+    print(f"scenes: {os.path.relpath(scenes.copy(arguments.copy))}")
+    return 0
+
+
 def _bench(arguments: argparse.Namespace) -> int:
     if arguments.runs is None:
-        return _hand_to([*_build_benchmarks(), str(ROOT / "params" / "sheath.json")])
+        return hand_to([*_build_benchmarks(), str(ROOT / "params" / "sheath.json")])
     from experiments.overhead import measure
 
     print(measure(_build_runner(), arguments.runs, arguments.jobs))
@@ -396,13 +387,14 @@ def _bench(arguments: argparse.Namespace) -> int:
 
 def _unity_check(arguments: argparse.Namespace) -> int:
     options = ["--write-metas"] if arguments.write_metas else []
-    return _hand_to([sys.executable, "-m", "unitycheck", *options], cwd=ROOT)
+    return hand_to([sys.executable, "-m", "unitycheck", *options], cwd=ROOT)
 
 
 def _runner_of(arguments: argparse.Namespace) -> list[str]:
     """The command that makes runs, as `--runner` says."""
     if arguments.runner == "headless":
         return _build_runner()
+    installed.refuse("--runner unity")
     from experiments import unity_runner
 
     unity = unity_runner.find(arguments.unity)
@@ -423,54 +415,30 @@ def _build_runner() -> list[str]:
 
 def _means_of(arguments: argparse.Namespace, command: list[str], name: str, folder: Path | None = None) -> Means:
     """What makes runs, as the command line says."""
-    return Means(command, arguments.jobs, arguments.cluster, folder, _build_benchmarks, _bar_of(name))
+    return Means(command, arguments.jobs, arguments.cluster, folder, _build_benchmarks, bar_of(name))
 
 
 def _make(asked: Sequence[tuple[Source, Path]], out: Path, means: Means) -> SweepResult:
     """Make the runs that studies or checks ask for and say what failed."""
-    result = sweep(asked, out / _RUNS, means)
-    for answer in result.failures:
-        print(f"guidewire: {answer.name}: {answer.message}", file=sys.stderr)
+    result = library.make(asked, out, means)
+    _tell_failures(result)
     return result
 
 
-def _bar_of(name: str) -> Callable[[int, int, int], Bar]:
-    """A bar for each round, with a rate and the time that is left; a line now and then where stderr is no terminal."""
-    def bar(number: int, total: int, found: int) -> Bar:
-        from tqdm import tqdm
-
-        return tqdm(
-            desc=name if number == 1 else f"{name}, round {number}", total=total, initial=found, unit="run",
-            mininterval=0.2 if sys.stderr.isatty() else 30.0, dynamic_ncols=True,
-        )
-
-    return bar
-
-
-def _hand_to(command: list[str], cwd: Path | None = None, environment: Mapping[str, str] | None = None) -> int:
-    """Run a program on our terminal and return its exit code. Ctrl-C reaches it too, and a request to terminate
-    is passed on: it decides how to end. `environment` is laid over ours."""
-    process = subprocess.Popen(command, cwd=cwd, env={**os.environ, **(environment or {})})
-    before = signal.signal(signal.SIGTERM, lambda number, frame: process.terminate())
-    try:
-        while True:
-            try:
-                code = process.wait()
-                return code if code >= 0 else 128 - code
-            except KeyboardInterrupt:
-                continue
-    finally:
-        signal.signal(signal.SIGTERM, before)
+def _tell_failures(result: SweepResult) -> None:
+    for answer in result.failures:
+        print(f"guidewire: {answer.name}: {answer.message}", file=sys.stderr)
 
 
 _ACTIONS = {
     "demo": _demo, "test": _test, "run": _run, "sweep": _sweep, "figures": _figures, "advise": _advise,
     "plot": _plot, "anatomy": _anatomy, "keys": _keys, "render": _render, "view": _view, "stress": _stress, "hub": _hub,
     "compare": _compare, "modes": _modes, "instrument": _instrument, "python": _python, "native": _native,
-    "bench": _bench, "unity-check": _unity_check,
+    "package": _package, "scenes": _scenes, "bench": _bench, "unity-check": _unity_check,
 }
+_OF_THE_REPOSITORY = ("test", "native", "package", "bench", "unity-check")
 _LEFT = {  # of a command that was interrupted
     **dict.fromkeys(("demo", "run", "sweep", "figures", "advise"),
                     "; completed runs are kept, the same command continues from here"),
-    **dict.fromkeys(("render", "plot", "stress", "hub", "compare", "modes", "instrument"), "; nothing was written"),
+    **dict.fromkeys(("render", "plot", "stress", "hub", "compare", "modes", "instrument", "package"), "; nothing was written"),
 }

@@ -13,6 +13,8 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
+INSTALLED = __name__.partition(".")[0] == "guidewire"  # whether this is the installed package, not the repository
+DOOR = "guidewire" if INSTALLED else "python3 guidewire.py"  # what people type
 MINIMUM_VERSION = (3, 9)
 VENV = ROOT / ".venv"
 SYSTEM_PYTHON = Path("/usr/bin/python3")
@@ -23,6 +25,11 @@ SWEEPING = ("distributed", "tqdm", "scipy")
 VIEWING = ("aiohttp",)
 ANATOMY = DRAWING + ("vtkmodules",)
 TESTING = DRAWING + SWEEPING + VIEWING + ("pytest", "hypothesis")
+
+EXTRAS = {  # of the installed package: what only some commands import
+    "draw": ("scipy", "matplotlib"), "sweep": ("dask", "distributed", "tqdm"), "view": ("aiohttp",),
+    "anatomy": ("vtkmodules",), "gym": ("gymnasium",),
+}
 
 _DEBIAN_NAMES = {"vtkmodules": "vtk9"}  # what an import is called elsewhere
 _PIP_NAMES = {"vtkmodules": "vtk"}  # what only some commands need, and so is not in requirements.txt
@@ -56,8 +63,13 @@ def require_version():
 def require_packages(packages):
     """Return if the running Python has all packages (import names), else hand over to one that has, making it if
     there is none. Raises PreparationError where none can be made."""
-    if all(importlib.util.find_spec(name) is not None for name in packages):
+    missing = [name for name in packages if importlib.util.find_spec(name) is None]
+    if not missing:
         return
+    if INSTALLED:  # a package does not install others
+        extras = [extra for extra, names in EXTRAS.items() if set(missing) & set(names)]
+        raise PreparationError("this needs the Python packages {}: 'pip install \"guidewire{}\"' installs them".format(
+            ", ".join(missing), "[{}]".format(",".join(extras)) if extras else ""))
     for candidate in _candidates():
         if has_packages(candidate, packages):
             _hand_over(candidate)

@@ -73,6 +73,22 @@ class Process:
             self.processor = used.ru_utime + used.ru_stime
 
 
+def hand_to(command: Sequence[str], cwd: Path | None = None, environment: Mapping[str, str] | None = None) -> int:
+    """Run a program on our terminal and return its exit code. Ctrl-C reaches it too, and a request to terminate
+    is passed on: it decides how to end. `environment` is laid over ours."""
+    process = subprocess.Popen(command, cwd=cwd, env={**os.environ, **(environment or {})})
+    before = signal.signal(signal.SIGTERM, lambda number, frame: process.terminate())
+    try:
+        while True:
+            try:
+                code = process.wait()
+                return code if code >= 0 else 128 - code
+            except KeyboardInterrupt:
+                continue
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
 def file_name(name: str) -> str:
     """A name as part of a file's."""
     return re.sub(r"[^A-Za-z0-9.]+", "-", name)

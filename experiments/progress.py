@@ -6,6 +6,10 @@ import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from experiments.sweep import Bar
 
 
 @contextmanager
@@ -39,3 +43,24 @@ def seconds_counted() -> Iterator[Callable[[str], None]]:
     finally:
         if counters:
             finish()
+
+
+def bar_of(name: str) -> Callable[[int, int, int], Bar]:
+    """A bar for each round, with a rate and the time that is left; a line now and then where stderr is no terminal."""
+    def bar(number: int, total: int, found: int) -> Bar:
+        from tqdm import tqdm
+
+        return tqdm(
+            desc=name if number == 1 else f"{name}, round {number}", total=total, initial=found, unit="run",
+            mininterval=0.2 if sys.stderr.isatty() else 30.0, dynamic_ncols=True,
+        )
+
+    return bar
+
+
+def tell_frames(done: int, count: int) -> None:
+    """On a terminal a line that counts; elsewhere a line now and then."""
+    if sys.stderr.isatty():
+        print(f"\rframe {done} of {count}", end="\n" if done == count else "", file=sys.stderr, flush=True)
+    elif done % max(1, count // 4) == 0:
+        print(f"frame {done} of {count}", file=sys.stderr, flush=True)

@@ -17,11 +17,11 @@ from typing import Any
 
 import numpy as np
 
-from experiments.prepare import PreparationError
+from experiments.installed import has_avx2
+from experiments.prepare import INSTALLED, ROOT, PreparationError
 
 _SECONDS_TO_END = 10.0
 _STEPS_AT_ONCE = 64  # of a library; between them Ctrl-C is heard
-_FLAGS = {"avx2", "bmi1", "bmi2", "f16c", "fma", "movbe", "abm"}  # x86-64-v3, for which the library is compiled
 _loaded_by: int | None = None  # the process that loaded the library
 HEAD = 4  # numbers before the arrays of a state: step, time, whether the run has ended, prediction error
 
@@ -162,27 +162,20 @@ def _load(path: str) -> ctypes.CDLL:
     for name, result, arguments in (
         ("new", number, []), ("ask", data, [number, ctypes.c_char_p, count, data]), ("free", None, [data]),
         ("step", count, [number, real, real, count, data, count]), ("close", None, [number]), ("lanes", count, []),
+        ("folder", None, [ctypes.c_char_p]),
     ):
         function = getattr(functions, f"guidewire_{name}")
         function.restype, function.argtypes = result, arguments
+    functions.guidewire_folder(os.fsencode(ROOT))
     return functions
-
-
-def _runs_here() -> bool:
-    """Whether this processor has what the library was compiled for; the library would end the process where not."""
-    try:
-        text = Path("/proc/cpuinfo").read_text(encoding="utf-8", errors="replace")
-    except OSError:
-        return False
-    flags = next((line.partition(":")[2].split() for line in text.splitlines() if line.startswith("flags")), [])
-    return _FLAGS <= set(flags)
 
 
 def obstacle() -> str:
     """Why this process may not load the library, in one line; empty where it may."""
     if _loaded_by not in (None, os.getpid()):    # the threads that collect its memory are not there
         return "a process forked from one with native sessions cannot have its own: start it by 'spawn'"
-    return "" if _runs_here() else "the native library needs a processor of x86-64-v3 (AVX2)"
+    # The package has a library for older processors.
+    return "" if INSTALLED or has_avx2() else "the native library needs a processor of x86-64-v3 (AVX2)"
 
 
 def lanes(path: Path) -> int:

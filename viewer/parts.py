@@ -9,9 +9,10 @@ import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
-from experiments.prepare import ROOT, PreparationError
+from experiments.prepare import INSTALLED, ROOT, PreparationError
 
 PAGE = Path(__file__).resolve().parent / "page"
+THREE = PAGE / "three"  # in the package
 CACHE = ROOT / ".npm"
 _MODULES = "node_modules"
 _SECONDS = 300
@@ -21,10 +22,12 @@ _OF_THREE = {"three.module.js": "build/three.module.js", "three.core.js": "build
 
 
 def three(tell: Callable[[str], None]) -> dict[str, Path]:
-    """Files of three by the names that the page has for them, installed if they are not there.
+    """Files of three by the names that the page has for them, installed if they are not there. (The package has them.)
 
     Raises PreparationError, one line, where they cannot be had.
     """
+    if INSTALLED:
+        return {name: THREE / name for name in _OF_THREE}
     folder = require("dependencies", tell) / "three"
     return {name: folder / path for name, path in _OF_THREE.items()}
 

@@ -227,7 +227,7 @@ def test_a_runner_that_dies_is_said_and_leaves_no_process():
 
 
 def test_an_older_processor_takes_runners(monkeypatch):
-    monkeypatch.setattr(session_hosts, "_runs_here", lambda: False)
+    monkeypatch.setattr(session_hosts, "has_avx2", lambda: False)
     monkeypatch.setattr(building, "native_library", lambda: ROOT / "library.so")
     with Session(**WIRE) as session:
         assert session.step().step == 1 and isinstance(session._host, session_hosts.Process)

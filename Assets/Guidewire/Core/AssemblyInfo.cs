@@ -1,7 +1,8 @@
 using System.Reflection;
 using System.Runtime.CompilerServices;
+using Guidewire.Core;
 
-// Logs name the version by this: Unity takes it from nowhere else.
-[assembly: AssemblyVersion("0.1.0")]
+// Unity takes it from nowhere else.
+[assembly: AssemblyVersion(ProgramVersion.Number)]
 [assembly: InternalsVisibleTo("Guidewire.Core.Tests")]
 [assembly: InternalsVisibleTo("Guidewire.Benchmarks")]

@@ -34,7 +34,7 @@ namespace Guidewire.Cli
 
         private static bool StopRequested => Volatile.Read(ref _stopRequested) != 0;
 
-        private static int Main(string[] arguments)
+        internal static int Main(string[] arguments)
         {
             var command = new RunCommand(logFileIsOurs: true);
             try

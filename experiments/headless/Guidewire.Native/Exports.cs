@@ -4,6 +4,8 @@ using System.Runtime.InteropServices;
 using System.Runtime.Intrinsics;
 using System.Text;
 using System.Threading;
+using Guidewire.Cli;
+using Guidewire.Io;
 
 namespace Guidewire.Native
 {
@@ -61,6 +63,29 @@ namespace Guidewire.Native
         public static void Close(long number)
         {
             Sessions.TryRemove(number, out _);
+        }
+
+        /// <summary>Does what the console program does with these arguments; returns its exit code.</summary>
+        /// <param name="count">How many there are.</param>
+        /// <param name="arguments">Each in UTF-8, with a zero at its end.</param>
+        [UnmanagedCallersOnly(EntryPoint = "guidewire_main")]
+        public static int Run(int count, byte** arguments)
+        {
+            var texts = new string[count];
+            for (int k = 0; k < count; k++)
+            {
+                texts[k] = Marshal.PtrToStringUTF8((IntPtr)arguments[k]) ?? "";
+            }
+            return Program.Main(texts);
+        }
+
+        /// <summary>Says where the program stands, above which the folder of instruments is looked for; without it that
+        /// is the folder of the process's own program.</summary>
+        /// <param name="folder">UTF-8, with a zero at its end.</param>
+        [UnmanagedCallersOnly(EntryPoint = "guidewire_folder")]
+        public static void SetFolder(byte* folder)
+        {
+            AppContext.SetData(InstrumentLibrary.ProgramFolder, Marshal.PtrToStringUTF8((IntPtr)folder));
         }
 
         /// <summary>Gives an answer's memory back.</summary>

@@ -7,8 +7,12 @@ namespace Guidewire.Io
     /// <summary>Finds an instrument's file by its name: in the folder <c>instruments</c> beside the parameter file
     /// first, or in the current folder where there is no such file; then in that of the program, which is the nearest
     /// above the program or above the current folder.</summary>
-    internal static class InstrumentLibrary
+    public static class InstrumentLibrary
     {
+        /// <summary>Under this name AppContext may hold the folder of the program, where that is a library in another
+        /// one's process.</summary>
+        public const string ProgramFolder = "guidewire.folder";
+
         /// <summary>Name of the folder, beside a parameter file or in the program's.</summary>
         public const string Folder = "instruments";
 
@@ -19,7 +23,7 @@ namespace Guidewire.Io
         /// <param name="source">Who names it: a parameter file, or "command line".</param>
         /// <param name="parameterFile">The run's parameter file, or null.</param>
         /// <exception cref="ParameterException">There is none of that name.</exception>
-        public static string Find(string name, string source, string? parameterFile)
+        internal static string Find(string name, string source, string? parameterFile)
         {
             string? nearest = null;
             int best = int.MaxValue;
@@ -68,7 +72,8 @@ namespace Guidewire.Io
             {
                 folders.Add(own);
             }
-            foreach (string start in new[] { AppContext.BaseDirectory, Directory.GetCurrentDirectory() })
+            string program = AppContext.GetData(ProgramFolder) as string ?? AppContext.BaseDirectory;
+            foreach (string start in new[] { program, Directory.GetCurrentDirectory() })
             {
                 for (string? above = start; above != null; above = Path.GetDirectoryName(above))
                 {

@@ -60,7 +60,10 @@ namespace Guidewire.Io
             var handler = new ParameterHandler { _isSteered = isSteered, _file = file };
             if (file != null)
             {
-                foreach (JProperty property in JsonText.ReadObject(file).Properties())
+                JObject content = JsonText.ReadObject(file);
+                FileFormat.Check(content[FileFormat.Key], file);
+                content.Remove(FileFormat.Key);
+                foreach (JProperty property in content.Properties())
                 {
                     handler._given.Take(property.Name, property.Value, file);
                 }

@@ -4,6 +4,7 @@ using System.Diagnostics;
 using System.IO;
 using Guidewire.Core;
 using Newtonsoft.Json;
+using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
@@ -225,7 +226,9 @@ namespace Guidewire.Io
                 AtomicFile.Publish(summary);
                 return;
             }
-            AtomicFile.Prepare(parameters, _handler.ToJson().ToString(Formatting.Indented) + "\n");
+            JObject content = _handler.ToJson();
+            content.AddFirst(new JProperty(FileFormat.Key, FileFormat.Version));
+            AtomicFile.Prepare(parameters, content.ToString(Formatting.Indented) + "\n");
             try
             {
                 AtomicFile.Prepare(summary, Summary(simulation, LogName));

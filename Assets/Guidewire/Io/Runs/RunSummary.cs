@@ -66,6 +66,7 @@ namespace Guidewire.Io
                 ["versions"] = new JObject
                 {
                     ["guidewire"] = Version,
+                    ["format"] = FileFormat.Version,
                     ["core"] = CoreBuild,
                     ["runtime"] = RuntimeInformation.FrameworkDescription,
                     ["machine"] = RuntimeInformation.OSDescription + ", " + RuntimeInformation.ProcessArchitecture
@@ -160,7 +161,7 @@ namespace Guidewire.Io
         }
 
         /// <summary>The product's version.</summary>
-        public static string Version => typeof(RunSummary).Assembly.GetName().Version?.ToString(3) ?? "0";
+        public static string Version => ProgramVersion.Number;
 
         /// <summary>What makes runs: version, identity of the compiled simulation, runtime.</summary>
         public static string Maker => "guidewire " + Version + ", core " + CoreBuild + ", "

@@ -1,6 +1,8 @@
 using System;
 using System.Collections.Generic;
 using System.Diagnostics;
+using System.Globalization;
+using System.Linq;
 using System.Security.Cryptography;
 using System.Text;
 using Guidewire.Core;
@@ -166,20 +168,43 @@ namespace Guidewire.Io
         }
 
         /// <summary>Goes on from what was saved. Not for a run that is logged: a log goes forward in time.</summary>
-        /// <param name="saved">What <see cref="Save"/> gave, here or in another run of the same parameters by the same
-        /// build.</param>
+        /// <param name="saved">What <see cref="Save"/> gave, here or in another run of the same parameters; one of
+        /// another build of the program goes on from the same state, with bits of its own.</param>
         /// <exception cref="ParameterException">It did not; nothing has changed.</exception>
         public void Restore(byte[] saved)
         {
             int end = Array.IndexOf(saved, (byte)'\n', 0, Math.Min(saved.Length, LongestHead)) + 1;
             var numbers = new byte[saved.Length - end];
             Array.Copy(saved, end, numbers, 0, numbers.Length);
-            if (Encoding.ASCII.GetString(saved, 0, end) != Head(numbers))
+            string[] head = Encoding.ASCII.GetString(saved, 0, end).Split(' ');
+            string[] here = Head(numbers).Split(' ');
+            if (head.Length == here.Length - 1)
             {
-                throw new ParameterException("what is to be restored was not saved by a session of these parameters and"
-                    + " this build, or is not whole");
+                head = head.Take(1).Append("1").Concat(head.Skip(1)).ToArray();    // version 1 did not always state it
             }
-            Simulation = Simulation.Restore(_handler.Values.Simulation, numbers);
+            if (head.Length == here.Length && head[0] == Magic && int.TryParse(head[1], NumberStyles.None,
+                    CultureInfo.InvariantCulture, out int format) && format > FileFormat.Version)
+            {
+                throw new ParameterException("what is to be restored is of format " + format + ": guidewire "
+                    + ProgramVersion.Number + " reads versions 1 to " + FileFormat.Version);
+            }
+            // Of another build the parameters may have had fewer keys: their hash says nothing then.
+            bool isOfThisBuild = head.Length == here.Length && head[3] == here[3];
+            if (head.Length != here.Length || head[0] != Magic || (isOfThisBuild && head[2] != here[2])
+                || head[4] != here[4] || head[5] != here[5])
+            {
+                throw new ParameterException("what is to be restored was not saved by a session of these parameters,"
+                    + " or is not whole");
+            }
+            try
+            {
+                Simulation = Simulation.Restore(_handler.Values.Simulation, numbers);
+            }
+            catch (Exception error) when (!isOfThisBuild && error is ArgumentException)
+            {
+                throw new ParameterException("what is to be restored was saved by another build, and does not fit this"
+                    + " one: " + error.Message);
+            }
         }
 
         /// <summary>Back to the start. As <see cref="Restore"/>, not for a run that is logged.</summary>
@@ -194,7 +219,7 @@ namespace Guidewire.Io
             using SHA256 sha = SHA256.Create();
             string sum = BitConverter.ToString(sha.ComputeHash(numbers), 0, 8).Replace("-", "");
             string holds = IsSteered ? "hand" : "drive";
-            return string.Join(" ", Magic, _handler.Hash, RunSummary.CoreBuild, holds, sum) + "\n";
+            return string.Join(" ", Magic, FileFormat.Version, _handler.Hash, RunSummary.CoreBuild, holds, sum) + "\n";
         }
 
         /// <summary>Changes a parameter; the wire goes on from where it is.</summary>
