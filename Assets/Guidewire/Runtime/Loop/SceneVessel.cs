@@ -4,8 +4,8 @@ using UnityEngine;
 
 namespace Guidewire.Runtime
 {
-    /// <summary>A vessel for wires: the mesh of this object's MeshCollider, or else of its MeshFilter, as it stands when a
-    /// wire is built. It is one closed surface, or open at the rims that are named.</summary>
+    /// <summary>A vessel for wires: the mesh of this object's MeshCollider, or else of its MeshFilter, as it stands
+    /// when a wire is built. It is one closed surface, or open at the rims that are named.</summary>
     public sealed class SceneVessel : MonoBehaviour
     {
         [Tooltip("Coulomb's coefficient of friction with the wire, dimensionless.")]
@@ -57,7 +57,7 @@ namespace Guidewire.Runtime
 
         private ArgumentException Refused(string why)
         {
-            return new ArgumentException("vessel " + name + ": " + why);
+            return new ArgumentException("vessel " + gameObject.name + ": " + why);
         }
     }
 }

@@ -94,10 +94,10 @@ namespace Guidewire.Runtime
         /// <summary>Number of spheres, n + 1; 0 without a run.</summary>
         public int SphereCount => Session?.Simulation.State.SphereCount ?? 0;
 
-        /// <summary>Raised after a step in which a wall has begun to act on a sphere, with the sphere's index.</summary>
+        /// <summary>Raised with a sphere's index after a step in which a wall has begun to act on it.</summary>
         public event Action<int>? ContactBegan;
 
-        /// <summary>Raised after a step in which a wall has ceased to act on a sphere, with the sphere's index.</summary>
+        /// <summary>Raised with a sphere's index after a step in which a wall has ceased to act on it.</summary>
         public event Action<int>? ContactEnded;
 
         /// <summary>Raised once where a run has ended by itself, with how and why.</summary>
@@ -259,7 +259,7 @@ namespace Guidewire.Runtime
         }
 
         /// <summary>Takes over what the Inspector has changed.</summary>
-        public void TakeLive()
+        internal void TakeLive()
         {
             string? key;
             while (Session != null && Problem.Length == 0
