@@ -18,7 +18,7 @@ _PLAYER = re.compile(r"Build/\w+/[\w.]*\w")
 _TEST_ASSEMBLY = re.compile(r"`(Guidewire\.[\w.]*Tests)`")
 _PLATFORM = re.compile(r"-testPlatform[\"',\s]+(\w+)")
 # What the guide names although only Unity makes it.
-_MADE = {"Packages/packages-lock.json"}
+_MADE = {"Packages/packages-lock.json", "Packages/org.guidewire.simulation", "Assets/Samples"}
 
 
 def check(project: Project) -> Iterator[Violation]:
@@ -71,7 +71,9 @@ def _guide(project: Project, path: str) -> Iterator[Violation]:
     if path == "docs/unity.md":
         yield from _words(project, path)
     scenes = {scene.rpartition("/")[2][:-len(".unity")] for scene in project.assets(".unity")}
+    is_of_scenes = False  # within the table of scenes
     for number, line in enumerate(project.text(path).splitlines(), 1):
+        is_of_scenes = line.startswith("| scene |") or (is_of_scenes and line.startswith("|"))
         for place in _PATH.findall(line):
             if place not in _MADE and "*" not in line and not project.exists(place.rstrip("/")):
                 yield Violation(path, number, "guide", f"there is no {place}")
@@ -81,6 +83,6 @@ def _guide(project: Project, path: str) -> Iterator[Violation]:
         for name in _TEST_ASSEMBLY.findall(line):
             if name not in names and not project.exists(f"experiments/headless/{name}"):
                 yield Violation(path, number, "guide", f"there is no assembly {name}")
-        row = re.match(r"^\| `([A-Z]\w+)` \| .*(params/|wire)", line)
-        if row and path == "docs/unity.md" and row.group(1) not in scenes:
+        row = re.match(r"^\| `([A-Z]\w+)` \|", line)
+        if row and is_of_scenes and row.group(1) not in scenes:
             yield Violation(path, number, "guide", f"there is no scene {row.group(1)}")

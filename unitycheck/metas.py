@@ -8,7 +8,7 @@ from functools import lru_cache
 from pathlib import PurePosixPath
 from typing import Iterator
 
-from unitycheck.project import Project
+from unitycheck.project import Project, at_home
 from unitycheck.violation import Violation
 
 GUID = re.compile(r"^[0-9a-f]{32}$")
@@ -56,7 +56,7 @@ def stable_guid(path: str) -> str:
 def meta_text(path: str, is_folder: bool) -> str:
     """The whole .meta file of a new asset."""
     name = importer(path, is_folder) or "DefaultImporter"
-    text = f"fileFormatVersion: 2\nguid: {stable_guid(path)}\n"
+    text = f"fileFormatVersion: 2\nguid: {stable_guid(at_home(path))}\n"
     if is_folder:
         text += "folderAsset: yes\n"
     text += f"{name}:\n  externalObjects: {{}}\n"
@@ -138,8 +138,9 @@ def check(project: Project) -> Iterator[Violation]:
             yield Violation(meta, 2, "guid-twice", f"guid {guid} also belongs to {seen[guid]}")
             yield Violation(f"{seen[guid]}.meta", 2, "guid-twice", f"guid {guid} also belongs to {path}")
         seen[guid] = path
-        if guid != stable_guid(path) and (path, guid) not in known:
-            yield Violation(meta, 2, "guid-changed", f"guid {guid} is not that of this path ({stable_guid(path)}); "
+        home = at_home(path)
+        if guid != stable_guid(home) and (home, guid) not in known:
+            yield Violation(meta, 2, "guid-changed", f"guid {guid} is not that of this path ({stable_guid(home)}); "
                             f"an asset that was renamed or made by Unity is listed in {KNOWN_GUIDS}")
         yield from _importer_rules(path, is_folder, text)
     for path in project.assets(".meta"):

@@ -48,6 +48,7 @@ MODULES = {
 }
 PINNED = (6000, 0, 58)
 _VERSION = re.compile(r"^\d{1,6}\.\d{1,6}\.\d{1,6}(-[\w.-]+)?(\+[\w.-]+)?$")
+_NAME = re.compile(r"^[a-z0-9-]+(\.[a-z0-9-]+){2,}$")
 _EDITOR = re.compile(r"^m_EditorVersion: (\d{1,6})\.(\d{1,6})\.(\d{1,6})")
 
 
@@ -128,6 +129,32 @@ def _package(project: Project, path: str, name: str) -> Iterator[Violation]:
         yield Violation(path, 0, "package-file", f"needs an object with name '{name}' and a version such as 1.2.3")
 
 
+def _own(project: Project, path: str) -> Iterator[Violation]:
+    """A package of the project's own sources: what it depends on is what the project has, its samples are there."""
+    data, problem = parsed(project, path)
+    folder = path.rpartition("/")[0]
+    if problem:
+        yield problem
+        return
+    if not isinstance(data, dict) or not _NAME.match(str(data.get("name"))) or not _VERSION.match(str(data.get("version"))) \
+            or not isinstance(data.get("displayName"), str) or not isinstance(data.get("description"), str):
+        yield Violation(path, 0, "package-file", "needs an object with a name such as org.name.package, a version such as "
+                        "1.2.3, a displayName and a description")
+        return
+    asked = dependencies(project)
+    wanted = data.get("dependencies", {})
+    for name, version in wanted.items() if isinstance(wanted, dict) else ():
+        if asked.get(name) != version:
+            yield Violation(path, 0, "package-version", f"{name} {version}: the project has {asked.get(name)}")
+    for sample in data.get("samples", []):
+        place = sample.get("path") if isinstance(sample, dict) else None
+        if not isinstance(place, str) or not place.startswith("Samples~/") or not project.exists(f"{folder}/{place}"):
+            yield Violation(path, 0, "package-file", f"there is no sample {place} below Samples~")
+    for name in ("CHANGELOG.md", "Documentation~"):
+        if not project.exists(f"{folder}/{name}"):
+            yield Violation(path, 0, "package-file", f"there is no {name} beside it")
+
+
 def check(project: Project) -> Iterator[Violation]:
     """Rules json, package-version, package-unknown, package-missing, package-file."""
     manifest, problem = parsed(project, MANIFEST)
@@ -149,6 +176,8 @@ def check(project: Project) -> Iterator[Violation]:
         if not isinstance(registry, dict) or not all(isinstance(registry.get(key), kind) for key, kind in
                                                      (("name", str), ("url", str), ("scopes", list))):
             yield Violation(MANIFEST, 0, "json", "an entry of scopedRegistries needs 'name', 'url' and 'scopes'")
+    for path in project.assets("/package.json"):
+        yield from _own(project, path)
     for path in project.embedded_packages():
         yield from _package(project, path, path.split("/")[1])
     if project.exists(LOCK):

@@ -12,6 +12,15 @@ YAML_SUFFIXES = (".unity", ".mat", ".asset", ".prefab")
 TEXT_SUFFIXES = YAML_SUFFIXES + (".meta", ".cs", ".asmdef", ".json", ".rsp", ".txt", ".md")
 
 
+# The folder that is a package: where it stands in the repository, and in another project's Packages.
+HOME, PACKAGE = "Assets/Guidewire", "Packages/org.guidewire.simulation"
+
+
+def at_home(path: str) -> str:
+    """A path of the package as it is in the repository; other paths as they are."""
+    return HOME + path[len(PACKAGE):] if path == PACKAGE or path.startswith(f"{PACKAGE}/") else path
+
+
 def is_visible(name: str) -> bool:
     """True if Unity imports a file or folder of this name (Unity ignores `.name`, `name~`, `cvs` and `*.tmp`)."""
     return not (name.startswith(".") or name.endswith("~") or name.lower() == "cvs" or name.endswith(".tmp"))

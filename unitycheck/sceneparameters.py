@@ -17,7 +17,7 @@ from typing import Any, Iterator
 
 from unitycheck.metas import guids
 from unitycheck.packages import parsed
-from unitycheck.project import Project
+from unitycheck.project import Project, at_home
 from unitycheck.scenes import documents
 from unitycheck.unityyaml import Document
 from unitycheck.violation import Violation
@@ -34,7 +34,7 @@ def known_keys(project: Project) -> set[str]:
     """The parameter table's keys, as the sources name them; empty where there is no such table."""
 
     def make(p: Project) -> set[str]:
-        return {key for path in p.assets(".cs") if path.startswith(ENTRIES) for key in _KEY.findall(p.text(path))}
+        return {key for path in p.assets(".cs") if at_home(path).startswith(ENTRIES) for key in _KEY.findall(p.text(path))}
 
     return project.derived("parameter keys", make)
 
@@ -43,7 +43,8 @@ def check(project: Project) -> Iterator[Violation]:
     """Rule scene-parameters."""
     sources = {path for path in project.assets(f"/{LOOP}.cs")}
     asked = []
-    for path in project.assets(".unity"):
+    # The scenes of the package need the parameter files beside the repository's Assets: elsewhere nobody opens them.
+    for path in (scene for scene in project.assets(".unity") if at_home(scene) == scene):
         for document in documents(project, path)[0]:
             script = document.data.get("m_Script")
             guid = str(script.get("guid", "")) if isinstance(script, dict) else ""
@@ -74,7 +75,7 @@ def _form(project: Project, document: Document) -> str | None:
         return f"{file} holds no object"
     keys = known_keys(project)
     for key in data:
-        if len(keys) > 20 and key not in keys and not isinstance(data[key], dict):
+        if len(keys) > 20 and key not in keys and key != "formatVersion" and not isinstance(data[key], dict):
             return f"{file}: there is no parameter '{key}'"
     for override in overrides:
         key, sign, value = override.partition("=") if isinstance(override, str) else ("", "", "")

@@ -79,5 +79,5 @@ def _scenes(project: Project) -> Iterator[Violation]:
         if paths.count(path) > 1:
             yield Violation(BUILD, 0, "build-scenes", f"scene '{path}' is listed twice")
     for path in project.assets(".unity"):
-        if path not in paths:
+        if path not in paths and path.startswith("Assets/"):  # a package's scenes are not the project's
             yield Violation(BUILD, 0, "build-scenes", f"scene '{path}' is not in the list")

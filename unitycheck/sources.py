@@ -18,7 +18,7 @@ from typing import Any, Iterator
 
 from unitycheck.asmdefs import Asmdef, ENGINE_FREE, LIBRARIES, assemblies, owner, targets
 from unitycheck.packages import MODULE_OF
-from unitycheck.project import Project
+from unitycheck.project import Project, at_home
 from unitycheck.violation import Violation
 
 PROJECT = "experiments/headless/Guidewire.UnityCheck"
@@ -151,7 +151,7 @@ def _form(project: Project, asmdef: Asmdef, files: list[str]) -> dict[str, Any]:
             "references": [target.name if target else name for name, target in targets(project, asmdef)],
             "isEditorOnly": asmdef.is_editor_only, "isTest": asmdef.is_test,
             "hasEngine": asmdef.data.get("noEngineReferences") is not True
-            and not asmdef.folder.startswith(ENGINE_FREE),
+            and not at_home(asmdef.folder).startswith(ENGINE_FREE),
             "isUnsafeAllowed": asmdef.data.get("allowUnsafeCode") is True}
 
 

@@ -133,23 +133,36 @@ namespace UnityEngine
         }
     }
 
+    /// <summary>An affine map: its three columns, and where it takes the origin.</summary>
     public struct Matrix4x4
     {
         internal Vector3 position;
-        internal Quaternion turn;
-        internal Vector3 scale;
+        internal Vector3 x;
+        internal Vector3 y;
+        internal Vector3 z;
 
         public static Matrix4x4 identity => TRS(Vector3.zero, Quaternion.identity, Vector3.one);
 
         public static Matrix4x4 TRS(Vector3 pos, Quaternion q, Vector3 s)
         {
-            return new Matrix4x4 { position = pos, turn = q, scale = s };
+            return new Matrix4x4
+            {
+                position = pos, x = s.x * (q * Vector3.right), y = s.y * (q * Vector3.up), z = s.z * (q * Vector3.forward),
+            };
         }
 
-        public Vector3 MultiplyPoint3x4(Vector3 point)
+        public static Matrix4x4 operator *(Matrix4x4 lhs, Matrix4x4 rhs)
         {
-            return position + turn * new Vector3(scale.x * point.x, scale.y * point.y, scale.z * point.z);
+            return new Matrix4x4
+            {
+                position = lhs.MultiplyPoint3x4(rhs.position), x = lhs.MultiplyVector(rhs.x),
+                y = lhs.MultiplyVector(rhs.y), z = lhs.MultiplyVector(rhs.z),
+            };
         }
+
+        public Vector3 MultiplyPoint3x4(Vector3 point) => position + MultiplyVector(point);
+
+        public Vector3 MultiplyVector(Vector3 vector) => vector.x * x + vector.y * y + vector.z * z;
     }
 
     public struct Color

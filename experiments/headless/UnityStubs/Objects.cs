@@ -54,6 +54,16 @@ namespace UnityEngine
         public override int GetHashCode() => base.GetHashCode();
     }
 
+    public sealed class TextAsset : Object
+    {
+        public TextAsset(string text)
+        {
+            this.text = text;
+        }
+
+        public string text { get; }
+    }
+
     public sealed class GameObject : Object
     {
         internal readonly List<Component> components = new List<Component>();
@@ -116,6 +126,19 @@ namespace UnityEngine
         public Vector3 position { get; set; }
 
         public Quaternion rotation { get; set; } = Quaternion.identity;
+
+        public Vector3 localScale { get; set; } = Vector3.one;
+
+        public Matrix4x4 localToWorldMatrix => Matrix4x4.TRS(position, rotation, localScale);
+
+        public Vector3 TransformPoint(Vector3 position) => localToWorldMatrix.MultiplyPoint3x4(position);
+
+        public Vector3 InverseTransformPoint(Vector3 position)
+        {
+            Quaternion back = rotation;
+            Vector3 p = new Quaternion(-back.x, -back.y, -back.z, back.w) * (position - this.position);
+            return new Vector3(p.x / localScale.x, p.y / localScale.y, p.z / localScale.z);
+        }
     }
 
     public class Behaviour : Component
@@ -144,6 +167,29 @@ namespace UnityEngine
     public sealed class MeshFilter : Component
     {
         public Mesh sharedMesh { get; set; }
+    }
+
+    public sealed class MeshCollider : Collider
+    {
+        public Mesh sharedMesh { get; set; }
+    }
+
+    public sealed class LineRenderer : Renderer
+    {
+        private Vector3[] _positions = Array.Empty<Vector3>();
+
+        public int positionCount
+        {
+            get => _positions.Length;
+            set => Array.Resize(ref _positions, value);
+        }
+
+        public void SetPositions(Vector3[] positions)
+        {
+            Array.Copy(positions, _positions, Math.Min(positions.Length, _positions.Length));
+        }
+
+        public Vector3 GetPosition(int index) => _positions[index];
     }
 
     public sealed class Camera : Behaviour

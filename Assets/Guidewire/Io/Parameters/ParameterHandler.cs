@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
+using System.Linq;
 using System.Security.Cryptography;
 using System.Text;
 using Guidewire.Core;
@@ -29,10 +30,11 @@ namespace Guidewire.Io
 
         private bool _isSteered;
 
-        private string? _file;
+        private readonly ParameterSource _from;
 
-        private ParameterHandler()
+        private ParameterHandler(ParameterSource from)
         {
+            _from = from;
         }
 
         /// <summary>The effective values.</summary>
@@ -57,15 +59,25 @@ namespace Guidewire.Io
         public static ParameterHandler Load(string? file, IEnumerable<KeyValuePair<string, JToken>> overrides,
             bool isSteered = false)
         {
-            var handler = new ParameterHandler { _isSteered = isSteered, _file = file };
-            if (file != null)
+            return Load(ParameterSource.OfFile(file), overrides, isSteered);
+        }
+
+        /// <summary>The parameters of a source with overrides on top; errors as of the other.</summary>
+        /// <param name="from">A file, or what stands in its place.</param>
+        /// <param name="overrides">Keys and values that count instead of the source's.</param>
+        /// <param name="isSteered">Whether a user steers the wire instead of the drive.</param>
+        public static ParameterHandler Load(ParameterSource from, IEnumerable<KeyValuePair<string, JToken>> overrides,
+            bool isSteered)
+        {
+            var handler = new ParameterHandler(from) { _isSteered = isSteered };
+            string? file = from.Name;
+            if (from.Read() is JObject content)
             {
-                JObject content = JsonText.ReadObject(file);
-                FileFormat.Check(content[FileFormat.Key], file);
+                FileFormat.Check(content[FileFormat.Key], file!);
                 content.Remove(FileFormat.Key);
                 foreach (JProperty property in content.Properties())
                 {
-                    handler._given.Take(property.Name, property.Value, file);
+                    handler._given.Take(property.Name, property.Value, file!);
                 }
             }
             foreach (KeyValuePair<string, JToken> pair in overrides)
@@ -215,13 +227,14 @@ namespace Guidewire.Io
         {
             return _given.TryGet(key, out var given)
                 ? new ParameterException(given.Source, key, given.Value.ToString(Formatting.None), needed)
-                : new ParameterException((_file ?? "defaults") + ": " + key + " needs " + needed);
+                : new ParameterException((_from.Name ?? "defaults") + ": " + key + " needs " + needed);
         }
 
         private void ReadWalls(SimulationParameters simulation)
         {
             string vessel = _given.SourceOf("vessel");
-            simulation.Scene.Walls = WallReader.Read(Values, _given.SourceOf, _warnings);
+            ContactShape[] stated = WallReader.Read(Values, _given.SourceOf, _warnings);
+            simulation.Scene.Walls = stated.Concat(_from.Walls).ToArray();
             if (simulation.Scene.Walls.Length > 0 && !_given.Has("integrator"))
             {
                 simulation.Method.Integrator = MethodTable.Of(Method).IntegratorBetweenWalls

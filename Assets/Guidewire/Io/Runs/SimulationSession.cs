@@ -19,7 +19,7 @@ namespace Guidewire.Io
         private const string Magic = "guidewire-snapshot";
         private const int LongestHead = 256;       // bytes of the line before a snapshot's numbers
 
-        private readonly string? _file;
+        private readonly ParameterSource _from;
         private readonly List<KeyValuePair<string, JToken>> _overrides;
         private ParameterHandler _handler;
         private readonly Steering? _steering;
@@ -28,19 +28,19 @@ namespace Guidewire.Io
         private bool _isNoted;
         private readonly byte[] _start;
 
-        private SimulationSession(string? file, List<KeyValuePair<string, JToken>> overrides, ParameterHandler handler,
-            bool isSteered)
+        private SimulationSession(ParameterSource from, List<KeyValuePair<string, JToken>> overrides,
+            ParameterHandler handler, bool isSteered)
         {
             _steering = isSteered ? new Steering() : null;
             _statesReactions = handler.Values.Simulation.Method.StatesReactions;
             handler.Values.Simulation.Drive.Steering = _steering;
-            _file = file;
+            _from = from;
             _overrides = overrides;
             _handler = handler;
             ParameterConflict? conflict = ParameterConflict.Find(handler.Values.Simulation);
             if (conflict != null)
             {
-                throw new ParameterException((file ?? CommandLineHandler.Source) + ": " + conflict.Key + " needs "
+                throw new ParameterException((from.Name ?? CommandLineHandler.Source) + ": " + conflict.Key + " needs "
                     + conflict.Needed);
             }
             Simulation = Simulation.Create(handler.Values.Simulation);
@@ -85,7 +85,7 @@ namespace Guidewire.Io
                     + Get(handler, "solver") + " is not steered by hand: its file's drive moves it");
             }
             method.StatesReactions |= CanStateReactions(method);
-            return new SimulationSession(file, given, handler,
+            return new SimulationSession(ParameterSource.OfFile(file), given, handler,
                 isSteered ?? (traits.TakesSteering && !traits.TakesMaterial));
         }
 
@@ -98,10 +98,21 @@ namespace Guidewire.Io
         public static SimulationSession Open(string file, IEnumerable<string> overrides,
             string logFolder, bool isSteered)
         {
+            return Open(ParameterSource.OfFile(file), overrides, logFolder, isSteered);
+        }
+
+        /// <summary>A run at its start; errors as of the other.</summary>
+        /// <param name="from">The parameters' source.</param>
+        /// <param name="overrides">KEY=VALUE each: parameters that count instead of the source's.</param>
+        /// <param name="logFolder">Folder that takes the results; empty for a run that is not logged.</param>
+        /// <param name="isSteered">Whether the user holds the first element, instead of the drive.</param>
+        public static SimulationSession Open(ParameterSource from, IEnumerable<string> overrides, string logFolder,
+            bool isSteered)
+        {
             List<KeyValuePair<string, JToken>> given = CommandLineHandler.ReadAssignments(overrides);
-            ParameterHandler handler = ParameterHandler.Load(file, given, isSteered);
+            ParameterHandler handler = ParameterHandler.Load(from, given, isSteered);
             long before = Stopwatch.GetTimestamp();
-            var session = new SimulationSession(file, given, handler, isSteered);
+            var session = new SimulationSession(from, given, handler, isSteered);
             double setUp = (Stopwatch.GetTimestamp() - before) * RunFolder.ToMilliseconds;
             if (logFolder.Length > 0)
             {
@@ -110,6 +121,10 @@ namespace Guidewire.Io
                 if (isSteered)
                 {
                     session.Note("steered by hand");
+                }
+                if (from.Walls.Length > 0)
+                {
+                    session.Note("with walls that no file states");
                 }
             }
             return session;
@@ -240,7 +255,7 @@ namespace Guidewire.Io
                 changed.RemoveAll(pair => ParameterPath.IsWithin(pair.Key, value.Key));
                 changed.Add(value);
             }
-            ParameterHandler handler = ParameterHandler.Load(_file, changed, _steering != null);
+            ParameterHandler handler = ParameterHandler.Load(_from, changed, _steering != null);
             MethodParameters method = handler.Values.Simulation.Method;
             method.StatesReactions |= _statesReactions && CanStateReactions(method);
             handler.Values.Simulation.Drive.Steering = _steering;

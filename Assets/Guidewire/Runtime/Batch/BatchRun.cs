@@ -6,7 +6,7 @@ namespace Guidewire.Runtime
 {
     /// <summary>One run without frames, inside Unity. What follows <c>-guidewire</c> on the command line is ours, what
     /// stands before is Unity's.</summary>
-    public static class BatchRun
+    internal static class BatchRun
     {
         /// <summary>The word that ends Unity's arguments.</summary>
         public const string Marker = "-guidewire";

@@ -5,7 +5,7 @@ namespace Guidewire.Runtime
 {
     /// <summary>Makes a player with <c>-batchmode ... -guidewire ...</c> do one run and end, before any scene is shown.
     /// </summary>
-    public static class PlayerBatch
+    internal static class PlayerBatch
     {
         /// <summary>Whether this process was started for a run without frames. Batch mode alone is not enough: the Test
         /// Runner's PlayMode tests run in it too.</summary>

@@ -18,6 +18,9 @@ namespace Guidewire.Runtime
         [SerializeField] private Hud _hud = null!;
         [SerializeField] private OrbitCamera _camera = null!;
 
+        private readonly KeyAxis _push = new KeyAxis(KeyCode.W, KeyCode.UpArrow, KeyCode.S, KeyCode.DownArrow);
+        private readonly KeyAxis _turn = new KeyAxis(KeyCode.D, KeyCode.RightArrow, KeyCode.A, KeyCode.LeftArrow);
+
         private void Awake()
         {
             enabled = LegacyInput.IsThere();
@@ -25,8 +28,8 @@ namespace Guidewire.Runtime
 
         private void Update()
         {
-            _loop.Push = Axis(KeyCode.W, KeyCode.UpArrow, KeyCode.S, KeyCode.DownArrow);
-            _loop.Turn = Axis(KeyCode.D, KeyCode.RightArrow, KeyCode.A, KeyCode.LeftArrow);
+            _loop.Push = _push.Value;
+            _loop.Turn = _turn.Value;
             _loop.IsPaused ^= Input.GetKeyDown(KeyCode.Space);
             _wire.ShowsSpheres ^= Input.GetKeyDown(KeyCode.B);
             _wire.ShowsDirectors ^= Input.GetKeyDown(KeyCode.G);
@@ -50,12 +53,6 @@ namespace Guidewire.Runtime
             {
                 _loop.TakeAlternative();
             }
-        }
-
-        private static int Axis(KeyCode up, KeyCode alsoUp, KeyCode down, KeyCode alsoDown)
-        {
-            int sum = Input.GetKey(up) || Input.GetKey(alsoUp) ? 1 : 0;
-            return sum - (Input.GetKey(down) || Input.GetKey(alsoDown) ? 1 : 0);
         }
     }
 }

@@ -20,6 +20,12 @@ namespace Guidewire.Runtime
         [Tooltip("Parameter file, from the project's folder or, in a player, from the folder that holds it.")]
         [SerializeField] private string _parameterFile = "params/default.json";
 
+        [Tooltip("Parameter file as an asset, instead of the file.")]
+        [SerializeField] private TextAsset? _parameterAsset;
+
+        [Tooltip("Vessels of the scene, beside what the parameters state.")]
+        [SerializeField] private SceneVessel[] _vessels = Array.Empty<SceneVessel>();
+
         [Tooltip("KEY=VALUE, one a line: parameters that count instead of the file's.")]
         [SerializeField] private string[] _overrides = Array.Empty<string>();
 
@@ -57,6 +63,7 @@ namespace Guidewire.Runtime
 
         private readonly Stopwatch _frame = new Stopwatch();
         private double _pending;    // s of in-game time asked for and not simulated
+        private readonly TouchedSpheres _touched = new TouchedSpheres();
         private bool _isReported;
 
         /// <summary>The run, or null where it could not be built.</summary>
@@ -74,11 +81,27 @@ namespace Guidewire.Runtime
         /// <summary>Whether the loop waits.</summary>
         public bool IsPaused { get; set; }
 
-        /// <summary>-1 pull, 0, 1 push.</summary>
-        public int Push { get; set; }
+        /// <summary>From -1, pull at full speed, to 1, push; what is beyond counts as full.</summary>
+        public float Push { get; set; }
 
-        /// <summary>-1 turn left, 0, 1 turn right.</summary>
-        public int Turn { get; set; }
+        /// <summary>From -1, turn left at full speed, to 1, turn right; what is beyond counts as full.</summary>
+        public float Turn { get; set; }
+
+        /// <summary>What sets <see cref="Push"/> and <see cref="Turn"/> each frame; null: nobody but their
+        /// setters.</summary>
+        public IWireInput? Input { get; set; }
+
+        /// <summary>Number of spheres, n + 1; 0 without a run.</summary>
+        public int SphereCount => Session?.Simulation.State.SphereCount ?? 0;
+
+        /// <summary>Raised with a sphere's index after a step in which a wall has begun to act on it.</summary>
+        public event Action<int>? ContactBegan;
+
+        /// <summary>Raised with a sphere's index after a step in which a wall has ceased to act on it.</summary>
+        public event Action<int>? ContactEnded;
+
+        /// <summary>Raised once where a run has ended by itself, with how and why.</summary>
+        public event Action<Outcome, string>? Ended;
 
         /// <summary>The parameters that the Inspector changes.</summary>
         public LiveParameters Live => _live;
@@ -99,6 +122,39 @@ namespace Guidewire.Runtime
             _logFolder = logFolder;
         }
 
+        /// <summary>Names what the next <see cref="Load"/> takes instead of a file.</summary>
+        /// <param name="parameters">Text of a parameter file; null: the file.</param>
+        /// <param name="vessels">Vessels of the scene, beside what the parameters state.</param>
+        public void Choose(TextAsset? parameters, params SceneVessel[] vessels)
+        {
+            _parameterAsset = parameters;
+            _vessels = vessels;
+        }
+
+        /// <summary>Positions of all spheres in the world, by this object's transform. No garbage.</summary>
+        /// <param name="positions">Takes them; <see cref="SphereCount"/> long.</param>
+        /// <exception cref="ArgumentException">It has another length.</exception>
+        public void GetPositions(Vector3[] positions)
+        {
+            CheckLength(positions.Length, SphereCount);
+            for (int i = 0; i < positions.Length; i++)
+            {
+                positions[i] = transform.TransformPoint(Session!.Simulation.State.Positions[i].ToUnity());
+            }
+        }
+
+        /// <summary>Orientations of all elements in the world: forward is along the wire. No garbage.</summary>
+        /// <param name="orientations">Takes them; one less than <see cref="SphereCount"/>.</param>
+        /// <exception cref="ArgumentException">It has another length.</exception>
+        public void GetOrientations(Quaternion[] orientations)
+        {
+            CheckLength(orientations.Length, Math.Max(0, SphereCount - 1));
+            for (int j = 0; j < orientations.Length; j++)
+            {
+                orientations[j] = transform.rotation * Session!.Simulation.State.Orientations[j].ToUnity();
+            }
+        }
+
         /// <summary>Takes the alternative's parameters instead of the present ones, and builds the wire anew; does
         /// nothing where there is no alternative.</summary>
         public void TakeAlternative()
@@ -109,6 +165,7 @@ namespace Guidewire.Runtime
             }
             (_parameterFile, _alternativeFile) = (_alternativeFile, _parameterFile);
             (_overrides, _alternativeOverrides) = (_alternativeOverrides, _overrides);
+            _parameterAsset = null;
             Load();
         }
 
@@ -123,8 +180,13 @@ namespace Guidewire.Runtime
             try
             {
                 string log = _logFolder.Length == 0 ? "" : Path.Combine(Root, _logFolder);
-                Session = SimulationSession.Open(Path.Combine(Root, _parameterFile), _overrides, log,
+                ParameterSource source = _parameterAsset
+                    ? ParameterSource.OfText(_parameterAsset!.name, _parameterAsset.text)
+                    : ParameterSource.OfFile(Path.Combine(Root, _parameterFile));
+                Session = SimulationSession.Open(
+                    source.With(Array.ConvertAll(_vessels, vessel => vessel.Create(transform))), _overrides, log,
                     _isSteered);
+                _touched.Begin(SphereCount);
                 _live.Read(Session.Parameters);
                 foreach (string warning in Session.Warnings)
                 {
@@ -172,7 +234,9 @@ namespace Guidewire.Runtime
             try
             {
                 double dt = Session!.Parameters.Method.TimeStep;
-                Session.Step(Push * _pushSpeed * dt, Turn * _turnSpeed * dt * Math.PI / 180.0);
+                Session.Step(Mathf.Clamp(Push, -1f, 1f) * _pushSpeed * dt,
+                    Mathf.Clamp(Turn, -1f, 1f) * _turnSpeed * dt * Math.PI / 180.0);
+                _touched.Update(Session.Simulation.Contacts, ContactBegan, ContactEnded);
                 Report(Session.Simulation);
             }
             catch (Exception error)
@@ -195,7 +259,7 @@ namespace Guidewire.Runtime
         }
 
         /// <summary>Takes over what the Inspector has changed.</summary>
-        public void TakeLive()
+        internal void TakeLive()
         {
             string? key;
             while (Session != null && Problem.Length == 0
@@ -220,6 +284,7 @@ namespace Guidewire.Runtime
 
         private void Awake()
         {
+            Input ??= GetComponent<IWireInput>();
             if (PlayerBatch.IsAsked)
             {
                 enabled = false;
@@ -237,6 +302,11 @@ namespace Guidewire.Runtime
 
         private void Update()
         {
+            if (Input != null)
+            {
+                Push = Input.Push;
+                Turn = Input.Turn;
+            }
             TakeLive();
             Advance(Time.deltaTime);
         }
@@ -244,6 +314,14 @@ namespace Guidewire.Runtime
         private void OnDestroy()
         {
             Close();
+        }
+
+        private static void CheckLength(int given, int needed)
+        {
+            if (given != needed)
+            {
+                throw new ArgumentException("an array of length " + given + " is given, and " + needed + " are needed");
+            }
         }
 
         private bool CanStep()
@@ -268,6 +346,7 @@ namespace Guidewire.Runtime
             {
                 Debug.Log("guidewire: " + line);
             }
+            Ended?.Invoke(simulation.Outcome, simulation.Reason);
         }
 
         private void Stop(Exception error)

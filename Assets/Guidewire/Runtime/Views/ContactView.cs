@@ -61,6 +61,7 @@ namespace Guidewire.Runtime
 
         private void DrawPoints(RodState state, SimulationParameters parameters)
         {
+            Matrix4x4 place = transform.localToWorldMatrix;
             double range = parameters.Contact.SphereRadius + parameters.Contact.CollisionMargin;
             float radius = 0.3f * (float)parameters.Contact.SphereRadius;
             for (int k = 0; k < _hints.Length; k++)
@@ -71,13 +72,14 @@ namespace Guidewire.Runtime
                 Vector3d b = state.Positions[j + 1];
                 if (wall.Nearest(a, b, range, ref _hints[k], out SurfaceContact contact))
                 {
-                    Marks.DrawBall(_ball, contact.Point.ToUnity(), radius, _yellow);
+                    Marks.DrawBall(_ball, place, contact.Point.ToUnity(), radius, _yellow);
                 }
             }
         }
 
         private void DrawForces(RodState state, Vector3d[] forces)
         {
+            Matrix4x4 place = transform.localToWorldMatrix;
             _largest *= Fading;
             for (int i = 0; i < forces.Length; i++)
             {
@@ -86,7 +88,7 @@ namespace Guidewire.Runtime
             for (int i = 0; i < forces.Length && _largest > 0.0; i++)
             {
                 Vector3 stick = (_length / _largest * forces[i]).ToUnity();
-                Marks.DrawStick(_ball, state.Positions[i].ToUnity(), stick, 1f, _yellow);
+                Marks.DrawStick(_ball, place, state.Positions[i].ToUnity(), stick, 1f, _yellow);
             }
         }
     }

@@ -46,23 +46,27 @@ namespace Guidewire.Runtime
         }
 
         /// <summary>Draws a ball; nothing where its position is not finite.</summary>
-        public static void DrawBall(Mesh ball, Vector3 centre, float radius, Material material)
+        /// <param name="place">From the wire's frame to the world.</param>
+        public static void DrawBall(Mesh ball, in Matrix4x4 place, Vector3 centre, float radius, Material material)
         {
             if (centre.IsFinite())
             {
-                Graphics.DrawMesh(ball, Matrix4x4.TRS(centre, Quaternion.identity, radius * Vector3.one), material, 0);
+                Matrix4x4 own = Matrix4x4.TRS(centre, Quaternion.identity, radius * Vector3.one);
+                Graphics.DrawMesh(ball, place * own, material, 0);
             }
         }
 
         /// <summary>Draws a ball drawn out to a stick from a point along a vector.</summary>
-        public static void DrawStick(Mesh ball, Vector3 from, Vector3 along, float radius, Material material)
+        /// <param name="place">From the wire's frame to the world.</param>
+        public static void DrawStick(Mesh ball, in Matrix4x4 place, Vector3 from, Vector3 along, float radius,
+            Material material)
         {
             float half = 0.5f * along.magnitude;
             if (from.IsFinite() && half > 0f && !float.IsInfinity(half))
             {
                 Quaternion rotation = Quaternion.FromToRotation(Vector3.forward, along);
                 var scale = new Vector3(radius, radius, half);
-                Graphics.DrawMesh(ball, Matrix4x4.TRS(from + 0.5f * along, rotation, scale), material, 0);
+                Graphics.DrawMesh(ball, place * Matrix4x4.TRS(from + 0.5f * along, rotation, scale), material, 0);
             }
         }
     }

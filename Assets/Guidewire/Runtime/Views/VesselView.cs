@@ -30,9 +30,10 @@ namespace Guidewire.Runtime
                 _generation = _loop.Generation;
                 Build();
             }
+            Matrix4x4 place = transform.localToWorldMatrix;
             for (int i = 0; i < _meshes.Count; i++)
             {
-                Graphics.DrawMesh(_meshes[i], Matrix4x4.identity, _material, gameObject.layer);
+                Graphics.DrawMesh(_meshes[i], place, _material, gameObject.layer);
             }
         }
 

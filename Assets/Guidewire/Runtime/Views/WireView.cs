@@ -6,7 +6,8 @@ using UnityEngine.Rendering;
 namespace Guidewire.Runtime
 {
     /// <summary>Shows the wire as one tube, and where asked for its spheres and directors. Meshes are made when a wire
-    /// is built and rewritten after that.</summary>
+    /// is built and rewritten after that. All is drawn at this object's transform: it stands on the loop's object, or
+    /// below it.</summary>
     public sealed class WireView : MonoBehaviour
     {
         [SerializeField] private SimulationLoop _loop = null!;
@@ -172,22 +173,24 @@ namespace Guidewire.Runtime
 
         private void DrawSpheres(RodState state, float radius)
         {
+            Matrix4x4 place = transform.localToWorldMatrix;
             for (int i = 0; i < state.SphereCount; i++)
             {
-                Marks.DrawBall(_ball, state.Positions[i].ToUnity(), radius, _coloured);
+                Marks.DrawBall(_ball, place, state.Positions[i].ToUnity(), radius, _coloured);
             }
         }
 
         private void DrawDirectors(RodState state, float radius)
         {
+            Matrix4x4 place = transform.localToWorldMatrix;
             float length = radius + 0.5f * (float)state.ElementLength;
             for (int j = 0; j < state.ElementCount; j++)
             {
                 Vector3 middle = (0.5 * (state.Positions[j] + state.Positions[j + 1])).ToUnity();
                 Quaterniond q = state.Orientations[j];
-                Marks.DrawStick(_ball, middle, length * q.Director1.ToUnity(), 0.1f * radius, _directors[0]);
-                Marks.DrawStick(_ball, middle, length * q.Director2.ToUnity(), 0.1f * radius, _directors[1]);
-                Marks.DrawStick(_ball, middle, length * q.Director3.ToUnity(), 0.1f * radius, _directors[2]);
+                Marks.DrawStick(_ball, place, middle, length * q.Director1.ToUnity(), 0.1f * radius, _directors[0]);
+                Marks.DrawStick(_ball, place, middle, length * q.Director2.ToUnity(), 0.1f * radius, _directors[1]);
+                Marks.DrawStick(_ball, place, middle, length * q.Director3.ToUnity(), 0.1f * radius, _directors[2]);
             }
         }
     }

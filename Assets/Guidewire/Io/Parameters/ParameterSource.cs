@@ -1,0 +1,56 @@
+using System;
+using Guidewire.Core;
+using Newtonsoft.Json.Linq;
+
+namespace Guidewire.Io
+{
+    /// <summary>Where the parameters of a run come from, beside its overrides: a file, or what a host program has in
+    /// its place, such as an asset and the meshes of a scene.</summary>
+    public sealed class ParameterSource
+    {
+        private readonly JObject? _content;
+
+        private ParameterSource(string? name, JObject? content, ContactShape[] walls)
+        {
+            Name = name;
+            _content = content;
+            Walls = walls;
+        }
+
+        /// <summary>The file, or what error lines call it; null for the defaults alone. Files that it names are looked
+        /// for in its folder.</summary>
+        public string? Name { get; }
+
+        /// <summary>Walls beside those that the keys state, in units of the wire.</summary>
+        public ContactShape[] Walls { get; }
+
+        /// <summary>A file on disk.</summary>
+        /// <param name="file">Its name; null for the defaults.</param>
+        public static ParameterSource OfFile(string? file)
+        {
+            return new ParameterSource(file, null, Array.Empty<ContactShape>());
+        }
+
+        /// <summary>The text of a parameter file.</summary>
+        /// <param name="name">What error lines call it.</param>
+        /// <param name="text">A flat JSON object.</param>
+        /// <exception cref="ParameterException">It is no JSON object.</exception>
+        public static ParameterSource OfText(string name, string text)
+        {
+            return new ParameterSource(name, JsonText.ParseObject(text, name), Array.Empty<ContactShape>());
+        }
+
+        /// <summary>The same with walls beside those that the keys state.</summary>
+        public ParameterSource With(ContactShape[] walls)
+        {
+            return new ParameterSource(Name, _content, walls);
+        }
+
+        /// <summary>Its keys and values; null without any.</summary>
+        /// <exception cref="ParameterException">The file cannot be read.</exception>
+        internal JObject? Read()
+        {
+            return (JObject?)_content?.DeepClone() ?? (Name == null ? null : JsonText.ReadObject(Name));
+        }
+    }
+}
