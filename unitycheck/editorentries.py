@@ -18,7 +18,7 @@ _PLAYER = re.compile(r"Build/\w+/[\w.]*\w")
 _TEST_ASSEMBLY = re.compile(r"`(Guidewire\.[\w.]*Tests)`")
 _PLATFORM = re.compile(r"-testPlatform[\"',\s]+(\w+)")
 # What the guide names although only Unity makes it.
-_MADE = {"Packages/packages-lock.json", "Packages/org.guidewire.simulation", "Assets/Samples"}
+_MADE = {"Packages/packages-lock.json", "Packages/org.guidewire.simulation"}
 
 
 def check(project: Project) -> Iterator[Violation]:
