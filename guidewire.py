@@ -18,7 +18,8 @@ _LENT = {  # name to where it stands; looked up when it is asked for, because it
     "Session": "experiments.session", "SessionError": "experiments.session", "State": "experiments.session",
     "read_run": "analysis.runs", "read_runs": "analysis.runs", "Run": "analysis.runs",
     "read_log": "analysis.logs", "read_entries": "analysis.logs", "PositionLog": "analysis.logs",
-    "LogError": "analysis.logs",
+    "LogError": "analysis.logs", "Environment": "environments", "VectorEnvironment": "environments",
+    "Drive": "environments", "Observation": "environments", "Reward": "environments",
 }
 __all__ = sorted(_LENT)
 

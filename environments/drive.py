@@ -18,8 +18,8 @@ class Drive:
 
     Attributes
     ----------
-    actions : "continuous": speed and rotation rate as fractions of the largest, each from -1 to 1; "discrete": one of 9,
-        3 i + j with i and j from none, forwards, backwards of speed and rotation rate.
+    actions : "continuous": speed and rotation rate as fractions of the largest, each from -1 to 1; "discrete": one
+        of 9, 3 i + j with i and j from none, forwards, backwards of speed and rotation rate.
     step_time : simulated time of a step, s; a multiple of the scene's timeStep.
     speed, rotation : largest, m/s and rad/s; None: the task's.
     delay : steps by which a command comes late.

@@ -65,9 +65,9 @@ class Environment(Env):
 
     metadata = {"render_modes": [], "render_fps": 7}
 
-    def __init__(self, task: str | Path | Task = "artery", drive: Drive = Drive(), observation: Observation = Observation(),
-                 reward: Reward = Reward(), safe_force: float = SAFE_FORCE, ends_unsafe: bool = False,
-                 native: bool | None = None, render_mode: str | None = None) -> None:
+    def __init__(self, task: str | Path | Task = "artery", drive: Drive = Drive(),
+                 observation: Observation = Observation(), reward: Reward = Reward(),
+                 safe_force: float = SAFE_FORCE, ends_unsafe: bool = False, native: bool | None = None, render_mode: str | None = None) -> None:
         if render_mode is not None:
             raise Error(f"render_mode {render_mode!r} is not allowed: there is none")
         self.task = find_task(task)
@@ -84,6 +84,11 @@ class Environment(Env):
     def session(self) -> Session:
         """Of this episode; who steps it past the environment has to reset."""
         return self._scene.session
+
+    @property
+    def scene(self) -> Mapping[str, Any]:
+        """Parameters of this episode's scene, with absolute paths."""
+        return self._scene.scene
 
     @property
     def report(self) -> Report:
@@ -144,9 +149,10 @@ class Environment(Env):
         steps = self.drive.step_time / self._scene.time_step
         self._steps = round(steps)
         if self._steps < 1 or abs(steps - self._steps) > 1e-6:
-            raise Error(f"step_time = {self.drive.step_time:g} is not allowed: needs a multiple of the scene's time step "
-                        f"of {self._scene.time_step:g} s")
-        self._hub = DriveState(self.drive, self.drive.speed or self.task.speed, self.drive.rotation or self.task.rotation)
+            raise Error(f"step_time = {self.drive.step_time:g} is not allowed: needs a multiple of the scene's time "
+                        f"step of {self._scene.time_step:g} s")
+        self._hub = DriveState(self.drive, self.drive.speed or self.task.speed,
+                               self.drive.rotation or self.task.rotation)
         self._report = Report(self.safe_force, left=self._place[1])
         self._calls = []
         self._origin = None if saved is not None else asdict(draw)
@@ -190,7 +196,10 @@ class Environment(Env):
             raise Error(f"this drive is of task '{drive.task}', not of '{self.task.name}'")
         self.reset(options=drive.options)
         for push, turn, steps in drive.calls:
-            self._move(push * self._scene.unit, turn, steps, push)
+            if self._report.end:    # what came after it only decides the bits
+                self._state = self.session.step(push, turn, steps)
+            else:
+                self._move(push * self._scene.unit, turn, steps, push)
         if digest_of(self._state) != drive.digest:
             raise Error("the wire at the end has other bits than where this drive was recorded")
         return self._report
@@ -260,8 +269,10 @@ class Environment(Env):
         for key, least, most in (("friction", 0.0, 10.0), ("tip_turn", -100.0, 100.0), ("insertion", 0.0, 10.0)):
             if key in options:
                 value = options[key]
-                if isinstance(value, bool) or not isinstance(value, (int, float, np.number)) or not least <= value <= most:
-                    raise Error(f"option \"{key}\" = {value!r} is not allowed: needs a number from {least:g} to {most:g}")
+                is_number = isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
+                if not is_number or not least <= value <= most:
+                    raise Error(f"option \"{key}\" = {value!r} is not allowed: needs a number from {least:g} to "
+                                f"{most:g}")
                 options[key] = float(value)
         return replace(drawn, **options)
 

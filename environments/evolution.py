@@ -3,9 +3,9 @@
     python3 guidewire.py python environments/evolution.py [SECONDS] [WORKERS]
 
 The policy is linear in a few numbers of the observation, with a tanh: action = tanh(W f + b). Each generation tries
-pairs of opposite changes of (W, b) on the same episodes, ranks them, and moves along the mean of the changes weighted by
-rank (Salimans et al. 2017, arXiv:1703.03864, with the ranks of Wierstra et al. 2014). An episode ends in training where
-a wall is pressed with more than 0.3 N, and every N s of force costs.
+pairs of opposite changes of (W, b) on the same episodes, ranks them, and moves along the mean of the changes weighted
+by rank (Salimans et al. 2017, arXiv:1703.03864, with the ranks of Wierstra et al. 2014). An episode ends in training
+where a wall is pressed with more than 0.3 N, and every N s of force costs.
 """
 
 from __future__ import annotations
@@ -65,28 +65,29 @@ def _return_of(job: tuple[str, np.ndarray, list[int]]) -> float:
     return float(np.mean([play(_environment, Linear(parameters), seed).total for seed in seeds]))
 
 
-def learn(task: str = "artery", seconds: float = 600.0, workers: int = 1, generations: int = 1000, seed: int = SEED
-          ) -> tuple[np.ndarray, list[list[float]]]:
+def learn(task: str = "artery", seconds: float = 600.0, workers: int = 1, generations: int = 1000, seed: int = SEED,
+          pairs: int = PAIRS, episodes: int = EPISODES) -> tuple[np.ndarray, list[list[float]]]:
     """Parameters and the curve: of each generation seconds, mean and best of its returns.
 
     Parameters
     ----------
     seconds, generations : after which it ends.
     workers : processes; the parameters do not depend on how many.
+    pairs, episodes : opposite changes of a generation, and episodes of each.
     """
     random = np.random.default_rng(seed)
     parameters = np.zeros(2 * FEATURES + 2)
-    ranks = np.arange(2 * PAIRS)
-    worth = np.maximum(0.0, np.log(PAIRS + 1.0) - np.log(ranks + 1.0))
+    ranks = np.arange(2 * pairs)
+    worth = np.maximum(0.0, np.log(pairs + 1.0) - np.log(ranks + 1.0))
     worth = worth / worth.sum() - 1.0 / len(ranks)
     curve: list[list[float]] = []
     began = time.monotonic()
     pool = multiprocessing.get_context("spawn").Pool(workers) if workers > 1 else None
     try:
         for generation in range(generations):
-            changes = random.normal(size=(PAIRS, len(parameters)))
+            changes = random.normal(size=(pairs, len(parameters)))
             changes = np.concatenate([changes, -changes])
-            seeds = [int(one) for one in random.integers(FIRST_TRIAL, size=EPISODES)]
+            seeds = [int(one) for one in random.integers(FIRST_TRIAL, size=episodes)]
             jobs = [(task, parameters + SIGMA * change, seeds) for change in changes]
             returns = np.array(pool.map(_return_of, jobs, 1) if pool else [_return_of(job) for job in jobs])
             weights = np.empty(len(ranks))

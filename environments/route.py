@@ -60,7 +60,7 @@ class Route:
         """The centreline's point that a point (3,) belongs to, and the distance that is left from there, units."""
         index = int(np.argmin(self._power - 2.0 * (self.points @ point)))
         along = float((point - self.points[index]) @ self._steps[index])
-        return index, float(self.left[index] - min(max(along, 0.0), self._lengths[index]))
+        return index, float(self.left[index] - np.clip(along, -self._lengths[index], self._lengths[index]))
 
     def ahead(self, index: int, distance: float) -> np.ndarray:
         """The centreline's point (3,) that is so much nearer to the target, units, or the target."""

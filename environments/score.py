@@ -94,7 +94,8 @@ def _faults_of(environment: Environment, report: dict[str, Any], terminated: boo
     tip = environment.session.state.positions[-1]
     goal = environment.target_position
     if report["success"] != (report["end"] == "target") or terminated == truncated:
-        faults.append(f"end {report['end']}, success {report['success']}, terminated {terminated}, truncated {truncated}")
+        faults.append(f"end {report['end']}, success {report['success']}, terminated {terminated}, truncated "
+                      f"{truncated}")
     # Of a path of length d between two points the chord is at most d; the tip is within a radius of its own place.
     if report["success"] and np.linalg.norm(tip - goal) > scene.tolerance + environment.widest:
         faults.append(f"target reached, and the tip is {np.linalg.norm(tip - goal):.3g} units from it")

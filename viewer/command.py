@@ -12,6 +12,7 @@ from typing import Any
 from analysis.logs import LogError, extent, read_log
 from analysis.runs import read_run
 from analysis.surfaces import Surface
+from environments.recorded import Recorder
 from experiments import checking, walls
 from experiments.key_table import read_key_table
 from experiments.prepare import ROOT, PreparationError
@@ -79,13 +80,18 @@ def _read(folder: Path, frames: int, exact: bool, build_runner: Callable[[], lis
     return read_recording(run, surfaces, frames).to_bytes(exact)
 
 
-def _live(file: Path, build_runner: Callable[[], list[str]]) -> LiveRun:
+def serve_scene(file: Path, build_runner: Callable[[], list[str]], recorder: Recorder, opens: bool) -> None:
+    """Show one scene, interactively, and take down how it is steered."""
+    _serve(Server(page_files(three(_say)), (), _live(file, build_runner, recorder)), opens)
+
+
+def _live(file: Path, build_runner: Callable[[], list[str]], recorder: Recorder | None = None) -> LiveRun:
     command = build_runner()
     keys = read_key_table(command)
-    own = {path.name: path for path in sorted((ROOT / "params").glob("*.json"))}
+    own = {} if recorder else {path.name: path for path in sorted((ROOT / "params").glob("*.json"))}
     first = file.name if own.get(file.name, file).resolve() == file.resolve() else str(file)
     run = LiveRun({first: file, **own}, first, lambda *scene: _walls_of(build_runner, *scene),
-                  {name: list(key.words) for name, key in keys.items() if key.words})
+                  {name: list(key.words) for name, key in keys.items() if key.words}, recorder)
     try:
         run.open()
     except SessionError as error:
