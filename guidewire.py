@@ -19,7 +19,8 @@ _LENT = {  # name to where it stands; looked up when it is asked for, because it
     "read_run": "analysis.runs", "read_runs": "analysis.runs", "Run": "analysis.runs",
     "read_log": "analysis.logs", "read_entries": "analysis.logs", "PositionLog": "analysis.logs",
     "LogError": "analysis.logs", "Environment": "environments", "VectorEnvironment": "environments",
-    "Drive": "environments", "Observation": "environments", "Reward": "environments",
+    "Drive": "environments", "Observation": "environments", "Reward": "environments", "Task": "environments",
+    "RecordedDrive": "environments", "find_task": "environments", "all_tasks": "environments",
 }
 __all__ = sorted(_LENT)
 

@@ -5,8 +5,8 @@ from environments.environment import Environment, Reward
 from environments.episode import SAFE_FORCE, Report
 from environments.observation import Observation
 from environments.recorded import RecordedDrive
-from environments.task import Task, all_tasks
+from environments.task import Task, all_tasks, find_task
 from environments.vector import VectorEnvironment
 
 __all__ = ["Drive", "Environment", "Observation", "RecordedDrive", "Report", "Reward", "SAFE_FORCE", "Task",
-           "VectorEnvironment", "all_tasks"]
+           "VectorEnvironment", "all_tasks", "find_task"]

@@ -2,6 +2,8 @@
 
     python3 guidewire.py python environments/evolution.py [SECONDS] [WORKERS]
 
+writes learned.json and learned.png into the current folder.
+
 The policy is linear in a few numbers of the observation, with a tanh: action = tanh(W f + b). Each generation tries
 pairs of opposite changes of (W, b) on the same episodes, ranks them, and moves along the mean of the changes weighted
 by rank (Salimans et al. 2017, arXiv:1703.03864, with the ranks of Wierstra et al. 2014). An episode ends in training
@@ -14,6 +16,7 @@ import json
 import multiprocessing
 import sys
 import time
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +25,10 @@ import numpy as np
 from environments.environment import Environment, Reward
 from environments.observation import Observation
 from environments.score import Played, play
+from experiments.prepare import ROOT
+from experiments.whole_files import whole_file, write_whole
+
+STYLE = ROOT / "analysis" / "figures" / "guidewire.mplstyle"
 
 SEED = 1
 PAIRS, EPISODES = 8, 8  # opposite changes a generation, episodes of each
@@ -103,12 +110,29 @@ def learn(task: str = "artery", seconds: float = 600.0, workers: int = 1, genera
     return parameters, curve
 
 
+def draw(learned: Mapping[str, Any], file: Path) -> None:
+    """The curve of what was learned: returns over generations and seconds."""
+    from matplotlib import pyplot
+
+    seconds, mean, best = np.array(learned["curve"]).T
+    with pyplot.style.context(STYLE):
+        figure, axes = pyplot.subplots(figsize=(6.0, 3.2), layout="constrained")
+        axes.plot(seconds, mean, "o-", label="mean of a generation")
+        axes.plot(seconds, best, "s-", label="best of a generation")
+        axes.set(xlabel="time of learning, s", ylabel="return of an episode", ylim=(min(-0.5, mean.min()), 2.0))
+        axes.legend()
+        with whole_file(file) as partial:
+            figure.savefig(partial, dpi=130)
+        pyplot.close(figure)
+
+
 def main() -> None:
     """Learn, and write the policy with its curve."""
     seconds, workers = float(sys.argv[1]) if len(sys.argv) > 1 else 1000.0, int(sys.argv[2]) if len(sys.argv) > 2 else 2
     parameters, curve = learn(seconds=seconds, workers=workers)
-    Path("learned.json").write_text(json.dumps({"task": "artery", "seed": SEED, "parameters": parameters.tolist(),
-                                                "curve": curve}) + "\n", encoding="utf-8")
+    learned = {"task": "artery", "seed": SEED, "parameters": parameters.tolist(), "curve": curve}
+    write_whole(Path("learned.json"), json.dumps(learned) + "\n")
+    draw(learned, Path("learned.png"))
 
 
 if __name__ == "__main__":

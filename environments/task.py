@@ -16,6 +16,7 @@ from experiments.prepare import ROOT
 
 FOLDER = Path(__file__).resolve().parent / "data"
 TASKS_FILE = FOLDER / "tasks.json"
+_STEP = 0.14  # s, of a drive as it comes: time steps are to be a fraction of it
 _KEYS = {"summary", "scene", "overrides", "anatomies", "targets", "instruments", "frictions", "tipTurns",
          "insertion", "time", "tolerance", "speed", "rotation"}
 
@@ -110,6 +111,7 @@ def find_task(task: str | Path | Task) -> Task:
     if "anatomy" not in entry["vessel"] or "target" not in entry:
         raise Error(f"{path}: a task needs vessel.anatomy and target: 'guidewire.py anatomy FILE' writes such a scene")
     return Task(path.stem, f"{path.name} to end {entry['target']}", str(path),
+                overrides={"timeStep": _STEP / max(1, round(_STEP / entry["timeStep"]))},
                 anatomies=(str(path.parent / entry["vessel"]["anatomy"]),), targets=(entry["target"],),
                 frictions=(float(entry["vessel"].get("frictionCoefficient", 0.0)),),
                 time=2.0 * entry["maxSimulationSteps"] * entry["timeStep"] + 10.0)

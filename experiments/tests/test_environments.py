@@ -11,7 +11,7 @@ import pytest
 from environments import Drive, Environment, Observation, RecordedDrive, Reward, VectorEnvironment, all_tasks
 from environments import own_spaces
 from environments.baselines import Chance, TurnAndRetry
-from environments.evolution import Linear, learn
+from environments.evolution import Linear, draw, learn, score
 from environments.own_spaces import Box, Dict, Discrete, MultiDiscrete
 from environments.route import Route
 from environments.score import digest, play
@@ -132,7 +132,8 @@ def test_distances_along_the_centreline_are_those_of_the_tube(environment):
             break
     report = info["report"]
     assert terminated and report["success"] and report["safe_success"] and report["left"] <= 2.0
-    assert report["path"] == pytest.approx(1e3 * report["inserted"], rel=0.05)
+    # Bent by 20 mm times 20/m = 0.4 rad a straight tip moves 4 mm across, and its end comes back by half a mm.
+    assert -0.5 < report["path"] - 1e3 * report["inserted"] < 4.0
     assert np.linalg.norm(environment.session.state.positions[-1] - environment.target_position) < 2.0 + 3.0
 
 
@@ -349,10 +350,24 @@ def test_the_demonstration_recorded_by_keys_reaches_its_target_to_the_same_bits(
         assert own.replay(drive).success
 
 
-def test_evolution_learns_the_same_from_the_same_seed(tube):
+def test_what_was_learned_reaches_the_target_sooner_and_with_less_force_than_turn_and_retry():
+    seeds = range(1_000_000, 1_000_006)    # not among those of the training
+    learned = json.loads((DATA / "learned.json").read_text())
+    mine = score("artery", np.array(learned["parameters"]), list(seeds))
+    with Environment("artery") as own:
+        theirs = [play(own, TurnAndRetry(own), seed) for seed in seeds]
+    assert all(one.report["safe_success"] for one in mine)
+    for key in ("time", "impulse"):
+        assert sum(one.report[key] for one in mine) < 0.9 * sum(one.report[key] for one in theirs)
+    assert sum(one.total for one in mine) > sum(one.total for one in theirs)
+
+
+def test_evolution_learns_the_same_from_the_same_seed(tube, tmp_path):
     one, curve = learn(tube, generations=1, seed=3, pairs=2, episodes=1)
     other, _ = learn(tube, generations=1, seed=3, pairs=2, episodes=1)
     np.testing.assert_array_equal(one, other)
+    draw({"curve": curve}, tmp_path / "curve.png")
+    assert (tmp_path / "curve.png").stat().st_size > 5000
     assert len(curve) == 1 and np.abs(one).max() > 0.0 and Linear(one).act(
         {"ahead": np.zeros(3), "distance": np.zeros(1), "wall": np.zeros(2)}).shape == (2,)
 
@@ -384,3 +399,21 @@ def test_memory_stays_level_over_ten_thousand_resets(tube):
         for _ in range(8000):
             own.reset()
         assert resident() - before < 20.0
+
+
+def test_the_tutorials_thirty_lines_train_on_a_mesh_with_its_scene(tmp_path, monkeypatch, capsys):
+    page = (ROOT / "docs" / "tutorial.md").read_text(encoding="utf-8")
+    (script,) = re.findall(r"as `train.py`:\n\n```python\n(.*?)^```$", page, re.M | re.S)
+    assert len(script.splitlines()) <= 30
+    scene = json.loads((ROOT / "params" / "sheath.json").read_text()) | {
+        "vessel": {"shape": "mesh", "file": str(ROOT / "params" / "meshes" / "artery.obj"),
+                   "anatomy": str(DATA / "artery.json")}, "sheath": {}, "inlet": 1, "target": 2,
+        "guidewireLength": 330.0, "numberRodElements": 60, "contactDistance": 2e-4,
+        "wireSections": [{"from": 300.0, "to": 330.0, "numberRodElements": 12, "youngsModulus": 6e9,
+                          "shearModulus": 2.3e9, "restCurvature": [-26.18, 0.0, 0.0]}]}
+    scene.pop("guidewireOffset")
+    (tmp_path / "scene.json").write_text(json.dumps(scene))
+    monkeypatch.setattr("sys.argv", ["train.py", str(tmp_path / "scene.json"), "1" if FULL else "0"])
+    exec(compile(script, "train.py", "exec"), {"__name__": "__main__"})
+    said = capsys.readouterr().out.splitlines()
+    assert len(said) == (4 if FULL else 3) and all(" N" in line and "after" in line for line in said[-3:])
