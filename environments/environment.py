@@ -67,7 +67,8 @@ class Environment(Env):
 
     def __init__(self, task: str | Path | Task = "artery", drive: Drive = Drive(),
                  observation: Observation = Observation(), reward: Reward = Reward(),
-                 safe_force: float = SAFE_FORCE, ends_unsafe: bool = False, native: bool | None = None, render_mode: str | None = None) -> None:
+                 safe_force: float = SAFE_FORCE, ends_unsafe: bool = False, native: bool | None = None,
+                 render_mode: str | None = None) -> None:
         if render_mode is not None:
             raise Error(f"render_mode {render_mode!r} is not allowed: there is none")
         self.task = find_task(task)

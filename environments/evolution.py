@@ -25,10 +25,7 @@ import numpy as np
 from environments.environment import Environment, Reward
 from environments.observation import Observation
 from environments.score import Played, play
-from experiments.prepare import ROOT
 from experiments.whole_files import whole_file, write_whole
-
-STYLE = ROOT / "analysis" / "figures" / "guidewire.mplstyle"
 
 SEED = 1
 PAIRS, EPISODES = 8, 8  # opposite changes a generation, episodes of each
@@ -113,6 +110,8 @@ def learn(task: str = "artery", seconds: float = 600.0, workers: int = 1, genera
 def draw(learned: Mapping[str, Any], file: Path) -> None:
     """The curve of what was learned: returns over generations and seconds."""
     from matplotlib import pyplot
+
+    from analysis.figures.style import STYLE
 
     seconds, mean, best = np.array(learned["curve"]).T
     with pyplot.style.context(STYLE):

@@ -16,6 +16,7 @@ from experiments.prepare import ROOT
 
 FOLDER = Path(__file__).resolve().parent / "data"
 TASKS_FILE = FOLDER / "tasks.json"
+_WIRE = {"wireRadius", "youngsModulus", "shearModulus", "density", "wireSections"}  # what an instrument stands for
 _STEP = 0.14  # s, of a drive as it comes: time steps are to be a fraction of it
 _KEYS = {"summary", "scene", "overrides", "anatomies", "targets", "instruments", "frictions", "tipTurns",
          "insertion", "time", "tolerance", "speed", "rotation"}
@@ -76,7 +77,7 @@ class Task:
                 vessel[key] = str((scene_file.parent / vessel[key]).resolve())
         scene["vessel"] = vessel
         if instrument is not None:
-            scene["instrument"] = instrument
+            scene = {key: value for key, value in scene.items() if key not in _WIRE} | {"instrument": instrument}
         return scene, _read(file)
 
 
