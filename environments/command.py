@@ -18,9 +18,9 @@ from environments.recorded import RecordedDrive, Recorder
 from environments.spaces import Error
 from environments.task import all_tasks, find_task
 from experiments.prepare import PreparationError
+from experiments.session import SessionError
 
 POLICIES = {"retry": TurnAndRetry, "random": Chance}
-
 _BY_HAND = {"nominal": True, "insertion": 0.0}
 
 
@@ -41,7 +41,7 @@ def run(arguments: argparse.Namespace, build_runner: Callable[[], list[str]]) ->
         if arguments.record is not None:
             return _steer(arguments.task, arguments.record, arguments.open, build_runner)
         return _play(arguments.task, arguments.policy, arguments.episodes, arguments.seed, arguments.jobs)
-    except Error as error:
+    except (Error, SessionError) as error:
         raise PreparationError(str(error)) from error
 
 

@@ -17,7 +17,7 @@ from environments.observation import Observation
 from environments.recorded import RecordedDrive, digest_of
 from environments.spaces import ClosedEnvironmentError, Env, Error, ResetNeeded
 from environments.task import Task, find_task
-from experiments.session import Session, State
+from experiments.session import Session
 
 _OPTIONS = ("nominal", "anatomy", "target", "instrument", "friction", "tip_turn", "insertion", "snapshot")
 

@@ -25,6 +25,7 @@ import numpy as np
 from environments.environment import Environment, Reward
 from environments.observation import Observation
 from environments.score import Played, play
+from environments.task import Task
 from experiments.whole_files import whole_file, write_whole
 
 SEED = 1
@@ -53,7 +54,7 @@ class Linear:
         return np.tanh(self._weights @ features + self._bias).astype(np.float32)
 
 
-def score(task: str, parameters: np.ndarray, seeds: list[int]) -> list[Played]:
+def score(task: str | Task, parameters: np.ndarray, seeds: list[int]) -> list[Played]:
     """Episodes as they are scored, on the task as it ships."""
     with Environment(task, observation=PARTS) as environment:
         return [play(environment, Linear(parameters), seed) for seed in seeds]
@@ -62,14 +63,14 @@ def score(task: str, parameters: np.ndarray, seeds: list[int]) -> list[Played]:
 _environment: Environment | None = None  # of a worker process, kept open between generations
 
 
-def _return_of(job: tuple[str, np.ndarray, list[int]]) -> float:
+def _return_of(job: tuple[str | Task, np.ndarray, list[int]]) -> float:
     global _environment
     task, parameters, seeds = job
     _environment = _environment or Environment(task, **TRAINING)
     return float(np.mean([play(_environment, Linear(parameters), seed).total for seed in seeds]))
 
 
-def learn(task: str = "artery", seconds: float = 600.0, workers: int = 1, generations: int = 1000, seed: int = SEED,
+def learn(task: str | Task = "artery", seconds: float = 600.0, workers: int = 1, generations: int = 1000, seed: int = SEED,
           pairs: int = PAIRS, episodes: int = EPISODES) -> tuple[np.ndarray, list[list[float]]]:
     """Parameters and the curve: of each generation seconds, mean and best of its returns.
 

@@ -31,13 +31,17 @@ class Route:
     """
 
     def __init__(self, anatomy: Mapping[str, Any], target: str | int | Sequence[Any], unit: float = 1.0) -> None:
-        line = anatomy["centreline"]
-        numbers = unit * np.array(line["points"], dtype=float)
+        try:
+            line = anatomy["centreline"]
+            numbers = unit * np.array(line["points"], dtype=float).reshape(-1, 4)
+            parents = np.array(line["parents"], dtype=int)
+        except (KeyError, TypeError, ValueError) as error:
+            raise Error("an anatomy needs a centreline of points and parents, as 'guidewire.py anatomy' writes it"
+                        ) from error
         self.points, self._radii = np.ascontiguousarray(numbers[:, :3]), numbers[:, 3]
         self.widest = float(self._radii.max())
         self.target = _index_of(anatomy, target, self.points)
         self._power = np.einsum("ij,ij->i", self.points, self.points) - self._radii**2
-        parents = np.array(line["parents"])
         self.next = parents.copy()
         self.next[self.target] = self.target
         chain = [self.target]

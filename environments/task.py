@@ -107,26 +107,45 @@ def find_task(task: str | Path | Task) -> Task:
         raise NameNotFound(f"there is no task '{task}': {hint}")
     path = path.resolve()
     entry = _read(path)
+    if not isinstance(entry, dict):
+        raise Error(f"{path}: a task is one JSON object")
     if "vessel" not in entry:
         return _task(path.stem, entry, path)
-    if "anatomy" not in entry["vessel"] or "target" not in entry:
+    if not isinstance(entry["vessel"], dict) or "anatomy" not in entry["vessel"] or "target" not in entry:
         raise Error(f"{path}: a task needs vessel.anatomy and target: 'guidewire.py anatomy FILE' writes such a scene")
+    time_step, steps = (_number(entry, key, 1e-9, 1e9, path) for key in ("timeStep", "maxSimulationSteps"))
     return Task(path.stem, f"{path.name} to end {entry['target']}", str(path),
-                overrides={"timeStep": _STEP / max(1, round(_STEP / entry["timeStep"]))},
+                overrides={"timeStep": _STEP / max(1, round(_STEP / time_step))},
                 anatomies=(str(path.parent / entry["vessel"]["anatomy"]),), targets=(entry["target"],),
                 frictions=(float(entry["vessel"].get("frictionCoefficient", 0.0)),),
-                time=2.0 * entry["maxSimulationSteps"] * entry["timeStep"] + 10.0)
+                time=2.0 * steps * time_step + 10.0)
 
 
 def _task(name: str, entry: Mapping[str, Any], file: Path) -> Task:
     unknown = set(entry) - _KEYS
     if unknown:
         raise Error(f"{file}: task {name} has no key \"{sorted(unknown)[0]}\": there are {', '.join(sorted(_KEYS))}")
+    if not isinstance(entry.get("overrides", {}), dict) or not isinstance(entry.get("scene", ""), str):
+        raise Error(f"{file}: task {name}: overrides is an object and scene a text")
+    for key in ("anatomies", "targets", "instruments", "frictions"):
+        if not isinstance(entry.get(key, []), list):
+            raise Error(f"{file}: task {name}: {key} = {json.dumps(entry[key])} is not allowed: needs a list")
+    for key, least in (("time", 1e-6), ("tolerance", 1e-9), ("speed", 1e-9), ("rotation", 1e-9), ("insertion", 0.0),
+                       ("tipTurns", 1)):
+        if key in entry:
+            _number(entry, key, least, 1e9, file)
     given = {{"tipTurns": "tip_turns"}.get(key, key): value for key, value in entry.items()}
     task = Task(name, **given)
     if not task.anatomies or not task.targets:
         raise Error(f"{file}: task {name} needs anatomies and targets")
     return task
+
+
+def _number(entry: Mapping[str, Any], key: str, least: float, most: float, file: Path) -> float:
+    value = entry.get(key)
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not least <= value <= most:
+        raise Error(f"{file}: {key} = {json.dumps(value)} is not allowed: needs a number from {least:g} to {most:g}")
+    return value
 
 
 def _read(file: Path) -> Any:

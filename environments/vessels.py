@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import importlib.util
 import json
 import os
 import shutil
@@ -12,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import anatomy
+from environments.spaces import Error
 
 _MADE_BY = ("shapes", "tubes", "surfaces", "distance_grid", "repair", "centreline", "output", "mesh", "intersections")
 
@@ -47,6 +49,9 @@ def made_vessel(which: Mapping[str, Any]) -> Path:
 
 
 def _make(which: Mapping[str, Any], folder: Path) -> None:
+    if importlib.util.find_spec("vtkmodules") is None:
+        raise Error(f"a vessel of kind {which['make']} is made with vtk: pip install vtk, or apt-get install "
+                    "python3-vtk9")
     from anatomy import output, shapes
     from anatomy.centreline import find_centreline
     from anatomy.inspection import inspect

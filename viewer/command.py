@@ -7,12 +7,11 @@ import sys
 import webbrowser
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from analysis.logs import LogError, extent, read_log
 from analysis.runs import read_run
 from analysis.surfaces import Surface
-from environments.recorded import Recorder
 from experiments import checking, walls
 from experiments.key_table import read_key_table
 from experiments.prepare import ROOT, PreparationError
@@ -23,6 +22,9 @@ from viewer.live import LiveRun
 from viewer.parts import three
 from viewer.recording import read_recording
 from viewer.server import Server, page_files
+
+if TYPE_CHECKING:
+    from environments.recorded import Recorder
 
 MOST_RUNS = 2
 FRAMES_OF_A_FILE = 300

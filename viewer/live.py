@@ -17,17 +17,19 @@ from collections.abc import Awaitable, Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from aiohttp import WSCloseCode, WSMsgType, web
 
 from analysis.surfaces import Surface
-from environments.recorded import Recorder
 from experiments.session import Session, SessionError, State
 from viewer.recording import (
     Channel, Recording, facts_of, largest_shown, make_channels, name_walls, radius_of, sheath_of, units_of,
 )
+
+if TYPE_CHECKING:
+    from environments.recorded import Recorder
 
 PUSH_SPEED = 40.0              # units a second of in-game time, as in the Unity scene
 TURN_SPEED = math.radians(180.0)  # rad a second of in-game time

@@ -4,6 +4,7 @@ import importlib.util
 import json
 import os
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -253,6 +254,13 @@ def test_what_is_asked_wrongly_is_refused_as_gymnasium_refuses(environment, tube
     (tmp_path / "task.json").write_text('{"time": 3, "nonsense": 1}')
     with pytest.raises(Error, match="no key \"nonsense\""):
         find_task(tmp_path / "task.json")
+    for wrong in ('[1]', '{"anatomies": "a", "targets": [1]}', '{"anatomies": ["a"], "targets": [1], "time": "long"}',
+                  '{"anatomies": ["a"], "targets": [1], "tipTurns": 0}', '{"vessel": {"anatomy": "a"}, "target": 1}',
+                  '{"anatomies": ["nowhere.json"], "targets": [1], "scene": "params/sheath.json"}', '{'):
+        (tmp_path / "task.json").write_text(wrong)
+        with pytest.raises(Error) as refused, Environment(tmp_path / "task.json") as own:
+            own.reset()
+        assert "\n" not in str(refused.value)
     environment.close()
     environment.close()
     for ask in (environment.reset, lambda: environment.step(np.zeros(2))):
@@ -354,8 +362,9 @@ def test_the_demonstration_recorded_by_keys_reaches_its_target_to_the_same_bits(
 def test_what_was_learned_reaches_the_target_sooner_and_with_less_force_than_turn_and_retry():
     seeds = range(1_000_000, 1_000_006)    # not among those of the training
     learned = json.loads((DATA / "learned.json").read_text())
-    mine = score("artery", np.array(learned["parameters"]), list(seeds))
-    with Environment("artery") as own:
+    task = replace(find_task("artery"), frictions=(0.05,))    # one vessel to be read
+    mine = score(task, np.array(learned["parameters"]), list(seeds))
+    with Environment(task) as own:
         theirs = [play(own, TurnAndRetry(own), seed) for seed in seeds]
     assert all(one.report["safe_success"] for one in mine)
     for key in ("time", "impulse"):
