@@ -13,6 +13,7 @@ from environments import Drive, Environment, Observation, RecordedDrive, Reward,
 from environments import own_spaces
 from environments.baselines import Chance, TurnAndRetry
 from environments.evolution import Linear, draw, learn, score
+from environments.observation import _in_frame
 from environments.own_spaces import Box, Dict, Discrete, MultiDiscrete
 from environments.route import Route
 from environments.score import digest, play
@@ -217,6 +218,14 @@ def test_several_at_once_have_the_bits_of_each_alone_whatever_the_number_of_work
             vector.reset()
 
 
+def test_environment_i_of_several_has_the_seed_plus_i(tube):
+    with VectorEnvironment(tube, 2) as vector:
+        one, info = vector.reset(seed=7)
+        other, listed = vector.reset(seed=[7, 8])
+        same(one, other)
+        assert info["draw"].tolist() == listed["draw"].tolist() and info["draw"][0] != info["draw"][1]
+
+
 def test_after_an_end_the_next_step_begins_anew_without_looking_at_its_action(tube):
     with VectorEnvironment(tube, 1) as vector:
         vector.reset(seed=1)
@@ -303,6 +312,12 @@ def test_every_part_of_an_observation_is_there_and_flat_ones_hold_the_same_numbe
         np.testing.assert_array_equal(seen["points"][0], seen["tip"])
         assert np.linalg.norm(seen["ahead"]) == pytest.approx(1.0)
         np.testing.assert_allclose(seen["tip"] + seen["target"], one.target_position, atol=1e-4)
+
+
+def test_the_way_ahead_is_told_in_the_frame_of_the_tip():
+    """An element turned by 90 degrees about z has its d1 along y and its d2 along -x."""
+    quarter = np.array([0.0, 0.0, np.sqrt(0.5), np.sqrt(0.5)])
+    np.testing.assert_allclose(_in_frame(quarter, np.array([1.0, 2.0, 3.0])), [2.0, -1.0, 3.0], atol=1e-12)
 
 
 def test_a_force_above_the_limit_is_no_safe_success_and_may_end_the_episode(tube):
