@@ -21,19 +21,25 @@ if TYPE_CHECKING:  # the same names for type checkers
     from analysis.logs import LogError as LogError, PositionLog as PositionLog
     from analysis.logs import read_entries as read_entries, read_log as read_log
     from analysis.runs import Run as Run, read_run as read_run, read_runs as read_runs
+    from environments import Drive as Drive, Environment as Environment, Observation as Observation
+    from environments import RecordedDrive as RecordedDrive, Reward as Reward, Task as Task
+    from environments import VectorEnvironment as VectorEnvironment, all_tasks as all_tasks, find_task as find_task
     from experiments.library import advise as advise, sweep as sweep
     from experiments.session import Session as Session, SessionError as SessionError, State as State
 
     anatomy: types.ModuleType
+    env: types.ModuleType
 
 _LENT = {  # name to where it stands; looked up when it is asked for, because it needs numpy
     "Session": "experiments.session", "SessionError": "experiments.session", "State": "experiments.session",
     "read_run": "analysis.runs", "read_runs": "analysis.runs", "Run": "analysis.runs",
     "read_log": "analysis.logs", "read_entries": "analysis.logs", "PositionLog": "analysis.logs",
     "LogError": "analysis.logs", "sweep": "experiments.library", "advise": "experiments.library",
-    "Advice": "analysis.advice.plan",
+    "Advice": "analysis.advice.plan", "Environment": "environments", "VectorEnvironment": "environments",
+    "Drive": "environments", "Observation": "environments", "Reward": "environments", "Task": "environments",
+    "RecordedDrive": "environments", "find_task": "environments", "all_tasks": "environments",
 }
-_MODULES = {"anatomy": "anatomy"}  # name to the module that it is
+_MODULES = {"anatomy": "anatomy", "env": "environments"}  # name to the module that it is
 __all__ = sorted([*_LENT, *_MODULES])
 
 

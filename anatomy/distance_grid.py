@@ -110,7 +110,8 @@ def cut_open(mesh: Mesh, point: np.ndarray, normal: np.ndarray, reach: float) ->
 
     from anatomy.surfaces import from_vtk
 
-    near = (np.linalg.norm(mesh.corners.mean(axis=1) - point, axis=1) < 3.0 * reach)
+    # By the nearest corner: on a straight piece a triangle may be much longer than the lumen is wide.
+    near = np.linalg.norm(mesh.corners - point, axis=2).min(axis=1) < 3.0 * reach
     behind = ((mesh.corners - point) @ normal < 0.0).any(axis=1) & near
     if not behind.any():
         return mesh

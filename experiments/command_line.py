@@ -160,6 +160,19 @@ def parse(argv: list[str]) -> argparse.Namespace:
                             help="folder for NAME.png (results/instruments)")
     instrument.set_defaults(packages=DRAWING)
 
+    tasks = commands.add_parser("tasks", help="tasks to train on: list them, score a policy, steer one by hand")
+    tasks.add_argument("task", metavar="TASK", nargs="?", help="name, or a scene.json with anatomy and target")
+    tasks.add_argument("--policy", choices=("retry", "random"), default="retry", help="what acts (retry)")
+    tasks.add_argument("--episodes", type=positive, default=50, metavar="N", help="how many are played (50)")
+    tasks.add_argument("--seed", type=positive, default=1, metavar="S", help="of the first; the next has S + 1 (1)")
+    tasks.add_argument("--jobs", type=positive, default=1, metavar="N", help="environments at once (1)")
+    by_hand = tasks.add_mutually_exclusive_group()
+    by_hand.add_argument("--record", type=path, metavar="FILE",
+                         help="open its page, and write what is steered there when it ends (Ctrl-C)")
+    by_hand.add_argument("--replay", type=Path, metavar="FILE", help="do again what was recorded")
+    tasks.add_argument("--open", action="store_true", help="open the page in a browser")
+    tasks.set_defaults(packages=(*DRAWING, *VIEWING))
+
     python = commands.add_parser("python", help="run a script that imports guidewire, with a Python that has the "
                                                 "packages it needs")
     python.add_argument("script", metavar="SCRIPT", type=Path, help="Python file: 'from guidewire import Session'")

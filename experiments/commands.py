@@ -258,6 +258,12 @@ def _view(arguments: argparse.Namespace) -> int:
     return view(arguments.what, arguments.html, arguments.frames, arguments.open, _build_runner)
 
 
+def _tasks(arguments: argparse.Namespace) -> int:
+    from environments import command
+
+    return command.run(arguments, _build_runner)
+
+
 def _anatomy(arguments: argparse.Namespace) -> int:
     from anatomy import command
 
@@ -433,8 +439,8 @@ def _tell_failures(result: SweepResult) -> None:
 _ACTIONS = {
     "demo": _demo, "test": _test, "run": _run, "sweep": _sweep, "figures": _figures, "advise": _advise,
     "plot": _plot, "anatomy": _anatomy, "keys": _keys, "render": _render, "view": _view, "stress": _stress, "hub": _hub,
-    "compare": _compare, "modes": _modes, "instrument": _instrument, "python": _python, "native": _native,
-    "package": _package, "scenes": _scenes, "bench": _bench, "unity-check": _unity_check,
+    "compare": _compare, "modes": _modes, "instrument": _instrument, "tasks": _tasks, "python": _python,
+    "native": _native, "package": _package, "scenes": _scenes, "bench": _bench, "unity-check": _unity_check,
 }
 _OF_THE_REPOSITORY = ("test", "native", "package", "bench", "unity-check")
 _LEFT = {  # of a command that was interrupted

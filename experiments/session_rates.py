@@ -2,6 +2,8 @@
 hand pushes in and pulls out, and turns as chance has it.
 
     python3 guidewire.py python experiments/session_rates.py
+
+and then the same of an environment, with its observations, rewards and resets.
 """
 
 from __future__ import annotations
@@ -15,6 +17,8 @@ from typing import Any
 
 import numpy as np
 
+from environments import Environment
+from environments.baselines import TurnAndRetry
 from experiments import building
 from experiments.campaigns.vessel import main_lumen
 from guidewire import Session
@@ -51,6 +55,48 @@ def rate(overrides: Mapping[str, Any], native: bool, seed: int = 0) -> tuple[flo
     return float(np.median(rates[WARM_UP:])), max(rates)
 
 
+def environment_rate(native: bool, seed: int = 0) -> tuple[float, float]:
+    """Steps a second of the environment `artery` under turn and retry, and the median time of a reset to a start that
+    is loaded, ms."""
+    with Environment("artery", native=native) as environment:
+        policy = TurnAndRetry(environment)
+        starts = [{"target": target, "friction": 0.05, "tip_turn": 0.5, "insertion": 0.09} for target in (0, 1)]
+        rates, resets = [], []
+        for episode in range(WARM_UP + 4 * ROUNDS):
+            before = time.perf_counter()
+            observation, _ = environment.reset(seed=seed + episode, options=starts[episode % 2])
+            began = time.perf_counter()
+            policy.reset(observation)
+            steps, ended = 0, False
+            while not ended:
+                observation, _, terminated, truncated, _ = environment.step(policy.act(observation))
+                steps, ended = steps + 1, terminated or truncated
+            rates.append(steps / (time.perf_counter() - began))
+            resets.append(1e3 * (began - before))
+    return float(np.median(rates[WARM_UP:])), float(np.median(resets[WARM_UP:]))
+
+
+def environment_rate(native: bool, seed: int = 0) -> tuple[float, float]:
+    """Steps a second of the environment `artery` under turn and retry, and the median time of a reset to a start that
+    is loaded, ms."""
+    with Environment("artery", native=native) as environment:
+        policy = TurnAndRetry(environment)
+        starts = [{"target": target, "friction": 0.05, "tip_turn": 0.5, "insertion": 0.09} for target in (0, 1)]
+        rates, resets = [], []
+        for episode in range(WARM_UP + 4 * ROUNDS):
+            before = time.perf_counter()
+            observation, _ = environment.reset(seed=seed + episode, options=starts[episode % 2])
+            began = time.perf_counter()
+            policy.reset(observation)
+            steps, ended = 0, False
+            while not ended:
+                observation, _, terminated, truncated, _ = environment.step(policy.act(observation))
+                steps, ended = steps + 1, terminated or truncated
+            rates.append(steps / (time.perf_counter() - began))
+            resets.append(1e3 * (began - before))
+    return float(np.median(rates[WARM_UP:])), float(np.median(resets[WARM_UP:]))
+
+
 def main() -> None:
     natives = (False, True) if building.native_library() else (False,)
     for name, overrides in (("a tube", {"vessel": tube()}), ("a mesh", {})):
@@ -63,6 +109,12 @@ def main() -> None:
             print(f"{name}, {'native library' if native else 'runner'}: {one:.0f} calls of {1e3 * STEP:.0f} ms a second"
                   f" in one session (at best {best:.0f}), {two:.0f} in two processes ({two / one:.2f} times),"
                   f" {threads:.0f} in two threads ({threads / one:.2f} times)", flush=True)
+    for native in natives:
+        one, reset = environment_rate(native)
+        with multiprocessing.get_context("spawn").Pool(2) as pool:
+            two = sum(steps for steps, _ in pool.starmap(environment_rate, [(native, 1), (native, 2)]))
+        print(f"environment artery, {'native library' if native else 'runner'}: {one:.0f} steps of 140 ms a second, "
+              f"{two:.0f} in two processes ({two / one:.2f} times), a loaded start in {reset:.1f} ms", flush=True)
 
 
 if __name__ == "__main__":

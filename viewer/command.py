@@ -7,7 +7,7 @@ import sys
 import webbrowser
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from analysis.logs import LogError, extent, read_log
 from analysis.runs import read_run
@@ -22,6 +22,9 @@ from viewer.live import LiveRun
 from viewer.parts import three
 from viewer.recording import read_recording
 from viewer.server import Server, page_files
+
+if TYPE_CHECKING:
+    from environments.recorded import Recorder
 
 MOST_RUNS = 2
 FRAMES_OF_A_FILE = 300
@@ -79,13 +82,18 @@ def _read(folder: Path, frames: int, exact: bool, build_runner: Callable[[], lis
     return read_recording(run, surfaces, frames).to_bytes(exact)
 
 
-def _live(file: Path, build_runner: Callable[[], list[str]]) -> LiveRun:
+def serve_scene(file: Path, build_runner: Callable[[], list[str]], recorder: Recorder, opens: bool) -> None:
+    """Show one scene, interactively, and take down how it is steered."""
+    _serve(Server(page_files(three(_say)), (), _live(file, build_runner, recorder)), opens)
+
+
+def _live(file: Path, build_runner: Callable[[], list[str]], recorder: Recorder | None = None) -> LiveRun:
     command = build_runner()
     keys = read_key_table(command)
-    own = {path.name: path for path in sorted((ROOT / "params").glob("*.json"))}
+    own = {} if recorder else {path.name: path for path in sorted((ROOT / "params").glob("*.json"))}
     first = file.name if own.get(file.name, file).resolve() == file.resolve() else str(file)
     run = LiveRun({first: file, **own}, first, lambda *scene: _walls_of(build_runner, *scene),
-                  {name: list(key.words) for name, key in keys.items() if key.words})
+                  {name: list(key.words) for name, key in keys.items() if key.words}, recorder)
     try:
         run.open()
     except SessionError as error:

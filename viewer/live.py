@@ -17,7 +17,7 @@ from collections.abc import Awaitable, Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from aiohttp import WSCloseCode, WSMsgType, web
@@ -27,6 +27,9 @@ from experiments.session import Session, SessionError, State
 from viewer.recording import (
     Channel, Recording, facts_of, largest_shown, make_channels, name_walls, radius_of, sheath_of, units_of,
 )
+
+if TYPE_CHECKING:
+    from environments.recorded import Recorder
 
 PUSH_SPEED = 40.0              # units a second of in-game time, as in the Unity scene
 TURN_SPEED = math.radians(180.0)  # rad a second of in-game time
@@ -60,15 +63,17 @@ class LiveRun:
     first : name of the one that is opened at first.
     walls : from a parameter file, its effective values and its start to the walls.
     choices : name to words, of the parameters that are words.
+    recorder : takes down the steps that are made; None: nobody does.
     """
 
     def __init__(self, scenes: Mapping[str, Path], first: str,
                  walls: Callable[[Path, Mapping[str, Any], State], list[Surface]],
-                 choices: Mapping[str, list[str]]) -> None:
+                 choices: Mapping[str, list[str]], recorder: Recorder | None = None) -> None:
         self._scenes = scenes
         self._scene = first
         self._read_walls = walls
         self._choices = choices
+        self._recorder = recorder
         self._pages: list[_Page] = []
         self._hand: _Page | None = None
         self._session: Session | None = None
@@ -121,13 +126,16 @@ class LiveRun:
             push, turn = (PUSH_SPEED * self._push, TURN_SPEED * self._turn) if session.hand else (0.0, 0.0)
             began = time.monotonic()
             try:
-                state = await self._in_thread(lambda: session.step(push * dt * steps, turn * dt * steps, steps))
+                push, turn = push * dt * steps, turn * dt * steps
+                state = await self._in_thread(lambda: session.step(push, turn, steps))
             except SessionError as error:
                 if self._session is session:
                     await self._fail(error)
                 continue
             if self._session is not session:    # another scene was opened meanwhile
                 continue
+            if self._recorder is not None:
+                self._recorder.add(push, turn, steps, state)
             cost = (time.monotonic() - began) / steps
             self._cost = cost if self._cost == 0.0 else self._cost + _SMOOTHING * (cost - self._cost)
             await self._show(mark, session, state)
@@ -213,6 +221,8 @@ class LiveRun:
             await self._in_thread(lambda: self._open(self._scene))
         else:
             await self._in_thread(self._session.reset)
+            if self._recorder is not None:
+                self._recorder.begin()
             self._is_paused = not self._session.hand
             self._opened += 1
             self._largest = largest_shown(self._channels(self._session, self._session.state))
@@ -246,6 +256,8 @@ class LiveRun:
                 raise
             self._problem = _refusal(key, value, str(error))  # nothing has changed, and the wire goes on
             return
+        if self._recorder is not None:
+            self._recorder.spoil()
         self._cost = 0.0
 
     def _open(self, scene: str, by_hand: bool = True) -> None:
@@ -254,6 +266,8 @@ class LiveRun:
             warnings.simplefilter("always")
             session = _start(self._scenes[scene], by_hand)
         self._session, self._scene = session, scene
+        if self._recorder is not None:
+            self._recorder.begin()
         self._is_paused = not session.hand  # a wire that waits for a hand is at rest
         self._warnings = list(dict.fromkeys(str(one.message) for one in said))
         self._walls = self._read_walls(self._scenes[scene], session.parameters, session.state)

@@ -20,7 +20,7 @@ from studies.table import Axis, Grid, Study
 
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 RUNS = (ROOT / "docs" / "runs.md").read_text(encoding="utf-8")
-_FOLDERS = "Assets|analysis|docs|experiments|instruments|params|studies|unitycheck|viewer"
+_FOLDERS = "Assets|analysis|docs|environments|experiments|instruments|params|studies|unitycheck|viewer"
 _PLACEHOLDERS = {"T": "1", "STUDY": "default", "FILE": "params/default.json", "N": "2", "...": ""}
 
 

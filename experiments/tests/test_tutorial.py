@@ -20,7 +20,7 @@ PAGE = (ROOT / "docs" / "tutorial.md").read_text(encoding="utf-8")
 # Where campaigns do not run in full, what takes a second and has tests of its own is left out.
 FULL = FULL_CAMPAIGNS in os.environ
 SLOW = ("render results/turned", "sweep turns.json", "python table.py", "sweep friction.json", "plot results/friction",
-        "run params/sheath.json", "hub results/other")
+        "run params/sheath.json", "hub results/other", "anatomy ", "python train.py")
 SHORTER = {'"maxSimulationSteps": 240': '"maxSimulationSteps": 4', '"numberRodElements": 40': '"numberRodElements": 9',
            '"numberRodElements": 10': '"numberRodElements": 3'}
 
@@ -30,7 +30,8 @@ def test_every_command_of_the_tutorial_works_in_its_order(runner_command, tmp_pa
     monkeypatch.setattr("viewer.command.three", lambda tell: {})  # nothing to install; the page has tests of its own
     (tmp_path / "params").symlink_to(ROOT / "params")
     saved = re.findall(r"[Ss]ave this as `([\w.]+)`:\n\n```\w*\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
-    assert [name for name, _ in saved] == ["wire.json", "curves.py", "turns.json", "table.py", "tube.json", "friction.json"]
+    assert [name for name, _ in saved] == ["wire.json", "curves.py", "turns.json", "table.py", "tube.json", "friction.json",
+                                         "train.py"]
     for name, text in saved:
         for whole, short in SHORTER.items():
             assert name != "wire.json" or whole in text
@@ -49,7 +50,7 @@ def test_every_command_of_the_tutorial_works_in_its_order(runner_command, tmp_pa
             code = commands.run(commands.parse(words))
             said[line], errors = capfd.readouterr()
             assert code == 0, f"{line}: {errors}"
-    assert len(lines) == 13 and len(said) == (13 if FULL else 5)
+    assert len(lines) == 15 and len(said) == (15 if FULL else 5)
     assert said["run wire.json --out results/straight"].startswith("finished: all 4 steps are done")
     for name in ("turned.png", "curves.png") if FULL else ("curves.png",):
         with Image.open(tmp_path / "results" / name) as picture:
