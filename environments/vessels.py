@@ -12,7 +12,6 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import anatomy
 from environments.spaces import Error
 
 _MADE_BY = ("shapes", "tubes", "surfaces", "distance_grid", "repair", "centreline", "output", "mesh", "intersections")
@@ -30,7 +29,8 @@ def made_vessel(which: Mapping[str, Any]) -> Path:
     Made in the user's cache folder, under a name that holds a sum over the generator's sources: other sources, another
     vessel. Needs vtk, and a minute, when it is made.
     """
-    sources = b"".join((Path(anatomy.__file__).parent / f"{name}.py").read_bytes() for name in _MADE_BY)
+    generator = Path(__file__).parents[1] / "anatomy"
+    sources = b"".join((generator / f"{name}.py").read_bytes() for name in _MADE_BY)
     sum_of = hashlib.sha256(sources + json.dumps(which, sort_keys=True).encode()).hexdigest()[:16]
     name = f"{which['make']}-{which.get('type', 1)}-{which['seed']}-{sum_of}"
     folder = _cache() / name
