@@ -22,6 +22,7 @@ if TYPE_CHECKING:  # the same names for type checkers
     from analysis.logs import read_entries as read_entries, read_log as read_log
     from analysis.runs import Run as Run, read_run as read_run, read_runs as read_runs
     from experiments.library import advise as advise, sweep as sweep
+    from experiments.prepare import PreparationError as PreparationError
     from experiments.session import Session as Session, SessionError as SessionError, State as State
 
     anatomy: types.ModuleType
@@ -31,7 +32,7 @@ _LENT = {  # name to where it stands; looked up when it is asked for, because it
     "read_run": "analysis.runs", "read_runs": "analysis.runs", "Run": "analysis.runs",
     "read_log": "analysis.logs", "read_entries": "analysis.logs", "PositionLog": "analysis.logs",
     "LogError": "analysis.logs", "sweep": "experiments.library", "advise": "experiments.library",
-    "Advice": "analysis.advice.plan",
+    "Advice": "analysis.advice.plan", "PreparationError": "experiments.prepare",
 }
 _MODULES = {"anatomy": "anatomy"}  # name to the module that it is
 __all__ = sorted([*_LENT, *_MODULES])
