@@ -25,6 +25,7 @@ if TYPE_CHECKING:  # the same names for type checkers
     from environments import RecordedDrive as RecordedDrive, Reward as Reward, Task as Task
     from environments import VectorEnvironment as VectorEnvironment, all_tasks as all_tasks, find_task as find_task
     from experiments.library import advise as advise, sweep as sweep
+    from experiments.prepare import PreparationError as PreparationError
     from experiments.session import Session as Session, SessionError as SessionError, State as State
 
     anatomy: types.ModuleType
@@ -35,9 +36,10 @@ _LENT = {  # name to where it stands; looked up when it is asked for, because it
     "read_run": "analysis.runs", "read_runs": "analysis.runs", "Run": "analysis.runs",
     "read_log": "analysis.logs", "read_entries": "analysis.logs", "PositionLog": "analysis.logs",
     "LogError": "analysis.logs", "sweep": "experiments.library", "advise": "experiments.library",
-    "Advice": "analysis.advice.plan", "Environment": "environments", "VectorEnvironment": "environments",
-    "Drive": "environments", "Observation": "environments", "Reward": "environments", "Task": "environments",
-    "RecordedDrive": "environments", "find_task": "environments", "all_tasks": "environments",
+    "Advice": "analysis.advice.plan", "PreparationError": "experiments.prepare", "Environment": "environments",
+    "VectorEnvironment": "environments", "Drive": "environments", "Observation": "environments",
+    "Reward": "environments", "Task": "environments", "RecordedDrive": "environments", "find_task": "environments",
+    "all_tasks": "environments",
 }
 _MODULES = {"anatomy": "anatomy", "env": "environments"}  # name to the module that it is
 __all__ = sorted([*_LENT, *_MODULES])
