@@ -7,21 +7,18 @@ import json
 import os
 import subprocess
 import sys
-import tempfile
-import traceback
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from experiments import building, checking, command_line, installed, library
+from experiments import building, checking, command_line, ending, installed, library
 from experiments.arguments import value_of
 from experiments.prepare import INSTALLED, ROOT, PreparationError
 from experiments.process import hand_to
 from experiments.progress import bar_of, seconds_counted, tell_frames
-from experiments.runner import INTERNAL_ERROR, INTERRUPTED
 from experiments.sweep import FAILED, Means, SweepResult
-from experiments.whole_files import FULL, whole_file, write_whole
+from experiments.whole_files import whole_file, write_whole
 from studies.builtin import STUDIES
 from studies.keys import RESULTS
 from studies.study_file import LIMIT
@@ -54,25 +51,7 @@ def run(arguments: argparse.Namespace) -> int:
     Raises PreparationError for what a user has to mend. Any other error is the program's own: its trace goes into a
     file, and one line says where.
     """
-    try:
-        return arguments.action(arguments)
-    except KeyboardInterrupt:
-        print(f"guidewire: interrupted{_LEFT.get(arguments.command, '')}", file=sys.stderr)
-        return INTERRUPTED
-    except PreparationError:
-        raise
-    except Exception as error:
-        if isinstance(error, OSError) and error.errno in FULL:
-            place = f"{error.filename}: " if error.filename else ""
-            print(f"guidewire: {place}{error.strerror}: free some space, the same command continues from here",
-                  file=sys.stderr)
-            return FAILED
-        if isinstance(error, OSError) and error.filename is not None:
-            raise PreparationError(f"{error.filename}: {error.strerror}") from error
-        trace = Path(tempfile.mkdtemp(prefix="guidewire-")) / "error.txt"
-        trace.write_text(traceback.format_exc(), encoding="utf-8")
-        print(f"guidewire: internal error ({type(error).__name__}: {error}): please report {trace}", file=sys.stderr)
-        return INTERNAL_ERROR
+    return ending.code_of(arguments.action, arguments, _LEFT.get(arguments.command, ""))
 
 
 def _demo(arguments: argparse.Namespace) -> int:

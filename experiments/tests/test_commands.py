@@ -122,7 +122,7 @@ def test_an_error_of_the_program_itself_is_one_line_and_a_trace_in_a_file(capsys
     def broken(_):
         raise ZeroDivisionError("a mistake")
 
-    assert commands.run(argparse.Namespace(action=broken)) == 70
+    assert commands.run(argparse.Namespace(action=broken, command="run")) == 70
     line = capsys.readouterr().err
     assert line.count("\n") == 1 and "ZeroDivisionError: a mistake" in line
     assert "in broken" in Path(line.split("please report ")[1].strip()).read_text()
@@ -161,3 +161,10 @@ def test_a_build_is_told_in_lines_whose_seconds_are_counted_on_a_terminal_only(m
     lines = screen.getvalue().splitlines() if not is_terminal else screen.getvalue().split("\n")[:-1]
     assert [line.split("\r")[0] for line in lines] == ["waiting", "building it"]
     assert ("\rwaiting: 1 s" in screen.getvalue()) == is_terminal
+
+
+def test_a_reader_that_has_gone_is_no_error():
+    program = subprocess.Popen([sys.executable, str(ROOT / "guidewire.py"), "keys"], stdout=subprocess.PIPE,
+                               stderr=subprocess.PIPE)
+    program.stdout.close()
+    assert program.stderr.read() == b"" and program.wait() == 141
