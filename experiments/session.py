@@ -245,6 +245,13 @@ class Session:
         """Go on from what was saved: the same steps then give the same bits."""
         return self._take(self._ask("restore", snapshot=base64.b64encode(saved).decode("ascii")))
 
+    def describe(self) -> dict[str, Any]:
+        """What a picture needs to know: "millimetresPerUnit"; "instruments", a list of objects with a number for each
+        element, "radii", "innerRadii" (units) and "attenuations" (1/unit); and "target", the centreline from the inlet
+        to it: "name", "points" (units), "radii", "distances"; None where the run has none."""
+        answer = self._ask("describe")
+        return {name: answer[name] for name in ("millimetresPerUnit", "instruments", "target")}
+
     def picture(self, **view: Any) -> np.ndarray:
         """A fluoroscopic picture of the wire as it is now: grey levels from 0 to 255, (pixels, pixels) of uint8, the
         first row above. Rays are parallel; the patient's head is towards +z, the chest towards +x, the left side

@@ -67,6 +67,18 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>Length of a unit, mm.</summary>
+        public double MillimetresPerUnit => _perUnit;
+
+        /// <summary>Outer radius of each element of the wire, units.</summary>
+        public IReadOnlyList<double> Radii => _radii;
+
+        /// <summary>Radius of each element's lumen, units.</summary>
+        public IReadOnlyList<double> InnerRadii => _innerRadii;
+
+        /// <summary>Attenuation coefficient of each element's material, 1/unit.</summary>
+        public IReadOnlyList<double> Attenuations => _attenuations;
+
         /// <summary>Takes a picture.</summary>
         /// <param name="positions">Of the wire's n + 1 nodes, units.</param>
         /// <param name="view">What picture.</param>

@@ -42,6 +42,9 @@ namespace Guidewire.Cli
                 case "picture":
                     TakePicture(request, answer);
                     return;
+                case "describe":
+                    Describe(answer);
+                    return;
                 case "change":
                     _pictures = null;
                     Change(Opened(), request);
@@ -61,8 +64,8 @@ namespace Guidewire.Cli
                     break;
                 default:
                     throw new ParameterException("request", "session", "\"" + request.Session + "\"",
-                        "one of \"open\", \"step\", \"state\", \"picture\", \"change\", \"reset\", \"save\","
-                            + " \"restore\"");
+                        "one of \"open\", \"step\", \"state\", \"picture\", \"describe\", \"change\","
+                            + " \"reset\", \"save\", \"restore\"");
             }
             State(_session!.Simulation, answer);
         }
@@ -138,6 +141,21 @@ namespace Guidewire.Cli
                 wire = _centreline;
             }
             _pictures.Draw(wire, view, grey);
+        }
+
+        // What X-rays see of the instruments, and the way to the target, for who draws pictures of his own.
+        private void Describe(JObject answer)
+        {
+            SimulationSession session = Opened();
+            _pictures ??= new RunPictures(session.Parameters);
+            answer["millimetresPerUnit"] = _pictures.MillimetresPerUnit;
+            answer["instruments"] = new JArray(new JObject
+            {
+                ["radii"] = new JArray(_pictures.Radii),
+                ["innerRadii"] = new JArray(_pictures.InnerRadii),
+                ["attenuations"] = new JArray(_pictures.Attenuations),
+            });
+            answer["target"] = session.RouteToTarget();
         }
 
         private void TakePicture(RunRequest request, JObject answer)
