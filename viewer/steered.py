@@ -13,6 +13,7 @@ from typing import Any
 
 _GRAIN = 2.0 ** -48  # m
 _TURN_GRAIN = 2.0 ** -40  # rad
+_CONSTANT = 1e-6  # of a step: so long before and after its end the table stands still
 _TRIES = 200  # displacements beside the wanted one; about every second is met
 
 
@@ -74,11 +75,12 @@ class Steered:
     def to_csv(self) -> str:
         """The table, as `driveFile` takes it.
 
-        A step from t asks for the values at t and at t + dt, which may differ from the next multiple of dt by a
-        rounding: both have a row.
+        A step asks for the values at its beginning and at its end. The core's time at those differs from a multiple of
+        dt by roundings, so around each multiple the value is constant.
         """
-        lines = ["time,insertion,rotation"]
+        lines = ["time,insertion,rotation", "0.0,0.0,0.0"]
         for step, insertion, rotation in self._rows:
-            times = sorted({step * self._dt, (step - 1) * self._dt + self._dt} if step else {0.0})
-            lines += [f"{time!r},{insertion!r},{rotation!r}" for time in times]
+            for side in ((-1, 1) if step else (1,)):
+                time = step * self._dt + side * _CONSTANT * self._dt
+                lines.append(f"{time!r},{insertion!r},{rotation!r}")
         return "\n".join(lines) + "\n"

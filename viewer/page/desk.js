@@ -24,7 +24,7 @@ export class Desk {
     const hub = recording.channels.get("hubForce");
     const wall = recording.channels.get("contactForce");
     this._hub = new Gauge("force at the hub", hub?.unit === "N" ? LIMITS.hubForce : null);
-    this._wall = new Gauge("largest force of the wall", wall?.unit === "N" ? LIMITS.wallForce : null);
+    this._wall = new Gauge("largest wall force", wall?.unit === "N" ? LIMITS.wallForce : null);
     this._insertion = new Dial("insertion", (millimetres) => (2 * Math.PI * millimetres) / MILLIMETRES_A_TURN);
     this._turn = new Dial("turn", (turn) => turn);
     const target = recording.described?.target;
@@ -75,7 +75,10 @@ export class Desk {
   }
 }
 
-/** How far a node is from where the recording begins, units. @param {Recording} recording @param {number} frame @param {number} node */
+/**
+ * How far a node is from where the recording begins, units.
+ * @param {Recording} recording @param {number} frame @param {number} node
+ */
 function moved(recording, frame, node) {
   const from = recording.at("positions", 0).subarray(3 * node, 3 * node + 3);
   const to = recording.at("positions", frame).subarray(3 * node, 3 * node + 3);

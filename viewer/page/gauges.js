@@ -34,7 +34,8 @@ export class Gauge {
     const most = this._limits ? this._most : Math.max(peak, 1e-12);
     const size = Math.abs(value);
     const band = this._limits ? Number(size >= this._limits[0]) + Number(size >= this._limits[1]) : 0;
-    this._value.textContent = `${value.toFixed(size < 10 ? 2 : 0)} ${unit}`;
+    const text = value.toFixed(size < 10 ? 2 : 0);
+    this._value.textContent = `${Number(text) === 0 ? text.replace("-", "") : text} ${unit}`;
     this._word.textContent = this._limits ? WORDS[band] : `largest ${brief(peak, 3)}`;
     this.element.dataset.band = BANDS[band];
     this._bar.style.width = `${Math.min(100, (100 * size) / most)}%`;

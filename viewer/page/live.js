@@ -163,9 +163,9 @@ export class Live {
     const { recording, frame } = this.model;
     const [time, step, stepTime] = ["time", "step", "stepTime"].map((name) => recording.at(name, frame)[0]);
     const rate = recording.at("realTime", frame)[0];
-    this._stage.label(0, `${recording.title}\nt = ${brief(time)} s   step ${step}\n`
-      + `${brief(stepTime)} ms a step: ${brief(rate, 3)} times real time`);
-    byId("title").textContent = recording.title.replace(/\.json$/, "");
+    this._stage.label(0, `t = ${brief(time)} s   step ${step}${
+      Number.isFinite(rate) ? `\n${brief(stepTime, 3)} ms a step: ${brief(rate, 3)} times real time` : ""}`);
+    byId("title").textContent = nameOf(recording.title);
     byId("mood").textContent = this._mood();
   }
 
@@ -211,11 +211,12 @@ export class Live {
     const save = make("button", { id: "save", onclick: () => this._save(), title: status.steered
       || "the table moves the same scene again: key driveFile" }, "save steering");
     save.disabled = status.steered !== "";
-    const back = make("input", { type: "range", id: "back", min: 0, step: 1,
+    const newest = (this.model?.recording.count ?? 1) - 1;
+    const back = make("input", { type: "range", id: "back", min: 0, step: 1, max: newest, value: this._back ?? newest,
       oninput: () => this.lookBack(Number(back.value)) });
     back.setAttribute("aria-label", "look back");
     const scenes = make("select", { id: "scenes", onchange: () => this.send({ do: "open", scene: scenes.value }) },
-      ...status.scenes.map((scene) => make("option", { value: scene, selected: scene === status.scene }, scene)));
+      ...status.scenes.map((scene) => make("option", { value: scene, selected: scene === status.scene }, nameOf(scene))));
     const paces = make("select", { id: "pace", onchange: () => this.send({ do: "pace", value: Number(paces.value) }) },
       ...status.paces.map((pace) =>
         make("option", { value: pace, selected: pace === status.pace }, `${pace} x real time`)));
@@ -249,6 +250,11 @@ export class Live {
     }) : []));
     this._label();
   }
+}
+
+/** A scene as one calls it. @param {string} file */
+function nameOf(file) {
+  return file.replace(/^.*\//, "").replace(/\.json$/, "").replaceAll("-", " ");
 }
 
 export const LIVE_KEYS = /** @type {[string, string][]} */ ([

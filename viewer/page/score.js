@@ -14,17 +14,23 @@ export class Score {
   /** @param {import("./recording.js").Recording} recording */
   constructor(recording) {
     this._recording = recording;
-    this.restart();
+    /** The first frame that does not count yet. */
+    this._next = 0;
+    this._time = NaN;
+    /** Seconds of a wall force in the yellow band. */
+    this.caution = 0;
+    /** Seconds in the red one. */
+    this.stop = 0;
+    /** Largest part of the way that was done. */
+    this.best = 0;
+    /** Units to the target. */
+    this.left = NaN;
+    /** s. */
+    this.reachedAt = NaN;
   }
 
   restart() {
-    this._next = 0;
-    this._time = NaN;
-    this.caution = 0;
-    this.stop = 0;
-    this.best = 0;
-    this.left = NaN;
-    this.reachedAt = NaN;
+    Object.assign(this, new Score(this._recording));
   }
 
   /** Points, from 0 to 100. */
@@ -57,7 +63,10 @@ export class Score {
   }
 }
 
-/** The largest force of a wall on a node; NaN where it is not known or has no unit. @param {import("./recording.js").Recording} recording @param {number} frame */
+/**
+ * The largest force of a wall on a node; NaN where it is not known.
+ * @param {import("./recording.js").Recording} recording @param {number} frame
+ */
 export function largestForce(recording, frame) {
   const channel = recording.channels.get("contactForce");
   if (!channel) return NaN;

@@ -9,7 +9,8 @@ const PIXELS = 512;
 const VIEWS = /** @type {[string, number, number][]} */ ([["AP", 0, 0], ["LAO 30", 30, 0], ["RAO 30", -30, 0],
   ["lateral", 90, 0], ["cranial 25", 0, 25]]);
 const DEGREES_A_POINT = 0.4; // of dragging
-const CLOSE_UP = 0.3; // of the whole picture's side
+const WIDEST = 250; // mm, as of a large detector: where the vessel is larger the picture goes with the tip
+const CLOSE_UP = 80; // mm
 const WORN = { noise: 0.03, blur: 0.12 }; // how a picture looks on the screen
 const MOST_CRANIAL = 60;
 
@@ -82,7 +83,7 @@ export class Xray {
 
   /** @param {number} factor on the side of the picture */
   zoom(factor) {
-    this._zoom = Math.max(0.05, Math.min(2, this._zoom * factor));
+    this._zoom = Math.max(0.1, Math.min(4, this._zoom * factor));
     this.ask();
   }
 
@@ -102,9 +103,11 @@ export class Xray {
     const [{ recording, tip }] = this._models;
     look.centre = null;
     look.field = null;
-    const whole = this.fluoroscopy.arm;
-    look.field = this._zoom * (this._isClose ? CLOSE_UP : 1) * (PIXELS / whole.scale) * recording.millimetres;
-    if (this._isClose) look.centre = this._kept(/** @type {Point} */ ([...tip]), look.field / recording.millimetres);
+    const whole = (PIXELS / this.fluoroscopy.arm.scale) * recording.millimetres;
+    look.field = this._zoom * Math.min(whole, this._isClose ? CLOSE_UP : WIDEST);
+    if (look.field < whole) {
+      look.centre = this._kept(/** @type {Point} */ ([...tip]), look.field / recording.millimetres);
+    }
     look.seed = this._frames++;
     this.fluoroscopy.draw(this._models.flatMap((model) => model.recording.instruments.map((instrument, k) =>
       /** @type {[import("./pieces.js").Instrument, Float64Array]} */ ([instrument, model.centreline(k)]))));
