@@ -264,7 +264,7 @@ class Session:
         centre : what is in the middle, units, and
         field_of_view : side of the picture, mm: so that the vessel is seen, or without one the wire.
         vessel : "roadmap" (brighter than the background), "contrast" (darker) or "none".
-        contrast : attenuation coefficient of contrast agent, 1/mm (0.05: iodine of 66 mg/ml at 60 keV).
+        contrast : attenuation coefficient of contrast agent, 1/mm (0.1: iodine of 130 mg/ml at 60 keV).
         attenuation : coefficient of the instruments, 1/mm; by their materials.
         background : brightness beside all, from 0 to 1 (0.75).
         noise, seed : standard deviation over brightness, of the background (0), and which of all noises (0).

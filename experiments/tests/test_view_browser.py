@@ -158,7 +158,7 @@ def test_the_shader_draws_the_pictures_of_the_core(browse, runner_command, tmp_p
     log = read_log(tmp_path / "run", "all")
     assert np.ptp(log.positions[-1][:, 1]) > 20, "the wire is bent"
     take = ("(look) => { const x = viewer.xray.fluoroscopy; Object.assign(x.look, {lao: 0, cranial: 0, centre: null,"
-            " field: null, vessel: 'none', contrast: 0.05, background: 0.75, noise: 0, blur: 0, seed: 3}, look);"
+            " field: null, vessel: 'none', contrast: 0.1, background: 0.75, noise: 0, blur: 0, seed: 3}, look);"
             " const [model] = viewer.shown.models; return [...x.grey(model.recording.instruments.map((one, k) =>"
             " [one, model.centreline(k)]))]; }")
     with serving(tmp_path, str(tmp_path / "run"), with_three=True) as (address, _):

@@ -23,7 +23,7 @@ import { BLUR, COMPOSE, COVER, SHOW, STRIP, STRIP_CORNERS } from "./shaders.js";
 
 /** @returns {Look} */
 export const plainLook = () => ({
-  lao: 0, cranial: 0, centre: null, field: null, vessel: "roadmap", contrast: 0.05, background: 0.75, noise: 0, seed: 0,
+  lao: 0, cranial: 0, centre: null, field: null, vessel: "roadmap", contrast: 0.1, background: 0.75, noise: 0, seed: 0,
   blur: 0,
 });
 const VESSELS = { none: 0, contrast: 1, roadmap: 2 };

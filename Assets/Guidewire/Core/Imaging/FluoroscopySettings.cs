@@ -10,7 +10,7 @@ namespace Guidewire.Core
 
         /// <summary>Linear attenuation coefficient of the contrast agent in the vessel, 1/unit, beyond that of the
         /// tissue that it is in.</summary>
-        public double Contrast { get; set; } = 0.05;
+        public double Contrast { get; set; } = 0.1;
 
         /// <summary>Brightness where there are neither instruments nor vessels, in (0, 1]; 1 is grey level
         /// 255.</summary>
