@@ -17,10 +17,10 @@ import sys
 import warnings
 import weakref
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -37,7 +37,7 @@ class SessionError(Exception):
     """A session cannot do what it was asked for. The message is one line."""
 
 
-def _no_session() -> None:
+def _no_session(_: object = None) -> None:
     """Of a state that has left its session behind."""
 
 
@@ -122,7 +122,7 @@ class State:
     force: np.ndarray | None
     energy: Energy | None
     hub: Hub | None
-    _session: Callable[[], Session | None] = field(default=_no_session, repr=False, compare=False)
+    _session: ClassVar[Callable[..., Session | None]] = _no_session
 
     def picture(self, **view: Any) -> np.ndarray:
         """A fluoroscopic picture of this moment: grey levels from 0 to 255, (pixels, pixels) of uint8. `view` is as of
@@ -139,7 +139,7 @@ class State:
         return session.picture_of(self.positions, **view)
 
     def __getstate__(self) -> dict[str, Any]:
-        return {**vars(self), "_session": _no_session}
+        return {name: value for name, value in vars(self).items() if name != "_session"}
 
 
 class Session:
@@ -278,6 +278,9 @@ class Session:
 
     def picture_of(self, positions: np.ndarray | None, **view: Any) -> np.ndarray:
         """As `picture`, of a wire with nodes elsewhere, (n+1, 3), units."""
+        for name, value in view.items():
+            if isinstance(value, (float, np.floating)) and not math.isfinite(value):
+                raise SessionError(f"{name} = {value} is not allowed: needs a finite number")
         if "field_of_view" in view:
             view["fieldOfView"] = view.pop("field_of_view")
         wire = None if positions is None else np.ascontiguousarray(positions, dtype="<f8")
@@ -377,14 +380,16 @@ def _number(name: str, value: Any) -> float:
 def _state(step: int, time: float, outcome: str | None, reason: str, prediction_error: float,
            arrays: dict[str, np.ndarray], session: Session) -> State:
     positions = arrays["positions"]
-    return State(
+    state = State(
         step, time, outcome, reason, prediction_error, positions, arrays["velocities"], arrays["orientations"],
         arrays["angularVelocities"], arrays.get("contactForces", np.zeros_like(positions)),
         arrays["reaction"][0] if "reaction" in arrays else None,
         arrays.get("curvature"), arrays.get("couple"), arrays.get("strain"), arrays.get("force"),
         Energy(*arrays["energy"][0].tolist()) if "energy" in arrays else None,
-        _hub(arrays["hub"][0]) if "hub" in arrays else None, weakref.ref(session),
+        _hub(arrays["hub"][0]) if "hub" in arrays else None,
     )
+    object.__setattr__(state, "_session", weakref.ref(session))    # not a part of what it says
+    return state
 
 
 def _hub(numbers: np.ndarray) -> Hub:

@@ -202,11 +202,11 @@ def test_a_gamepad_and_a_finger_steer_and_what_was_steered_is_saved(browse, runn
                     ".map((one) => one.outerHTML)"],
             ["see", "document.documentElement.scrollWidth"], ["picture", str(tmp_path / "phone.png")],
             size=(390, 844))["seen"]
-    assert seen[3] == [pytest.approx(1.0, abs=0.05), 0] and seen[5] == [0, 0]
-    times, insertion, _ = np.loadtxt(seen[7].splitlines(), delimiter=",", skiprows=1).T
-    assert (np.diff(times) > 0).all() and insertion[-1] == pytest.approx(seen[8], rel=1e-9)
-    assert seen[9] == []    # every control has a name
-    assert seen[10] <= 390
+    assert seen[4] == [pytest.approx(1.0, abs=0.05), 0] and seen[6] == [0, 0]
+    times, insertion, _ = np.loadtxt(seen[8].splitlines(), delimiter=",", skiprows=1).T
+    assert (np.diff(times) > 0).all() and insertion[-1] == pytest.approx(seen[9], rel=1e-9)
+    assert seen[10] == []    # every control has a name
+    assert seen[11] <= 390
 
 
 def is_drawn(path):

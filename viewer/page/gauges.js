@@ -35,7 +35,9 @@ export class Gauge {
     const size = Math.abs(value);
     const band = this._limits ? Number(size >= this._limits[0]) + Number(size >= this._limits[1]) : 0;
     const text = value.toFixed(size < 10 ? 2 : 0);
-    this._value.textContent = `${Number(text) === 0 ? text.replace("-", "") : text} ${unit}`;
+    const number = Number(text) === 0 ? text.replace("-", "") : text;
+    this._value.textContent = unit === "N" ? `${number} N` : number;
+    this.element.title = unit === "N" ? "" : `unit: ${unit}`;
     this._word.textContent = this._limits ? WORDS[band] : `largest ${brief(peak, 3)}`;
     this.element.dataset.band = BANDS[band];
     this._bar.style.width = `${Math.min(100, (100 * size) / most)}%`;

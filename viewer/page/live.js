@@ -169,6 +169,11 @@ export class Live {
     byId("mood").textContent = this._mood();
   }
 
+  /** Whether there is no runner any more. @param {Status} status */
+  _isGone(status) {
+    return status.problem !== "" && !Object.keys(status.values).length;
+  }
+
   /** Saves what was steered as a file of the browser. */
   async _save() {
     const answer = await fetch("steered.csv");
@@ -190,7 +195,7 @@ export class Live {
     if (!this.status) return "";
     if (this._back !== null) return "looking back";
     if (this.status.outcome) return "ended";
-    if (this.status.problem && !this.status.values.timeStep) return "the simulation has gone: start anew";
+    if (this._isGone(this.status)) return "the simulation has gone: start anew";
     if (!this.status.hand) return this.status.isFree ? "nobody is steering" : "watching: another page is steering";
     if (this.status.isPaused) return "paused";
     return this.status.isSteered ? "" : "moved by its file's drive";
@@ -204,7 +209,7 @@ export class Live {
       make("button", { className: "drive", onpointerdown: () => this.steering.hold(key),
         onpointerup: () => this.steering.release(), onpointerleave: () => this.steering.release() },
       text, " ", make("kbd", {}, cap));
-    const pad = make("div", { id: "pad" }, "push\n\npull");
+    const pad = make("div", { id: "pad" }, make("span", {}, "push"), make("span", {}, "pull"));
     pad.setAttribute("role", "application");
     pad.setAttribute("aria-label", "touch: up pushes, down pulls, sideways turns");
     this.steering.listen(pad);
@@ -223,17 +228,18 @@ export class Live {
     scenes.setAttribute("aria-label", "scene");
     paces.setAttribute("aria-label", "speed");
     const isOurs = status.hand;
-    const isOver = status.outcome !== "";
+    const isOver = status.outcome !== "" || this._isGone(status);
     byId("bar").replaceChildren(...(isOurs ? [
       ...(status.isSteered ? [pad, held("push", "w", "W"), held("pull", "s", "S"), held("turn left", "a", "A"),
         held("turn right", "d", "D")] : []),
       make("span", { className: "buttons" },
         ...(isOver ? [] : [button(status.isPaused ? "go on" : "pause", { do: "pause", value: !status.isPaused }),
           button("step", { do: "step" })]),
-        button("start anew", { do: "reset" }), save, ...(status.isPaused ? [back] : []),
+        button("start anew", { do: "reset" }), save, ...(status.isPaused && newest > 0 ? [back] : []),
         button(status.isSteered ? "file's drive" : "interactive",
           { do: "open", scene: status.scene, hand: !status.isSteered }), paces, scenes),
-    ] : [button("take control", { do: "take" })]));
+    ] : status.isFree ? [button("take control", { do: "take" })]
+      : [make("span", {}, "another page is steering; when it is closed you can take over")]));
     const typed = byId("controls").contains(document.activeElement) ? document.activeElement : null;
     if (typed && !this._isSent) return; // a value that is being typed
     this._isSent = false;

@@ -21,7 +21,7 @@ out lowp vec4 colour;
 void main() { colour = texelFetch(map, ivec2((gl_FragCoord.xy - origin) * share), 0); }`;
 const COARSE = 0.5; // points of walls a point of the picture, while the camera moves
 const AT_REST = 200; // ms after which it does not
-const CLOSE_UP = 0.3; // of what the wire passes and the vessel: what a close-up shows
+const CLOSE_UP = 0.22; // of what the wire passes and the vessel: what a close-up shows
 const LEAVING = 0.25; // of the picture: so far the tip goes from its middle until the camera follows
 const EASE = 0.2; // of the way that the camera follows in a picture
 

@@ -9,9 +9,9 @@ const PIXELS = 512;
 const VIEWS = /** @type {[string, number, number][]} */ ([["AP", 0, 0], ["LAO 30", 30, 0], ["RAO 30", -30, 0],
   ["lateral", 90, 0], ["cranial 25", 0, 25]]);
 const DEGREES_A_POINT = 0.4; // of dragging
-const WIDEST = 250; // mm, as of a large detector: where the vessel is larger the picture goes with the tip
+const WIDEST = 180; // mm, as of a detector: where the vessel is larger the picture goes with the tip
 const CLOSE_UP = 80; // mm
-const WORN = { noise: 0.03, blur: 0.12 }; // how a picture looks on the screen
+const WORN = { noise: 0.022, blur: 0.12 }; // how a picture looks on the screen
 const MOST_CRANIAL = 60;
 
 /** The X-ray view: the C-arm, its buttons and mouse, and the target's mark. */
