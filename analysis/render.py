@@ -140,7 +140,7 @@ def draw_picture(run: Run, log: PositionLog, walls: Sequence[Surface], view: Vie
     times : s, in-game; of each the nearest moment of the log is drawn, in a colour of its own. None: the last moment,
         coloured by curvature.
     """
-    chosen = sorted({_nearest(log, time) for time in times}) or [len(log.time) - 1]
+    chosen = sorted({nearest(log, time) for time in times}) or [len(log.time) - 1]
     if view.follows_tip and len(chosen) > 1:
         raise LogError("the tip is followed in a film or at one moment: give one of --times")
     stage = set_stage(run, log, walls, _at_tip(view, log, chosen[-1]))
@@ -181,7 +181,7 @@ def save_images(images: Sequence[Image.Image], path: Path) -> None:
         images[0].save(path, optimize=True)
 
 
-def _nearest(log: PositionLog, time: float) -> int:
+def nearest(log: PositionLog, time: float) -> int:
     """The log's entry that is nearest to a moment of the run."""
     slack = 1e-9 + (float(np.diff(log.time).max()) if len(log.time) > 1 else 0.0)
     if not log.time[0] - slack <= time <= log.time[-1] + slack:

@@ -99,6 +99,15 @@ def parse(argv: list[str]) -> argparse.Namespace:
     render.add_argument("--pitch", type=finite, metavar="DEGREES", help="90 looks down, along -y (15)")
     render.add_argument("--radius", type=above_zero, metavar="R",
                         help="radius of the drawn wire, units (the true one, or larger where it would not be visible)")
+    fluoroscopy = render.add_argument_group("fluoroscopy", "an X-ray picture, or film, in place of the drawn one")
+    fluoroscopy.add_argument("--fluoroscopy", action="store_true", help="as a C-arm sees it")
+    fluoroscopy.add_argument("--lao", type=finite, metavar="DEGREES", help="left anterior oblique, RAO is negative (0)")
+    fluoroscopy.add_argument("--cranial", type=finite, metavar="DEGREES", help="caudal is negative (0)")
+    fluoroscopy.add_argument("--field", type=above_zero, metavar="MM", help="side of the picture (the whole vessel)")
+    fluoroscopy.add_argument("--vessel", choices=("roadmap", "contrast", "none"), help="how it is shown (roadmap)")
+    fluoroscopy.add_argument("--pixels", type=positive, metavar="N", help="of a side (512)")
+    fluoroscopy.add_argument("--noise", type=finite, metavar="F", help="deviation over brightness (0.03)")
+    fluoroscopy.add_argument("--blur", type=finite, metavar="MM", help="deviation of the spot (0.15)")
     render.set_defaults(packages=DRAWING)
 
     _add_anatomy(commands)

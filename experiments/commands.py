@@ -26,7 +26,9 @@ from studies.table import Source
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+    from PIL.Image import Image
 
+    from analysis.logs import PositionLog
     from experiments.gallery import Gallery  # itself imported only where its packages are there
 
 BEYOND_A_GATE = 1  # all that was asked for is there, and a check is not passed
@@ -166,16 +168,21 @@ def _render(arguments: argparse.Namespace) -> int:
     from analysis import render
     from analysis.logs import LogError, read_log
     from analysis.runs import read_run
-    from experiments import walls
+    from experiments import fluoroscopy, walls
 
     out = arguments.out or arguments.folder / "render.png"
     if out.suffix not in (".png", ".gif"):
         raise PreparationError(f"--out {out}: a picture's name ends with .png, a film's with .gif")
     if arguments.times and out.suffix == ".gif":
         raise PreparationError(f"--times is for a picture, and {out.name} is a film: leave one of the two out")
+    fluoroscopy.check(arguments)
     try:
         run = read_run(arguments.folder)
         log = read_log(arguments.folder, "all")
+        if arguments.fluoroscopy:
+            checking.check_out(out.parent)
+            images = fluoroscopy.draw(run, log, arguments, out.suffix == ".gif", _tell_frames)
+            return _save_render(images, log, out)
         middle, diagonal = render.out_of_sheath(run, log)
         checking.check_out(out.parent)
         surfaces = walls.read_walls(_build_runner, run, middle, max(diagonal, 1.0))
@@ -184,15 +191,21 @@ def _render(arguments: argparse.Namespace) -> int:
                            yaw if arguments.yaw is None else arguments.yaw,
                            pitch if arguments.pitch is None else arguments.pitch, arguments.radius, arguments.zoom,
                            arguments.follow == "tip")
-        out.parent.mkdir(parents=True, exist_ok=True)
         if out.suffix == ".gif":
             images = render.draw_film(run, log, surfaces, view, arguments.frames, tell_frames)
         else:
             images = [render.draw_picture(run, log, surfaces, view, arguments.times)]
-        with whole_file(out) as partial:
-            render.save_images(images, partial)
     except LogError as error:
         raise PreparationError(str(error)) from error
+    return _save_render(images, log, out)
+
+
+def _save_render(images: Sequence[Image], log: PositionLog, out: Path) -> int:
+    from analysis.render import save_images
+
+    out.parent.mkdir(parents=True, exist_ok=True)
+    with whole_file(out) as partial:
+        save_images(images, partial)
     if log.warning:
         print(f"guidewire: warning: {log.warning}", file=sys.stderr)
     print(f"{'film' if out.suffix == '.gif' else 'picture'}: {os.path.relpath(out)}")

@@ -1,9 +1,10 @@
-// Watches the page of a live scene under keys, and prints as JSON how many pictures it drew, what they cost, and how
-// long keys took to be seen. Arguments: a folder that finds playwright-core, the browser, the page's address, seconds.
+// Watches the page of a live scene under keys, and prints as JSON how many pictures each view drew, what they cost, and
+// how long keys took to be seen. Arguments: a folder that finds playwright-core, the browser, the page's address,
+// seconds, the views that are shown ("both", "xray" or "space").
 import { readdirSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 
-const [modules, executablePath, address, seconds] = process.argv.slice(2);
+const [modules, executablePath, address, seconds, views] = process.argv.slice(2);
 const { chromium } = createRequire(`${modules}/`)("playwright-core");
 const mark = `guidewire-${process.pid}`;
 const browser = await chromium.launch({
@@ -25,9 +26,11 @@ const processor = () => {
   }
   return 10 * ticks;
 };
-const look = async () => [...await page.evaluate("[viewer.stage.drawn, performance.now()]"), processor()];
+const look = async () => [...await page.evaluate("[viewer.stage.drawn, viewer.xray.drawn, performance.now()]"),
+  processor()];
 
 await page.evaluate("document.activeElement.blur()");
+await page.click(`header button[data-views=${views}]`);
 await page.keyboard.down("w");
 await page.waitForTimeout(1500);
 const before = await look();
@@ -36,7 +39,8 @@ for (let k = 0; k < 2 * seconds; k++) {
   await page.keyboard.press(k % 2 ? "d" : "a");
 }
 const after = await look();
-const [pictures, milliseconds, work] = after.map((value, k) => value - before[k]);
+const [space, xray, milliseconds, work] = after.map((value, k) => value - before[k]);
+const pictures = { space, xray, both: Math.min(space, xray) }[views];
 const delays = (await page.evaluate("viewer.shown.delays")).sort((a, b) => a - b);
 console.log(JSON.stringify({
   rate: (1000 * pictures) / milliseconds, cost: work / pictures, median: delays[delays.length >> 1],

@@ -1,5 +1,5 @@
-"""Pictures a second of the live page in a headless browser, and the time from a key to the picture that shows what it
-did: insertion scenes of 60 elements, in the aorta's mesh made four times as fine.
+"""Pictures a second of the live page in a headless browser, X-ray and 3D together and each alone, and the time from a
+key to the picture that shows what it did: insertion scenes of 60 elements, in the aorta's mesh made four times as fine.
 
     python3 guidewire.py python experiments/page_rates.py
 """
@@ -24,6 +24,7 @@ from viewer import parts
 SCENES = ("insertion", "insertion-accurate")
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 SECONDS = 10
+VIEWS = {"both": "X-ray and 3D", "xray": "X-ray", "space": "3D"}
 
 
 def refined(vertices: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -53,20 +54,21 @@ def main() -> None:
             scene = json.loads((ROOT / "params" / f"{name}.json").read_text(encoding="utf-8"))
             scene |= {"numberRodElements": 60, "vessel": scene["vessel"] | {"file": "arch.obj"}}
             (Path(folder) / f"{name}.json").write_text(json.dumps(scene), encoding="utf-8")
-            seen = watch(Path(folder) / f"{name}.json", [node, str(ROOT / "experiments" / "page_rates.mjs"),
-                                                         str(modules.parent), browser])
-            print(f"{name} (60 elements, {len(triangles)} triangles): {seen['rate']:.0f} pictures a second, each"
-                  f" {seen['cost']:.0f} ms of processor time; from a key to its picture {seen['median']:.0f} ms"
-                  f" (median of {seen['keys']}), at most {seen['worst']:.0f}", flush=True)
+            command = [node, str(ROOT / "experiments" / "page_rates.mjs"), str(modules.parent), browser]
+            for views, shown in VIEWS.items():
+                seen = watch(Path(folder) / f"{name}.json", command, views)
+                print(f"{name} (60 elements, {len(triangles)} triangles), {shown}: {seen['rate']:.0f} pictures a second,"
+                      f" each {seen['cost']:.0f} ms of processor time; from a key to its picture {seen['median']:.0f} ms"
+                      f" (median of {seen['keys']}), at most {seen['worst']:.0f}", flush=True)
 
 
-def watch(scene: Path, command: list[str]) -> dict[str, float]:
-    """What the browser saw of a live scene."""
+def watch(scene: Path, command: list[str], views: str) -> dict[str, float]:
+    """What the browser saw of a live scene in one view or both."""
     server = subprocess.Popen([sys.executable, str(ROOT / "guidewire.py"), "view", str(scene)], text=True,
                               stdout=subprocess.PIPE, env={**os.environ, "PYTHONUNBUFFERED": "1"})
     try:
         address = server.stdout.readline().split()[1]
-        return json.loads(subprocess.run([*command, address, str(SECONDS)], check=True, capture_output=True,
+        return json.loads(subprocess.run([*command, address, str(SECONDS), views], check=True, capture_output=True,
                                          text=True).stdout)
     finally:
         server.send_signal(signal.SIGINT)

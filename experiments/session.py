@@ -15,11 +15,12 @@ import json
 import math
 import sys
 import warnings
+import weakref
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -34,6 +35,10 @@ _COLUMNS = {
 
 class SessionError(Exception):
     """A session cannot do what it was asked for. The message is one line."""
+
+
+def _no_session(_: object = None) -> None:
+    """Of a state that has left its session behind."""
 
 
 @dataclass(frozen=True)
@@ -117,6 +122,24 @@ class State:
     force: np.ndarray | None
     energy: Energy | None
     hub: Hub | None
+    _session: ClassVar[Callable[..., Session | None]] = _no_session
+
+    def picture(self, **view: Any) -> np.ndarray:
+        """A fluoroscopic picture of this moment: grey levels from 0 to 255, (pixels, pixels) of uint8. `view` is as of
+        `Session.picture`.
+
+        Raises
+        ------
+        SessionError : as `Session.picture`; or the state has left its session behind (closed, or copied to another
+            process).
+        """
+        session = self._session()
+        if session is None:
+            raise SessionError("this state has no session that could take a picture")
+        return session.picture_of(self.positions, **view)
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: value for name, value in vars(self).items() if name != "_session"}
 
 
 class Session:
@@ -200,7 +223,7 @@ class Session:
         if isinstance(made, dict):
             return self._take(_accepted(made))
         (step, time, _, prediction_error), arrays = made
-        self._state = _state(int(step), float(time), None, "", float(prediction_error), arrays)
+        self._state = _state(int(step), float(time), None, "", float(prediction_error), arrays, self)
         return self._state
 
     def reset(self) -> State:
@@ -221,6 +244,56 @@ class Session:
     def restore(self, saved: bytes) -> State:
         """Go on from what was saved: the same steps then give the same bits."""
         return self._take(self._ask("restore", snapshot=base64.b64encode(saved).decode("ascii")))
+
+    def describe(self) -> dict[str, Any]:
+        """What a picture needs to know: "millimetresPerUnit"; "instruments", a list of objects with a number for each
+        element, "radii", "innerRadii" (units) and "attenuations" (1/unit); and "target", the centreline from the inlet
+        to it: "name", "points" (units), "radii", "distances"; None where the run has none."""
+        answer = self._ask("describe")
+        return {name: answer[name] for name in ("millimetresPerUnit", "instruments", "target")}
+
+    def picture(self, **view: Any) -> np.ndarray:
+        """A fluoroscopic picture of the wire as it is now: grey levels from 0 to 255, (pixels, pixels) of uint8, the
+        first row above. Rays are parallel; the patient's head is towards +z, the chest towards +x, the left side
+        towards +y.
+
+        Parameters
+        ----------
+        pixels : of a side (256).
+        lao, cranial : angles of the C-arm, degrees (0, 0); RAO and caudal are negative.
+        centre : what is in the middle, units, and
+        field_of_view : side of the picture, mm: so that the vessel is seen, or without one the wire.
+        vessel : "roadmap" (brighter than the background), "contrast" (darker) or "none".
+        contrast : attenuation coefficient of contrast agent, 1/mm (0.1: iodine of 130 mg/ml at 60 keV).
+        attenuation : coefficient of the instruments, 1/mm; by their materials.
+        background : brightness beside all, from 0 to 1 (0.75).
+        noise, seed : standard deviation over brightness, of the background (0), and which of all noises (0).
+        blur : standard deviation of the spot, mm (0).
+
+        Raises
+        ------
+        SessionError : a value is not allowed, or the session is closed; one line.
+        """
+        return self.picture_of(None, **view)
+
+    def picture_of(self, positions: np.ndarray | None, **view: Any) -> np.ndarray:
+        """As `picture`, of a wire with nodes elsewhere, (n+1, 3), units."""
+        for name, value in view.items():
+            if isinstance(value, (float, np.floating)) and not math.isfinite(value):
+                raise SessionError(f"{name} = {value} is not allowed: needs a finite number")
+        if "field_of_view" in view:
+            view["fieldOfView"] = view.pop("field_of_view")
+        wire = None if positions is None else np.ascontiguousarray(positions, dtype="<f8")
+        text = json.dumps(view, default=_plain)
+        if isinstance(self._host, Library):
+            made = self._guarded(lambda host: host.picture(text, wire))
+            if isinstance(made, np.ndarray):
+                return made
+            raise SessionError(_accepted(made)["message"])
+        positions_text = "" if wire is None else base64.b64encode(wire.tobytes()).decode("ascii")
+        answer = self._ask("picture", view=view, positions=positions_text)
+        grey = np.frombuffer(base64.b64decode(answer["grey"]), dtype=np.uint8)
+        return grey.reshape(answer["pixels"], answer["pixels"]).copy()
 
     def close(self) -> None:
         """End the runner. Nothing but `state` can be asked for afterwards."""
@@ -266,7 +339,7 @@ class Session:
                   for name, columns in _COLUMNS.items() if name in answer}
         self._layout = {name: array.shape for name, array in arrays.items()}
         self._state = _state(answer["step"], answer["time"], answer["outcome"], answer["message"],
-                             answer["predictionError"], arrays)
+                             answer["predictionError"], arrays, self)
         return self._state
 
 
@@ -305,9 +378,9 @@ def _number(name: str, value: Any) -> float:
 
 
 def _state(step: int, time: float, outcome: str | None, reason: str, prediction_error: float,
-           arrays: dict[str, np.ndarray]) -> State:
+           arrays: dict[str, np.ndarray], session: Session) -> State:
     positions = arrays["positions"]
-    return State(
+    state = State(
         step, time, outcome, reason, prediction_error, positions, arrays["velocities"], arrays["orientations"],
         arrays["angularVelocities"], arrays.get("contactForces", np.zeros_like(positions)),
         arrays["reaction"][0] if "reaction" in arrays else None,
@@ -315,6 +388,8 @@ def _state(step: int, time: float, outcome: str | None, reason: str, prediction_
         Energy(*arrays["energy"][0].tolist()) if "energy" in arrays else None,
         _hub(arrays["hub"][0]) if "hub" in arrays else None,
     )
+    object.__setattr__(state, "_session", weakref.ref(session))    # not a part of what it says
+    return state
 
 
 def _hub(numbers: np.ndarray) -> Hub:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import ctypes
 import json
+import math
 import os
 import subprocess
 import threading
@@ -87,6 +88,7 @@ class Library:
         self._functions = _load(str(path))
         self._number = self._functions.guidewire_new()
         self._numbers = np.empty(0)
+        self._grey_levels = 256 * 256    # of the last picture
         self._is_killed = threading.Event()
 
     def ask(self, line: str) -> dict[str, Any]:
@@ -129,6 +131,40 @@ class Library:
             start = end
         return self._numbers[:HEAD], arrays
 
+    def picture(self, view: str, positions: np.ndarray | None) -> np.ndarray | dict[str, Any]:
+        """Take a fluoroscopic picture.
+
+        Parameters
+        ----------
+        view : which, as JSON.
+        positions : nodes of the wire, (n+1, 3) of doubles; None: as it is now.
+
+        Returns
+        -------
+        Grey levels, (pixels, pixels) of uint8; or the answer of a session that refused.
+        """
+        if self._is_killed.is_set():
+            raise Ended("this session was ended")
+        text = view.encode("utf-8")
+        nodes = self._numbers if positions is None else positions
+        count = 0 if positions is None else positions.size
+
+        def take(grey: np.ndarray) -> int:
+            return self._functions.guidewire_picture(self._number, text, len(text), nodes.ctypes.data, count,
+                                                     grey.ctypes.data, grey.size)
+
+        grey = np.empty(self._grey_levels, dtype=np.uint8)
+        written = take(grey)
+        if written == 0:
+            return self._answer(b"")
+        if written != grey.size:    # pictures of another size than before
+            self._grey_levels = written
+            grey = np.empty(written, dtype=np.uint8)
+            if take(grey) == 0:
+                return self._answer(b"")
+        side = math.isqrt(written)
+        return grey.reshape(side, side)
+
     def kill(self) -> None:
         """End it, at once or after some steps; from any thread."""
         self._is_killed.set()
@@ -162,6 +198,7 @@ def _load(path: str) -> ctypes.CDLL:
     for name, result, arguments in (
         ("new", number, []), ("ask", data, [number, ctypes.c_char_p, count, data]), ("free", None, [data]),
         ("step", count, [number, real, real, count, data, count]), ("close", None, [number]), ("lanes", count, []),
+        ("picture", count, [number, ctypes.c_char_p, count, data, count, data, count]),
         ("folder", None, [ctypes.c_char_p]),
     ):
         function = getattr(functions, f"guidewire_{name}")

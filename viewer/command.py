@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import os
 import sys
+import warnings
 import webbrowser
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from analysis.logs import LogError, extent, read_log
-from analysis.runs import read_run
+from analysis.runs import PARAMETERS_NAME, read_run
 from analysis.surfaces import Surface
 from experiments import checking, walls
 from experiments.key_table import read_key_table
 from experiments.prepare import ROOT, PreparationError
-from experiments.session import SessionError, State
+from experiments.session import Session, SessionError, State
 from experiments.whole_files import write_whole
 from viewer.export import to_html
 from viewer.live import LiveRun
@@ -79,7 +80,19 @@ def _read(folder: Path, frames: int, exact: bool, build_runner: Callable[[], lis
     run = read_run(folder)
     middle, diagonal = extent(read_log(folder, "all"))
     surfaces = walls.read_walls(build_runner, run, middle, max(diagonal, 1.0))
-    return read_recording(run, surfaces, frames).to_bytes(exact)
+    return read_recording(run, surfaces, frames, _described(folder)).to_bytes(exact)
+
+
+def _described(folder: Path) -> dict[str, Any]:
+    """What pictures need to know of a run; empty where its parameters cannot be used any more."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")    # they were told when the run was made
+            with Session(folder / PARAMETERS_NAME, hand=False, native=False) as session:
+                return session.describe()
+    except SessionError as error:
+        _say(f"no fluoroscopy of {folder.name}: {error}")
+        return {}
 
 
 def serve_scene(file: Path, build_runner: Callable[[], list[str]], recorder: Recorder, opens: bool) -> None:

@@ -27,6 +27,7 @@ from experiments.session import Session, SessionError, State
 from viewer.recording import (
     Channel, Recording, facts_of, largest_shown, make_channels, name_walls, radius_of, sheath_of, units_of,
 )
+from viewer.steered import Steered, exact_push, exact_turn
 
 if TYPE_CHECKING:
     from environments.recorded import Recorder
@@ -80,6 +81,8 @@ class LiveRun:
         self._walls: list[Surface] = []
         self._sheath: np.ndarray | None = None
         self._largest = np.zeros(0)
+        self._steered: Steered | None = None
+        self._described: dict[str, Any] = {}
         self._warnings: list[str] = []
         self._opened = 0
         self._is_paused = True
@@ -121,13 +124,17 @@ class LiveRun:
             steps = 1 if self._steps_asked else max(1, round(_FRAME / dt))
             if self._cost > 0.0:
                 steps = max(1, min(steps, int(_LONGEST / self._cost)))
+            steps = 1 << (steps.bit_length() - 1)    # parts of push and turn by a power of two are exact
             self._steps_asked = max(0, self._steps_asked - steps)
             mark = self._mark
-            push, turn = (PUSH_SPEED * self._push, TURN_SPEED * self._turn) if session.hand else (0.0, 0.0)
+            push, turn = self._asked_in_a_step(session, dt)
+            before = session.state.step
             began = time.monotonic()
             try:
-                push, turn = push * dt * steps, turn * dt * steps
-                state = await self._in_thread(lambda: session.step(push, turn, steps))
+                whole = push * steps, turn * steps
+                state = await self._in_thread(lambda: session.step(*whole, steps))
+                if self._session is session:
+                    self._steered.add(push, turn, state.step - before)
             except SessionError as error:
                 if self._session is session:
                     await self._fail(error)
@@ -135,7 +142,7 @@ class LiveRun:
             if self._session is not session:    # another scene was opened meanwhile
                 continue
             if self._recorder is not None:
-                self._recorder.add(push, turn, steps, state)
+                self._recorder.add(*whole, steps, state)
             cost = (time.monotonic() - began) / steps
             self._cost = cost if self._cost == 0.0 else self._cost + _SMOOTHING * (cost - self._cost)
             await self._show(mark, session, state)
@@ -145,6 +152,21 @@ class LiveRun:
             now = time.monotonic()
             due = min(max(due + steps * dt / self._pace, now - _BEHIND), now + _LONGEST_WAIT)
             await self._wait_until(due)
+
+    def _asked_in_a_step(self, session: Session, dt: float) -> tuple[float, float]:
+        """Push (units) and turn (rad) in a step, such that a table can say them."""
+        if not session.hand:
+            return 0.0, 0.0
+        push = PUSH_SPEED * self._push * dt
+        metres = session.parameters.get("metresPerUnit")
+        return push if metres is None else exact_push(push, metres), exact_turn(TURN_SPEED * self._turn * dt)
+
+    def steered_csv(self) -> str:
+        """What was steered since the start, as a drive table; raises HTTPConflict, with the reason, where none says
+        it."""
+        if self._steered is None or self._steered.problem:
+            raise web.HTTPConflict(text=self._steered.problem if self._steered else "no run is open")
+        return self._steered.to_csv()
 
     async def _wait_until(self, due: float) -> None:
         """Until the next step is due, or a page has asked for something that need not wait for it."""
@@ -225,6 +247,7 @@ class LiveRun:
                 self._recorder.begin()
             self._is_paused = not self._session.hand
             self._opened += 1
+            self._steered = Steered(self._session.parameters)
             self._largest = largest_shown(self._channels(self._session, self._session.state))
         self._problem = ""
 
@@ -258,6 +281,7 @@ class LiveRun:
             return
         if self._recorder is not None:
             self._recorder.spoil()
+        self._steered.invalidate(f"{key} was changed within the run: start anew to record")
         self._cost = 0.0
 
     def _open(self, scene: str, by_hand: bool = True) -> None:
@@ -268,6 +292,8 @@ class LiveRun:
         self._session, self._scene = session, scene
         if self._recorder is not None:
             self._recorder.begin()
+        self._steered = Steered(session.parameters)
+        self._described = session.describe()
         self._is_paused = not session.hand  # a wire that waits for a hand is at rest
         self._warnings = list(dict.fromkeys(str(one.message) for one in said))
         self._walls = self._read_walls(self._scenes[scene], session.parameters, session.state)
@@ -288,7 +314,7 @@ class LiveRun:
         return Recording(
             self._scene, "", self._warnings, facts_of(session.parameters, None), radius_of(session.parameters),
             self._channels(session, session.state), name_walls(session.parameters, self._walls), self._sheath,
-            self._largest,
+            self._largest, self._described,
         )
 
     def _channels(self, session: Session, state: State) -> list[Channel]:
@@ -339,6 +365,7 @@ class LiveRun:
             "scenes": list(self._scenes), "problem": self._problem, "values": values,
             "choices": {key: words for key, words in self._choices.items() if key in values},
             "pace": self._pace, "paces": PACES,
+            "steered": "" if self._steered is None else self._steered.problem,
             "outcome": "" if state is None or state.outcome is None else f"{state.outcome}: {state.reason}",
         }
 

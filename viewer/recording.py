@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import struct
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -65,6 +65,7 @@ class Recording:
     walls : triangles with "vessel" or "obstacle".
     sheath : (2, 3), units: where it ends, and the farthest back that the wire begins in it; None without one.
     largest : as of `largest_shown`, where more was seen than these frames; None: of these.
+    described : as of `Session.describe`; empty where it is not known: then there is no fluoroscopy.
     """
 
     title: str
@@ -76,6 +77,7 @@ class Recording:
     walls: Sequence[tuple[str, Surface]]
     sheath: np.ndarray | None = None
     largest: np.ndarray | None = None
+    described: Mapping[str, Any] = field(default_factory=dict)
 
     def to_bytes(self, exact: bool = True) -> bytes:
         """The block for the page; where it need not be exact, of 16 bits a number between the lowest and the highest
@@ -97,7 +99,7 @@ class Recording:
         header = json.dumps({
             "title": self.title, "outcome": self.outcome, "warnings": list(self.warnings), "facts": list(self.facts),
             "radius": self.radius, "channels": channels, "walls": walls,
-            "sheath": None if self.sheath is None else self.sheath.tolist(),
+            "sheath": None if self.sheath is None else self.sheath.tolist(), "described": self.described or None,
         }, allow_nan=False).encode()
         header += b" " * (-(len(header) + 4) % _ALIGNED)
         return struct.pack("<I", len(header)) + header + arrays.bytes()
@@ -300,7 +302,7 @@ def _twist(orientations: np.ndarray, lengths: np.ndarray) -> np.ndarray:
     return np.pad(turn / np.where(means > 0.0, means, 1.0), ((0, 0), (1, 1)))
 
 
-def read_recording(run: Run, walls: Sequence[Surface], frames: int) -> Recording:
+def read_recording(run: Run, walls: Sequence[Surface], frames: int, described: Mapping[str, Any]) -> Recording:
     """A run from its folder.
 
     Parameters
@@ -308,6 +310,7 @@ def read_recording(run: Run, walls: Sequence[Surface], frames: int) -> Recording
     run : the run.
     walls : the vessel first, where the run has one, and the obstacles.
     frames : how many at most; of more entries they are taken at even distances, the first and the last among them.
+    described : as of `Session.describe`.
 
     Raises
     ------
@@ -335,7 +338,7 @@ def read_recording(run: Run, walls: Sequence[Surface], frames: int) -> Recording
         run.folder.resolve().name, f"{run.outcome}: {reason}" if reason else run.outcome, warnings,
         facts_of(run.parameters, run.summary), radius_of(run.parameters),
         make_channels(units_of(run.parameters), numbers), name_walls(run.parameters, walls),
-        sheath_of(run.parameters, numbers),
+        sheath_of(run.parameters, numbers), described=described,
     )
 
 

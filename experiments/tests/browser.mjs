@@ -27,8 +27,8 @@ const orders = {
 };
 
 for await (const line of createInterface({ input: process.stdin })) {
-  const { offline, steps } = JSON.parse(line);
-  const context = await browser.newContext({ viewport: { width: 1000, height: 640 }, offline });
+  const { offline, size, steps } = JSON.parse(line);
+  const context = await browser.newContext({ viewport: { width: size[0], height: size[1] }, offline });
   const page = await context.newPage();
   const troubles = [];
   const asked = [];

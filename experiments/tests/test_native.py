@@ -45,6 +45,19 @@ def test_the_library_gives_the_runners_bits(file, scene):
         assert texts == other_texts
 
 
+def test_pictures_have_the_same_grey_levels():
+    looks = ({}, {"pixels": 100, "lao": 20, "cranial": -10, "noise": 0.05, "seed": 9, "blur": 0.3}, {"pixels": 512})
+    with Session(ACCURATE, native=True, **ENDLESS, hand=True) as one, \
+            Session(ACCURATE, native=False, **ENDLESS, hand=True) as other:
+        for session in (one, other):
+            session.step(push=150.0, turn=0.5, steps=150)
+        for look in looks:
+            np.testing.assert_array_equal(one.picture(**look), other.picture(**look))
+            np.testing.assert_array_equal(one.state.picture(**look), other.picture(**look))
+        with pytest.raises(SessionError, match="lao"):
+            one.picture(lao=1000)
+
+
 def test_vector_paths_are_on(library):
     assert session_hosts.lanes(library) == 4
 

@@ -82,7 +82,22 @@ def test_times_and_films(make_run, tmp_path):
         assert film.n_frames == 2
 
 
+def test_x_ray_pictures_and_films_come_from_the_core(make_run, tmp_path):
+    folder = make_run(**SHAPES["tube"])
+    words = ("--fluoroscopy", "--lao", 30, "--field", 90, "--pixels", 128)
+    assert draw(folder, "--out", tmp_path / "x.png", *words, "--noise", 0, "--blur", 0) == 0
+    with Image.open(tmp_path / "x.png") as picture:
+        grey = np.asarray(picture)
+        assert picture.mode == "L" and picture.size == (128, 128)
+    assert (grey == 191).mean() > 0.3 and (grey > 195).any() and (grey < 150).any()  # tissue, road map, wire
+    assert draw(folder, "--out", tmp_path / "x.gif", *words, "--frames", 2, "--follow", "tip") == 0
+    with Image.open(tmp_path / "x.gif") as film:
+        assert film.n_frames == 2
+
+
 @pytest.mark.parametrize("words, said", [
+    (["--fluoroscopy", "--yaw", "3"], "--yaw is for drawn pictures"), (["--lao", "3"], "add --fluoroscopy"),
+    (["--fluoroscopy", "--times", "0", "0.02"], "one moment"), (["--fluoroscopy", "--cranial", "91"], "cranial = 91"),
     (["--out", "a.jpg"], "a.jpg: a picture's name ends with .png"), (["--out", "picture"], ".png"),
     (["--out", "a.gif", "--times", "1"], "--times is for a picture"),
     (["--times", "99"], "--times 99 is beyond the run, whose log goes from 0 s to 0.02 s"), (["--times", "-1"], "beyond"),

@@ -2,6 +2,7 @@
 
 import json
 import os
+import pickle
 import re
 import signal
 import subprocess
@@ -269,3 +270,42 @@ def test_the_module_lends_what_it_names_and_nothing_else():
     done = subprocess.run([sys.executable, "-c", check], capture_output=True, text=True, check=False,
                           env={**os.environ, "PYTHONPATH": str(ROOT)})
     assert done.stdout == "\n" and "has no attribute 'nothing'" in done.stderr
+
+
+def test_pictures_show_the_wire_and_are_the_same_of_a_state_and_of_its_positions():
+    with Session(**TUBE) as session:
+        before = session.picture(pixels=64, field_of_view=100, centre=[0, 0, -20])
+        start = session.state
+        session.step(push=60.0, steps=30)
+        after = session.picture(pixels=64, field_of_view=100, centre=[0, 0, -20])
+        assert before.shape == (64, 64) and before.dtype == np.uint8
+        assert (after < before).sum() > 20, "the wire has come into the picture"
+        np.testing.assert_array_equal(start.picture(pixels=64, field_of_view=100, centre=[0, 0, -20]), before)
+        noisy = [session.picture(pixels=32, noise=0.1, seed=seed) for seed in (1, 1, 2)]
+        np.testing.assert_array_equal(noisy[0], noisy[1])
+        assert (noisy[0] != noisy[2]).mean() > 0.5
+        assert session.picture(vessel="contrast").min() < session.picture(vessel="none", attenuation=0).min()
+    with pytest.raises(SessionError, match="closed"):
+        start.picture()
+    with pytest.raises(SessionError, match="no session"):
+        pickle.loads(pickle.dumps(start)).picture()
+
+
+@pytest.mark.parametrize("wrong, said", [
+    ({"pixels": 0}, "pixels = 0 is not allowed: needs a whole number from 1 to 2048"), ({"pixels": 9.5}, "pixels"),
+    ({"lao": 361}, "lao"), ({"cranial": "up"}, "cranial"), ({"centre": [0, 0]}, "centre"), ({"vessel": "red"}, "vessel"),
+    ({"field_of_view": 0}, "fieldOfView"), ({"noise": -1}, "noise"), ({"seed": -1}, "seed"), ({"blur": 1e9}, "blur"),
+    ({"background": 0}, "background"), ({"colour": 1}, "view has no colour"), ({"contrast": float("inf")}, "contrast"),
+])
+def test_a_picture_that_cannot_be_taken_is_one_line_and_changes_nothing(shared, wrong, said):
+    with pytest.raises(SessionError) as refused:
+        shared.picture(**wrong)
+    assert said in str(refused.value) and "\n" not in str(refused.value)
+    assert shared.picture(pixels=8).shape == (8, 8)
+
+
+@pytest.fixture(scope="module")
+def shared():
+    """A session of a wire without walls."""
+    with Session(**WIRE) as session:
+        yield session

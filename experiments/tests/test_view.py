@@ -227,6 +227,12 @@ def test_a_hand_pauses_steps_changes_and_opens_scenes(live):
     with_pages(live[0], talk)
 
 
+def test_what_no_drive_table_can_say_is_not_saved(live):
+    address, _ = live
+    status, text, _ = ask(address, urlsplit(address).path + "steered.csv")
+    assert status == 409 and text == 'only a wire of solver direct with drive "displace" takes a drive table'
+
+
 def test_a_refused_value_and_a_long_time_step_leave_the_wire_going(live):
     async def talk(page):
         await take_hand(page)

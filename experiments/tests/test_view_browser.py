@@ -11,6 +11,7 @@ from PIL import Image
 
 from analysis.logs import read_log
 from experiments.prepare import ROOT, PreparationError
+from experiments.session import Session
 from test_view import serving
 from viewer import parts
 
@@ -38,8 +39,8 @@ def browse():
     process = subprocess.Popen([node, str(script), str(modules.parent), browser], stdin=subprocess.PIPE,
                                stdout=subprocess.PIPE, text=True)
 
-    def follow(*steps, offline=False):
-        process.stdin.write(json.dumps({"steps": steps, "offline": offline}) + "\n")
+    def follow(*steps, offline=False, size=(1000, 640)):
+        process.stdin.write(json.dumps({"steps": steps, "offline": offline, "size": size}) + "\n")
         process.stdin.flush()
         answer = json.loads(process.stdout.readline())
         assert answer["troubles"] == []
@@ -79,11 +80,13 @@ def test_a_wire_is_pushed_into_the_branch_by_keys(browse, runner_command, tmp_pa
             ["see", "[viewer.shown.received, ...viewer.shown.model.tip]"], ["picture", str(tmp_path / "live.png")],
             ["see", "document.getElementById('said').textContent"],
             ["see", "document.getElementById('panes').textContent"], ["see", "viewer.shown.delays.length"],
+            ["see", "[document.getElementById('keys').hidden, viewer.xray.drawn]"],
         )["seen"]
     received, x, y, z = seen[1]
     # 600 steps with the key down are 240 units: the branch goes on as the inlet came, and the arch turns back at z = 200.
     assert received > 10 and abs(x) < 10 and 30 < y < 80 and z > 205
     assert seen[2] == "" and "times real time" in seen[3] and seen[4] >= 2
+    assert seen[5][0] and seen[5][1] > 10  # the help has gone with the first key, and X-ray pictures were drawn
     assert is_drawn(tmp_path / "live.png")
 
 
@@ -130,20 +133,84 @@ def test_a_refused_value_goes_from_its_field_and_axes_tell_their_ends_apart(brow
     rows = "import('./colours.js').then(({row, roundUp}) => [row(0, 0, false), row(0, 0, true), row(0, 1, true), roundUp(0), roundUp(0.0473)])"
     with serving(tmp_path, str(ROOT / "params/insertion.json"), with_three=True) as (address, _):
         seen = browse(
-            ["open", address], DRAWN, ["see", "document.getElementById('hint').textContent"], ["see", enter],
+            ["open", address], DRAWN, ["see", "document.getElementById('hint').textContent"], ["see", "document.getElementById('settings').open = true"], ["see", enter],
             ["until", "document.getElementById('said').textContent"], ["until", f"Number({field}.value) > 0"],
             ["see", "document.getElementById('said').textContent"], ["see", "viewer.shown.status.isPaused"],
             ["see", labels], ["see", rows], ["see", "document.getElementById('thicker').textContent"],
         )["seen"]
     assert seen[0].startswith("W push") and "H help" in seen[0]
-    assert seen[2] == "timeStep = -1 is not allowed: needs a number > 0 (s)" and seen[3] is False
-    assert seen[4] == [["300.001", "300.0012"], ["2", "2"], ["0", "1"]]
-    assert seen[5] == [0, 128, 128, 0, pytest.approx(0.048)]
-    assert seen[6] == ""  # a wire of 10 units across is seen as it is
+    assert seen[3] == "timeStep = -1 is not allowed: needs a number > 0 (s)" and seen[4] is False
+    assert seen[5] == [["300.001", "300.0012"], ["2", "2"], ["0", "1"]]
+    assert seen[6] == [0, 128, 128, 0, pytest.approx(0.048)]
+    assert seen[7] == ""  # a wire of 10 units across is seen as it is
+
+
+LOOKS = (
+    {"lao": 0, "cranial": 0, "vessel": "roadmap"}, {"lao": 30, "cranial": 20, "vessel": "contrast", "contrast": 0.02},
+    {"lao": -80, "cranial": -35, "vessel": "none", "field": 60, "centre": [0, 20, 10]},
+    {"lao": 45, "cranial": 0, "vessel": "contrast", "field": 150, "centre": [0, 0, -60], "background": 1},
+)
+
+
+def test_the_shader_draws_the_pictures_of_the_core(browse, runner_command, tmp_path):
+    subprocess.run([*runner_command, "-parameters", str(ROOT / "params/insertion-accurate.json"), "-out",
+                    str(tmp_path / "run")], check=True, capture_output=True)
+    log = read_log(tmp_path / "run", "all")
+    assert np.ptp(log.positions[-1][:, 1]) > 20, "the wire is bent"
+    take = ("(look) => { const x = viewer.xray.fluoroscopy; Object.assign(x.look, {lao: 0, cranial: 0, centre: null,"
+            " field: null, vessel: 'none', contrast: 0.1, background: 0.75, noise: 0, blur: 0, seed: 3}, look);"
+            " const [model] = viewer.shown.models; return [...x.grey(model.recording.instruments.map((one, k) =>"
+            " [one, model.centreline(k)]))]; }")
+    with serving(tmp_path, str(tmp_path / "run"), with_three=True) as (address, _):
+        noisy = {**LOOKS[0], "noise": 0.05, "blur": 0.4}
+        answer = browse(["open", address], DRAWN, ["see", "viewer.shown.go(99)"],
+                        *(["see", f"({take})({json.dumps(look)})"] for look in (*LOOKS, noisy)))
+    pictures = [np.array(grey).reshape(512, 512) for grey in answer["seen"][1:]]
+    with Session(tmp_path / "run" / "parameters.json", hand=False) as session:
+        for look, picture in zip((*LOOKS, noisy), pictures):
+            view = {"field_of_view" if name == "field" else name: value for name, value in look.items()}
+            core = session.picture_of(log.positions[-1], pixels=512, seed=3, **view).astype(int)
+            assert np.ptp(core) > 30, "something is seen"
+            apart = np.abs(core - picture)
+            if look is noisy:    # the same noise, but for roundings of its root
+                assert (apart > 2).mean() < 1e-3
+            else:
+                assert apart.max() <= 2, look
+
+
+GAMEPAD = ("window.pad = {connected: true, axes: [0, 0, 0, 0], buttons: [0, 1, 2, 3].map(() => ({pressed: false}))};"
+           "navigator.getGamepads = () => [window.pad]; dispatchEvent(new Event('gamepadconnected'))")
+STEERED = "[viewer.shown.steering.push, viewer.shown.steering.turn]"
+HUB = "viewer.shown.model.recording.at('hubInsertion', viewer.shown.model.recording.count - 1)[0]"
+
+
+def test_a_gamepad_and_a_finger_steer_and_what_was_steered_is_saved(browse, runner_command, tmp_path):
+    touch = ("{ const pad = document.getElementById('pad'); const box = pad.getBoundingClientRect();"
+             " pad.setPointerCapture = () => {}; pad.dispatchEvent(new PointerEvent('pointerdown',"
+             " {clientX: box.x + box.width / 2, clientY: box.y + 1, pointerId: 1, bubbles: true})); }")
+    lift = "document.getElementById('pad').dispatchEvent(new PointerEvent('pointerup', {pointerId: 1}))"
+    with serving(tmp_path, str(ROOT / "params/insertion-accurate.json"), with_three=True) as (address, _):
+        seen = browse(
+            ["open", address], DRAWN, ["see", GAMEPAD], ["see", "pad.axes[1] = -0.5"],
+            ["until", "viewer.shown.steering.push === 0.5"], ["until", f"{HUB} > 0.001"],
+            ["see", "pad.axes[1] = 0.05"], ["until", "viewer.shown.steering.push === 0"],
+            ["see", touch], ["see", STEERED], ["until", f"{HUB} > 0.01"], ["see", lift], ["see", STEERED],
+            ["see", "pad.buttons[0].pressed = true"], ["until", "viewer.shown.status.isPaused"],
+            ["see", "fetch('steered.csv').then((answer) => answer.text())"], ["see", HUB],
+            ["see", "[...document.querySelectorAll('button, select, input, canvas[tabindex]')].filter((one) =>"
+                    " !(one.textContent.trim() || one.getAttribute('aria-label') || one.closest('label')))"
+                    ".map((one) => one.outerHTML)"],
+            ["see", "document.documentElement.scrollWidth"], ["picture", str(tmp_path / "phone.png")],
+            size=(390, 844))["seen"]
+    assert seen[4] == [pytest.approx(1.0, abs=0.05), 0] and seen[6] == [0, 0]
+    times, insertion, _ = np.loadtxt(seen[8].splitlines(), delimiter=",", skiprows=1).T
+    assert (np.diff(times) > 0).all() and insertion[-1] == pytest.approx(seen[9], rel=1e-9)
+    assert seen[10] == []    # every control has a name
+    assert seen[11] <= 390
 
 
 def is_drawn(path):
     """Whether the picture shows more than its background where the wire is."""
     with Image.open(path) as picture:
-        pixels = np.asarray(picture.convert("RGB"))[:560, :660].astype(int)
+        pixels = np.asarray(picture.convert("RGB"))[70:540, 360:680].astype(int)
     return (np.abs(pixels - (20, 23, 31)).max(axis=2) > 20).mean() > 0.01

@@ -55,11 +55,16 @@ export function drawScale(canvas, channel, full) {
     scale.addColorStop(k / (length - 1), `rgb(${colour.map((part) => Math.round(255 * part))})`));
   pen.fillStyle = scale;
   pen.fillRect(0, 0, width, 14);
-  pen.fillStyle = "#e1e1e6";
+  pen.fillStyle = ink("--ink");
   pen.fillText(channel.isSigned && full > 0 ? brief(-full) : "0", 0, 28);
   const end = full > 0 ? `${brief(full)} ${channel.unit}` : `0 ${channel.unit}`;
   pen.fillText(end, width - pen.measureText(end).width, 28);
   pen.fillText(channel.label, 0.5 * (width - pen.measureText(channel.label).width), 28);
+}
+
+/** A colour of the page, which depends on light and dark. @param {string} name of the property */
+export function ink(name) {
+  return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 }
 
 /** A pen for a canvas as large as it is shown. @param {HTMLCanvasElement} canvas */

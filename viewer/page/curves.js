@@ -1,7 +1,7 @@
 // @ts-check
-import { brief, prepare } from "./colours.js";
+import { brief, ink, prepare } from "./colours.js";
 
-const LINES = ["#e1e1e6", "#ff9d2e"]; // of the first run and the second
+const SECOND = "#e08214"; // of the second run
 const BOTTOM = 16;
 const GAP = 4; // points between an axis and what stands beside it
 const MOST_DIGITS = 12;
@@ -25,8 +25,8 @@ export function drawCurves(canvas, curves, xLabel, yLabel, cursor) {
   const toX = (/** @type {number} */ x) => margin + ((x - left) / (right - left || 1)) * (width - margin - GAP);
   const clearance = height - BOTTOM - 20;
   const toY = (/** @type {number} */ y) => height - BOTTOM - 4 - ((y - low) / (high - low || 1)) * clearance;
-  pen.fillStyle = "#9aa";
-  pen.strokeStyle = "#444b5a";
+  pen.fillStyle = ink("--quiet");
+  pen.strokeStyle = ink("--edge");
   pen.strokeRect(margin, 14, width - margin - GAP, height - BOTTOM - 16);
   pen.fillText(yLabel, Math.max(0, Math.min(margin, width - GAP - pen.measureText(yLabel).width)), 10);
   if (highText !== lowText) pen.fillText(highText, 0, 24);
@@ -36,7 +36,7 @@ export function drawCurves(canvas, curves, xLabel, yLabel, cursor) {
   pen.fillText(end, width - GAP - pen.measureText(end).width, height - 4);
   if (low < 0 && high > 0) line(pen, margin, toY(0), width - GAP, toY(0));
   curves.forEach(({ x, y }, k) => {
-    pen.strokeStyle = LINES[k % LINES.length];
+    pen.strokeStyle = k === 0 ? ink("--ink") : SECOND;
     pen.beginPath();
     const stride = Math.max(1, Math.floor(x.length / 2000)); // more points than that are not seen
     for (let i = 0, isDown = false; i < x.length; i += stride) {

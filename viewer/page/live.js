@@ -3,6 +3,7 @@ import { brief } from "./colours.js";
 import { Model } from "./model.js";
 import { byId, make } from "./panel.js";
 import { Recording } from "./recording.js";
+import { Steering } from "./steering.js";
 
 /**
  * What the server says of the run, as viewer/live.py sends it.
@@ -18,22 +19,22 @@ import { Recording } from "./recording.js";
  * @property {string[]} scenes
  * @property {string} outcome empty while the run goes on
  * @property {string} problem empty where there is none
+ * @property {string} steered why what was steered cannot be saved; empty where it can
  * @property {Record<string, number | string>} values the parameters that may be changed
  * @property {Record<string, string[]>} choices of those that are words
  */
 
-/** Key to [what it drives, which way]. @type {Record<string, ["push" | "turn", number]>} */
-const DRIVES = {
-  w: ["push", 1], ArrowUp: ["push", 1], s: ["push", -1], ArrowDown: ["push", -1],
-  d: ["turn", 1], ArrowRight: ["turn", 1], a: ["turn", -1], ArrowLeft: ["turn", -1],
-};
-
 /** A run that goes on in the runner. Here are only keys and pictures. */
 export class Live {
-  /** @param {import("./stage.js").Stage} stage @param {import("./panel.js").Panel} panel */
-  constructor(stage, panel) {
+  /**
+   * @param {import("./stage.js").Stage} stage @param {import("./panel.js").Panel} panel
+   * @param {import("./desk.js").Desk} desk @param {import("./xray.js").Xray} xray
+   */
+  constructor(stage, panel, desk, xray) {
     this._stage = stage;
     this._panel = panel;
+    this._desk = desk;
+    this._xray = xray;
     /** @type {Model | null} */
     this.model = null;
     /** @type {Status | null} */
@@ -42,7 +43,10 @@ export class Live {
     this.received = 0;
     /** Times from a key to the picture that shows what it did, ms. @type {number[]} */
     this.delays = [];
-    this._held = new Set();
+    this.steering = new Steering((push, turn) => this._tell(push, turn), (button) =>
+      this.send(button === "pause" ? { do: "pause", value: !this.status?.isPaused } : { do: "reset" }));
+    /** The frame that is looked back at; null: the newest. @type {number | null} */
+    this._back = null;
     /** Whether a value was sent that the server has not answered. */
     this._isSent = false;
     this._mark = 0;
@@ -53,12 +57,7 @@ export class Live {
     this._socket.binaryType = "arraybuffer";
     this._socket.onmessage = ({ data }) => (typeof data === "string" ? this._hear(JSON.parse(data)) : this._take(data));
     this._socket.onclose = ({ reason }) => panel.say([reason || "the server has ended: this page is no longer live"]);
-    const leave = () => this._drive([]);
-    addEventListener("blur", leave);
     document.addEventListener("visibilitychange", () => document.hidden && this.send({ do: "pause", value: true }));
-    addEventListener("keyup", ({ key }) => {
-      if (this._held.delete(key.length === 1 ? key.toLowerCase() : key)) this._tell();
-    });
   }
 
   /** @param {object} message */
@@ -68,26 +67,18 @@ export class Live {
 
   /** @param {KeyboardEvent} event @returns {boolean} whether the key means something here */
   key(event) {
-    if (event.key in DRIVES) {
-      if (!event.repeat) this._drive([...this._held, event.key]);
-    } else if (event.key === " ") this.send({ do: "pause", value: !this.status?.isPaused });
+    if (this.steering.key(event)) byId("keys").hidden = true;
+    else if (event.key === " ") this.send({ do: "pause", value: !this.status?.isPaused });
     else if (event.key === "n") this.send({ do: "step" });
     else if (event.key === "r") this.send({ do: "reset" });
     else return false;
     return true;
   }
 
-  /** @param {string[]} keys that are down */
-  _drive(keys) {
-    this._held = new Set(keys);
-    this._tell();
-  }
-
-  _tell() {
-    const hand = { push: 0, turn: 0 };
-    for (const key of this._held) hand[DRIVES[key][0]] += DRIVES[key][1];
+  /** @param {number} push @param {number} turn from -1 to 1 */
+  _tell(push, turn) {
     this._marks.set(++this._mark, performance.now());
-    this.send({ do: "hand", push: Math.sign(hand.push), turn: Math.sign(hand.turn), mark: this._mark });
+    this.send({ do: "hand", push, turn, mark: this._mark });
   }
 
   /** @param {Status} status */
@@ -110,7 +101,11 @@ export class Live {
     this.model = new Model(recording);
     this._stage.set([[this.model]]);
     this._panel.set([this.model], false);
+    this._desk.set([recording]);
+    this._back = null;
     this.show();
+    if (before !== recording.title) this._xray.set([this.model]);
+    else this._xray.keep([this.model]);
     if (before !== recording.title) this._stage.frameAll(true);
     this._label();
   }
@@ -123,7 +118,10 @@ export class Live {
     this.send({ do: "shown" });
     if (!this.model) return;
     const { recording } = this.model;
+    const before = recording.forgotten;
     recording.append(numbers.subarray(1));
+    if (recording.forgotten > before) this._desk.score?.forget(recording.forgotten - before);
+    this._back = null;
     this.model.frame = recording.count - 1;
     this.show();
     this._label();
@@ -132,8 +130,24 @@ export class Live {
   /** Shows the newest frame with what is chosen beside it. */
   show() {
     if (!this.model) return;
-    const { recording, frame } = this.model;
+    const { recording } = this.model;
+    const frame = this._back ?? recording.count - 1;
     this._panel.show([frame], recording.at("time", frame)[0]);
+    this._desk.show(frame);
+    this._xray.ask();
+    const slider = byId("back");
+    if (slider) {
+      slider.max = String(recording.count - 1);
+      slider.value = String(frame);
+    }
+  }
+
+  /** Looks back, at a frame that is kept. @param {number} frame */
+  lookBack(frame) {
+    if (!this.model) return;
+    this._back = frame < this.model.recording.count - 1 ? frame : null;
+    this.show();
+    this._label();
   }
 
   _shown() {
@@ -149,12 +163,39 @@ export class Live {
     const { recording, frame } = this.model;
     const [time, step, stepTime] = ["time", "step", "stepTime"].map((name) => recording.at(name, frame)[0]);
     const rate = recording.at("realTime", frame)[0];
-    this._stage.label(0, `${recording.title}\nt = ${brief(time)} s   step ${step}\n`
-      + `${brief(stepTime)} ms a step: ${brief(rate)} times real time\n${this._mood()}`);
+    this._stage.label(0, `t = ${brief(time)} s   step ${step}${
+      Number.isFinite(rate) ? `\n${brief(stepTime, 3)} ms a step: ${brief(rate, 3)} times real time` : ""}`);
+    byId("title").textContent = nameOf(recording.title);
+    byId("mood").textContent = this._mood();
+  }
+
+  /** Whether there is no runner any more. @param {Status} status */
+  _isGone(status) {
+    return status.problem !== "" && !Object.keys(status.values).length;
+  }
+
+  /** Saves what was steered as a file of the browser. */
+  async _save() {
+    const answer = await fetch("steered.csv");
+    const text = await answer.text();
+    if (!answer.ok) {
+      this._panel.say([`nothing was saved: ${text}`]);
+      return;
+    }
+    const link = make("a", { href: URL.createObjectURL(new Blob([text], { type: "text/csv" })),
+      download: "steered.csv" });
+    link.click();
+    URL.revokeObjectURL(link.href);
+    const steps = this.model ? this.model.recording.at("step", this.model.recording.count - 1)[0] : 0;
+    this._panel.say([`steered.csv: repeat it with 'run ${this.status?.scene} --set insertionSpeed=0 --set `
+      + `driveFile=steered.csv --set maxSimulationSteps=${steps} --set deltaThreshold=0'`]);
   }
 
   _mood() {
     if (!this.status) return "";
+    if (this._back !== null) return "looking back";
+    if (this.status.outcome) return "ended";
+    if (this._isGone(this.status)) return "the simulation has gone: start anew";
     if (!this.status.hand) return this.status.isFree ? "nobody is steering" : "watching: another page is steering";
     if (this.status.isPaused) return "paused";
     return this.status.isSteered ? "" : "moved by its file's drive";
@@ -164,23 +205,41 @@ export class Live {
   _makeControls(status) {
     const button = (/** @type {string} */ text, /** @type {object} */ message) =>
       make("button", { onclick: () => this.send(message) }, text);
-    const leave = () => this._drive([]);
-    const held = (/** @type {string} */ text, /** @type {string} */ key) =>
-      make("button", { onpointerdown: () => this._drive([key]), onpointerup: leave, onpointerleave: leave }, text);
+    const held = (/** @type {string} */ text, /** @type {string} */ key, /** @type {string} */ cap) =>
+      make("button", { className: "drive", onpointerdown: () => this.steering.hold(key),
+        onpointerup: () => this.steering.release(), onpointerleave: () => this.steering.release() },
+      text, " ", make("kbd", {}, cap));
+    const pad = make("div", { id: "pad" }, make("span", {}, "push"), make("span", {}, "pull"));
+    pad.setAttribute("role", "application");
+    pad.setAttribute("aria-label", "touch: up pushes, down pulls, sideways turns");
+    this.steering.listen(pad);
+    const save = make("button", { id: "save", onclick: () => this._save(), title: status.steered
+      || "the table moves the same scene again: key driveFile" }, "save steering");
+    save.disabled = status.steered !== "";
+    const newest = (this.model?.recording.count ?? 1) - 1;
+    const back = make("input", { type: "range", id: "back", min: 0, step: 1, max: newest, value: this._back ?? newest,
+      oninput: () => this.lookBack(Number(back.value)) });
+    back.setAttribute("aria-label", "look back");
     const scenes = make("select", { id: "scenes", onchange: () => this.send({ do: "open", scene: scenes.value }) },
-      ...status.scenes.map((scene) => make("option", { value: scene, selected: scene === status.scene }, scene)));
+      ...status.scenes.map((scene) => make("option", { value: scene, selected: scene === status.scene }, nameOf(scene))));
     const paces = make("select", { id: "pace", onchange: () => this.send({ do: "pace", value: Number(paces.value) }) },
       ...status.paces.map((pace) =>
         make("option", { value: pace, selected: pace === status.pace }, `${pace} x real time`)));
+    scenes.setAttribute("aria-label", "scene");
+    paces.setAttribute("aria-label", "speed");
     const isOurs = status.hand;
+    const isOver = status.outcome !== "" || this._isGone(status);
     byId("bar").replaceChildren(...(isOurs ? [
-      ...(status.isSteered
-        ? [held("push", "w"), held("pull", "s"), held("turn left", "a"), held("turn right", "d")] : []),
-      button(status.isPaused ? "go on" : "pause", { do: "pause", value: !status.isPaused }),
-      button("step", { do: "step" }), button("start anew", { do: "reset" }),
-      button(status.isSteered ? "file's drive" : "interactive",
-        { do: "open", scene: status.scene, hand: !status.isSteered }), paces, scenes,
-    ] : [button("take control", { do: "take" })]));
+      ...(status.isSteered ? [pad, held("push", "w", "W"), held("pull", "s", "S"), held("turn left", "a", "A"),
+        held("turn right", "d", "D")] : []),
+      make("span", { className: "buttons" },
+        ...(isOver ? [] : [button(status.isPaused ? "go on" : "pause", { do: "pause", value: !status.isPaused }),
+          button("step", { do: "step" })]),
+        button("start anew", { do: "reset" }), save, ...(status.isPaused && newest > 0 ? [back] : []),
+        button(status.isSteered ? "file's drive" : "interactive",
+          { do: "open", scene: status.scene, hand: !status.isSteered }), paces, scenes),
+    ] : status.isFree ? [button("take control", { do: "take" })]
+      : [make("span", {}, "another page is steering; when it is closed you can take over")]));
     const typed = byId("controls").contains(document.activeElement) ? document.activeElement : null;
     if (typed && !this._isSent) return; // a value that is being typed
     this._isSent = false;
@@ -199,8 +258,13 @@ export class Live {
   }
 }
 
-export const LIVE_KEYS = `W, S or up, down  push, pull
-A, D or left, right  turn
-space  pause
-N  one step
-R  start anew`;
+/** A scene as one calls it. @param {string} file */
+function nameOf(file) {
+  return file.replace(/^.*\//, "").replace(/\.json$/, "").replaceAll("-", " ");
+}
+
+export const LIVE_KEYS = /** @type {[string, string][]} */ ([
+  ["W S, up down", "push and pull"], ["A D, left right", "turn"], ["space", "pause, go on"], ["N", "one step"],
+  ["R", "start anew"], ["gamepad", "left stick steers, A pauses, Y starts anew"],
+  ["touch", "the round pad: up pushes, sideways turns"],
+]);

@@ -1,36 +1,67 @@
 // @ts-check
+import { Desk } from "./desk.js";
 import { Live, LIVE_KEYS } from "./live.js";
-import { byId, Panel } from "./panel.js";
+import { byId, make, Panel } from "./panel.js";
 import { Recording } from "./recording.js";
 import { Replay, REPLAY_KEYS } from "./replay.js";
 import { Stage } from "./stage.js";
+import { Xray } from "./xray.js";
 
 const stage = new Stage(byId("picture"), byId("panes"));
+const desk = new Desk();
+const xray = new Xray();
 /** @type {Replay | Live | null} */
 let shown = null;
-const panel = new Panel(stage, () => {
-  if (shown instanceof Replay) shown.show();
-  else shown?.show();
-});
+const panel = new Panel(stage, () => shown?.show());
 
 /** Runs that stand in this file, where it works without a server. @type {ArrayBuffer[] | undefined} */
 const packed = /** @type {any} */ (globalThis).guidewireRecordings;
 const what = packed ? { isLive: false, recordings: packed.length } : await (await fetch("show.json")).json();
 if (what.isLive) {
-  shown = new Live(stage, panel);
+  shown = new Live(stage, panel, desk, xray);
 } else {
   const load = async (/** @type {number} */ k) => (await fetch(`recording/${k}`)).arrayBuffer();
   const bytes = packed ?? await Promise.all([...Array(what.recordings).keys()].map(load));
-  shown = new Replay(stage, panel, bytes.map((one) => new Recording(one)));
+  shown = new Replay(stage, panel, desk, xray, bytes.map((one) => new Recording(one)));
 }
 
+const keys = byId("keys");
+const showHelp = (/** @type {boolean} */ isShown) => {
+  keys.hidden = !isShown;
+  byId("help").setAttribute("aria-expanded", String(isShown));
+};
+keys.replaceChildren(
+  make("h2", {}, what.isLive ? "You hold the wire at its hub" : "A replay"),
+  make("table", {}, ...[...(what.isLive ? LIVE_KEYS : REPLAY_KEYS), ["X-ray", "drag turns the C-arm, wheel zooms"],
+    ["3D", "drag orbits, wheel zooms"], ["V", "both views, X-ray, 3D"], ["C", "colour of the wire"],
+    ["F, T", "contact forces; keep the tip in view"], ["H", "this list"]].map(([key, text]) => make("tr", {},
+    make("td", {}, ...key.split(", ").flatMap((part, k) => [k ? ", " : "", make("kbd", {}, part)])),
+    make("td", {}, text)))),
+  make("button", { onclick: () => showHelp(false) }, "got it"));
+showHelp(what.isLive);
 byId("hint").textContent = what.isLive ? "W push, S pull, A and D turn, space pause, H help" : "space play, H help";
-byId("keys").textContent = `${what.isLive ? LIVE_KEYS : REPLAY_KEYS}
-C  colour
-F  contact forces
-T  follow the tip
-H  keys
-mouse  orbit, shift, zoom`;
+byId("help").onclick = () => showHelp(keys.hidden);
+
+const showViews = (/** @type {string} */ which) => {
+  document.body.dataset.views = which;
+  for (const button of document.querySelectorAll("header button[data-views]")) {
+    button.setAttribute("aria-pressed", String(/** @type {HTMLElement} */ (button).dataset.views === which));
+  }
+  xray.ask();
+  stage.ask();
+};
+for (const button of document.querySelectorAll("header button[data-views]")) {
+  button.addEventListener("click", () => showViews(/** @type {HTMLElement} */ (button).dataset.views ?? "both"));
+}
+const VIEWS = ["both", "xray", "space"];
+const setTheme = (/** @type {string} */ theme) => {
+  document.documentElement.dataset.theme = theme;
+  byId("theme").textContent = theme === "light" ? "dark" : "light";
+  shown?.show();
+};
+setTheme(matchMedia("(prefers-color-scheme: light)").matches ? "light" : "dark");
+byId("theme").onclick = () => setTheme(document.documentElement.dataset.theme === "light" ? "dark" : "light");
+
 const toggles = /** @type {Record<string, string>} */ ({ f: "arrows", t: "follow" });
 addEventListener("keydown", (event) => {
   const isTyped = event.target instanceof HTMLInputElement && event.target.type !== "range";
@@ -38,11 +69,16 @@ addEventListener("keydown", (event) => {
   if (event.target instanceof HTMLButtonElement) event.target.blur(); // or the space bar would press it again
   const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
   const pressed = key === event.key ? event : new KeyboardEvent("keydown", { key, repeat: event.repeat });
-  if (shown?.key(pressed)) event.preventDefault();
+  if (event.altKey && key.startsWith("Arrow")) {
+    const [lao, cranial] = { ArrowLeft: [-5, 0], ArrowRight: [5, 0], ArrowUp: [0, 5], ArrowDown: [0, -5] }[key] ?? [0, 0];
+    xray.turnArm(lao, cranial);
+    event.preventDefault();
+  } else if (shown?.key(pressed)) event.preventDefault();
   else if (key === "c") panel.nextColour();
-  else if (key === "h") byId("keys").hidden = !byId("keys").hidden;
+  else if (key === "h" || (key === "Escape" && !keys.hidden)) showHelp(keys.hidden);
+  else if (key === "v") showViews(VIEWS[(VIEWS.indexOf(document.body.dataset.views ?? "both") + 1) % VIEWS.length]);
   else if (key in toggles) byId(toggles[key]).click();
 });
 
-/** For scripts that drive this page: what is shown, and the picture. */
-Object.assign(globalThis, { viewer: { shown, stage } });
+/** For scripts that drive this page: what is shown, and the pictures. */
+Object.assign(globalThis, { viewer: { shown, stage, xray } });

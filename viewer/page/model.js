@@ -1,7 +1,7 @@
 // @ts-check
 import {
-  BackSide, BufferAttribute, BufferGeometry, CylinderGeometry, DoubleSide, FrontSide, Group, Line, LineBasicMaterial,
-  LineSegments, Mesh, MeshLambertMaterial, Vector2, Vector3,
+  BackSide, BufferAttribute, BufferGeometry, Color, CylinderGeometry, DoubleSide, FrontSide, Group, Line,
+  LineBasicMaterial, LineSegments, Mesh, MeshLambertMaterial, Vector2, Vector3,
 } from "three";
 
 import { ramp, roundUp, row } from "./colours.js";
@@ -11,7 +11,7 @@ import { Tube } from "./tube.js";
 
 /** Layer of walls behind the wire, and of those that tint it. */
 export const [BEHIND, BEFORE] = [1, 2];
-const PLAIN = [1, 0.62, 0.18]; // a wire that is not coloured, such as the second of two in one picture
+const PLAIN = "#ff9d2e"; // of a wire that is not coloured and has no instrument
 const ARROWS = 0x7fe07f;
 const LONGEST_ARROW = 0.2; // share of the wire's length
 const LEAST_RADIUS = 2; // points of the screen that a wire takes so that it is seen
@@ -111,6 +111,11 @@ gl_FragColor.rgb = gl_FragColor.rgb * (1.0 - tint.a) + tint.rgb;`)}`;
     return isOther;
   }
 
+  /** The points of an instrument's centreline in the frame shown. @param {number} instrument its number */
+  centreline(instrument) {
+    return this.recording.at(instrument === 0 ? "positions" : `positions${instrument}`, this.frame);
+  }
+
   /** The place of the last sphere, units. */
   get tip() {
     return this.recording.at("positions", this.frame).slice(-3);
@@ -130,7 +135,8 @@ gl_FragColor.rgb = gl_FragColor.rgb * (1.0 - tint.a) + tint.rgb;`)}`;
   _paint(shared) {
     const channel = this.colour ? this.recording.channels.get(this.colour) : undefined;
     if (!channel) {
-      this._paintWith((_, colour) => colour.splice(0, 3, ...PLAIN));
+      const { r, g, b } = new Color(this.recording.instruments[0]?.colour ?? PLAIN);
+      this._paintWith((_, colour) => colour.splice(0, 3, r, g, b));
       return;
     }
     const values = this.recording.at(channel.name, this.frame);

@@ -38,6 +38,7 @@ export class Panel {
     this._coloured = 1; // how many of them take the colours; the others are plain
     for (const id of ["colour", "first", "second", "thickness"]) byId(id).onchange = changed;
     for (const id of ["walls", "arrows", "follow"]) byId(id).onchange = changed;
+    byId("wire").ontoggle = changed;
     stage.onThickness = () => this._sayThickness();
   }
 
@@ -96,11 +97,14 @@ export class Panel {
       model.show(frames[k], full);
     });
     this._sayThickness();
-    this._stage.followsTip = byId("follow").checked;
+    if (this._stage.followsTip !== byId("follow").checked) {
+      this._stage.followsTip = byId("follow").checked;
+      this._stage.frameAll(true);
+    }
     this._stage.ask();
     this._frames = frames;
     this._full = full;
-    if (this._isWaiting) return; // curves cost as much as a picture, and need not be as quick
+    if (this._isWaiting || !byId("wire").open) return; // curves cost as much as a picture, and need not be as quick
     this._isWaiting = true;
     setTimeout(() => {
       this._isWaiting = false;

@@ -28,6 +28,7 @@
  */
 
 const TYPES = { f8: Float64Array, f4: Float32Array, u2: Uint16Array, u4: Uint32Array };
+const COLOURS = ["#4aa8ff", "#ff9d2e", "#b58cff", "#5fd38d"]; // of instruments, the first run's first
 const LONGEST = 6000; // frames that are kept of a run that goes on; then the older half goes
 
 export class Recording {
@@ -59,8 +60,41 @@ export class Recording {
     }));
     /** Where a sheath ends, and where it is seen to begin, units. @type {[number[], number[]] | null} */
     this.sheath = header.sheath;
+    /** What pictures need to know. @type {{millimetresPerUnit: number, target: import("./target.js").Route | null,
+     *     instruments: import("./pieces.js").Instrument[]} | null} */
+    this.described = header.described;
+    /** Of a unit. */
+    this.millimetres = this.described?.millimetresPerUnit ?? 1;
+    /** @type {import("./pieces.js").Instrument[]} */
+    this.instruments = (this.described?.instruments ?? []).map((one, k) =>
+      ({ ...one, name: one.name ?? (k === 0 ? "guidewire" : "catheter"), colour: COLOURS[k % COLOURS.length] }));
+    /** How many frames at the beginning were forgotten. */
+    this.forgotten = 0;
     this._count = this.channel("time").values.length;
     this._columns = [...this.channels.values()];
+  }
+
+  /** Gives its instruments other colours. @param {number} first of them */
+  recolour(first) {
+    this.instruments.forEach((one, k) => {
+      one.colour = COLOURS[(first + k) % COLOURS.length];
+    });
+  }
+
+  /** Lowest and highest corner of what a picture shows by itself: the vessel, or without one where the wire begins,
+   * units. @returns {[[number, number, number], [number, number, number]]} */
+  get box() {
+    const vessels = this.walls.filter((wall) => wall.kind === "vessel");
+    const all = vessels.length ? vessels.map((wall) => wall.vertices) : [this.at("positions", 0)];
+    const low = [Infinity, Infinity, Infinity];
+    const high = [-Infinity, -Infinity, -Infinity];
+    for (const points of all) {
+      for (let i = 0; i < points.length; i++) {
+        low[i % 3] = Math.min(low[i % 3], points[i]);
+        high[i % 3] = Math.max(high[i % 3], points[i]);
+      }
+    }
+    return /** @type {[[number, number, number], [number, number, number]]} */ ([low, high]);
   }
 
   /** Number of frames. */
@@ -129,6 +163,7 @@ export class Recording {
       channel.values.copyWithin(0, frames * channel.width, this._count * channel.width);
     }
     this._count -= frames;
+    this.forgotten += frames;
   }
 }
 

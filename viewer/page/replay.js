@@ -13,27 +13,38 @@ export class Replay {
   /**
    * @param {import("./stage.js").Stage} stage
    * @param {import("./panel.js").Panel} panel
+   * @param {import("./desk.js").Desk} desk
+   * @param {import("./xray.js").Xray} xray
    * @param {Recording[]} recordings
    */
-  constructor(stage, panel, recordings) {
+  constructor(stage, panel, desk, xray, recordings) {
     this._stage = stage;
     this._panel = panel;
+    this._desk = desk;
+    this._xray = xray;
+    recordings.forEach((recording, k) => recording.recolour(k));
     this.models = recordings.map((recording) => new Model(recording));
     this.isPlaying = false;
     this.areOver = false;
     this.time = this._times(0)[0];
     this._end = Math.max(...recordings.map((_, k) => this._times(k).at(-1) ?? 0));
     this._slider = make("input", { type: "range", min: 0, max: 1, step: "any", value: 0, id: "slider" });
+    this._slider.setAttribute("aria-label", "time");
     this._slider.oninput = () => this.go(this._start + Number(this._slider.value) * (this._end - this._start));
     const speeds = SPEEDS.map((speed) => make("option", { value: speed }, `${speed} x`));
     this._speed = make("select", { id: "speed" }, ...speeds);
+    this._speed.setAttribute("aria-label", "speed");
     const whole = this._end - this._start;
     this._speed.value = SPEEDS.find((speed) => whole / speed <= SECONDS) ?? SPEEDS.at(-1);
-    const button = (/** @type {string} */ text, /** @type {() => void} */ onclick) => make("button", { onclick }, text);
+    const button = (/** @type {string} */ text, /** @type {() => void} */ onclick, /** @type {string} */ name = "") => {
+      const made = make("button", { onclick }, text);
+      if (name) made.setAttribute("aria-label", name);
+      return made;
+    };
     this._play = button("play", () => this.play(!this.isPlaying));
     this._over = button("", () => this.lay(!this.areOver));
-    byId("bar").replaceChildren(button("|<", () => this.go(this._start)), button("<", () => this.step(-1)), this._play,
-      button(">", () => this.step(1)), this._slider, this._speed,
+    byId("bar").replaceChildren(button("|<", () => this.go(this._start), "to the start"),
+      button("<", () => this.step(-1), "one frame back"), this._play, button(">", () => this.step(1), "one frame on"), this._slider, this._speed,
       ...(recordings.length > 1 ? [this._over] : []));
     this.lay(false);
   }
@@ -53,6 +64,8 @@ export class Replay {
     this._over.textContent = areOver ? "side by side" : "one over the other";
     this._stage.set(areOver ? [this.models] : this.models.map((model) => [model]));
     this._panel.set(this.models, areOver);
+    this._desk.set(this.models.map(({ recording }) => recording));
+    this._xray.set(this.models);
     this.show();
     this._stage.frameAll(true);
   }
@@ -92,6 +105,10 @@ export class Replay {
     this._slider.value = String((this.time - this._start) / (this._end - this._start || 1));
     const { frames } = this;
     this._panel.show(frames, this.time);
+    this._desk.show(frames[0]);
+    this._xray.ask();
+    byId("title").textContent = this.models.map(({ recording }) => recording.title).join(" and ");
+    byId("mood").textContent = this.isPlaying ? "replay" : "replay, paused";
     const texts = this.models.map(({ recording }, k) =>
       `${recording.title}\nt = ${brief(this._times(k)[frames[k]])} s   step ${recording.at("step", frames[k])[0]}`);
     if (this.areOver) this._stage.label(0, `${texts[0]}\norange: ${texts[1]}`);
@@ -114,4 +131,6 @@ export class Replay {
   }
 }
 
-export const REPLAY_KEYS = "space  play, pause\nleft, right  single frames\nR  to the start";
+export const REPLAY_KEYS = /** @type {[string, string][]} */ ([
+  ["space", "play, pause"], ["left right", "single frames"], ["R", "to the start"],
+]);

@@ -21,6 +21,9 @@ out lowp vec4 colour;
 void main() { colour = texelFetch(map, ivec2((gl_FragCoord.xy - origin) * share), 0); }`;
 const COARSE = 0.5; // points of walls a point of the picture, while the camera moves
 const AT_REST = 200; // ms after which it does not
+const CLOSE_UP = 0.22; // of what the wire passes and the vessel: what a close-up shows
+const LEAVING = 0.25; // of the picture: so far the tip goes from its middle until the camera follows
+const EASE = 0.2; // of the way that the camera follows in a picture
 
 /**
  * Part of the picture. Walls are drawn when the camera moves, and kept: all of them as what is behind the wire, and
@@ -105,7 +108,8 @@ export class Stage {
     this._models = [];
     this._isAsked = false;
     this._rest = 0; // timer
-    this.followsTip = false;
+    this.followsTip = true;
+    this._isFollowing = false;
     /** Pictures drawn so far. */
     this.drawn = 0;
     /** Told after every picture. @type {() => void} */
@@ -152,7 +156,9 @@ export class Stage {
     this._camera.far = size * 50;
     const upward = Math.tan((0.5 * this._camera.fov * Math.PI) / 180);
     const aspect = this._canvas.clientWidth / Math.max(this._panes.length, 1) / Math.max(this._canvas.clientHeight, 1);
-    const distance = (0.5 * size) / Math.sin(Math.atan(upward * Math.min(aspect || 1, 1)));
+    const half = 0.5 * size * (this.followsTip ? CLOSE_UP : 1);
+    const distance = half / Math.sin(Math.atan(upward * Math.min(aspect || 1, 1)));
+    if (this.followsTip) this._controls.target.fromArray(this._models[0].tip);
     this._camera.position.copy(this._controls.target).addScaledVector(new Vector3(-0.96, 0.28, 0), distance);
     this._controls.update();
     this.ask();
@@ -241,9 +247,18 @@ export class Stage {
     this._renderer.render(pane.scene, this._camera);
   }
 
+  /** Moves the camera where the tip is about to leave the picture: not in each, as walls are drawn anew then. */
   _follow() {
     const shift = new Vector3().fromArray(this._models[0].tip).sub(this._controls.target);
     if (!Number.isFinite(shift.x)) return;
+    const away = this._camera.position.distanceTo(this._controls.target);
+    const shown = 2 * away * Math.tan((0.5 * this._camera.fov * Math.PI) / 180);
+    if (!this._isFollowing && shift.length() < LEAVING * shown) return;
+    this._isFollowing = shift.length() > 0.02 * shown && !this._isSlow;
+    if (this._isFollowing) {
+      shift.multiplyScalar(EASE);
+      this.ask();
+    }
     this._controls.target.add(shift);
     this._camera.position.add(shift);
     this._camera.lookAt(this._controls.target);

@@ -40,6 +40,14 @@ namespace Guidewire.Benchmarks
                 PrintScenes(arguments);
                 return 0;
             }
+            if (arguments.Contains("--pictures"))
+            {
+                foreach (string file in arguments.Where(word => word.EndsWith(".json", StringComparison.Ordinal)))
+                {
+                    PictureCost.Print(file);
+                }
+                return 0;
+            }
             if (arguments.Contains("-lines"))
             {
                 return RequestLoop.Serve(Console.In, Console.Out, MotionCost.Measure, () => false);

@@ -21,6 +21,8 @@ namespace Guidewire.Cli
             Push = (double?)json["push"] ?? 0.0;
             Turn = (double?)json["turn"] ?? 0.0;
             Snapshot = (string?)json["snapshot"] ?? "";
+            View = (JObject?)json["view"] ?? new JObject();
+            Positions = (string?)json["positions"] ?? "";
             foreach (JProperty property in ((JObject?)json["set"] ?? new JObject()).Properties())
             {
                 Overrides.Add(new KeyValuePair<string, JToken>(property.Name, property.Value));
@@ -63,6 +65,12 @@ namespace Guidewire.Cli
         /// <summary>What is to be restored, as base64.</summary>
         public string Snapshot { get; }
 
+        /// <summary>Which picture is to be taken.</summary>
+        public JObject View { get; }
+
+        /// <summary>The wire of a picture as base64 of doubles; empty: the session's.</summary>
+        public string Positions { get; }
+
         /// <summary>Parameters that count instead of the file's.</summary>
         public List<KeyValuePair<string, JToken>> Overrides { get; } = new List<KeyValuePair<string, JToken>>();
 
@@ -81,6 +89,8 @@ namespace Guidewire.Cli
             Check(json, "session", "a text", JTokenType.String);
             Check(json, "hand", "true or false", JTokenType.Boolean);
             Check(json, "snapshot", "base64 as of \"save\"", JTokenType.String);
+            Check(json, "view", "an object", JTokenType.Object);
+            Check(json, "positions", "base64 of doubles", JTokenType.String);
             CheckNumber(json, "repeat", 0.0, int.MaxValue, "a whole number from 0");
             CheckNumber(json, "steps", 1.0, int.MaxValue, "a whole number from 1");
             CheckNumber(json, "push", double.MinValue, double.MaxValue, "a number (units)");

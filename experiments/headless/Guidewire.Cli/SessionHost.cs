@@ -14,6 +14,8 @@ namespace Guidewire.Cli
         private SimulationSession? _session;
         private readonly SessionState _state = new SessionState();
         private byte[] _bytes = Array.Empty<byte>();
+        private RunPictures? _pictures;
+        private Vector3d[] _centreline = Array.Empty<Vector3d>();
 
         /// <param name="stopRequested">Asked before every step.</param>
         public SessionHost(Func<bool> stopRequested)
@@ -28,6 +30,7 @@ namespace Guidewire.Cli
             switch (request.Session)
             {
                 case "open":
+                    _pictures = null;
                     _session = SimulationSession.Open(request.ParameterFile, request.Overrides, request.Hand);
                     answer["hand"] = _session.IsSteered;
                     answer["warnings"] = new JArray(_session.Warnings);
@@ -36,7 +39,14 @@ namespace Guidewire.Cli
                 case "step":
                     Step(request.Push / request.Steps, request.Turn / request.Steps, request.Steps);
                     break;
+                case "picture":
+                    TakePicture(request, answer);
+                    return;
+                case "describe":
+                    Describe(answer);
+                    return;
                 case "change":
+                    _pictures = null;
                     Change(Opened(), request);
                     answer["effective"] = _session!.EffectiveParameters;
                     break;
@@ -50,11 +60,12 @@ namespace Guidewire.Cli
                     answer["snapshot"] = Convert.ToBase64String(Opened().Save());
                     return;
                 case "restore":
-                    Opened().Restore(Bytes(request.Snapshot));
+                    Opened().Restore(Bytes(request.Snapshot, "snapshot"));
                     break;
                 default:
                     throw new ParameterException("request", "session", "\"" + request.Session + "\"",
-                        "one of \"open\", \"step\", \"state\", \"change\", \"reset\", \"save\", \"restore\"");
+                        "one of \"open\", \"step\", \"state\", \"picture\", \"describe\", \"change\","
+                            + " \"reset\", \"save\", \"restore\"");
             }
             State(_session!.Simulation, answer);
         }
@@ -101,7 +112,69 @@ namespace Guidewire.Cli
             return session.Simulation;
         }
 
-        private static byte[] Bytes(string text)
+        /// <summary>Takes a fluoroscopic picture.</summary>
+        /// <param name="view">Which.</param>
+        /// <param name="positions">x, y and z of each node of the wire, units; none: the wire as it is now.</param>
+        /// <param name="grey">Takes the grey levels, row by row.</param>
+        /// <exception cref="ParameterException">No session is open, or a wire of another number of nodes.</exception>
+        public void Picture(PictureView view, ReadOnlySpan<double> positions, Span<byte> grey)
+        {
+            SimulationSession session = Opened();
+            _pictures ??= new RunPictures(session.Parameters);
+            Vector3d[] wire = session.Simulation.State.Positions;
+            if (positions.Length > 0)
+            {
+                if (positions.Length != 3 * wire.Length)
+                {
+                    throw new ParameterException("request: positions needs to be of " + wire.Length
+                        + " nodes, three numbers each");
+                }
+                Array.Resize(ref _centreline, wire.Length);
+                for (int i = 0; i < _centreline.Length; i++)
+                {
+                    _centreline[i] = new Vector3d(positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]);
+                    if (!_centreline[i].IsFinite)
+                    {
+                        throw new ParameterException("request: positions needs finite numbers");
+                    }
+                }
+                wire = _centreline;
+            }
+            _pictures.Draw(wire, view, grey);
+        }
+
+        // What X-rays see of the instruments, and the way to the target, for who draws pictures of his own.
+        private void Describe(JObject answer)
+        {
+            SimulationSession session = Opened();
+            _pictures ??= new RunPictures(session.Parameters);
+            answer["millimetresPerUnit"] = _pictures.MillimetresPerUnit;
+            answer["instruments"] = new JArray(new JObject
+            {
+                ["radii"] = new JArray(_pictures.Radii),
+                ["innerRadii"] = new JArray(_pictures.InnerRadii),
+                ["attenuations"] = new JArray(_pictures.Attenuations),
+            });
+            answer["target"] = session.RouteToTarget();
+        }
+
+        private void TakePicture(RunRequest request, JObject answer)
+        {
+            PictureView view = PictureRequest.Read(request.View);
+            byte[] bytes = Bytes(request.Positions, "positions");
+            if (bytes.Length % sizeof(double) != 0)
+            {
+                throw new ParameterException("request: positions needs whole doubles");
+            }
+            var positions = new double[bytes.Length / sizeof(double)];
+            Buffer.BlockCopy(bytes, 0, positions, 0, bytes.Length);
+            var grey = new byte[view.Pixels * view.Pixels];
+            Picture(view, positions, grey);
+            answer["pixels"] = view.Pixels;
+            answer["grey"] = Convert.ToBase64String(grey);
+        }
+
+        private static byte[] Bytes(string text, string name)
         {
             try
             {
@@ -109,7 +182,7 @@ namespace Guidewire.Cli
             }
             catch (FormatException)
             {
-                throw new ParameterException("request: snapshot is no base64");
+                throw new ParameterException("request: " + name + " is no base64");
             }
         }
 

@@ -58,6 +58,25 @@ namespace Guidewire.Native
                 ? session.Step(push, turn, steps, new Span<double>(numbers, capacity)) : 0;
         }
 
+        /// <summary>Takes a fluoroscopic picture.</summary>
+        /// <param name="number">The session's.</param>
+        /// <param name="view">Which, as "view" of a request: JSON in UTF-8.</param>
+        /// <param name="length">Its length in bytes.</param>
+        /// <param name="positions">x, y and z of each node of the wire, units.</param>
+        /// <param name="count">How many numbers these are; 0: the wire as it is now.</param>
+        /// <param name="grey">Takes the grey levels, row by row.</param>
+        /// <param name="capacity">How many fit there.</param>
+        /// <returns>How many the picture has; they are not written where the capacity is another. 0 where it was
+        /// refused.</returns>
+        [UnmanagedCallersOnly(EntryPoint = "guidewire_picture")]
+        public static int Picture(long number, byte* view, int length, double* positions, int count, byte* grey,
+            int capacity)
+        {
+            return Sessions.TryGetValue(number, out NativeSession? session)
+                ? session.Picture(new ReadOnlySpan<byte>(view, length), new ReadOnlySpan<double>(positions, count),
+                    new Span<byte>(grey, capacity)) : 0;
+        }
+
         /// <summary>Forgets a session.</summary>
         [UnmanagedCallersOnly(EntryPoint = "guidewire_close")]
         public static void Close(long number)

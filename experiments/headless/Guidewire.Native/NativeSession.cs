@@ -1,4 +1,5 @@
 using System;
+using System.Text;
 using Guidewire.Cli;
 using Guidewire.Core;
 using Guidewire.Io;
@@ -14,6 +15,8 @@ namespace Guidewire.Native
 
         private readonly SessionHost _host = new SessionHost(() => false);
         private readonly SessionState _state = new SessionState();
+        private PictureView _picture = new PictureView();
+        private byte[] _view = Array.Empty<byte>();    // the text of it
 
         /// <summary>The answer for a number that no session has.</summary>
         public static string Closed => Refusal(ExitCodes.BadInput, "request: this session is closed");
@@ -52,6 +55,30 @@ namespace Guidewire.Native
                     _state.Numbers.AsSpan(0, _state.Count).CopyTo(numbers.Slice(Head));
                 }
                 return Head + _state.Count;
+            }
+            catch (Exception error)
+            {
+                Problem = Refusal(error);
+                return 0;
+            }
+        }
+
+        /// <summary>As <see cref="Exports.Picture"/> says.</summary>
+        public int Picture(ReadOnlySpan<byte> view, ReadOnlySpan<double> positions, Span<byte> grey)
+        {
+            try
+            {
+                if (!view.SequenceEqual(_view))
+                {
+                    _picture = PictureRequest.Read(JsonText.ParseObject(Encoding.UTF8.GetString(view), "request"));
+                    _view = view.ToArray();
+                }
+                int count = _picture.Pixels * _picture.Pixels;
+                if (grey.Length == count)
+                {
+                    _host.Picture(_picture, positions, grey);
+                }
+                return count;
             }
             catch (Exception error)
             {

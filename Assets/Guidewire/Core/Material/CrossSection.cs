@@ -99,6 +99,17 @@ namespace Guidewire.Core
             return here;
         }
 
+        /// <summary>Radius of the lumen of these parameters at a position, m: 0 where there is none.</summary>
+        public static double LumenAt(MaterialParameters material, double position)
+        {
+            double inner = material.InnerRadius;
+            foreach (WireSection section in material.Sections)
+            {
+                inner = position >= section.From && position < section.To ? section.InnerRadius ?? inner : inner;
+            }
+            return inner;
+        }
+
         private static CrossSection Of(double area, double second, double youngsModulus, double shearModulus,
             double density)
         {

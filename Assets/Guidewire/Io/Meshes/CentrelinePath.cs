@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using Guidewire.Core;
+using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
@@ -119,6 +120,26 @@ namespace Guidewire.Io
                 }
             }
             return false;
+        }
+
+        /// <summary>The points of the centreline from the inlet to the target, units, with radii and distances: "name",
+        /// "points", "radii", "distances".</summary>
+        public JObject RouteToTarget()
+        {
+            var route = new List<int>();
+            for (int k = Target; k >= 0; k = _before[k])
+            {
+                route.Add(k);
+            }
+            route.Reverse();
+            return new JObject
+            {
+                ["name"] = TargetName,
+                ["points"] = new JArray(route.ConvertAll(k =>
+                    new JArray(_anatomy.Points[k].X, _anatomy.Points[k].Y, _anatomy.Points[k].Z))),
+                ["radii"] = new JArray(route.ConvertAll(k => _anatomy.Radii[k])),
+                ["distances"] = new JArray(route.ConvertAll(k => Distances[k])),
+            };
         }
 
         /// <summary>Names of the branches from the inlet to a point of the centreline.</summary>

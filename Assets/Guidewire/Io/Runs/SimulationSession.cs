@@ -65,6 +65,14 @@ namespace Guidewire.Io
         /// <summary>Whether the user holds the first element, instead of the drive.</summary>
         public bool IsSteered => _steering != null;
 
+        /// <summary>The centreline from the inlet to the target: "name", "points" (units), "radii" and "distances"; null
+        /// where the run has no target.</summary>
+        public JObject? RouteToTarget()
+        {
+            CentrelinePath? path = _handler.Values.Path;
+            return path == null || path.Target < 0 ? null : path.RouteToTarget();
+        }
+
         /// <summary>A run at its start that is not logged, and states contact forces and reactions wherever its method
         /// has them.</summary>
         /// <param name="file">Parameter file, or null for the defaults.</param>

@@ -1,0 +1,63 @@
+"""What a page steers, saved as a drive table, moves the same wire by the same bits."""
+
+import json
+import math
+import random
+import subprocess
+
+import numpy as np
+import pytest
+
+from analysis.logs import read_log
+from experiments.prepare import ROOT
+from experiments.session import Session
+from viewer.steered import Steered, exact_push, exact_turn
+
+SCENES = {"a mesh": "insertion-accurate.json", "a sheath": "sheath.json"}
+
+
+@pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
+def test_a_saved_table_gives_the_bits_that_were_steered(runner_command, tmp_path, scene):
+    file = ROOT / "params" / scene
+    dice = random.Random(5)
+    with Session(file, hand=True, native=False, maxSimulationSteps=10**9, deltaThreshold=0) as session:
+        steered = Steered(session.parameters)
+        metres, dt = session.parameters["metresPerUnit"], session.parameters["timeStep"]
+        shown = [session.state.positions]
+        for steps in (1, 4, 2, 1, 8, 16, 1, 8):    # as pictures of the page are, by powers of two
+            push = exact_push(40.0 * dt * dice.choice([1.0, 1.0, -0.3, 0.123456, 0.0]), metres)
+            turn = exact_turn(math.pi * dt * dice.uniform(-1.0, 1.0))
+            state = session.step(push * steps, turn * steps, steps)
+            steered.add(push, turn, steps)
+            shown.append(state.positions)
+    assert steered.problem == "" and steered.steps == 41
+    (tmp_path / "steered.csv").write_text(steered.to_csv())
+    subprocess.run([*runner_command, "-parameters", str(file), "-out", str(tmp_path / "run"), "-insertionSpeed", "0",
+                    "-driveFile", str(tmp_path / "steered.csv"), "-maxSimulationSteps", str(steered.steps),
+                    "-deltaThreshold", "0", "-logEvery", "1"], check=True, capture_output=True)
+    log = read_log(tmp_path / "run", "all")
+    ends = np.cumsum([0, 1, 4, 2, 1, 8, 16, 1, 8])
+    for end, positions in zip(ends, shown, strict=True):
+        np.testing.assert_array_equal(log.positions[end], positions, err_msg=f"step {end}")
+
+
+def test_exact_pushes_are_near_what_is_wanted_and_sums_of_them_have_no_rounding():
+    for metres in (1e-3, 1e-2, 0.025, 1.0):
+        for wanted in (0.4, -0.04, 0.0, 1.2345e-3, 7e-7):
+            push = exact_push(wanted, metres)
+            displacement = metres * push
+            assert abs(push - wanted) * metres < 1e-12
+            times = min(10_000, int(12.0 / max(abs(displacement), 1e-6)))    # to 12 m
+            running = 0.0
+            for _ in range(times):
+                running += displacement
+            assert running == math.fsum([displacement] * times)
+
+
+def test_what_no_table_can_say_is_one_phrase():
+    gains = Steered({"solver": "pbd", "drive": "push", "timeStep": 0.01})
+    assert "solver direct" in gains.problem
+    steered = Steered({"solver": "direct", "drive": "displace", "timeStep": 0.01, "metresPerUnit": 1e-3})
+    steered.invalidate("timeStep was changed")
+    steered.add(1.0, 0.0, 5)
+    assert steered.problem == "timeStep was changed" and json.dumps(steered.problem)

@@ -1,0 +1,93 @@
+// @ts-check
+import { Dial, Gauge } from "./gauges.js";
+import { byId, make } from "./panel.js";
+import { LIMITS, Score, largestForce } from "./score.js";
+
+/** @typedef {import("./recording.js").Recording} Recording */
+
+const MILLIMETRES_A_TURN = 100; // of the dial of insertion
+
+/** What an operator looks at beside the pictures: forces, insertion and turn, the target, the instruments. */
+export class Desk {
+  constructor() {
+    /** @type {Recording | null} */
+    this._recording = null;
+    this._peaks = { hub: 0, wall: 0 };
+    this._first = 0; // z of the first node along the drive, where nothing is read off at the hub
+  }
+
+  /** @param {Recording[]} recordings the first one is read off */
+  set(recordings) {
+    const [recording] = recordings;
+    this._recording = recording;
+    this.score = new Score(recording);
+    const hub = recording.channels.get("hubForce");
+    const wall = recording.channels.get("contactForce");
+    this._hub = new Gauge("force at the hub", hub?.unit === "N" ? LIMITS.hubForce : null);
+    this._wall = new Gauge("largest wall force", wall?.unit === "N" ? LIMITS.wallForce : null);
+    this._insertion = new Dial("insertion", (millimetres) => (2 * Math.PI * millimetres) / MILLIMETRES_A_TURN);
+    this._turn = new Dial("turn", (turn) => turn);
+    const target = recording.described?.target;
+    this._left = make("output", {});
+    this._wayDone = make("i", {});
+    const card = make("div", { className: "card" },
+      ...(target ? [make("div", { className: "line" }, make("span", {}, `to ${target.name}`), this._left),
+        make("div", { className: "way" }, this._wayDone)]
+        : [make("div", { className: "line" }, make("span", {}, "tip went"), this._left)]));
+    const legend = make("div", { className: "card" }, ...recordings.flatMap((one) =>
+      one.instruments.map((instrument) => make("div", {}, swatch(instrument.colour),
+        recordings.length > 1 ? `${instrument.name}, ${one.title}` : instrument.name))));
+    byId("desk").replaceChildren(this._hub.element, this._wall.element,
+      make("div", { className: "dials" }, this._insertion.element, this._turn.element), card, legend);
+    byId("scoreReading").hidden = !target;
+  }
+
+  /** Shows a frame. @param {number} frame */
+  show(frame) {
+    const recording = this._recording;
+    if (!recording || !this.score) return;
+    this.score.show(frame);
+    const at = (/** @type {string} */ name) =>
+      (recording.channels.has(name) ? recording.at(name, frame)[0] : NaN);
+    const unitOf = (/** @type {string} */ name) => recording.channels.get(name)?.unit ?? "";
+    this._hub?.show(at("hubForce"), unitOf("hubForce"), recording.channels.get("hubForce")?.largest ?? 0);
+    this._wall?.show(largestForce(recording, frame), unitOf("contactForce"),
+      recording.channels.get("contactForce")?.largest ?? 0);
+    const millimetres = recording.millimetres;
+    const inserted = recording.channels.has("hubInsertion") ? 1000 * at("hubInsertion")
+      : millimetres * moved(recording, frame, 0);
+    this._insertion?.show(inserted, `${inserted.toFixed(1)}\nmm`);
+    const turn = at("hubTurn");
+    this._turn?.show(turn, `${Math.round((turn * 180) / Math.PI)}°`);
+    const clock = byId("clock");
+    clock.textContent = `${at("time").toFixed(1)} s`;
+    byId("score").textContent = String(this.score.points);
+    if (!this._left || !this._wayDone) return;
+    if (recording.described?.target) {
+      const { left, reachedAt, best } = this.score;
+      this._left.textContent = Number.isNaN(reachedAt) ? `${(millimetres * left).toFixed(0)} mm`
+        : `reached at ${reachedAt.toFixed(1)} s`;
+      this._wayDone.style.width = `${100 * best}%`;
+    } else {
+      const spheres = recording.channel("positions").width / 3;
+      this._left.textContent = `${(millimetres * moved(recording, frame, spheres - 1)).toFixed(0)} mm`;
+    }
+  }
+}
+
+/**
+ * How far a node is from where the recording begins, units.
+ * @param {Recording} recording @param {number} frame @param {number} node
+ */
+function moved(recording, frame, node) {
+  const from = recording.at("positions", 0).subarray(3 * node, 3 * node + 3);
+  const to = recording.at("positions", frame).subarray(3 * node, 3 * node + 3);
+  return Math.hypot(to[0] - from[0], to[1] - from[1], to[2] - from[2]);
+}
+
+/** @param {string} colour */
+function swatch(colour) {
+  const made = make("span", { className: "swatch" });
+  made.style.background = colour;
+  return made;
+}

@@ -1,0 +1,165 @@
+// @ts-check
+/** Shaders of the fluoroscopic picture. Rows count from below here, from above in the core. */
+
+/** A triangle over the whole picture. */
+export const COVER = `#version 300 es
+void main() { gl_Position = vec4(4.0 * float(gl_VertexID & 1) - 1.0, 2.0 * float(gl_VertexID & 2) - 1.0, 0.0, 1.0); }`;
+
+/** The four corners of a piece's strip, with what is beyond its sides and ends. */
+export const STRIP_CORNERS = `#version 300 es
+precision highp float;
+layout(location = 0) in vec4 placing; // x, y, direction
+layout(location = 1) in vec4 extent;  // length, extent of the tilted end, part that is a strip, outer radius
+layout(location = 2) in vec4 matter;  // inner radius, depth per chord, even depth, free ends
+uniform float pixels;
+flat out vec4 place;
+flat out vec4 size;
+flat out vec4 wall;
+void main() {
+  place = placing;
+  size = extent;
+  wall = matter;
+  float across = extent.w + 0.5 * (max(abs(placing.z), 1e-3) + max(abs(placing.w), 1e-3));
+  float beyond = 0.5 * (extent.y + 1.0);
+  float along = (gl_VertexID & 1) == 0 ? -beyond : extent.x + beyond;
+  float side = (gl_VertexID & 2) == 0 ? -across : across;
+  vec2 at = placing.xy + along * placing.zw + side * vec2(-placing.w, placing.z);
+  gl_Position = vec4(2.0 * at.x / pixels - 1.0, 1.0 - 2.0 * at.y / pixels, 0.0, 1.0);
+}`;
+
+/** Optical depth of a piece in a pixel: StripProfile and InstrumentShadow of the core. */
+export const STRIP = `#version 300 es
+precision highp float;
+const int PARTS = 6;
+const float HALF_PI = 1.5707963;
+uniform float pixels;
+flat in vec4 place;
+flat in vec4 size;
+flat in vec4 wall;
+out vec4 depth;
+
+float ramp(float x) { return x > 0.0 ? 0.5 * x * x : 0.0; }
+float trapezoid(float x, float one, float other) {
+  float outer = 0.5 * (one + other);
+  float inner = 0.5 * (one - other);
+  return (ramp(x + outer) - ramp(x + inner) - ramp(x - inner) + ramp(x - outer)) / (one * other);
+}
+float smoothed(float x, float width) {
+  float outer = 0.5 * (width + 1.0);
+  return x <= -outer ? 0.0 : x >= outer ? 1.0 : trapezoid(x, width, 1.0);
+}
+float chords(float u) {
+  float v = clamp(u, -1.0, 1.0);
+  return v * sqrt(1.0 - v * v) + asin(v);
+}
+float way(float s) {
+  float outer = sqrt(max(0.0, size.w * size.w - s * s));
+  return 2.0 * (outer - sqrt(max(0.0, wall.x * wall.x - s * s)));
+}
+float across(float distance, float one, float other) {
+  float r = size.w;
+  float a = wall.x;
+  float wide = 0.5 * (one + other);
+  float low = max(-r, distance - wide);
+  float width = (min(r, distance + wide) - low) / float(PARTS);
+  if (!(width > 0.0)) return 0.0;
+  float chord = chords(low / r);
+  float lumen = a > 0.0 ? chords(low / a) : 0.0;
+  float side = way(low);
+  float area = trapezoid(low - distance, one, other);
+  float taken = 0.0;
+  for (int k = 1; k <= PARTS; k++) {
+    float edge = low + float(k) * width;
+    float nextChord = chords(edge / r);
+    float through = r * r * (nextChord - chord);
+    chord = nextChord;
+    if (a > 0.0) {
+      float nextLumen = chords(edge / a);
+      through -= a * a * (nextLumen - lumen);
+      lumen = nextLumen;
+    }
+    float nextSide = way(edge);
+    float spread = min(wall.y * abs(nextSide - side), 3.0);
+    side = nextSide;
+    float nextArea = trapezoid(edge - distance, one, other);
+    float passed = exp(-(wall.y * through / width + wall.z)) * (1.0 + spread * spread / 24.0);
+    taken += (nextArea - area) * (1.0 - passed);
+    area = nextArea;
+  }
+  return -log(max(1.0 - taken, 1e-12));
+}
+void main() {
+  vec2 at = vec2(gl_FragCoord.x, pixels - gl_FragCoord.y) - place.xy;
+  float along = dot(at, place.zw);
+  float full = across(at.y * place.z - at.x * place.w, max(abs(place.w), 1e-3), max(abs(place.z), 1e-3));
+  float begins = smoothed(along, size.y);
+  float ends = smoothed(along - size.x, size.y);
+  int free = int(wall.w);
+  bool isFreeEnd = ((free & 1) != 0 && begins < 1.0) || ((free & 2) != 0 && ends > 0.0);
+  float window = (begins - ends) / size.z;
+  depth = vec4(isFreeEnd && size.z == 1.0 ? -log(1.0 - window * (1.0 - exp(-full))) : window * full, 0.0, 0.0, 1.0);
+}`;
+
+/** Brightness of background, vessel and instruments. */
+export const COMPOSE = `#version 300 es
+precision highp float;
+uniform highp sampler2D thickness;
+uniform highp sampler2D depth;
+uniform float contrast;
+uniform float background;
+uniform int vessel;
+out vec4 brightness;
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  int rows = textureSize(thickness, 0).y;
+  float passed = vessel == 0 ? 1.0 : exp(-contrast * texelFetch(thickness, ivec2(at.x, rows - 1 - at.y), 0).r);
+  float layer = vessel == 2 ? 1.0 + 0.3 * (1.0 - passed) : passed;
+  brightness = vec4(background * layer * exp(-texelFetch(depth, at, 0).r), 0.0, 0.0, 1.0);
+}`;
+
+/** Blur along rows or columns. */
+export const BLUR = `#version 300 es
+precision highp float;
+uniform highp sampler2D picture;
+uniform float weights[24];
+uniform int reach;
+uniform ivec2 along;
+out vec4 brightness;
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  ivec2 last = textureSize(picture, 0) - 1;
+  float sum = weights[0] * texelFetch(picture, at, 0).r;
+  for (int k = 1; k <= reach; k++) {
+    sum += weights[k] * (texelFetch(picture, clamp(at + k * along, ivec2(0), last), 0).r
+      + texelFetch(picture, clamp(at - k * along, ivec2(0), last), 0).r);
+  }
+  brightness = vec4(sum, 0.0, 0.0, 1.0);
+}`;
+
+/** Noise, as QuantumNoise of the core, and grey levels. */
+export const SHOW = `#version 300 es
+precision highp float;
+precision highp int;
+uniform highp sampler2D picture;
+uniform float noise;
+uniform uint seed;
+out vec4 colour;
+uint mixed(uint h) {
+  h ^= h >> 16;
+  h *= 0x7feb352du;
+  h ^= h >> 15;
+  h *= 0x846ca68bu;
+  return h ^ (h >> 16);
+}
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  ivec2 size = textureSize(picture, 0);
+  float brightness = texelFetch(picture, at, 0).r;
+  if (noise > 0.0) {
+    uint h = mixed(mixed(seed ^ 0x9e3779b9u) + uint((size.y - 1 - at.y) * size.x + at.x));
+    uint pairs = (h & 0x00ff00ffu) + ((h >> 8) & 0x00ff00ffu);
+    float deviation = (float((pairs & 0xffffu) + (pairs >> 16)) - 510.0) / 147.80054;
+    brightness += noise * sqrt(brightness) * deviation;
+  }
+  colour = vec4(vec3(floor(255.0 * clamp(brightness, 0.0, 1.0) + 0.5) / 255.0), 1.0);
+}`;

@@ -1,0 +1,174 @@
+// @ts-check
+import { Fluoroscopy, plainLook } from "./fluoroscopy.js";
+import { byId, make } from "./panel.js";
+
+/** @typedef {import("./model.js").Model} Model */
+/** @typedef {import("./carm.js").Point} Point */
+
+const PIXELS = 512;
+const VIEWS = /** @type {[string, number, number][]} */ ([["AP", 0, 0], ["LAO 30", 30, 0], ["RAO 30", -30, 0],
+  ["lateral", 90, 0], ["cranial 25", 0, 25]]);
+const DEGREES_A_POINT = 0.4; // of dragging
+const WIDEST = 180; // mm, as of a detector: where the vessel is larger the picture goes with the tip
+const CLOSE_UP = 80; // mm
+const WORN = { noise: 0.022, blur: 0.12 }; // how a picture looks on the screen
+const MOST_CRANIAL = 60;
+
+/** The X-ray view: the C-arm, its buttons and mouse, and the target's mark. */
+export class Xray {
+  constructor() {
+    const canvas = byId("fluoroscopy");
+    /** @type {Fluoroscopy | null} */
+    this.fluoroscopy = null;
+    try {
+      this.fluoroscopy = new Fluoroscopy(canvas, PIXELS);
+    } catch (error) {
+      console.info(`no fluoroscopy: ${error}`);
+    }
+    /** @type {Model[]} */
+    this._models = [];
+    this._isClose = false;
+    this._frames = 0;
+    /** Pictures drawn so far. */
+    this.drawn = 0;
+    this._isAsked = false;
+    this._zoom = 1;
+    /** @type {Point | undefined} */
+    this._middle = undefined;
+    document.body.dataset.xray = "none";
+    this._makeTools();
+    canvas.addEventListener("pointermove", (/** @type {PointerEvent} */ event) => {
+      if (event.buttons) this.turnArm(-DEGREES_A_POINT * event.movementX, DEGREES_A_POINT * event.movementY);
+    });
+    canvas.addEventListener("wheel", (/** @type {WheelEvent} */ event) => {
+      event.preventDefault();
+      this.zoom(event.deltaY < 0 ? 1 / 1.15 : 1.15);
+    }, { passive: false });
+  }
+
+  /** @param {Model[]} models each with a recording */
+  set(models) {
+    this._models = models.filter(({ recording }) => recording.described);
+    const isShown = this.fluoroscopy !== null && this._models.length > 0;
+    document.body.dataset.xray = isShown ? "shown" : "none";
+    if (!this.fluoroscopy || !isShown) return;
+    const [{ recording }] = this._models;
+    this.fluoroscopy.look = { ...plainLook(), ...WORN };
+    this.fluoroscopy.set(recording.walls, recording.box, recording.millimetres);
+    this._zoom = 1;
+    this.ask();
+  }
+
+  /** Shows the same scene from its start, from where it is seen now. @param {Model[]} models */
+  keep(models) {
+    this._models = models.filter(({ recording }) => recording.described);
+    this._middle = undefined;
+    this.ask();
+  }
+
+  /** Turns the C-arm. @param {number} lao degrees @param {number} cranial */
+  turnArm(lao, cranial) {
+    if (!this.fluoroscopy) return;
+    const { look } = this.fluoroscopy;
+    this.point(look.lao + lao, look.cranial + cranial);
+  }
+
+  /** @param {number} lao degrees @param {number} cranial */
+  point(lao, cranial) {
+    if (!this.fluoroscopy) return;
+    this.fluoroscopy.look.lao = ((((lao + 180) % 360) + 360) % 360) - 180;
+    this.fluoroscopy.look.cranial = Math.max(-MOST_CRANIAL, Math.min(MOST_CRANIAL, cranial));
+    this.ask();
+  }
+
+  /** @param {number} factor on the side of the picture */
+  zoom(factor) {
+    this._zoom = Math.max(0.1, Math.min(4, this._zoom * factor));
+    this.ask();
+  }
+
+  /** Asks for a picture when the screen takes the next one. */
+  ask() {
+    if (this._isAsked || !this._models.length || document.body.dataset.views === "space") return;
+    this._isAsked = true;
+    requestAnimationFrame(() => {
+      this._isAsked = false;
+      this._draw();
+    });
+  }
+
+  _draw() {
+    if (!this.fluoroscopy || !this._models.length) return;
+    const { look } = this.fluoroscopy;
+    const [{ recording, tip }] = this._models;
+    look.centre = null;
+    look.field = null;
+    const whole = (PIXELS / this.fluoroscopy.arm.scale) * recording.millimetres;
+    look.field = this._zoom * Math.min(whole, this._isClose ? CLOSE_UP : WIDEST);
+    if (look.field < whole) {
+      look.centre = this._kept(/** @type {Point} */ ([...tip]), look.field / recording.millimetres);
+    }
+    look.seed = this._frames++;
+    this.fluoroscopy.draw(this._models.flatMap((model) => model.recording.instruments.map((instrument, k) =>
+      /** @type {[import("./pieces.js").Instrument, Float64Array]} */ ([instrument, model.centreline(k)]))));
+    this._label();
+    this.drawn++;
+  }
+
+  /** A middle that moves only when the tip is about to leave the picture. @param {Point} tip @param {number} side units */
+  _kept(tip, side) {
+    const last = this._middle;
+    const isIn = last && last.every((value, k) => Math.abs(value - tip[k]) < 0.3 * side);
+    if (!isIn) this._middle = tip;
+    return this._middle ?? tip;
+  }
+
+  _label() {
+    if (!this.fluoroscopy) return;
+    const { lao, cranial, field } = this.fluoroscopy.look;
+    const angle = (/** @type {number} */ value, /** @type {string[]} */ names) =>
+      `${names[value < 0 ? 1 : 0]} ${Math.abs(Math.round(value))}°`;
+    byId("arm").textContent = `${angle(lao, ["LAO", "RAO"])}  ${angle(cranial, ["CRAN", "CAUD"])}\n${
+      Math.round(field ?? 0)} mm`;
+    for (const button of byId("armTools").querySelectorAll("button[data-lao]")) {
+      button.setAttribute("aria-pressed", String(Number(button.dataset.lao) === Math.round(lao)
+        && Number(button.dataset.cranial) === Math.round(cranial)));
+    }
+    const target = this._models[0].recording.described?.target;
+    const mark = byId("reticle");
+    mark.hidden = !target;
+    if (!target) return;
+    const [x, y] = this.fluoroscopy.arm.project(target.points[target.points.length - 1], 0, [0, 0, 0]);
+    const canvas = byId("fluoroscopy");
+    const box = canvas.getBoundingClientRect();
+    const around = byId("xray").getBoundingClientRect();
+    mark.hidden = !(x > 0 && x < PIXELS && y > 0 && y < PIXELS);
+    mark.style.transform = `translate(${box.left - around.left + (x / PIXELS) * box.width}px, ${
+      box.top - around.top + (y / PIXELS) * box.height}px)`;
+  }
+
+  _makeTools() {
+    const close = make("button", { id: "close", onclick: () => {
+      this._isClose = !this._isClose;
+      close.setAttribute("aria-pressed", String(this._isClose));
+      this._middle = undefined;
+      this.ask();
+    } }, "tip close up");
+    close.setAttribute("aria-pressed", "false");
+    const vessel = make("select", { id: "vessel", onchange: () => {
+      if (this.fluoroscopy) this.fluoroscopy.look.vessel = vessel.value;
+      this.ask();
+    } }, ...[["roadmap", "road map"], ["contrast", "contrast"], ["none", "no contrast"]].map(([value, text]) =>
+      make("option", { value }, text)));
+    vessel.setAttribute("aria-label", "vessel");
+    const near = make("button", { onclick: () => this.zoom(1 / 1.25) }, "+");
+    near.setAttribute("aria-label", "nearer");
+    const far = make("button", { onclick: () => this.zoom(1.25) }, "−");
+    far.setAttribute("aria-label", "farther");
+    byId("armTools").replaceChildren(...VIEWS.map(([name, lao, cranial]) => {
+      const button = make("button", { onclick: () => this.point(lao, cranial) }, name);
+      Object.assign(button.dataset, { lao, cranial });
+      return button;
+    }), vessel, close, near, far);
+  }
+}

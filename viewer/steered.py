@@ -1,0 +1,86 @@
+"""What was steered, as a table for `driveFile` that moves the hub by the same bits.
+
+The core moves a steered hub by metresPerUnit * push in a step, and a hub with a table by the difference of two of its
+values. The two are the same double where the displacement is a multiple of 2^-48 m: sums of those are exact up to 16 m.
+So a page's steering is rounded to such displacements (3.6e-15 m), and turns to multiples of 2^-40 rad.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+_GRAIN = 2.0 ** -48  # m
+_TURN_GRAIN = 2.0 ** -40  # rad
+_CONSTANT = 1e-6  # of a step: so long before and after its end the table stands still
+_TRIES = 200  # displacements beside the wanted one; about every second is met
+
+
+def exact_push(wanted: float, metres: float) -> float:
+    """A push in a step, units, near a wanted one, for which metres * push is a multiple of the grain."""
+    middle = round(metres * wanted / _GRAIN)
+    for k in range(_TRIES):
+        displacement = (middle + (k + 1) // 2 * (1 if k % 2 else -1)) * _GRAIN
+        push = displacement / metres
+        for near in (push, math.nextafter(push, math.inf), math.nextafter(push, -math.inf)):
+            if metres * near == displacement:
+                return near
+    raise ArithmeticError(f"no push near {wanted} units gives an exact displacement")  # every second one does
+
+
+def exact_turn(wanted: float) -> float:
+    """A turn in a step, rad, near a wanted one, that is a multiple of the grain."""
+    return round(wanted / _TURN_GRAIN) * _TURN_GRAIN
+
+
+def obstacle(parameters: Mapping[str, Any]) -> str:
+    """Why a run with these values cannot be moved by a table, in one phrase; empty where it can."""
+    if parameters.get("solver") != "direct" or parameters.get("drive") != "displace":
+        return "only a wire of solver direct with drive \"displace\" takes a drive table"
+    return ""
+
+
+class Steered:
+    """The hub's displacement and turn of every step since a run's start.
+
+    Parameters
+    ----------
+    parameters : effective values of the run.
+    """
+
+    def __init__(self, parameters: Mapping[str, Any]) -> None:
+        self.problem = obstacle(parameters)
+        self.steps = 0
+        self._dt = float(parameters["timeStep"])
+        self._metres = float(parameters.get("metresPerUnit", 1e-3))
+        self._insertion = self._rotation = 0.0
+        self._rows: list[tuple[int, float, float]] = [(0, 0.0, 0.0)]  # step, m, rad
+
+    def add(self, push: float, turn: float, steps: int) -> None:
+        """Note steps that were made with so much push (units) and turn (rad) in each."""
+        if self.problem:
+            return
+        displacement = self._metres * push
+        for _ in range(steps):
+            self.steps += 1
+            self._insertion += displacement
+            self._rotation += turn
+            self._rows.append((self.steps, self._insertion, self._rotation))
+
+    def invalidate(self, why: str) -> None:
+        """From here on no table says what was steered."""
+        self.problem = self.problem or why
+
+    def to_csv(self) -> str:
+        """The table, as `driveFile` takes it.
+
+        A step asks for the values at its beginning and at its end. The core's time at those differs from a multiple of
+        dt by roundings, so around each multiple the value is constant.
+        """
+        lines = ["time,insertion,rotation", "0.0,0.0,0.0"]
+        for step, insertion, rotation in self._rows:
+            for side in ((-1, 1) if step else (1,)):
+                time = step * self._dt + side * _CONSTANT * self._dt
+                lines.append(f"{time!r},{insertion!r},{rotation!r}")
+        return "\n".join(lines) + "\n"
