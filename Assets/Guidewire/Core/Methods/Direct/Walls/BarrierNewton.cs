@@ -78,8 +78,9 @@ namespace Guidewire.Core
         /// <param name="stageLength">h, s.</param>
         /// <param name="loads">Sum of the loads' magnitudes, N.</param>
         /// <param name="isFar">Whether the shape is certainly not the solution yet.</param>
+        /// <param name="tolerances">How many times the tolerance may be left, 1 or more.</param>
         /// <returns>Null, or why it has not converged; the shape is then not to be used.</returns>
-        public string? Solve(RodShape shape, double stageLength, double loads, bool isFar)
+        public string? Solve(RodShape shape, double stageLength, double loads, bool isFar, double tolerances)
         {
             double rounding = LastPlace * (shape.X[0].Length + _totalLength)
                 * (10.0 * _axialSpring + _mass / (stageLength * stageLength));
@@ -93,7 +94,7 @@ namespace Guidewire.Core
                     GradientMeasures measures = _newton.System.Gradient(_terms, shape, _newton.Gradient,
                         _newton.Direction);
                     left = Unbalanced();
-                    double allowed = rounding + Math.Min(
+                    double allowed = rounding + tolerances * Math.Min(
                         Balance * Math.Max(measures.LargestForce, loads), MostUnbalanced);
                     if (left <= allowed)
                     {
