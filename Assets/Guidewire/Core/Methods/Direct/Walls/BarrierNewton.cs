@@ -10,9 +10,9 @@ namespace Guidewire.Core
     /// second derivative is not positive definite, a wire under thrust away from the solution, its negative pivots
     /// change sign where the direction is then short, or else a multiple of the metric is added, kept from one
     /// iteration to the next. The former slows down only what is unstable: a wire whose forces balance in the plane of
-    /// its bend converges in it as fast as ever, though it would go on out of the plane. A stage is solved when no piece of the rod, from its start to any
-    /// node, is out of balance by more than S, as in <see cref="StageSolver"/>; where the energy's own rounding hides
-    /// the decrease the balance decides alone.</remarks>
+    /// its bend converges in it as fast as ever, though it would go on out of the plane. A stage is solved when no
+    /// piece of the rod, from its start to any node, is out of balance by more than S, as in <see
+    /// cref="StageSolver"/>; where the energy's own rounding hides the decrease the balance decides alone.</remarks>
     internal sealed class BarrierNewton
     {
         private const double LastPlace = 1.0 / (1L << 52);
@@ -82,6 +82,13 @@ namespace Guidewire.Core
         /// <returns>Null, or why it has not converged; the shape is then not to be used.</returns>
         public string? Solve(RodShape shape, double stageLength, double loads, bool isFar, double tolerances)
         {
+            string? failure = Descend(shape, stageLength, loads, isFar, tolerances);
+            _barrier.ForgetForces();
+            return failure;
+        }
+
+        private string? Descend(RodShape shape, double stageLength, double loads, bool isFar, double tolerances)
+        {
             double rounding = LastPlace * (shape.X[0].Length + _totalLength)
                 * (10.0 * _axialSpring + _mass / (stageLength * stageLength));
             double left = double.PositiveInfinity;
@@ -113,6 +120,7 @@ namespace Guidewire.Core
                 Iterations++;
                 double size = _newton.Size(out double relative);
                 double scale = _newton.MaxStep(shape, size, relative, out _);
+                _barrier.EstimateForces(shape, _newton.Direction, scale);
                 if (!_newton.Search(shape, !hasValues, ref scale, size, out bool isHidden))
                 {
                     if (wasFar)
