@@ -16,6 +16,7 @@ namespace Guidewire.Core.Tests
         private static readonly double Apothem = Math.Cos(Math.PI / Sides);
         private static readonly double[] Inner = { 1.0 };
         private static readonly double[] Both = { 1.0, 1.02 };
+        private static readonly ContactShape[] Walls = { Tube(1.0), Tube(1.02) };
 
         [Test]
         public void NodeMovedOut_IsCounted_WhereverItMeetsTheWall([Values(0, 3, 8, N)] int node,
@@ -86,9 +87,8 @@ namespace Guidewire.Core.Tests
         private static long Count(double[] radii, Vector3d[] from, Vector3d[] to)
         {
             MaterialRod rod = MaterialRod.Round(N, N * Spacing, 0.05, 1e6, 1e6, 1e3);
-            ContactShape[] walls = Array.ConvertAll(radii, radius => (ContactShape)new MeshShape(
-                TestMeshes.Tube(Sides, 10, Length, z => radius).Build(
-                    new[] { Vector3d.Zero, new Vector3d(0.0, 0.0, Length) })));
+            var walls = new ContactShape[radii.Length];
+            Array.Copy(Walls, walls, walls.Length);
             var barrier = new BarrierEnergy(rod, walls, 1.0, new Barrier(0.02, 10.0));
             var terms = new WallTerms(barrier, null, new SupportSpring(rod, 0.0), false);
             var monitor = new WallMonitor(rod, terms, 1.0);
@@ -98,6 +98,12 @@ namespace Guidewire.Core.Tests
             monitor.AddPart(Shape(to));
             monitor.EndStep(Shape(to), record);
             return record.Passages;
+        }
+
+        private static ContactShape Tube(double radius)
+        {
+            return new MeshShape(TestMeshes.Tube(Sides, 10, Length, z => radius).Build(
+                new[] { Vector3d.Zero, new Vector3d(0.0, 0.0, Length) }));
         }
 
         private static RodShape Shape(Vector3d[] x)
