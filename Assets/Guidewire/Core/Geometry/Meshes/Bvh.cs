@@ -17,6 +17,10 @@ namespace Guidewire.Core
         private readonly Vector3d[] _normals;  // sum of its triangles' area vectors, per node
         private readonly int[] _from;          // first of its triangles, per node
         private readonly int[] _count;         // number of its triangles, per node
+        private readonly StructList<int> _found = new StructList<int>(64);    // leaves
+#if NET8_0_OR_GREATER
+        private WideBvh? _wide;
+#endif
 
         /// <summary>The tree over triangles 0 to corners.Length/3 - 1, three corners each, in units.</summary>
         /// <param name="normals">One a triangle, whose sums the slabs lie across; null: the triangles' own. Those of no
@@ -78,6 +82,9 @@ namespace Guidewire.Core
                 }
                 node.EncloseSlab(_normals[i], _corners, 3 * _from[i], 3 * _count[i]);
             }
+#if NET8_0_OR_GREATER
+            _wide?.Refit(_nodes);
+#endif
         }
 
         /// <summary>Triangle nearest to segment a b among those within <paramref name="range"/>, -1 if there is none,
@@ -120,78 +127,26 @@ namespace Guidewire.Core
         /// little farther.</summary>
         public void Within(in Vector3d a, in Vector3d b, double range, StructList<int> triangles)
         {
-            var search = new SegmentSearch(a, b, range);
-            Span<int> stack = stackalloc int[StackSize];
-            int depth = 0;
-            stack[depth++] = 0;
-            while (depth > 0)
-            {
-                ref readonly BvhNode node = ref _nodes[stack[--depth]];
-                if (!search.MayHold(node, out _))
-                {
-                    continue;
-                }
-                if (node.Count == 0)
-                {
-                    stack[depth++] = node.First;
-                    stack[depth++] = node.First + 1;
-                    continue;
-                }
-                for (int k = node.First; k < node.First + node.Count; k++)
-                {
-                    triangles.Add(_order[k]);
-                }
-            }
+            FindLeaves(new SegmentSearch(a, b, range));
+            AddTriangles(triangles);
         }
 
         /// <summary>Adds every triangle that a moving segment may come near to, and perhaps some others.</summary>
         public void Within(in SweptSegment swept, StructList<int> triangles)
         {
-            var search = new SegmentSearch(swept.A0, swept.B0, swept.Range);
-            Span<int> stack = stackalloc int[StackSize];
-            int depth = 0;
-            stack[depth++] = 0;
-            while (depth > 0)
-            {
-                ref readonly BvhNode node = ref _nodes[stack[--depth]];
-                if (!swept.MayMeet(node) || !search.MayHold(node, out _))
-                {
-                    continue;
-                }
-                if (node.Count == 0)
-                {
-                    stack[depth++] = node.First;
-                    stack[depth++] = node.First + 1;
-                    continue;
-                }
-                for (int k = node.First; k < node.First + node.Count; k++)
-                {
-                    triangles.Add(_order[k]);
-                }
-            }
+            FindLeaves(swept, new SegmentSearch(swept.A0, swept.B0, swept.Range));
+            AddTriangles(triangles);
         }
 
         /// <summary>False where surely no triangle comes within the distance of a moving segment.</summary>
         public bool MayMeet(in SweptSegment swept)
         {
             var search = new SegmentSearch(swept.A0, swept.B0, swept.Range);
-            Span<int> stack = stackalloc int[StackSize];
-            int depth = 0;
-            stack[depth++] = 0;
-            while (depth > 0)
+            FindLeaves(swept, search);
+            for (int i = 0; i < _found.Count; i++)
             {
-                ref readonly BvhNode node = ref _nodes[stack[--depth]];
-                if (!swept.MayMeet(node) || !search.MayHold(node, out _))
-                {
-                    continue;
-                }
-                if (node.Count == 0)
-                {
-                    stack[depth++] = node.First;
-                    stack[depth++] = node.First + 1;
-                    continue;
-                }
-                for (int k = node.First; k < node.First + node.Count; k++)
+                ref readonly BvhNode leaf = ref _nodes[_found[i]];
+                for (int k = leaf.First; k < leaf.First + leaf.Count; k++)
                 {
                     if (MayMeet(swept, k, search.Squared))
                     {
@@ -202,12 +157,90 @@ namespace Guidewire.Core
             return false;
         }
 
+        private void AddTriangles(StructList<int> triangles)
+        {
+            for (int i = 0; i < _found.Count; i++)
+            {
+                ref readonly BvhNode leaf = ref _nodes[_found[i]];
+                for (int k = leaf.First; k < leaf.First + leaf.Count; k++)
+                {
+                    triangles.Add(_order[k]);
+                }
+            }
+        }
+
+        // The leaves that may hold what is within the search's range of its segment.
+        private void FindLeaves(in SegmentSearch search)
+        {
+            _found.Clear();
+#if NET8_0_OR_GREATER
+            if (WideBvh.IsSupported)
+            {
+                Wide.Collect(new SegmentBoundsTest(search), _found);
+                return;
+            }
+#endif
+            Span<int> stack = stackalloc int[StackSize];
+            int depth = 0;
+            stack[depth++] = 0;
+            while (depth > 0)
+            {
+                int current = stack[--depth];
+                ref readonly BvhNode node = ref _nodes[current];
+                if (search.MayHold(node, out _))
+                {
+                    Push(current, node, stack, ref depth);
+                }
+            }
+        }
+
+        // The same for what a moving segment may come near to.
+        private void FindLeaves(in SweptSegment swept, in SegmentSearch search)
+        {
+            _found.Clear();
+#if NET8_0_OR_GREATER
+            if (WideBvh.IsSupported)
+            {
+                Wide.Collect(new SweptBoundsTest(swept, search), _found);
+                return;
+            }
+#endif
+            Span<int> stack = stackalloc int[StackSize];
+            int depth = 0;
+            stack[depth++] = 0;
+            while (depth > 0)
+            {
+                int current = stack[--depth];
+                ref readonly BvhNode node = ref _nodes[current];
+                if (swept.MayMeet(node) && search.MayHold(node, out _))
+                {
+                    Push(current, node, stack, ref depth);
+                }
+            }
+        }
+
+        private void Push(int current, in BvhNode node, Span<int> stack, ref int depth)
+        {
+            if (node.Count > 0)
+            {
+                _found.Add(current);
+                return;
+            }
+            stack[depth++] = node.First;
+            stack[depth++] = node.First + 1;
+        }
+
+#if NET8_0_OR_GREATER
+        private WideBvh Wide => _wide ??= new WideBvh(_nodes);
+#endif
+
         private bool MayMeet(in SweptSegment swept, int slot, double squaredRange)
         {
             ref readonly Vector3d v0 = ref _corners[3 * slot];
             ref readonly Vector3d v1 = ref _corners[3 * slot + 1];
             ref readonly Vector3d v2 = ref _corners[3 * slot + 2];
-            return !StaysOnOneSide(swept.A0, swept.B0, swept.A1, swept.B1, v0, v1, v2, RoundedUp * swept.Distance)
+            return !SegmentImpact.StaysOnOneSide(
+                    swept.A0, swept.B0, swept.A1, swept.B1, v0, v1, v2, swept.Border)
                 && ClosestPoints.SegmentTriangle(swept.A0, swept.B0, v0, v1, v2, squaredRange, out _, out _, out _)
                     <= squaredRange;
         }
@@ -301,7 +334,7 @@ namespace Guidewire.Core
         {
             for (int k = leaf.First; k < leaf.First + leaf.Count; k++)
             {
-                double time = ImpactWithTriangle(_corners[3 * k], _corners[3 * k + 1], _corners[3 * k + 2],
+                double time = SegmentImpact.WithTriangle(_corners[3 * k], _corners[3 * k + 1], _corners[3 * k + 2],
                     a0, b0, a1, b1, clearance, resolution, motion, ref impact);
                 if (time < ContactShape.NoImpact)
                 {
@@ -309,48 +342,6 @@ namespace Guidewire.Core
                     search.Squared = range * range;
                 }
             }
-        }
-
-        /// <summary>Lowers the fraction of the motion of segment a b during which it stays at least <paramref
-        /// name="clearance"/> from a triangle, if the triangle requires it; returns the lower one, or <see
-        /// cref="ContactShape.NoImpact"/>.</summary>
-        /// <param name="motion">No end of the segment goes farther.</param>
-        public static double ImpactWithTriangle(in Vector3d v0, in Vector3d v1, in Vector3d v2, in Vector3d a0,
-            in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance, double resolution, double motion,
-            ref double impact)
-        {
-            if (StaysOnOneSide(a0, b0, a1, b1, v0, v1, v2, clearance))
-            {
-                return ContactShape.NoImpact;
-            }
-            Vector3d middle = (1.0 / 3.0) * (v0 + v1 + v2);
-            double ball = Math.Sqrt(Math.Max(
-                (v0 - middle).LengthSquared, Math.Max((v1 - middle).LengthSquared, (v2 - middle).LengthSquared)));
-            return ImpactWithBody(
-                new TriangleBody(v0, v1, v2), middle, ball, a0, b0, a1, b1, clearance, resolution, motion, ref impact);
-        }
-
-        /// <summary>The same for any convex body in a ball.</summary>
-        public static double ImpactWithBody<TBody>(in TBody body, in Vector3d middle, double ball, in Vector3d a0,
-            in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance, double resolution, double motion,
-            ref double impact)
-            where TBody : struct, IConvexBody
-        {
-            double limit = Math.Min(1.0, impact);
-            double range = RoundedUp * (clearance + limit * motion);
-            if (!PartWithin(a0, b0, range + ball, middle, out double from, out double to))
-            {
-                return ContactShape.NoImpact;
-            }
-            double time = SweptTest.Impact(
-                body, Vector3d.Lerp(a0, b0, from), Vector3d.Lerp(a0, b0, to),
-                Vector3d.Lerp(a1, b1, from), Vector3d.Lerp(a1, b1, to), clearance, resolution, limit);
-            if (time < impact)
-            {
-                impact = time;
-                return time;
-            }
-            return ContactShape.NoImpact;
         }
 
         private Vector3d SumOfAreas(int first, int count)
@@ -386,46 +377,6 @@ namespace Guidewire.Core
             {
                 search.Accept(squared, slot, s, point, feature);
             }
-        }
-
-        // The part of the segment that may meet a body: what lies within the range of the centre of the ball around it.
-        // Of a long segment that turns about its contact point, that part moves little.
-        private static bool PartWithin(in Vector3d a, in Vector3d b, double range, in Vector3d middle, out double from,
-            out double to)
-        {
-            from = 0.0;
-            to = 1.0;
-            Vector3d along = b - a;
-            double lengthSquared = along.LengthSquared;
-            double rangeSquared = range * range;
-            if (!(lengthSquared > 0.0))
-            {
-                return (middle - a).LengthSquared <= rangeSquared;
-            }
-            double foot = Vector3d.Dot(middle - a, along) / lengthSquared;
-            double left = rangeSquared - (middle - a - foot * along).LengthSquared;
-            if (left < 0.0)
-            {
-                return false;
-            }
-            double half = Math.Sqrt(left / lengthSquared);
-            from = Math.Max(0.0, foot - half);
-            to = Math.Min(1.0, foot + half);
-            return from <= to;
-        }
-
-        private static bool StaysOnOneSide(
-            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
-            in Vector3d v0, in Vector3d v1, in Vector3d v2, double distance)
-        {
-            Vector3d n = Vector3d.Cross(v1 - v0, v2 - v0);
-            double clearance = distance * n.Length;
-            double w = Vector3d.Dot(n, a0 - v0);
-            double x = Vector3d.Dot(n, b0 - v0);
-            double y = Vector3d.Dot(n, a1 - v0);
-            double z = Vector3d.Dot(n, b1 - v0);
-            return (w > clearance && x > clearance && y > clearance && z > clearance)
-                || (w < -clearance && x < -clearance && y < -clearance && z < -clearance);
         }
     }
 }

@@ -142,7 +142,7 @@ namespace Guidewire.Core
                 int i = among[k];
                 if (MayBeWithin(from, limit, i))
                 {
-                    Bvh.ImpactWithTriangle(_mesh.Corners[3 * i], _mesh.Corners[3 * i + 1], _mesh.Corners[3 * i + 2],
+                    SegmentImpact.WithTriangle(_mesh.Corners[3 * i], _mesh.Corners[3 * i + 1], _mesh.Corners[3 * i + 2],
                         from, from, to, to, clearance, resolution, motion, ref impact);
                 }
             }
@@ -186,7 +186,7 @@ namespace Guidewire.Core
             for (int k = 0; k < _found.Count; k++)
             {
                 int i = 3 * _found[k];
-                Bvh.ImpactWithTriangle(_mesh.Corners[i], _mesh.Corners[i + 1], _mesh.Corners[i + 2],
+                SegmentImpact.WithTriangle(_mesh.Corners[i], _mesh.Corners[i + 1], _mesh.Corners[i + 2],
                     from, from, to, to, clearance, resolution, motion, ref impact);
             }
         }
@@ -224,7 +224,7 @@ namespace Guidewire.Core
             _mesh.EndsOf(edge, out int from, out int to);
             ref readonly Vector3d start = ref _mesh.Corners[from];
             ref readonly Vector3d end = ref _mesh.Corners[to];
-            Bvh.ImpactWithBody(new EdgeBody(start, end), 0.5 * (start + end), 0.5 * Vector3d.Distance(start, end),
+            SegmentImpact.WithBody(new EdgeBody(start, end), 0.5 * (start + end), 0.5 * Vector3d.Distance(start, end),
                 a0, b0, a1, b1, clearance, resolution, motion, ref impact);
         }
 

@@ -41,6 +41,15 @@ namespace Guidewire.Core
         /// <summary>No point of the segment goes farther, units.</summary>
         public double Motion { get; }
 
+        /// <summary>Middle of the box around all that the segment passes and the distance.</summary>
+        public Vector3d Centre => _box.Centre;
+
+        /// <summary>Half the edges of that box, units.</summary>
+        public Vector3d Extent => _box.Extent;
+
+        /// <summary>The distance, rounded up, units.</summary>
+        public double Border => RoundedUp * Distance;
+
         /// <summary>What is within the distance of the moving segment is within this of it where it starts,
         /// units.</summary>
         public double Range => RoundedUp * (Distance + Motion);
@@ -65,7 +74,7 @@ namespace Guidewire.Core
             double x = Vector3d.Dot(normal, B0);
             double y = Vector3d.Dot(normal, A1);
             double z = Vector3d.Dot(normal, B1);
-            double border = RoundedUp * Distance;
+            double border = Border;
             return Math.Min(Math.Min(w, x), Math.Min(y, z)) > high + border
                 || Math.Max(Math.Max(w, x), Math.Max(y, z)) < low - border;
         }

@@ -124,6 +124,33 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>Changes the sign of all negative pivots of the factorisation, L D L^T to L |D| L^T, and of what has
+        /// been divided by them: what a <see cref="Factorise"/> has left for <see cref="Back"/> then leads downhill.
+        /// </summary>
+        public void ReflectNegativePivots(RodVector[] y)
+        {
+            for (int i = 0; i < _count; i++)
+            {
+                ref RodBlock b = ref _block[i];
+                ref RodVector v = ref y[i];
+                Reflect(ref b.A11, ref v.X1);
+                Reflect(ref b.A22, ref v.X2);
+                Reflect(ref b.A33, ref v.X3);
+                Reflect(ref b.C11, ref v.T1);
+                Reflect(ref b.C22, ref v.T2);
+                Reflect(ref b.C33, ref v.T3);
+            }
+        }
+
+        private static void Reflect(ref double inverse, ref double value)
+        {
+            if (inverse < 0.0)
+            {
+                inverse = -inverse;
+                value = -value;
+            }
+        }
+
         /// <summary>Takes the fixed directions out of a vector.</summary>
         public void Project(RodVector[] v)
         {

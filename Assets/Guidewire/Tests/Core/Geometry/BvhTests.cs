@@ -83,6 +83,66 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void Within_FindsAllTrianglesInRange_AndFewOthers()
+        {
+            Vector3d[] corners = TestMeshes.Ball(12, 0.2).Corners;
+            var tree = new Bvh(corners);
+            var random = new RandomGeometry(26);
+            tree.Refit(Array.ConvertAll(corners, corner => 2.0 * corner));
+            tree.Refit(corners);
+            var found = new StructList<int>(16);
+            int wanted = 0;
+            int all = 0;
+            for (int i = 0; i < RandomGeometry.Cases(2_000); i++)
+            {
+                Vector3d[] s = random.Segment(Vector3d.UnitX);
+                double range = random.Number(0.0, 0.3);
+                found.Clear();
+                tree.Within(s[0], s[1], range, found);
+                wanted += AssertHolds(found, corners, t => BruteForce.Distance(s, t) <= range - Tolerance, "case " + i);
+                all += found.Count;
+            }
+            Assert.That(wanted, Is.GreaterThan(all / 3));
+        }
+
+        [Test]
+        public void Within_FindsAllThatAMovingSegmentMeets_AndFewOthers()
+        {
+            const int Moments = 10;
+            Vector3d[] corners = TestMeshes.Ball(12, 0.2).Corners;
+            var tree = new Bvh(corners);
+            var random = new RandomGeometry(27);
+            var found = new StructList<int>(16);
+            int wanted = 0;
+            int all = 0;
+            for (int i = 0; i < RandomGeometry.Cases(300); i++)
+            {
+                Vector3d[] s = random.Segment(Vector3d.UnitX);
+                Vector3d[] to = { s[0] + 0.2 * random.Point(), s[1] + 0.2 * random.Point() };
+                double distance = random.Number(0.0, 0.1);
+                found.Clear();
+                var swept = new SweptSegment(s[0], s[1], to[0], to[1], distance);
+                tree.Within(swept, found);
+                bool Meets(Vector3d[] t)
+                {
+                    bool meets = false;
+                    for (int k = 0; k <= Moments && !meets; k++)
+                    {
+                        double time = (double)k / Moments;
+                        Vector3d[] now = { Vector3d.Lerp(s[0], to[0], time), Vector3d.Lerp(s[1], to[1], time) };
+                        meets = BruteForce.Distance(now, t) <= distance - Tolerance;
+                    }
+                    return meets;
+                }
+                int met = AssertHolds(found, corners, Meets, "case " + i);
+                Assert.That(met == 0 || tree.MayMeet(swept), "case " + i);
+                wanted += met;
+                all += found.Count;
+            }
+            Assert.That(wanted, Is.GreaterThan(all / 6));
+        }
+
+        [Test]
         public void Tree_OfManyEqualTriangles_IsBuiltAndSearched()
         {
             var corners = new Vector3d[3 * 1000];
@@ -94,6 +154,28 @@ namespace Guidewire.Core.Tests
             var tree = new Bvh(corners);
             tree.Nearest(Vector3d.UnitZ, Vector3d.UnitZ, 10.0, -1, out double squared, out _, out _, out _);
             Assert.That(squared, Is.EqualTo(1.0).Within(Tolerance));
+        }
+
+        // That a list has every triangle that counts; how many do.
+        private static int AssertHolds(StructList<int> found, Vector3d[] corners, Func<Vector3d[], bool> counts,
+            string what)
+        {
+            var isFound = new bool[corners.Length / 3];
+            for (int k = 0; k < found.Count; k++)
+            {
+                Assert.That(isFound[found[k]], Is.False, what + ": twice");
+                isFound[found[k]] = true;
+            }
+            int wanted = 0;
+            for (int t = 0; t < isFound.Length; t++)
+            {
+                if (counts(new[] { corners[3 * t], corners[3 * t + 1], corners[3 * t + 2] }))
+                {
+                    Assert.That(isFound[t], what + ", triangle " + t);
+                    wanted++;
+                }
+            }
+            return wanted;
         }
 
         private static void Compare(Vector3d[] corners, RandomGeometry random, int all)

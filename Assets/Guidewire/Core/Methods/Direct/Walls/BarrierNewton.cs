@@ -7,14 +7,17 @@ namespace Guidewire.Core
     /// and barriers, from a shape whose gaps are all open to one whose forces balance.</summary>
     /// <remarks>A step goes no farther than every gap allows on the straight path of the nodes, and is shortened until
     /// the energy falls by a fraction of what the slope predicts (Armijo); so no iterate is outside a wall. Where the
-    /// second derivative is not positive definite, a wire under thrust away from the solution, a multiple of the metric
-    /// is added, kept from one iteration to the next. A stage is solved when no piece of the rod, from its start to any
-    /// node, is out of balance by more than S, as in <see cref="StageSolver"/>; where the energy's own rounding hides
-    /// the decrease the balance decides alone.</remarks>
+    /// second derivative is not positive definite, a wire under thrust away from the solution, its negative pivots
+    /// change sign where the direction is then short, or else a multiple of the metric is added, kept from one
+    /// iteration to the next. The former slows down only what is unstable: a wire whose forces balance in the plane of
+    /// its bend converges in it as fast as ever, though it would go on out of the plane. A stage is solved when no
+    /// piece of the rod, from its start to any node, is out of balance by more than S, as in <see
+    /// cref="StageSolver"/>; where the energy's own rounding hides the decrease the balance decides alone.</remarks>
     internal sealed class BarrierNewton
     {
         private const double LastPlace = 1.0 / (1L << 52);
         private const double LeastShift = 1e-4;          // of EI/L^2
+        private const double MostReflected = 1e-2;       // size of a step by pivots of changed sign: radians, or of L
         private const double Far = 1e4;                  // times what may be unbalanced: not reached in one iteration
         private const int MostStiffened = 4;             // iterations of a stage
         private const double FreeParts = 5.0;            // L over what is free of a wire that touches walls
@@ -75,8 +78,16 @@ namespace Guidewire.Core
         /// <param name="stageLength">h, s.</param>
         /// <param name="loads">Sum of the loads' magnitudes, N.</param>
         /// <param name="isFar">Whether the shape is certainly not the solution yet.</param>
+        /// <param name="tolerances">How many times the tolerance may be left, 1 or more.</param>
         /// <returns>Null, or why it has not converged; the shape is then not to be used.</returns>
-        public string? Solve(RodShape shape, double stageLength, double loads, bool isFar)
+        public string? Solve(RodShape shape, double stageLength, double loads, bool isFar, double tolerances)
+        {
+            string? failure = Descend(shape, stageLength, loads, isFar, tolerances);
+            _barrier.ForgetForces();
+            return failure;
+        }
+
+        private string? Descend(RodShape shape, double stageLength, double loads, bool isFar, double tolerances)
         {
             double rounding = LastPlace * (shape.X[0].Length + _totalLength)
                 * (10.0 * _axialSpring + _mass / (stageLength * stageLength));
@@ -90,7 +101,7 @@ namespace Guidewire.Core
                     GradientMeasures measures = _newton.System.Gradient(_terms, shape, _newton.Gradient,
                         _newton.Direction);
                     left = Unbalanced();
-                    double allowed = rounding + Math.Min(
+                    double allowed = rounding + tolerances * Math.Min(
                         Balance * Math.Max(measures.LargestForce, loads), MostUnbalanced);
                     if (left <= allowed)
                     {
@@ -109,6 +120,7 @@ namespace Guidewire.Core
                 Iterations++;
                 double size = _newton.Size(out double relative);
                 double scale = _newton.MaxStep(shape, size, relative, out _);
+                _barrier.EstimateForces(shape, _newton.Direction, scale);
                 if (!_newton.Search(shape, !hasValues, ref scale, size, out bool isHidden))
                 {
                     if (wasFar)
@@ -164,6 +176,12 @@ namespace Guidewire.Core
             int negative = _newton.Factorise(shape, 0.0);
             if (negative > 0)
             {
+                _newton.System.ReflectNegativePivots(_newton.Direction);
+                _newton.System.Back(_newton.Direction);
+                if (_newton.Size(out _) < MostReflected)
+                {
+                    return;
+                }
                 Stiffen(isStiffened, true);
                 Factorisations++;
                 negative = _newton.Factorise(shape, 0.0);

@@ -5,6 +5,7 @@ namespace Guidewire.Core
     internal sealed class WallStage
     {
         private const int FrictionLagIterations = 1;       // of the normal forces in friction
+        private const double FirstTolerances = 1e3;         // that a solution which only gives normal forces may leave
         private const double Far = 1e3;     // of the error of a stage: farther moved, not converged
 
         private readonly RodTerms _terms;
@@ -66,11 +67,13 @@ namespace Guidewire.Core
                     break;
                 }
             }
-            string? failure = Newton.Solve(shape, stageLength, loads, isFar);
-            for (int k = 0; k < FrictionLagIterations && failure == null && _terms.Walls()!.Friction != null; k++)
+            FrictionEnergy? friction = _terms.Walls()!.Friction;
+            int lags = friction == null ? 0 : FrictionLagIterations;
+            string? failure = Newton.Solve(shape, stageLength, loads, isFar, lags == 0 ? 1.0 : FirstTolerances);
+            for (int k = 1; k <= lags && failure == null; k++)
             {
-                _terms.Walls()!.Friction!.Lag(shape);
-                failure = Newton.Solve(shape, stageLength, loads, isFar: false);
+                friction!.Lag(shape);
+                failure = Newton.Solve(shape, stageLength, loads, isFar: false, k == lags ? 1.0 : FirstTolerances);
             }
             return failure;
         }

@@ -55,6 +55,44 @@ namespace Guidewire.Core.Tests
             Assert.That(negative, Is.EqualTo(expected));
         }
 
+        [TestCase(0.05, 0.0)]
+        [TestCase(0.6, 0.0)]
+        [TestCase(1.2, 0.0)]
+        [TestCase(1.2, 50.0)]
+        public void ReflectedPivots_LeadDownhill_AndLeaveAPositiveMatrixAsItIs(double angle, double shift)
+        {
+            RodSystem(DistalEnd.Free, angle, out MaterialRod rod, out RodSupports supports, out EnergyTerm[] terms,
+                out RodShape shape);
+            var system = new BlockTridiagonal(rod, supports);
+            var gradient = new RodVector[system.VectorCount];
+            var plain = new RodVector[system.VectorCount];
+            var reflected = new RodVector[system.VectorCount];
+            int negative = system.Factorise(terms, shape, gradient, plain, shift);
+            system.Back(plain);
+            system.Factorise(terms, shape, gradient, reflected, shift);
+            system.ReflectNegativePivots(reflected);
+            system.Back(reflected);
+            system.Project(gradient);
+            Assert.That(RodVectors.Dot(gradient, reflected), Is.LessThan(0.0));
+            // g^T (L |D| L^T)^-1 g - g^T (L D L^T)^-1 g is a sum of squares over the negative pivots.
+            Assert.That(
+                RodVectors.Dot(gradient, reflected), Is.LessThanOrEqualTo(RodVectors.Dot(gradient, plain)));
+            if (negative == 0)
+            {
+                Assert.That(DenseMatrix.From(reflected, N + 1), Is.EqualTo(DenseMatrix.From(plain, N + 1)));
+            }
+            else
+            {
+                Assert.That(DenseMatrix.From(reflected, N + 1), Is.Not.EqualTo(DenseMatrix.From(plain, N + 1)));
+            }
+
+            // The same by the factorisation that is kept.
+            var kept = new RodVector[system.VectorCount];
+            system.Gradient(terms, shape, gradient, kept);
+            system.Solve(kept);
+            AssertEqual(DenseMatrix.From(kept, N + 1), DenseMatrix.From(reflected, N + 1), 1e-9);
+        }
+
         [Test]
         public void LongRod_TakenInPieces_IsTheSameAsInOne()
         {

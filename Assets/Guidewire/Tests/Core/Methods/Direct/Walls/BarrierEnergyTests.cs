@@ -35,6 +35,70 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void ChordStiffness_LeadsFromTheForceOfOneGapToThatOfAnother(
+            [Values(1e-6, 0.01, 0.15, 0.29, 0.29999)] double gap, [Values(1e-5, 0.02, 0.2, 0.2999, 0.3)] double other)
+        {
+            // The other gap is found to a thousandth, and the chord is no better than that of their difference.
+            var barrier = new Barrier(0.3, 5.0);
+            barrier.At(gap, out double slope, out _);
+            barrier.At(other, out double otherSlope, out _);
+            double exact = (otherSlope - slope) / (other - gap);
+            double tolerance = 2e-3 * Math.Min(other, 0.3 - other) / Math.Abs(other - gap) + 1e-9;
+            Assert.That(barrier.ChordStiffness(gap, -slope, -otherSlope), Is.EqualTo(exact).Within(tolerance * exact));
+        }
+
+        [Test]
+        public void EstimatedForces_ChangeSecondDerivativesOnly_UntilTheyAreForgotten(
+            [Values("cube", "tube", "open tube")] string name)
+        {
+            int changed = 0;
+            for (int seed = 0; seed < 60; seed++)
+            {
+                BarrierEnergy energy = Create(name, seed, out RodShape shape);
+                if (!(energy.Value(shape) > 0.0) || !(energy.Value(shape) < 1e3))
+                {
+                    continue;
+                }
+                var direction = new RodVector[N + 2];
+                var random = new RandomGeometry(seed);
+                for (int i = 0; i <= N; i++)
+                {
+                    Vector3d move = 1e-2 * random.Point();
+                    direction[i] = new RodVector { X1 = move.X, X2 = move.Y, X3 = move.Z };
+                }
+                var moved = new RodShape(N);
+                RodStep.ApplyStraight(shape, direction, 1.0, moved);
+                BarrierEnergy other = Create(name, seed, out _);
+                other.Value(shape);
+                if (!(other.Value(moved) < 1e3))
+                {
+                    continue;
+                }
+                energy.EstimateForces(shape, direction, 0.3);
+                Assert.That(energy.Value(moved), Is.EqualTo(other.Value(moved)));
+                double[] usual = Blocks(other, moved, out double[] gradient);
+                double[] estimated = Blocks(energy, moved, out double[] same);
+                Assert.That(same, Is.EqualTo(gradient));
+                changed += Array.TrueForAll(estimated, x => Array.IndexOf(usual, x) >= 0) ? 0 : 1;
+                energy.ForgetForces();
+                Assert.That(Blocks(energy, moved, out _), Is.EqualTo(usual));
+            }
+            Assert.That(changed, Is.GreaterThan(0));
+        }
+
+        private static double[] Blocks(BarrierEnergy energy, RodShape shape, out double[] gradient)
+        {
+            var blocks = new RodBlock[N + 2];
+            var sum = new RodVector[N + 2];
+            energy.AddBlocks(shape, blocks, sum, 0, N + 1);
+            gradient = DenseMatrix.From(sum, N + 1);
+            double[,] h = DenseMatrix.From(blocks, N + 1);
+            var all = new double[h.Length];
+            Buffer.BlockCopy(h, 0, all, 0, sizeof(double) * all.Length);
+            return all;
+        }
+
+        [Test]
         public void Gradient_IsTheDifferenceOfTheEnergy([ValueSource(typeof(TestShapes), nameof(TestShapes.Names))]
             string name)
         {
