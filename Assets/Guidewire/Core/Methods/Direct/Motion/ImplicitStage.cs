@@ -246,8 +246,7 @@ namespace Guidewire.Core
         private void BeginDamping(double time)
         {
             Damping?.Begin(_shape, _motion.Velocities, _motion.Spins,
-                new Vector3d(0.0, 0.0, _schedule.Hub.FrameTwistRate),
-                new Vector3d(0.0, 0.0, _schedule.Distal.TwistRateAt(time)));
+                _schedule.ProximalSpinAt(time), _schedule.DistalSpinAt(time));
         }
 
         /// <summary>By the quick iteration from the prediction, or else by the slower search.</summary>
