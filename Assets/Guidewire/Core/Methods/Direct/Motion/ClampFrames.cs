@@ -81,12 +81,18 @@ namespace Guidewire.Core
             return null;
         }
 
+        /// <summary>Up to when motions of the ends have been made, s.</summary>
+        public double Time
+        {
+            get => _time;
+            set => _time = value;
+        }
+
         /// <summary>Writes or takes over the turns.</summary>
         public void Serialize(Snapshot snapshot)
         {
             snapshot.Serialize(ref _proximal);
             snapshot.Serialize(ref _distal);
-            snapshot.Serialize(ref _time);
         }
     }
 }

@@ -216,6 +216,7 @@ namespace Guidewire.Core
         {
             _motion.Serialize(snapshot);
             Frames.Serialize(snapshot);
+            Frames.Time = snapshot.Serialize(Frames.Time);
             foreach (EnergyTerm term in _terms.All)
             {
                 term.Serialize(snapshot);
