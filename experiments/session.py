@@ -141,6 +141,30 @@ class State:
     def __getstate__(self) -> dict[str, Any]:
         return {name: value for name, value in vars(self).items() if name != "_session"}
 
+    @property
+    def directors(self) -> np.ndarray:
+        """(n, 3, 3): d1, d2 and d3 of each rod element, unit vectors in the world's axes; d3 along the element."""
+        return directors_of(self.orientations)
+
+
+@dataclass(frozen=True)
+class Frames:
+    """A run at several times.
+
+    Attributes
+    ----------
+    times : (f,), s.
+    positions : (f, n+1, 3), units.
+    directors : (f, n, 3, 3), as `State.directors` has them.
+    outcome, reason : those of the last state; a run that ended early has fewer frames.
+    """
+
+    times: np.ndarray
+    positions: np.ndarray
+    directors: np.ndarray
+    outcome: str | None
+    reason: str
+
 
 class Session:
     """A run that goes on step by step, as `step` says.
@@ -225,6 +249,26 @@ class Session:
         (step, time, _, prediction_error), arrays = made
         self._state = _state(int(step), float(time), None, "", float(prediction_error), arrays, self)
         return self._state
+
+    def record(self, frames: int, steps: int = 1) -> Frames:
+        """Go on, and keep the state as it is now and after each of some numbers of steps.
+
+        Parameters
+        ----------
+        frames : number of states beside the present one, from 1; fewer where the run ends before.
+        steps : steps between two of them, from 1.
+
+        Raises
+        ------
+        SessionError : as `step`.
+        """
+        if isinstance(frames, (bool, np.bool_)) or not isinstance(frames, (int, np.integer)) or frames < 1:
+            raise SessionError(f"frames = {frames!r} is not allowed: needs a whole number from 1")
+        states = [self.state]
+        while len(states) <= frames and states[-1].outcome is None:
+            states.append(self.step(steps=steps))
+        return Frames(np.array([state.time for state in states]), np.stack([state.positions for state in states]),
+                      np.stack([state.directors for state in states]), states[-1].outcome, states[-1].reason)
 
     def reset(self) -> State:
         """Go back to the start."""
@@ -341,6 +385,15 @@ class Session:
         self._state = _state(answer["step"], answer["time"], answer["outcome"], answer["message"],
                              answer["predictionError"], arrays, self)
         return self._state
+
+
+def directors_of(orientations: np.ndarray) -> np.ndarray:
+    """(n, 3, 3): the images of the three axes under (n, 4) unit quaternions x, y, z, w, one a row."""
+    x, y, z, w = np.asarray(orientations, dtype=float).T
+    rows = [[1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + z * w), 2.0 * (x * z - y * w)],
+            [2.0 * (x * y - z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + x * w)],
+            [2.0 * (x * z + y * w), 2.0 * (y * z - x * w), 1.0 - 2.0 * (x * x + y * y)]]
+    return np.moveaxis(np.array(rows), 2, 0)
 
 
 def _host(native: bool | None) -> Library | Process:

@@ -5,17 +5,20 @@ Without a wall the rod leaves its axis at Greenhill's couple, tan(M/2) = M/2, an
 half is a + b s + c s^2 + d exp(i M s) between a clamp and a point at the clearance, u = 1, across which u, u' and u''
 go on and u''' jumps along u. By symmetry about the middle u(-s) is the conjugate of u(s): u' is imaginary there and
 u'' real. As M grows the deflection beside the point reaches the wall too, where (|u|^2)'' = 2 (|u'|^2 + u'') becomes
-0: the contact splits.
+0: the contact splits. Two points at +-s1 follow, where |u| = 1 and (|u|^2)' = 0, with a force along u each; between
+them the rod is off the wall by a thousandth of the clearance. It touches again in its middle, a third point, at 13.022,
+and along a line there from 13.098 on: the values of J. Li, thesis, 2010, too.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.optimize import brentq
+from scipy.optimize import brentq, root
 
 from analysis.figures.wording import number, percent
 from analysis.logs import read_entries
@@ -53,6 +56,87 @@ def middle(moment: float) -> tuple[complex, complex, float]:
     u2 = complex(np.dot(bend, found[:4] + 1j * found[4:]))
     # u''' jumps by twice its real part, being the conjugate's negative on the other side.
     return u1, u2, float(-2.0 * (-1j * moment**3 * d).real)
+
+
+def _terms(moment: float, s: float, order: int) -> np.ndarray:
+    """A derivative of 1, s, s^2 and exp(i M s)."""
+    i, e = 1j * moment, np.exp(1j * moment * s)
+    powers = [[1.0, s, s**2], [0.0, 1.0, 2.0 * s], [0.0, 0.0, 2.0], [0.0, 0.0, 0.0]][order]
+    return np.array([*powers, i**order * e], dtype=complex)
+
+
+@dataclass(frozen=True)
+class Pair:
+    """Two points of contact at +-s1: where they are and at what angle to the middle; |u| and (|u|^2)''/2 in the middle,
+    and the wall's force on both, EI/L^3."""
+
+    place: float
+    angle: float
+    middle: float
+    bulge: float
+    force: float
+
+
+def pair(moment: float, guess: tuple[float, float], touches: bool = False) -> Pair:
+    """The rod that touches at two points, with `touches` in its middle too.
+
+    Raises ArithmeticError where there is none near the guess of place and angle.
+    """
+
+    def halves(place: float, angle: float) -> tuple[np.ndarray, np.ndarray]:
+        rows, right, none = [], [], np.zeros(4, dtype=complex)
+
+        def ask(inner: np.ndarray, outer: np.ndarray, part: str, wanted: float = 0.0) -> None:
+            z = np.concatenate([inner, outer])
+            rows.append(np.concatenate([z.real, -z.imag] if part == "real" else [z.imag, z.real]))
+            right.append(wanted)
+
+        for part, wanted in (("real", math.cos(angle)), ("imag", math.sin(angle))):
+            for order in (0, 1):
+                ask(none, _terms(moment, 0.5, order), part)
+            ask(_terms(moment, place, 0), none, part, wanted)
+            ask(none, _terms(moment, place, 0), part, wanted)
+            for order in (1, 2):
+                ask(_terms(moment, place, order), -_terms(moment, place, order), part)
+        for order, part in ((0, "imag"), (1, "real"), (2, "imag")):
+            ask(_terms(moment, 0.0, order), none, part)
+        ask(_terms(moment, 0.0, 0 if touches else 3), none, "real", 1.0 if touches else 0.0)
+        found = np.linalg.solve(np.array(rows), np.array(right))
+        found = found[:8] + 1j * found[8:]
+        return found[:4], found[4:]
+
+    def push(place: float, angle: float) -> tuple[float, complex]:
+        """(|u|^2)'/2 at the contact, and the jump of the third derivative there, both along u."""
+        inner, outer = halves(place, angle)
+        u, third = np.exp(-1j * angle), _terms(moment, place, 3)
+        return float((u * (_terms(moment, place, 1) @ inner)).real), complex(u * (third @ outer - third @ inner))
+
+    def misses(x: np.ndarray) -> list[float]:
+        slope, jump = push(float(x[0]), float(x[1]))
+        return [slope, jump.imag / 100.0]
+
+    solution = root(misses, guess, tol=1e-12)
+    if not np.max(np.abs(misses(solution.x))) < 1e-8 or not 0.0 < solution.x[0] < 0.25:
+        raise ArithmeticError(f"two contacts at M = {moment}: {solution.message}")
+    place, angle = (float(x) for x in solution.x)
+    inner, _ = halves(place, angle)
+    u, u1, u2 = (complex(_terms(moment, 0.0, order) @ inner) for order in range(3))
+    return Pair(place, angle, abs(u), abs(u1) ** 2 + (u.conjugate() * u2).real,
+                2.0 * abs(push(place, angle)[1].real))
+
+
+_PAIR = (0.0737, 0.589)  # of two contacts at M = 12.3
+_TRIPLE = (0.0993, 0.873)  # at 13.02
+
+
+def touches_again() -> float:
+    """M L/EI from which the rod touches at three points."""
+    return float(brentq(lambda moment: pair(moment, _TRIPLE).middle - 1.0, 12.9, 13.1, xtol=1e-9))
+
+
+def lies_on() -> float:
+    """M L/EI from which the middle one of the three contacts is a line."""
+    return float(brentq(lambda moment: pair(moment, _TRIPLE, touches=True).bulge, 13.03, 13.2, xtol=1e-9))
 
 
 def splits() -> float:
@@ -103,7 +187,11 @@ def _plan() -> Plan:
         count = float(_contacts(pushes))
         results.append(Result(f"{what}: contacts; they split at {number(splits(), 5)}", "direct", count, wanted,
                               abs(count - wanted), 0.0, "", cost, "contacts"))
-        if wanted == 1.0:
+        if wanted == 2.0:
+            total, exact = sum(pushes.values()), pair(moment, _PAIR).force
+            results.append(Result(f"{what}: force of the wall on both contacts", "direct", total, exact,
+                                  abs(total / exact - 1.0), _GATE, "EI c/L³", cost))
+        else:
             total, exact = sum(pushes.values()), middle(moment)[2]
             found[moment] = total
             results.append(Result(f"{what}: force of the wall", "direct", total, exact, abs(total / exact - 1.0), _GATE,

@@ -22,8 +22,8 @@ from experiments.key_table import Key
 FULL = os.environ.get("GUIDEWIRE_ALL") == "1"
 SOLVERS = ("pbd", "xpbd", "direct", "explicit")
 # What a run without them would answer another question than the file asks.
-REFUSED_IN_FILES = ("tipMoment", "tipFollowerForce", "damping", "materialDamping", "vessel", "obstacles",
-                    "instrument")
+REFUSED_IN_FILES = ("tipMoment", "tipFollowerForce", "damping", "materialDamping", "vessel", "obstacles", "pointLoads",
+                    "proximalMotionFile", "distalMotionFile", "instrument")
 LOAD_TABLE = Path(__file__).with_name("load_table.csv")
 DRIVE_TABLE = Path(__file__).with_name("drive_table.csv")
 ARCH = Path(__file__).resolve().parents[2] / "params" / "meshes" / "arch.obj"
@@ -153,6 +153,13 @@ def obstacles(draw, scene: Mapping[str, Any]) -> list[dict] | None:
                        for kind in chosen]
 
 
+@st.composite
+def point_loads(draw, scene: Mapping[str, Any]) -> list[dict] | None:
+    length = scene.get("guidewireLength", LENGTH)
+    places = draw(st.one_of(st.none(), st.lists(st.floats(0.0, 1.0), max_size=3)))
+    return places and [{"at": place * length, "force": draw(vectors(st.floats(-0.1, 0.1)))} for place in places]
+
+
 # Values that a key allows. A wider campaign widens these, and nothing else.
 VALUES: dict[str, st.SearchStrategy] = {
     "timeStep": log_uniform(1e-5, 1.0), "maxSimulationSteps": whole(0, 60), "constraintSolverSteps": whole(0, 40),
@@ -188,13 +195,16 @@ VALUES: dict[str, st.SearchStrategy] = {
     "frictionSpeed": log_uniform(1e-6, 1.0),
     "contactStiffness": st.one_of(st.just(0), log_uniform(1.0, 1e8)),
     "driveFile": st.sampled_from(["", str(DRIVE_TABLE)]),
+    "proximalMotionFile": st.just(""), "distalMotionFile": st.just(""),  # need ends that go with them
     "logEvery": whole(1, 20), "logFilePath": st.sampled_from(["", "elsewhere", "Gefäß 1"]),
 }
 # Those that have to fit the rest of the scene.
 FITTED: dict[str, Callable[[Mapping[str, Any]], st.SearchStrategy]] = {
     "wireSections": wire_sections, "innerRadius": inner_radii,
     **{key: stiffness_of(key) for key in ("bendingStiffness", "torsionalStiffness", "axialStiffness", "massPerLength")},
-    "loadTables": load_tables, "startFile": start_files,
+    "loadTables": load_tables, "startFile": start_files, "start": lambda scene: st.just(None),
+    "duration": lambda scene: st.just(None),  # takes the place of maxSimulationSteps
+    "pointLoads": point_loads,
     "vessel": vessels, "obstacles": obstacles, "sheath": lambda scene: st.just(None),  # needs a vessel that the wire starts in
     "inlet": lambda scene: st.just(None), "target": lambda scene: st.just(None),  # need the file of an anatomy
 }
@@ -283,7 +293,11 @@ def reconcile(scene: dict) -> dict:
             scene["distalEnd"] = "clamped"
         if abs(scene.get("distalRotation", 0.0)) > 1.0 and not scene.get("distalRampTime"):
             scene["distalRampTime"] = 0.01
+    if scene.get("distalEnd") == "held":
+        scene.pop("distalRotation", None)
     if solver == "pbd":
+        if scene.get("distalEnd") == "held":
+            scene["distalEnd"] = "clamped"
         if scene.get("proximalEnd") == "free" or scene.get("drive") == "force":
             scene["proximalEnd"] = "held"
         return scene
@@ -311,6 +325,8 @@ def reconcile(scene: dict) -> dict:
     is_clamped = scene.get("proximalEnd") == "clamped"
     if scene.get("initialState") == "equilibrium":
         scene = {name: value for name, value in scene.items() if name not in ("vessel", "obstacles")}
-    if scene.get("initialState") == "equilibrium" and not is_clamped and scene.get("distalEnd", "free") == "free":
+    is_held = scene.get("distalEnd") in ("clamped", "sliding") or (
+        scene.get("distalEnd") == "held" and scene.get("proximalEnd", "held") == "held")
+    if scene.get("initialState") == "equilibrium" and not is_clamped and not is_held:
         scene["distalEnd"] = "clamped"
     return scene

@@ -125,8 +125,8 @@ def test_keys_of_other_methods_are_passed_over_in_a_file(hold, table, solver):
 @every_method
 def test_the_borders_of_what_is_allowed_are_as_stated(campaign, hold, table, solver):
     for name, key in table.items():
-        if key.kind not in ("number", "whole") or solver not in key.solvers:
-            continue
+        if key.kind not in ("number", "whole") or solver not in key.solvers or name == "duration":
+            continue  # a duration's largest number of steps depends on timeStep
         inside, outside = borders(key)
         scene = {"solver": solver, "numberRodElements": 3, "maxSimulationSteps": 2}
         for value in inside:

@@ -21,6 +21,8 @@ EXAMPLE_OF_FITTED = {
     "instrument": "workhorse-0.014",
     "vessel": {"shape": "plane", "point": [50, 0, 0], "normal": [-1, 0, 0]},
     "obstacles": [{"shape": "sphere", "centre": [50, 0, 0], "radius": 1}],
+    "pointLoads": [{"at": 10, "force": [0, 1, 0]}], "start": {},
+    "proximalMotionFile": "motion.csv", "distalMotionFile": "motion.csv",
 }
 every_method = pytest.mark.parametrize("solver", SOLVERS)
 

@@ -49,6 +49,10 @@ namespace Guidewire.Core
                 "proximalEnd \"held\" with \"force\", which frees sphere 0"),
             new Rule("distalEnd", p => !p.Traits.Slides && p.Scene.DistalEnd == DistalEnd.Sliding,
                 "\"free\" or \"clamped\": only solver direct lets an end slide"),
+            new Rule("distalEnd", p => !p.IsMaterial && p.Scene.DistalEnd == DistalEnd.Held,
+                "\"free\" or \"clamped\" with solver pbd"),
+            new Rule("distalRotation", p => p.Scene.DistalEnd == DistalEnd.Held && p.Scene.DistalRotation != 0.0,
+                "distalEnd \"clamped\" or \"sliding\": an end that is only held turns freely"),
             // The last joint takes a rotation at once for one by less than half a turn, in the shorter direction.
             new Rule("distalRotation", p => !p.Traits.WindsUpAtOnce && p.Scene.DistalEnd == DistalEnd.Clamped
                 && p.Scene.DistalRampTime == 0.0 && Math.Abs(p.Scene.DistalRotation) > 1.0,
@@ -92,13 +96,29 @@ namespace Guidewire.Core
                 && 2.0 * Math.PI * Math.Abs(p.Scene.StartTurns) * p.Scene.StartRadius >= p.Scene.GuidewireLength,
                 "a helix shorter than guidewireLength: 2 pi startTurns startRadius is more"),
             new Rule("initialState", p => p.IsMaterial && p.Scene.InitialState == InitialState.Equilibrium
-                && !p.IsClamped && p.Scene.DistalEnd == DistalEnd.Free,
-                "a clamped end: a wire that turns freely has no single rest shape"),
+                && !p.IsClamped && !p.HasDistalClamp && !p.IsHeldAtBothEnds,
+                "a clamped end, or both held: a wire that turns freely has no single rest shape"),
+            new Rule("pointLoads", p => p.IsMaterial && Array.Exists(p.Scene.PointLoads,
+                load => load.At > p.Scene.GuidewireLength), "every \"at\" to be at most guidewireLength"),
         };
 
         // Of parameters that are complete, with walls and tables.
         private static readonly Rule[] InScene =
         {
+            OfMotion("proximalMotionFile", p => p.Scene.ProximalMotion,
+                p => p.Scene.ProximalEnd != ProximalEnd.Free && p.Drive.Kind == Drive.Hold
+                    && p.Drive.Steering == null && p.Drive.Displacement == 0.0 && p.Drive.TwistPerStep == 0.0
+                    && p.Drive.RotationSpeed == 0.0,
+                "proximalEnd \"clamped\" or \"held\" and drive \"hold\" without displacement or rotation"),
+            OfMotion("proximalMotionFile", p => p.Scene.ProximalMotion,
+                p => p.IsClamped || !p.Scene.ProximalMotion!.Turns, "rotations of 0 where the end is only held"),
+            OfMotion("distalMotionFile", p => p.Scene.DistalMotion,
+                p => p.Scene.DistalEnd != DistalEnd.Free && p.Scene.DistalRotation == 0.0
+                    && p.Scene.DistalDisplacement == 0.0,
+                "a distalEnd other than \"free\", and distalRotation and distalDisplacement 0"),
+            OfMotion("distalMotionFile", p => p.Scene.DistalMotion,
+                p => p.HasDistalClamp || !p.Scene.DistalMotion!.Turns, "rotations of 0 where the end is only held"),
+            OfSheath(p => p.Scene.ProximalMotion == null, "no proximalMotionFile"),
             new Rule("hubForceLimit", p => p.Drive.HubForceLimit > 0.0 && !p.HasWalls,
                 "a vessel or obstacles: without walls a hub holds the wire"),
             OfSheath(p => p.HasWalls, "a vessel"),
@@ -106,6 +126,7 @@ namespace Guidewire.Core
             OfSheath(p => p.Drive.Steering != null || p.Drive.Kind == Drive.Displace || p.Drive.Kind == Drive.Hold,
                 "drive \"displace\" or \"hold\""),
             OfSheath(p => p.Scene.DistalEnd == DistalEnd.Free, "distalEnd \"free\""),
+            OfSheath(p => p.Scene.PointLoads.Length == 0, "no pointLoads"),
             OfSheath(p => p.Scene.StartShape == StartShape.Straight, "startShape \"straight\""),
             OfSheath(p => p.Method.Integrator == Integrator.ImplicitEuler, "integrator \"implicitEuler\""),
             OfSheath(p => p.Material.BendLaw == BendLaw.RotationVector, "bendLaw \"rotationVector\""),
@@ -150,6 +171,11 @@ namespace Guidewire.Core
         private static Rule OfSheath(Predicate<Facts> holds, string needed)
         {
             return new Rule("sheath", p => p.Scene.Sheath != null && !holds(p), needed);
+        }
+
+        private static Rule OfMotion(string key, Func<Facts, EndMotion?> motion, Predicate<Facts> holds, string needed)
+        {
+            return new Rule(key, p => motion(p) != null && !(p.Method.Solver == Solver.Direct && holds(p)), needed);
         }
 
         private static bool HasHollowTooWide(MaterialParameters material)
@@ -254,6 +280,11 @@ namespace Guidewire.Core
             public bool HasFriction => Array.Exists(Scene.Walls, wall => wall.FrictionCoefficient > 0.0);
 
             public bool IsClamped => Scene.ProximalEnd == ProximalEnd.Clamped && Drive.Kind != Core.Drive.Force;
+
+            public bool HasDistalClamp => Scene.DistalEnd == DistalEnd.Clamped || Scene.DistalEnd == DistalEnd.Sliding;
+
+            public bool IsHeldAtBothEnds => Scene.DistalEnd == DistalEnd.Held
+                && Scene.ProximalEnd != ProximalEnd.Free && Drive.Kind != Core.Drive.Force;
 
             public bool MovesSphere0 => Drive.Kind == Core.Drive.Displace || Drive.Kind == Core.Drive.Push;
         }

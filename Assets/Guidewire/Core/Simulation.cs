@@ -277,8 +277,8 @@ namespace Guidewire.Core
             snapshot.Serialize(start.Orientations);
             snapshot.Serialize(start.Velocities);
             snapshot.Serialize(start.AngularVelocities);
-            start.ProximalFrame = snapshot.Serialize(start.ProximalFrame);
-            start.DistalFrame = snapshot.Serialize(start.DistalFrame);
+            start.ProximalFrame = snapshot.Serialize(start.ProximalFrame ?? Quaterniond.Identity);
+            start.DistalFrame = snapshot.Serialize(start.DistalFrame ?? Quaterniond.Identity);
         }
 
         private void Serialize(Snapshot snapshot)

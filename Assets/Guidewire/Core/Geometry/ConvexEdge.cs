@@ -8,7 +8,7 @@ namespace Guidewire.Core
     /// ends.</remarks>
     internal static class ConvexEdge
     {
-        private const double Fade = 0.01;         // of sin^2
+        private const double FadeOver = 0.01;     // of sin^2
         private const double Sharp = 0.02;        // radians, from which an edge counts as one
 
         /// <summary>Weight of an edge at which the wall turns by an angle, radians: tanh(angle/0.02).</summary>
@@ -39,25 +39,43 @@ namespace Guidewire.Core
             }
             double distance = Math.Sqrt(squared);
             Vector3d normal = (Vector3d.Lerp(a, b, s) - Vector3d.Lerp(start, end, t)) / distance;
-            Vector3d slope = Vector3d.Zero;
             Vector3d u = b - a;
             Vector3d along = Vector3d.Normalize(end - start);
-            double size = u.Length;
-            Vector3d direction = u / size;
-            double cosine = Vector3d.Dot(direction, along);
-            double fraction = Math.Max(0.0, 1.0 - cosine * cosine) / Fade;
-            if (fraction < 1.0)
-            {
-                double rate = 2.0 * (1.0 - fraction) / Fade;
-                slope = (weight * rate * -2.0 * cosine / size) * (along - cosine * direction);
-                weight *= fraction * (2.0 - fraction);
-            }
+            Vector3d slope = Fade(u, along, 0.0, ref weight);
             var contact = new EdgeContact(s, distance - radius, normal, weight, -slope, slope);
             contacts.Add(s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0 ? Sliding(contact, u, along, distance) : contact);
         }
 
-        // Between the ends of both, the crossing slides so that the distance along the segment stays least.
-        private static EdgeContact Sliding(in EdgeContact contact, in Vector3d u, in Vector3d along, double distance)
+        /// <summary>Fades a weight where the segment is almost parallel to an edge: times t (2 - t) up to t = 1,
+        /// with t the squared sine of their angle less a least value, over 0.01.</summary>
+        /// <param name="u">From the segment's first end to its second.</param>
+        /// <param name="along">Unit vector along the edge.</param>
+        /// <param name="least">Of the squared sine at which the weight is 0.</param>
+        /// <param name="weight">That of an edge across the segment, which is faded.</param>
+        /// <returns>Its derivative along u, 1/units.</returns>
+        public static Vector3d Fade(in Vector3d u, in Vector3d along, double least, ref double weight)
+        {
+            double size = u.Length;
+            Vector3d direction = u / size;
+            double cosine = Vector3d.Dot(direction, along);
+            double fraction = Math.Max(0.0, 1.0 - cosine * cosine - least) / FadeOver;
+            if (!(fraction < 1.0))
+            {
+                return Vector3d.Zero;
+            }
+            double rate = 2.0 * (1.0 - fraction) / FadeOver;
+            Vector3d slope = (weight * rate * -2.0 * cosine / size) * (along - cosine * direction);
+            weight *= fraction * (2.0 - fraction);
+            return slope;
+        }
+
+        /// <summary>The contact between the ends of both, where the crossing slides so that the distance along the
+        /// segment stays least.</summary>
+        /// <param name="contact">Without that.</param>
+        /// <param name="u">From the segment's first end to its second.</param>
+        /// <param name="along">Unit vector along the edge.</param>
+        /// <param name="distance">Of the crossing from the edge, units.</param>
+        public static EdgeContact Sliding(in EdgeContact contact, in Vector3d u, in Vector3d along, double distance)
         {
             double s = contact.Position;
             Vector3d n = contact.Normal;

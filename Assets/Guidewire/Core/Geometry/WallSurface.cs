@@ -43,6 +43,9 @@ namespace Guidewire.Core
                 case ConvexObstacle obstacle:
                     surface.AddObstacle(obstacle);
                     break;
+                case ConeShape cone:
+                    surface.AddCone(cone, middle, extent);
+                    break;
                 default:
                     throw new ArgumentException("no picture of a " + shape.GetType().Name);
             }
@@ -125,6 +128,17 @@ namespace Guidewire.Core
                 }
             }
             AddStrips(rows + 1);
+        }
+
+        private void AddCone(ConeShape cone, in Vector3d middle, double extent)
+        {
+            Vector3d side = Vector3d.Perpendicular(cone.Axis);
+            foreach ((Vector3d centre, double radius) in cone.Circles(middle, extent, Sides / 2 + 1))
+            {
+                // Clockwise about the axis, so that the outside is seen.
+                AddRing(centre, radius * side, radius * Vector3d.Cross(side, cone.Axis));
+            }
+            AddStrips(Sides / 2 + 1);
         }
 
         private static Vector3d Nearer(in Vector3d far, in Vector3d from, double extent)

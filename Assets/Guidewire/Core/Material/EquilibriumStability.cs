@@ -170,6 +170,13 @@ namespace Guidewire.Core
                 }
                 return count;
             }
+            if (_supports.HoldsLastNode && !isLoose)
+            {
+                Vector3d axis = Vector3d.Normalize(shape.X[shape.ElementCount] - shape.X[0]);
+                _kinds[count++] = new Motion { Turn = axis };
+                _kinds[count++] = new Motion { Own = 1.0 };
+                return count;
+            }
             for (int k = 0; k < 3; k++)
             {
                 Vector3d axis = k == 0 ? Vector3d.UnitX : k == 1 ? Vector3d.UnitY : Vector3d.UnitZ;

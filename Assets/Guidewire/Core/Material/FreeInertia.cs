@@ -13,7 +13,7 @@ namespace Guidewire.Core
         {
             _mass = mass;
             _first = supports.Proximal == ProximalEnd.Free ? 0 : 1;
-            _last = supports.Distal == DistalEnd.Clamped ? mass.Rotary.Length - 1 : mass.Rotary.Length;
+            _last = supports.HoldsLastNode ? mass.Rotary.Length - 1 : mass.Rotary.Length;
         }
 
         /// <inheritdoc/>

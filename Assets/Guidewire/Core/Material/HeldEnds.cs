@@ -14,6 +14,8 @@ namespace Guidewire.Core
         private double _distalTurn;
         private Vector3d _firstPosition;  // of ends that are followed, m
         private Vector3d _lastPosition;
+        private Quaterniond _firstFrame;  // the same
+        private Quaterniond _lastFrame;
         private double _carried;       // J
         private readonly double _stretch;  // the largest EA, N
         private readonly double _twist;    // the largest GJ, N m^2
@@ -36,7 +38,7 @@ namespace Guidewire.Core
         public bool HoldsFirst => _holdsFirst;
 
         /// <summary>Whether the last node is where its support is; not so where it slides.</summary>
-        public bool HoldsLast => _terms.Supports.Distal == DistalEnd.Clamped;
+        public bool HoldsLast => _terms.Supports.HoldsLastNode;
 
         /// <summary>Work done on the wire since the start, J: the mean of force and couple before and after a move,
         /// times the move, which is exact while the stress is proportional to it.</summary>
@@ -72,6 +74,8 @@ namespace Guidewire.Core
         {
             _firstPosition = shape.X[0];
             _lastPosition = shape.X[shape.ElementCount];
+            _firstFrame = shape.ProximalFrame;
+            _lastFrame = shape.DistalFrame;
             _proximalTurn = proximalTurn;
             _distalTurn = distalTurn;
         }
@@ -104,17 +108,28 @@ namespace Guidewire.Core
             Vector3d lastMove = _holdsLast ? shape.X[last] - _lastPosition : Vector3d.Zero;
             double firstTurn = proximalTurn - _proximalTurn;
             double lastTurn = distalTurn - _distalTurn;
+            Vector3d firstRotation = default;
+            Vector3d lastRotation = default;
+            if (_schedule.HasMotions)
+            {
+                firstRotation = Between(_firstFrame, shape.ProximalFrame);
+                lastRotation = Between(_lastFrame, shape.DistalFrame);
+            }
             Follow(shape, proximalTurn, distalTurn);
             double move = firstMove.Length + lastMove.Length;
-            double turn = Math.Abs(firstTurn) + Math.Abs(lastTurn);
+            double turn = _schedule.HasMotions ? firstRotation.Length + lastRotation.Length
+                : Math.Abs(firstTurn) + Math.Abs(lastTurn);
             if (move == 0.0 && turn == 0.0)
             {
                 return;
             }
             BendTwistTerm bending = _terms.Bending;
             Work += Math.Abs(Vector3d.Dot(_terms.EndGradient(shape, 0), firstMove))
-                + Math.Abs(Vector3d.Dot(_terms.EndGradient(shape, last), lastMove))
-                + Math.Abs(Vector3d.Dot(bending.ProximalCouple(shape), shape.ProximalFrame.Director3) * firstTurn)
+                + Math.Abs(Vector3d.Dot(_terms.EndGradient(shape, last), lastMove));
+            Work += _schedule.HasMotions
+                ? Math.Abs(Vector3d.Dot(bending.ProximalCouple(shape), firstRotation))
+                    + Math.Abs(Vector3d.Dot(bending.DistalCouple(shape), lastRotation))
+                : Math.Abs(Vector3d.Dot(bending.ProximalCouple(shape), shape.ProximalFrame.Director3) * firstTurn)
                 + Math.Abs(Vector3d.Dot(bending.DistalCouple(shape), shape.DistalFrame.Director3) * lastTurn);
             double length = _terms.Rod.TotalLength;
             double speed = (move + length * turn) / dt;
@@ -145,6 +160,8 @@ namespace Guidewire.Core
             SerializeWork(snapshot);
             snapshot.Serialize(ref _firstPosition);
             snapshot.Serialize(ref _lastPosition);
+            snapshot.Serialize(ref _firstFrame);
+            snapshot.Serialize(ref _lastFrame);
         }
 
         private void Shift(RodShape shape, int node, in Vector3d to)
@@ -167,7 +184,7 @@ namespace Guidewire.Core
             Vector3d endCouple = _terms.Bending.DistalCouple(shape);
             _proximalTurn = proximalTurn;
             _distalTurn = distalTurn;
-            _schedule.TurnFrames(shape, proximalTurn, distalTurn);
+            _schedule.TurnFrames(shape, proximalTurn, distalTurn, 0.0);
             couple += _terms.Bending.ProximalCouple(shape);
             endCouple += _terms.Bending.DistalCouple(shape);
             Work += 0.5 * (Vector3d.Dot(couple, Between(proximal, shape.ProximalFrame))

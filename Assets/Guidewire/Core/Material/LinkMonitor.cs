@@ -10,8 +10,8 @@ namespace Guidewire.Core
     /// two turns along (Calugareanu: twist and writhe change by 2 together), and what is left may well be in balance.
     /// No wire does that. It shows once the wire is stretched out again: where every element points forward, d3 . axis
     /// above 0, its orientation is a turn psi about the axis and then a tilt of less than 90 degrees, and psi from
-    /// clamp to clamp is the turn that the clamps have made, bent or not (Fuller). Where an element points back nothing
-    /// is said.</remarks>
+    /// clamp to clamp is the turn that the clamps have made, bent or not (Fuller). Where an element points back, or
+    /// an end moves in six degrees of freedom, nothing is said.</remarks>
     internal sealed class LinkMonitor
     {
         private readonly RodSchedule _schedule;
@@ -22,7 +22,8 @@ namespace Guidewire.Core
         public LinkMonitor(RodSupports supports, RodSchedule schedule, RodShape start)
         {
             _schedule = schedule;
-            _isOn = supports.HasProximalJoint && supports.HasDistalJoint && Measure(start, out _start);
+            _isOn = !schedule.HasMotions && supports.HasProximalJoint && supports.HasDistalJoint
+                && Measure(start, out _start);
         }
 
         /// <summary>How many turns the wire has lost, and why, in one line; or null.</summary>

@@ -18,11 +18,12 @@ namespace Guidewire.Core
             {
                 Proximal = parameters.Drive.Kind == Core.Drive.Force ? ProximalEnd.Free : parameters.Scene.ProximalEnd,
                 Distal = parameters.Scene.DistalEnd,
-                SlidingAxis = scene.Shape.DistalFrame.Director3,
                 Clamp = parameters.Material.ClampRule,
                 Mass = parameters.Material.MassRule,
                 Bend = parameters.Material.BendLaw,
             };
+            SetFrames(parameters.Scene.Start);
+            Supports.SlidingAxis = Shape.DistalFrame.Director3;
             Supports.HasSpring = scene.Walls.Length > 0 && Supports.Proximal != ProximalEnd.Free
                 && MethodTable.Of(parameters.Method.Solver).HasBarriers;
             Schedule = scene.Schedule;
@@ -113,6 +114,20 @@ namespace Guidewire.Core
             System.Array.Copy(shape.Q, state.PredictedOrientations, shape.Q.Length);
             System.Array.Copy(spins, state.AngularVelocities, spins.Length);
             state.Advance();
+        }
+
+        // Those of a start that does not state them.
+        private void SetFrames(RodStart? start)
+        {
+            if (start != null && start.ProximalFrame == null && Supports.HasProximalJoint)
+            {
+                Shape.ProximalFrame = ClampExtrapolation.Frame(Shape, Rod.Length, Rod.JointLengths(Supports), true);
+                _scene.Schedule.Hub.Begin(Shape.ProximalFrame);
+            }
+            if (start != null && start.DistalFrame == null && Supports.HasDistalJoint)
+            {
+                Shape.DistalFrame = ClampExtrapolation.Frame(Shape, Rod.Length, Rod.JointLengths(Supports), false);
+            }
         }
 
         // q and -q are the same orientation. A start counts each joint's turn as the shorter one, with Re(q_a* q_b) of

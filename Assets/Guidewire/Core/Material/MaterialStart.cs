@@ -5,12 +5,42 @@ namespace Guidewire.Core
     /// <summary>Where a wire with a material may start: no element touches a wall with its surface.</summary>
     internal static class MaterialStart
     {
-        /// <summary>What is wrong with the start of a scene, in one phrase, or null. What goes on without barriers
+        private const double Rounding = 1e-9;  // of the radius
+        private const double Apart = 1e-4;     // of the radius, by which barriers begin with an open gap
+
+        /// <summary>What is wrong with the start of a scene, in one phrase, or null. A surface at a wall but for
+        /// rounding is moved off it, where barriers need a gap, by a ten-thousandth of the radius. What has no barriers
         /// touches walls, and contact may have let them in a little: of that the core line has to be free.</summary>
         public static string? FindProblem(SimulationParameters parameters, MaterialScene scene)
         {
-            bool touches = parameters.Scene.Start != null && !MethodTable.Of(parameters.Method.Solver).HasBarriers;
-            return FindProblem(scene, 0, scene.Rod.ElementCount, touches ? SweptSearch.ClearanceFor(1.0) : 1.0);
+            if (MethodTable.Of(parameters.Method.Solver).HasBarriers)
+            {
+                MoveApart(scene);
+                return FindProblem(scene, 0, scene.Rod.ElementCount);
+            }
+            return FindProblem(scene, 0, scene.Rod.ElementCount,
+                parameters.Scene.Start != null ? SweptSearch.ClearanceFor(1.0) : 1.0 - Rounding);
+        }
+
+        // Elements whose surface touches a wall within rounding.
+        private static void MoveApart(MaterialScene scene)
+        {
+            double units = 1.0 / scene.Metres;
+            foreach (ContactShape wall in scene.Walls)
+            {
+                for (int j = 0; j < scene.Rod.ElementCount; j++)
+                {
+                    double radius = units * scene.Rod.Radius[j];
+                    int hint = -1;
+                    if (wall.Nearest(units * scene.Shape.X[j], units * scene.Shape.X[j + 1], (1.0 + Rounding) * radius,
+                        ref hint, out SurfaceContact near) && near.Distance >= (1.0 - Rounding) * radius)
+                    {
+                        Vector3d move = (Apart * scene.Rod.Radius[j]) * near.Normal;
+                        scene.Shape.X[j] += move;
+                        scene.Shape.X[j + 1] += move;
+                    }
+                }
+            }
         }
 
         /// <summary>The same of the wire from a position on, units, which is in an element, with its whole

@@ -34,6 +34,9 @@ namespace Guidewire.Core
         public bool HasProximalJoint => Proximal == ProximalEnd.Clamped;
 
         /// <summary>True where a frame holds the last element by a spring.</summary>
-        public bool HasDistalJoint => Distal != DistalEnd.Free;
+        public bool HasDistalJoint => Distal == DistalEnd.Clamped || Distal == DistalEnd.Sliding;
+
+        /// <summary>True where the last node is where its support is; not so where it slides.</summary>
+        public bool HoldsLastNode => Distal == DistalEnd.Clamped || Distal == DistalEnd.Held;
     }
 }

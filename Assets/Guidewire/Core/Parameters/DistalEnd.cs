@@ -11,5 +11,9 @@ namespace Guidewire.Core
 
         /// <summary>The frame and the position across an axis are held; along the axis the end is free.</summary>
         Sliding,
+
+        /// <summary>The last sphere is held, its frame turns freely: a ball joint, as <see
+        /// cref="ProximalEnd.Held"/>.</summary>
+        Held,
     }
 }

@@ -28,8 +28,6 @@ namespace Guidewire.Core
             }
             Positions = positions;
             Orientations = orientations;
-            ProximalFrame = orientations[0];
-            DistalFrame = orientations[n - 1];
             Velocities = velocities ?? new Vector3d[n + 1];
             AngularVelocities = angularVelocities ?? new Vector3d[n];
         }
@@ -43,18 +41,44 @@ namespace Guidewire.Core
         /// <summary>n orientations.</summary>
         public Quaterniond[] Orientations { get; }
 
-        /// <summary>Frame of the proximal clamp of a material, normalised on use; that of the first element where it is
-        /// not set. With pbd a clamp holds the first element itself.</summary>
-        public Quaterniond ProximalFrame { get; set; }
+        /// <summary>Frame of the proximal clamp of a material, normalised on use; null: what the first elements make it
+        /// (<see cref="ClampExtrapolation"/>). With pbd a clamp holds the first element itself.</summary>
+        public Quaterniond? ProximalFrame { get; set; }
 
-        /// <summary>The same of the distal clamp and the last element.</summary>
-        public Quaterniond DistalFrame { get; set; }
+        /// <summary>The same of the distal clamp and the last elements.</summary>
+        public Quaterniond? DistalFrame { get; set; }
 
         /// <summary>n + 1 velocities in unit/s.</summary>
         public Vector3d[] Velocities { get; }
 
         /// <summary>n angular velocities in rad/s, body frame.</summary>
         public Vector3d[] AngularVelocities { get; }
+
+        /// <summary>Orientations of elements along the chords between positions: the first is z, [0, 0, 1], turned the
+        /// shortest way, and none is turned about its own axis against the one before.</summary>
+        /// <param name="positions">n + 1, no two successive ones the same; units.</param>
+        public static Quaterniond[] AlongChords(Vector3d[] positions)
+        {
+            var orientations = new Quaterniond[positions.Length - 1];
+            Quaterniond frame = Quaterniond.Identity;
+            for (int j = 0; j < orientations.Length; j++)
+            {
+                frame = Turned(frame, Vector3d.Normalize(positions[j + 1] - positions[j]));
+                orientations[j] = frame;
+            }
+            return orientations;
+        }
+
+        /// <summary>A frame turned the shortest way so that its third axis has this direction, a unit vector.</summary>
+        internal static Quaterniond Turned(in Quaterniond frame, in Vector3d direction)
+        {
+            Vector3d axis = Vector3d.Cross(frame.Director3, direction);
+            double sine = axis.Length;
+            double cosine = Vector3d.Dot(frame.Director3, direction);
+            return sine > 0.0
+                ? Quaterniond.Normalize(Quaterniond.FromAxisAngle(axis / sine, Math.Atan2(sine, cosine)) * frame)
+                : cosine < 0.0 ? Quaterniond.FromAxisAngle(frame.Director1, Math.PI) * frame : frame;
+        }
 
         /// <summary>Which element is sheared by more than <see cref="LargestShear"/> or has no length, in one line, or
         /// null.</summary>

@@ -54,6 +54,13 @@ namespace Guidewire.Core
         /// <summary>Time over which rotation and displacement of the distal end grow, s; 0: at once.</summary>
         public double DistalRampTime { get; set; }
 
+        /// <summary>Motion of the proximal end, instead of what a drive makes, or null.</summary>
+        public EndMotion? ProximalMotion { get; set; }
+
+        /// <summary>Motion of the distal end, instead of <see cref="DistalRotation"/> and <see
+        /// cref="DistalDisplacement"/>, or null.</summary>
+        public EndMotion? DistalMotion { get; set; }
+
         /// <summary>Acceleration of every free sphere in unit/s^2.</summary>
         public Vector3d Gravity { get; set; }
 
@@ -62,6 +69,12 @@ namespace Guidewire.Core
 
         /// <summary>Force per length of the wire at rest, N/m.</summary>
         public Vector3d DistributedForce { get; set; }
+
+        /// <summary>Forces at places of the wire.</summary>
+        public PointLoad[] PointLoads { get; set; } = Array.Empty<PointLoad>();
+
+        /// <summary>Factor on all <see cref="PointLoads"/> over time, or null.</summary>
+        public TimeTable? PointLoadsTable { get; set; }
 
         /// <summary>Factor on <see cref="Gravity"/> over time, or null.</summary>
         public TimeTable? GravityTable { get; set; }
@@ -106,6 +119,7 @@ namespace Guidewire.Core
             Use(GravityTable, Gravity != Vector3d.Zero);
             Use(TipForceTable, TipForce != Vector3d.Zero);
             Use(DistributedForceTable, DistributedForce != Vector3d.Zero);
+            Use(PointLoadsTable, PointLoads.Length > 0);
             Use(AxialForceTable, AxialForce != 0.0);
             Use(TipMomentTable, TipMoment != Vector3d.Zero);
             Use(TipFollowerForceTable, TipFollowerForce != Vector3d.Zero);

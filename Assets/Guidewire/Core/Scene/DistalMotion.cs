@@ -9,6 +9,7 @@ namespace Guidewire.Core
         private readonly double _displacement;  // in the end, m
         private readonly double _rotation;      // in the end, radians; more than one turn counts
         private readonly double _rampTime;      // s; 0: at once
+        private readonly EndMotion? _motion;    // besides, in six degrees of freedom
         private Vector3d _position;             // before its displacement, m
         private Quaterniond _frame;             // before it turns
 
@@ -21,9 +22,13 @@ namespace Guidewire.Core
             _displacement = unitLength * scene.DistalDisplacement;
             _rotation = scene.DistalRotation;
             _rampTime = scene.DistalRampTime;
+            _motion = scene.DistalMotion;
             _position = position;
             _frame = frame;
         }
+
+        /// <summary>The motion in six degrees of freedom, or null.</summary>
+        public EndMotion? Motion => _motion;
 
         /// <summary>The frame before it turns.</summary>
         public Quaterniond Frame => _frame;
@@ -40,13 +45,15 @@ namespace Guidewire.Core
         /// <summary>The last node at this time, m.</summary>
         public Vector3d PositionAt(double time)
         {
-            return _position + (Ramp(time) * _displacement) * _frame.Director3;
+            Vector3d position = _position + (Ramp(time) * _displacement) * _frame.Director3;
+            return _motion == null ? position : position + _motion.DisplacementAt(time);
         }
 
         /// <summary>Velocity of the last node's support at this time, m/s.</summary>
         public Vector3d VelocityAt(double time)
         {
-            return time < _rampTime ? (_displacement / _rampTime) * _frame.Director3 : Vector3d.Zero;
+            return _motion != null ? _motion.VelocityAt(time)
+                : time < _rampTime ? (_displacement / _rampTime) * _frame.Director3 : Vector3d.Zero;
         }
 
         /// <summary>Turn of the frame at this time, radians.</summary>
@@ -76,13 +83,15 @@ namespace Guidewire.Core
         /// <summary>When it comes to rest, s, if that is after this time; else infinite.</summary>
         public double NextJump(double time)
         {
-            return Moves && _rampTime > time ? _rampTime : double.PositiveInfinity;
+            double row = _motion == null ? double.PositiveInfinity : _motion.NextRow(time);
+            return Moves && _rampTime > time ? Math.Min(row, _rampTime) : row;
         }
 
         /// <summary>Whether it is at rest from this time on.</summary>
         public bool IsOver(double time)
         {
-            return !(time < _rampTime && Moves);
+            return !(time < _rampTime && Moves)
+                && (_motion == null || double.IsInfinity(_motion.NextRow(time)));
         }
 
         /// <summary>Writes or takes over where it began.</summary>

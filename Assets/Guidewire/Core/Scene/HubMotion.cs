@@ -13,14 +13,17 @@ namespace Guidewire.Core
         private double _turnOrigin;        // turn at _turnOriginTime, radians
         private double _turnOriginTime;    // s
         private double _driveEnd = double.NegativeInfinity;  // s
+        private readonly EndMotion? _motion;     // instead of a drive's
         private readonly double? _heldTurn;  // of the frame to which the first element is clamped, radians
 
         /// <summary>A hub at rest that turns at a constant rate.</summary>
         /// <param name="position">Of node 0, m.</param>
         /// <param name="frame">Of the clamp at time 0.</param>
         /// <param name="twistRate">About its own d3, rad/s.</param>
-        public HubMotion(in Vector3d position, in Quaterniond frame, double twistRate)
+        /// <param name="motion">In six degrees of freedom, or null.</param>
+        public HubMotion(in Vector3d position, in Quaterniond frame, double twistRate, EndMotion? motion = null)
         {
+            _motion = motion;
             _position = position;
             _frame = frame;
             _twistRate = twistRate;
@@ -43,8 +46,23 @@ namespace Guidewire.Core
             _heldTurn = heldTurn;
         }
 
-        /// <summary>Velocity of node 0, m/s.</summary>
+        /// <summary>The run begins with this frame.</summary>
+        public void Begin(in Quaterniond frame)
+        {
+            _frame = frame;
+        }
+
+        /// <summary>Velocity of node 0 by its drive, m/s.</summary>
         public Vector3d Velocity => _velocity;
+
+        /// <summary>The motion in six degrees of freedom, or null.</summary>
+        public EndMotion? Motion => _motion;
+
+        /// <summary>Velocity of node 0 at this time, of two at a jump that after it, m/s.</summary>
+        public Vector3d VelocityAt(double time)
+        {
+            return _motion == null ? _velocity : _motion.VelocityAt(time);
+        }
 
         /// <summary>Turning of the hub about its own d3, rad/s.</summary>
         public double TwistRate => _twistRate;
@@ -58,7 +76,8 @@ namespace Guidewire.Core
         /// <summary>Node 0 at this time, m.</summary>
         public Vector3d PositionAt(double time)
         {
-            return _position + (time - _positionTime) * _velocity;
+            Vector3d position = _position + (time - _positionTime) * _velocity;
+            return _motion == null ? position : position + _motion.DisplacementAt(time);
         }
 
         /// <summary>Turn of the hub at this time, radians.</summary>
@@ -117,7 +136,8 @@ namespace Guidewire.Core
         /// <summary>Whether it is at rest from this time on.</summary>
         public bool IsOver(double time)
         {
-            return time >= _driveEnd && _velocity == Vector3d.Zero && _twistRate == 0.0;
+            return time >= _driveEnd && (_motion == null || double.IsInfinity(_motion.NextRow(time)))
+                && _velocity == Vector3d.Zero && _twistRate == 0.0;
         }
 
         /// <summary>Writes or takes over what a drive prescribes anew before every step, for a

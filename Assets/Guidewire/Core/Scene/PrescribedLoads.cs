@@ -9,12 +9,14 @@ namespace Guidewire.Core
         private readonly Vector3d _gravity;           // m/s^2
         private readonly Vector3d _tipForce;          // N
         private readonly Vector3d _distributedForce;  // N/m
+        private readonly PointLoad[] _pointLoads;     // at lengths in m
         private readonly double _axialForce;          // N
         private readonly double _releaseTime;         // s
         private readonly double _wireLength;          // m
         private readonly TimeTable? _gravityTable;    // factors over time
         private readonly TimeTable? _tipForceTable;
         private readonly TimeTable? _distributedForceTable;
+        private readonly TimeTable? _pointLoadsTable;
         private readonly TimeTable? _axialForceTable;
         private readonly TimeTable[] _tables;         // of all loads, of those that turn with the tip among them
 
@@ -26,12 +28,15 @@ namespace Guidewire.Core
             _gravity = scene.Gravity;
             _tipForce = scene.TipForce;
             _distributedForce = scene.DistributedForce;
+            _pointLoads = Array.ConvertAll(scene.PointLoads,
+                load => new PointLoad(unitLength * load.At, load.Force));
             _axialForce = scene.DistalEnd == DistalEnd.Sliding ? scene.AxialForce : 0.0;
             _releaseTime = scene.TipForceReleaseTime;
             _wireLength = unitLength * scene.GuidewireLength;
             _gravityTable = scene.GravityTable;
             _tipForceTable = scene.TipForceTable;
             _distributedForceTable = scene.DistributedForceTable;
+            _pointLoadsTable = scene.PointLoadsTable;
             _axialForceTable = scene.AxialForceTable;
             _tables = scene.UsedLoadTables();
             ProximalForce = proximalForce;
@@ -67,13 +72,29 @@ namespace Guidewire.Core
             return Factor(_distributedForceTable, time) * _distributedForce;
         }
 
+        /// <summary>Forces at places of the wire, at lengths in m, without their factor.</summary>
+        public ReadOnlySpan<PointLoad> PointLoads => _pointLoads;
+
+        /// <summary>Factor on them at this time.</summary>
+        public double PointLoadsFactor(double time)
+        {
+            return Factor(_pointLoadsTable, time);
+        }
+
         /// <summary>Sum of the loads' magnitudes at this time, N, on a rod of this mass, kg.</summary>
         public double SumAt(double time, double mass)
         {
             double tip = time <= _releaseTime ? _tipForce.Length : 0.0;
+            double points = 0.0;
+            foreach (PointLoad load in _pointLoads)
+            {
+                points += load.Force.Length;
+            }
+            points *= Math.Abs(Factor(_pointLoadsTable, time));
             return Math.Abs(Factor(_gravityTable, time)) * mass * _gravity.Length + ProximalForce.Length
                 + Math.Abs(Factor(_axialForceTable, time) * _axialForce) + Math.Abs(Factor(_tipForceTable, time)) * tip
-                + Math.Abs(Factor(_distributedForceTable, time)) * _wireLength * _distributedForce.Length;
+                + Math.Abs(Factor(_distributedForceTable, time)) * _wireLength * _distributedForce.Length
+                + points;
         }
 
         /// <summary>The first time after this one, s, at which a load jumps: the tip force is let go, or a table has
@@ -104,7 +125,8 @@ namespace Guidewire.Core
         {
             bool isReleased = time <= _releaseTime && _releaseTime < end && _tipForce != Vector3d.Zero;
             return !isReleased && !Changes(_gravityTable, time) && !Changes(_tipForceTable, time)
-                && !Changes(_distributedForceTable, time) && !Changes(_axialForceTable, time);
+                && !Changes(_distributedForceTable, time) && !Changes(_pointLoadsTable, time)
+                && !Changes(_axialForceTable, time);
         }
 
         private static double Factor(TimeTable? table, double time)

@@ -34,7 +34,8 @@ namespace Guidewire.Core
         /// does.</summary>
         public double NextJump(double time)
         {
-            return Math.Min(Loads.NextJump(time), Distal.NextJump(time));
+            double next = Math.Min(Loads.NextJump(time), Distal.NextJump(time));
+            return Hub.Motion == null ? next : Math.Min(next, Hub.Motion.NextRow(time));
         }
 
         /// <summary>The first time after this one, s, at which something prescribed is not smooth: a jump, or a row of
@@ -64,11 +65,47 @@ namespace Guidewire.Core
             return now > 0.0 ? largest / now : 1.0;
         }
 
-        /// <summary>Sets both frames of a shape, turned by these angles.</summary>
-        public void TurnFrames(RodShape shape, double proximal, double distal)
+        /// <summary>Whether an end moves in six degrees of freedom.</summary>
+        public bool HasMotions => Hub.Motion != null || Distal.Motion != null;
+
+        /// <summary>The larger angle between a frame at one time and at another by the motions of the ends,
+        /// radians.</summary>
+        public double AngleBetween(double from, double to)
         {
-            shape.ProximalFrame = Hub.FrameTurned(proximal);
-            shape.DistalFrame = Distal.FrameTurned(distal);
+            return Math.Max(Hub.Motion == null ? 0.0 : Hub.Motion.AngleBetween(from, to),
+                Distal.Motion == null ? 0.0 : Distal.Motion.AngleBetween(from, to));
+        }
+
+        /// <summary>Sets both frames of a shape, turned by these angles about their own axes and by the motions of the
+        /// ends up to a time, s.</summary>
+        public void TurnFrames(RodShape shape, double proximal, double distal, double time)
+        {
+            shape.ProximalFrame = Moved(Hub.FrameTurned(proximal), Hub.Motion, time);
+            shape.DistalFrame = Moved(Distal.FrameTurned(distal), Distal.Motion, time);
+        }
+
+        /// <summary>Spin of the proximal frame along its own axes at this time, rad/s.</summary>
+        public Vector3d ProximalSpinAt(double time)
+        {
+            return SpinOf(Hub.Motion, Hub.FrameTurned(Hub.FrameTurnAt(time)), Hub.FrameTwistRate, time);
+        }
+
+        /// <summary>The same of the distal frame.</summary>
+        public Vector3d DistalSpinAt(double time)
+        {
+            return SpinOf(Distal.Motion, Distal.FrameAt(time), Distal.TwistRateAt(time), time);
+        }
+
+        private static Quaterniond Moved(in Quaterniond frame, EndMotion? motion, double time)
+        {
+            return motion == null ? frame : motion.RotationAt(time) * frame;
+        }
+
+        private static Vector3d SpinOf(EndMotion? motion, in Quaterniond frame, double twistRate, double time)
+        {
+            var spin = new Vector3d(0.0, 0.0, twistRate);
+            return motion == null ? spin : spin + Quaterniond.Rotate(Moved(frame, motion, time).Conjugate,
+                motion.AngularVelocityAt(time));
         }
 
         /// <summary>Writes into a snapshot, or takes over from one, where the prescribed motions began and how far they

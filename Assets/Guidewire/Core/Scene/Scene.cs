@@ -28,7 +28,7 @@ namespace Guidewire.Core
                 : drive.TwistPerStep / parameters.Method.TimeStep;
             Schedule = new RodSchedule(new PrescribedLoads(scene, UnitLength,
                 drive.Kind == Core.Drive.Force ? drive.ExternalForce : Vector3d.Zero),
-                new HubMotion(Shape.X[0], Shape.ProximalFrame, twistRate),
+                new HubMotion(Shape.X[0], Shape.ProximalFrame, twistRate, scene.ProximalMotion),
                 new DistalMotion(scene, UnitLength, Shape.X[n], Shape.DistalFrame));
             if (drive.Kind == Core.Drive.Hold)
             {
@@ -130,8 +130,9 @@ namespace Guidewire.Core
                 Shape.Q[j] = Quaterniond.Normalize(start.Orientations[j]);
                 Spins[j] = start.AngularVelocities[j];
             }
-            Shape.ProximalFrame = Quaterniond.Normalize(start.ProximalFrame);
-            Shape.DistalFrame = Quaterniond.Normalize(start.DistalFrame);
+            Shape.ProximalFrame = Quaterniond.Normalize(start.ProximalFrame ?? start.Orientations[0]);
+            Shape.DistalFrame = Quaterniond.Normalize(
+                start.DistalFrame ?? start.Orientations[Shape.ElementCount - 1]);
         }
     }
 }

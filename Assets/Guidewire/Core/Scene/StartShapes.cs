@@ -47,12 +47,7 @@ namespace Guidewire.Core
             {
                 double angle = 2.0 * Math.PI * turns * (s + 0.5 * lengths[j]) / total;
                 var tangent = new Vector3d(-around * Math.Sin(angle), around * Math.Cos(angle), along);
-                Vector3d axis = Vector3d.Cross(frame.Director3, tangent);
-                double sine = axis.Length;
-                double turn = Math.Atan2(sine, Vector3d.Dot(frame.Director3, tangent));
-                frame = sine > 0.0
-                    ? Quaterniond.Normalize(Quaterniond.FromAxisAngle(axis / sine, turn) * frame)
-                    : frame;
+                frame = RodStart.Turned(frame, tangent);
                 shape.Q[j] = frame;
                 shape.X[j + 1] = shape.X[j] + lengths[j] * tangent;
                 s += lengths[j];

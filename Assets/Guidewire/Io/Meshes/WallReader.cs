@@ -156,7 +156,7 @@ namespace Guidewire.Io
             return new MeshShape(mesh, placement);
         }
 
-        private static ConvexObstacle Obstacle(JsonFields fields)
+        private static ContactShape Obstacle(JsonFields fields)
         {
             try
             {
@@ -177,8 +177,20 @@ namespace Guidewire.Io
                     case "hull":
                         fields.Allow("shape", "frictionCoefficient", "points", "radius");
                         return new ConvexObstacle(fields.Vectors("points"), fields.Number("radius", 0.0));
+                    case "cylinder":
+                        fields.Allow("shape", "frictionCoefficient", "point", "axis", "radius");
+                        return ConeShape.Cylinder(
+                            fields.Vector("point", null), fields.Vector("axis", null), fields.Number("radius", null));
+                    case "cone":
+                        fields.Allow("shape", "frictionCoefficient", "from", "to", "fromRadius", "toRadius");
+                        return ConeShape.Cone(fields.Vector("from", null), fields.Vector("to", null),
+                            fields.Number("fromRadius", null), fields.Number("toRadius", null));
+                    case "plane":
+                        fields.Allow("shape", "frictionCoefficient", "point", "normal");
+                        return new PlaneShape(fields.Vector("point", Vector3d.Zero), fields.Vector("normal", null));
                     default:
-                        throw fields.Wrong("shape", "one of \"sphere\", \"capsule\", \"box\", \"hull\"");
+                        throw fields.Wrong("shape",
+                            "one of \"sphere\", \"capsule\", \"box\", \"hull\", \"cylinder\", \"cone\", \"plane\"");
                 }
             }
             catch (ArgumentException error)

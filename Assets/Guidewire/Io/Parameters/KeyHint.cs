@@ -12,7 +12,6 @@ namespace Guidewire.Io
         private static readonly Dictionary<string, string[]> Synonyms =
             new Dictionary<string, string[]>(StringComparer.OrdinalIgnoreCase)
             {
-                ["duration"] = new[] { "maxSimulationSteps" },
                 ["endTime"] = new[] { "maxSimulationSteps" },
                 ["simulationTime"] = new[] { "maxSimulationSteps" },
                 ["steps"] = new[] { "maxSimulationSteps" },

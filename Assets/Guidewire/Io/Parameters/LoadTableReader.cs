@@ -16,6 +16,7 @@ namespace Guidewire.Io
                 ["gravity"] = (scene, table) => scene.GravityTable = table,
                 ["tipForce"] = (scene, table) => scene.TipForceTable = table,
                 ["distributedForce"] = (scene, table) => scene.DistributedForceTable = table,
+                ["pointLoads"] = (scene, table) => scene.PointLoadsTable = table,
                 ["axialForce"] = (scene, table) => scene.AxialForceTable = table,
                 ["tipMoment"] = (scene, table) => scene.TipMomentTable = table,
                 ["tipFollowerForce"] = (scene, table) => scene.TipFollowerForceTable = table,

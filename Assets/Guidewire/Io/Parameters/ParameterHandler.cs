@@ -1,10 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Globalization;
-using System.IO;
 using System.Linq;
-using System.Security.Cryptography;
-using System.Text;
 using Guidewire.Core;
 using Newtonsoft.Json;
 using Newtonsoft.Json.Linq;
@@ -21,6 +18,9 @@ namespace Guidewire.Io
             ("VerletIntegration", "integrator"),
             ("SteadyState", "drive"),
         };
+
+        private const string Steps = "maxSimulationSteps";
+        private const int MostSteps = 1_000_000_000;
 
         private readonly GivenParameters _given = new GivenParameters();
 
@@ -91,6 +91,11 @@ namespace Guidewire.Io
                         handler._given.Remove(twin);
                     }
                 }
+                string? length = pair.Key == Steps ? "duration" : pair.Key == "duration" ? Steps : null;
+                if (length != null && handler._given.TryGet(length, out var said) && said.Source == file)
+                {
+                    handler._given.Remove(length);
+                }
                 handler._given.Take(pair.Key, pair.Value, CommandLineHandler.Source);
                 WireStiffness.Replace(handler._given, pair.Key, file);
             }
@@ -155,6 +160,7 @@ namespace Guidewire.Io
             {
                 CheckTwins(older, newer);
             }
+            ApplyDuration();
             SimulationParameters simulation = Values.Simulation;
             WireStiffness.Apply(Values, _given);
             if (_given.Has("SteadyState") && simulation.Drive.Kind == Drive.Displace
@@ -167,12 +173,10 @@ namespace Guidewire.Io
             {
                 throw Refused(conflict.Key, conflict.Needed);
             }
-            if (Values.StartFile.Length > 0)
-            {
-                Values.StartFile = NamedFile.Find(Values.StartFile, _given.SourceOf("startFile"));
-                simulation.Scene.Start = ReadStart(ElementLayout.Count(simulation));
-            }
+            ReadStart(simulation);
+            PointLoadReader.Read(Values, _given.SourceOf);
             LoadTableReader.Read(Values, _given.SourceOf);
+            EndMotionReader.Read(Values, _given.SourceOf);
             DriveTableReader.Read(Values, _given.SourceOf("driveFile"));
             SheathReader.Read(Values, _given.SourceOf);
             InletReader.Read(Values, _given);
@@ -182,7 +186,7 @@ namespace Guidewire.Io
             }
             ReadWalls(simulation);
             Warn();
-            Hash = ComputeHash();
+            Hash = ParameterHash.Of(Values, Taken());
         }
 
         // Takes out what the method does not take: refuses it from the command line, notes it from a file.
@@ -259,25 +263,47 @@ namespace Guidewire.Io
             }
         }
 
-        private RodStart ReadStart(int n)
+        private void ReadStart(SimulationParameters simulation)
         {
+            bool isFile = Values.StartFile.Length > 0;
+            string key = isFile ? "startFile" : "start";
+            if (!isFile && Values.Start == null)
+            {
+                return;
+            }
+            if (isFile && Values.Start != null)
+            {
+                throw new ParameterException(_given.SourceOf("start") + ": start and startFile: give one of the two");
+            }
+            string name = key;
             try
             {
-                RodStart start = StartFileReader.Read(Values.StartFile, n);
+                int n = ElementLayout.Count(simulation);
+                RodStart start;
+                if (isFile)
+                {
+                    name = Values.StartFile = NamedFile.Find(Values.StartFile, _given.SourceOf(key));
+                    start = StartFileReader.Read(name, n);
+                }
+                else
+                {
+                    start = StartFileReader.Read((JObject)Values.Start!, name, n);
+                }
                 string? shear = start.FindShear();
                 if (shear != null && MethodTable.Of(Method).TakesMaterial)
                 {
-                    throw new ParameterException(Values.StartFile + ": " + shear);
+                    throw new ParameterException(name + ": " + shear);
                 }
                 if (shear != null)
                 {
-                    AddWarning("{0}: {1}", Values.StartFile, shear);    // pbd stiffness may be that soft
+                    AddWarning("{0}: {1}", name, shear);    // pbd stiffness may be that soft
                 }
-                return start;
+                simulation.Scene.Start = start;
             }
             catch (ParameterException error)
             {
-                throw new ParameterException(_given.SourceOf("startFile") + ": startFile: " + error.Message);
+                throw new ParameterException(_given.SourceOf(key) + ": " + (isFile ? "startFile: " : "")
+                    + error.Message);
             }
         }
 
@@ -292,6 +318,29 @@ namespace Guidewire.Io
             {
                 throw new ParameterException(given.Source, key, given.Value.ToString(Formatting.None), entry.Allowed);
             }
+        }
+
+        // The least number of steps whose end is not before that time; rounding adds none.
+        private void ApplyDuration()
+        {
+            if (!(Values.Duration is double duration))
+            {
+                return;
+            }
+            MethodParameters method = Values.Simulation.Method;
+            double steps = Math.Ceiling(duration / method.TimeStep * (1.0 - 1e-12));
+            if (!(steps <= MostSteps))
+            {
+                throw Refused("duration", "at most " + MostSteps + " steps of timeStep = "
+                    + method.TimeStep.ToString(CultureInfo.InvariantCulture) + " s");
+            }
+            if (_given.Has(Steps) && method.MaxSimulationSteps != (int)steps)
+            {
+                throw Refused("duration", "no maxSimulationSteps beside it, which says "
+                    + method.MaxSimulationSteps + " where this is " + (int)steps + " steps");
+            }
+            method.MaxSimulationSteps = (int)steps;
+            Values.Duration = null;    // the number of steps says it, also in a run's own parameters
         }
 
         private void CheckTwins(string older, string newer)
@@ -367,44 +416,6 @@ namespace Guidewire.Io
         private void AddWarning(string format, params object[] values)
         {
             _warnings.Add(string.Format(CultureInfo.InvariantCulture, format, values));
-        }
-
-        private string ComputeHash()
-        {
-            var text = new StringBuilder();
-            foreach (ParameterEntry entry in Taken())
-            {
-                if (!entry.IsOutputPath && entry.Key != InstrumentLayer.Key && entry.Key != "startFile"
-                    && entry.Key != "vessel" && entry.Key != "loadTables" && entry.Key != "driveFile")
-                {
-                    text.Append(entry.Key).Append('=').Append(NumberText.Write(entry.Write(Values))).Append('\n');
-                }
-            }
-            if (Values.StartFile.Length > 0)
-            {
-                // What the file holds counts, not what it is called.
-                text.Append("start=").Append(File.ReadAllText(Values.StartFile)).Append('\n');
-            }
-            text.Append(LoadTableReader.Content(Values.LoadTables));
-            if (Values.DriveFile.Length > 0)
-            {
-                text.Append("drive=").Append(File.ReadAllText(Values.DriveFile)).Append('\n');
-            }
-            using SHA256 sha = SHA256.Create();
-            if (Values.Vessel?.DeepClone() is JObject vessel)
-            {
-                string[] files = { (string?)vessel["file"] ?? "", (string?)vessel["anatomy"] ?? "" };
-                vessel.Remove("file");
-                vessel.Remove("anatomy");
-                text.Append("vessel=").Append(NumberText.Write(vessel)).Append('\n');
-                foreach (string file in files)
-                {
-                    text.Append(file.Length == 0 ? ""
-                        : Convert.ToBase64String(sha.ComputeHash(File.ReadAllBytes(file))));
-                }
-            }
-            byte[] digest = sha.ComputeHash(Encoding.UTF8.GetBytes(text.ToString()));
-            return BitConverter.ToString(digest).Replace("-", "").ToLowerInvariant();
         }
     }
 }

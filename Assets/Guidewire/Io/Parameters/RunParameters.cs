@@ -44,6 +44,15 @@ namespace Guidewire.Io
         /// <summary>File with a start other than the straight wire; empty for none.</summary>
         public string StartFile { get; set; } = "";
 
+        /// <summary>The same as its key has it, or null.</summary>
+        public JToken? Start { get; set; }
+
+        /// <summary>When the run ends, s, instead of its largest number of steps; null once that is known.</summary>
+        public double? Duration { get; set; }
+
+        /// <summary>The forces at places of the wire as their key has them, or null.</summary>
+        public JToken? PointLoads { get; set; }
+
         /// <summary>Name of the instrument that the wire is; empty for none.</summary>
         public string Instrument { get; set; } = "";
 
@@ -91,6 +100,12 @@ namespace Guidewire.Io
 
         /// <summary>The file with the hub's displacement and turn over time; empty for none.</summary>
         public string DriveFile { get; set; } = "";
+
+        /// <summary>The file with the proximal end's motion in six degrees of freedom; empty for none.</summary>
+        public string ProximalMotionFile { get; set; } = "";
+
+        /// <summary>The same of the distal end.</summary>
+        public string DistalMotionFile { get; set; } = "";
 
         /// <summary>Every k-th step is logged.</summary>
         public int LogEvery { get; set; } = 1;

@@ -1,4 +1,5 @@
 using System;
+using System.Globalization;
 using Guidewire.Core;
 using Newtonsoft.Json.Linq;
 
@@ -6,7 +7,7 @@ namespace Guidewire.Io
 {
     /// <summary>Reads a start other than the straight wire: {"positions": [[x, y, z], ...] (n + 1, units),
     /// "orientations": [[x, y, z, w], ...] (n), "velocities": (n + 1, unit/s) and "angularVelocities": (n, rad/s, body
-    /// frame), and the clamps' frames "proximalFrame" and "distalFrame" ([x, y, z, w]), the last four
+    /// frame), and the clamps' frames "proximalFrame" and "distalFrame" ([x, y, z, w]), all but the first
     /// optional}.</summary>
     internal static class StartFileReader
     {
@@ -20,7 +21,16 @@ namespace Guidewire.Io
         /// elements.</exception>
         public static RodStart Read(string file, int n)
         {
-            JObject root = JsonText.ReadObject(file);
+            return Read(JsonText.ReadObject(file), file, n);
+        }
+
+        /// <summary>The start that an object holds.</summary>
+        /// <param name="root">The object.</param>
+        /// <param name="file">Where it stands, for what is refused.</param>
+        /// <param name="n">Elements of the wire.</param>
+        /// <exception cref="ParameterException">It does not fit a wire of n elements.</exception>
+        public static RodStart Read(JObject root, string file, int n)
+        {
             foreach (JProperty property in root.Properties())
             {
                 if (Array.IndexOf(Keys, property.Name) < 0)
@@ -29,14 +39,14 @@ namespace Guidewire.Io
                         + "': allowed are " + string.Join(", ", Keys));
                 }
             }
-            var start = new RodStart(
-                Vectors(file, root, "positions", n + 1)
-                ?? throw Missing(file, "positions", n + 1, "[x, y, z] in units"),
-                Orientations(file, root, n),
+            Vector3d[] positions = Vectors(file, root, "positions", n + 1)
+                ?? throw Missing(file, "positions", n + 1, "[x, y, z] in units");
+            var start = new RodStart(positions,
+                root["orientations"] == null ? Along(file, positions) : Orientations(file, root, n),
                 Vectors(file, root, "velocities", n + 1),
                 Vectors(file, root, "angularVelocities", n));
-            start.ProximalFrame = Frame(file, root, "proximalFrame") ?? start.ProximalFrame;
-            start.DistalFrame = Frame(file, root, "distalFrame") ?? start.DistalFrame;
+            start.ProximalFrame = Frame(file, root, "proximalFrame");
+            start.DistalFrame = Frame(file, root, "distalFrame");
             return start;
         }
 
@@ -61,6 +71,20 @@ namespace Guidewire.Io
                 }
             }
             return vectors;
+        }
+
+        private static Quaterniond[] Along(string file, Vector3d[] positions)
+        {
+            for (int j = 0; j < positions.Length - 1; j++)
+            {
+                if (positions[j] == positions[j + 1])
+                {
+                    throw new ParameterException(string.Format(CultureInfo.InvariantCulture,
+                        "{0}: positions[{1}] and positions[{2}] are one place: element {1} has no length", file, j,
+                        j + 1));
+                }
+            }
+            return RodStart.AlongChords(positions);
         }
 
         private static Quaterniond[] Orientations(string file, JObject root, int n)

@@ -1,7 +1,9 @@
+using System;
+
 namespace Guidewire.Core
 {
-    /// <summary>Forces on the nodes of constant direction in the world: weight, force per length, tip force, axial
-    /// force. Energy -sum f_i . x_i.</summary>
+    /// <summary>Forces on the nodes of constant direction in the world: weight, force per length, forces at
+    /// places, tip force, axial force. Energy -sum f_i . x_i.</summary>
     internal sealed class DeadLoads : EnergyTerm
     {
         private readonly RodMass _mass;
@@ -26,7 +28,25 @@ namespace Guidewire.Core
             {
                 AddPerLength(schedule.Loads.DistributedForceAt(time));
             }
+            foreach (PointLoad load in schedule.Loads.PointLoads)
+            {
+                AddAt(load.At, schedule.Loads.PointLoadsFactor(time) * load.Force);
+            }
             Force[0] += schedule.Loads.ProximalForce;
+        }
+
+        /// <summary>Adds a force, N, at a length along the wire at rest, m: on the spheres beside it by the lever rule,
+        /// so that it does the same work.</summary>
+        public void AddAt(double length, in Vector3d force)
+        {
+            int j = 0;
+            while (j < _length.Length - 1 && length > _length[j])
+            {
+                length -= _length[j++];
+            }
+            double fraction = Math.Min(1.0, length / _length[j]);
+            Force[j] += (1.0 - fraction) * force;
+            Force[j + 1] += fraction * force;
         }
 
         /// <summary>Sets the weight of the rod under gravity g (m/s^2), by the mass of each node, and adds the force

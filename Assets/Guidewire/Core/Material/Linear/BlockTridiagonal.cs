@@ -281,7 +281,7 @@ namespace Guidewire.Core
             {
                 return;
             }
-            // With P the projection on the axis along which the end may slide (0 if clamped): rows P D and P E of the
+            // With P the projection on the axis along which the end may slide (0 if held): rows P D and P E of the
             // element before, and P A P + 1 - P for the end itself.
             Vector3d a = _distalEnd == DistalEnd.Sliding ? _slidingAxis : Vector3d.Zero;
             double d1 = a.X * b.D11 + a.Y * b.D21 + a.Z * b.D31;
@@ -304,7 +304,7 @@ namespace Guidewire.Core
             end.A21 = along * a.X * a.Y;
             end.A31 = along * a.X * a.Z;
             end.A32 = along * a.Y * a.Z;
-            if (_distalEnd == DistalEnd.Clamped)
+            if (_distalEnd != DistalEnd.Sliding)
             {
                 end.A11 = 1.0;
                 end.A22 = 1.0;

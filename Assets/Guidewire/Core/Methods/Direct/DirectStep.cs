@@ -285,7 +285,7 @@ namespace Guidewire.Core
             Results.InnerSteps = _dynamics.Control.Steps;
             Results.Energy = _dynamics.Energy;
             Results.ProximalForce = _dynamics.ReactionAt(0);
-            Results.DistalForce = Scene.Supports.HasDistalJoint ? _dynamics.ReactionAt(Shape.ElementCount)
+            Results.DistalForce = Scene.Supports.Distal != DistalEnd.Free ? _dynamics.ReactionAt(Shape.ElementCount)
                 : Vector3d.Zero;
             Results.ProximalMoment = _dynamics.Reactions.ProximalCouple;
             Results.DistalMoment = _dynamics.Reactions.DistalCouple;

@@ -14,6 +14,9 @@ namespace Guidewire.Io
                 "the method: pbd (stiffness per iteration), or xpbd, direct and explicit (a material)"),
             new NumberEntry("timeStep", "s", NumberRange.Positive, "dt"),
             new IntegerEntry("maxSimulationSteps", "steps", 0, 1_000_000_000, "largest number of steps of the run"),
+            new OptionalNumberEntry("duration", "s", NumberRange.NotNegative,
+                "when the run ends, instead of maxSimulationSteps, which becomes the number of steps up to there; the"
+                + " last one may end after it"),
             new IntegerEntry("constraintSolverSteps", "iterations per step", 0, 1_000_000,
                 "m, Gauss-Seidel iterations, with xpbd of each substep; with pbd, more of them make a stiffer wire")
             {

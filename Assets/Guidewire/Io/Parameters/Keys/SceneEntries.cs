@@ -29,6 +29,9 @@ namespace Guidewire.Io
             new TextEntry("startFile",
                 "JSON file with positions, orientations, velocities and angularVelocities to start from; the"
                 + " path is relative to the parameter file's folder"),
+            new JsonEntry("start", JTokenType.Object,
+                "null or {\"positions\", \"orientations\", \"velocities\", \"angularVelocities\", \"proximalFrame\","
+                + " \"distalFrame\"}, all but the first optional", "what a startFile holds, in its place"),
             new ChoiceEntry<StartShape>("startShape", "shape of the wire at the start; the two ends of a ring coincide")
             {
                 Methods = Takers.Material,
@@ -48,13 +51,29 @@ namespace Guidewire.Io
                 + " too; free: neither; pbd takes \"held\" and \"clamped\""),
             new ChoiceEntry<DistalEnd>("distalEnd",
                 "free: nothing held; clamped: position and frame held; sliding: frame held, free to slide along its"
-                + " axis (direct only)"),
+                + " axis (direct only); held: position of the last sphere, a ball joint or pin (with a material)"),
             new NumberEntry("distalRotation", "rad", NumberRange.Any,
                 "rotation of the distal clamp about its own axis, also by more than one turn"),
             new NumberEntry("distalDisplacement", "units", NumberRange.Any,
                 "displacement of the distal clamp along its own axis"),
             new NumberEntry("distalRampTime", "s", NumberRange.NotNegative,
                 "time over which distalRotation and distalDisplacement grow; 0: at once"),
+            new TextEntry("proximalMotionFile",
+                "CSV file of time (s), displacement x, y, z (m) and rotation vector x, y, z (rad) of the proximal end,"
+                + " along the world's axes and against its start, with a first row of zeros: linear between rows, at"
+                + " rest after the last; time steps end at rows; needs drive \"hold\"; the path is relative to the"
+                + " parameter file's folder")
+            {
+                Methods = Takers.Only(Solver.Direct),
+                IsRefusedElsewhere = true,
+            },
+            new TextEntry("distalMotionFile",
+                "the same of the distal end, instead of distalRotation and distalDisplacement; a sliding end stays free"
+                + " along the axis that it starts with")
+            {
+                Methods = Takers.Only(Solver.Direct),
+                IsRefusedElsewhere = true,
+            },
             new NumberEntry("axialForce", "N", NumberRange.Any, "pull on a sliding distal end along its axis")
             {
                 Methods = Takers.Only(Solver.Direct),
@@ -68,9 +87,16 @@ namespace Guidewire.Io
             {
                 Methods = Takers.Material,
             },
+            new JsonEntry("pointLoads", JTokenType.Array, "null or a list of {\"at\" (units), \"force\" [x, y, z] (N)}",
+                "forces of constant direction at places of the wire, each at a length along it at rest from sphere 0;"
+                + " between two spheres it is divided over both by the lever rule")
+            {
+                Methods = Takers.Material,
+                IsRefusedElsewhere = true,
+            },
             new JsonEntry("loadTables", JTokenType.Object,
-                "null or {\"tipForce\": FILE, ..}, with any of gravity, tipForce, distributedForce, axialForce,"
-                + " tipMoment, tipFollowerForce",
+                "null or {\"tipForce\": FILE, ..}, with any of gravity, tipForce, distributedForce, pointLoads,"
+                + " axialForce, tipMoment, tipFollowerForce",
                 "CSV files of time (s) and a factor (without unit) on that load, linear between rows, constant"
                 + " before the first and after the last; two rows with the same time are a jump; time steps of direct"
                 + " end at each row; paths are relative to the parameter file's folder")
@@ -139,8 +165,12 @@ namespace Guidewire.Io
             },
             new JsonEntry("obstacles", JTokenType.Array, "null or a list of {\"shape\": \"sphere\", \"centre\","
                 + " \"radius\"}, {\"shape\": \"capsule\", \"from\", \"to\", \"radius\"}, {\"shape\": \"box\","
-                + " \"centre\", \"halfSize\", \"rotation\"}, {\"shape\": \"hull\", \"points\", \"radius\"}",
-                "convex bodies in the wire's path (units, degrees); each may have a \"frictionCoefficient\" (0)")
+                + " \"centre\", \"halfSize\", \"rotation\"}, {\"shape\": \"hull\", \"points\", \"radius\"},"
+                + " {\"shape\": \"cylinder\", \"point\", \"axis\", \"radius\"}, {\"shape\": \"cone\", \"from\","
+                + " \"to\", \"fromRadius\", \"toRadius\"}, {\"shape\": \"plane\", \"point\", \"normal\"}",
+                "convex bodies in the wire's path (units, degrees): capsules and cones end in balls, cylinders and"
+                + " planes have no end, a plane's normal points to the wire; each may have a"
+                + " \"frictionCoefficient\" (0)")
             {
                 Methods = Takers.Walls,
                 IsRefusedElsewhere = true,

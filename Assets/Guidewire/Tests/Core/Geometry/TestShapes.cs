@@ -9,6 +9,7 @@ namespace Guidewire.Core.Tests
         public static readonly string[] Names =
         {
             "plane", "tube", "wavy tube", "cube", "bumpy ball", "open tube", "sphere", "capsule", "box", "hull",
+            "cone", "cylinder",
         };
 
         private static readonly double[] StraightRadii = { 0.8, 0.8 };
@@ -48,6 +49,10 @@ namespace Guidewire.Core.Tests
                 case "box":
                     return ConvexObstacle.Box(
                         0.2 * random.Point(), new Vector3d(0.3, 0.5, 0.7), random.Orientation());
+                case "cone":
+                    return ConeShape.Cone(0.5 * random.Point(), 0.5 * random.Point(), 0.1, 0.3);
+                case "cylinder":
+                    return ConeShape.Cylinder(0.2 * random.Point(), random.Direction(), 0.3);
                 default:
                     var points = new Vector3d[20];
                     for (int i = 0; i < points.Length; i++)

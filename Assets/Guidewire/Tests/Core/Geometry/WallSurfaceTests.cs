@@ -16,6 +16,8 @@ namespace Guidewire.Core.Tests
             yield return Named("tube", new TubeShape(knots, new[] { 5.0, 5.0, 4.0 }, true, true), 0.3);
             yield return Named("ball", ConvexObstacle.Sphere(new Vector3d(3.0, 1.0, 0.0), 6.0), 0.1);
             yield return Named("capsule", ConvexObstacle.Capsule(Vector3d.Zero, new Vector3d(0.0, 9.0, 0.0), 4.0), 0.1);
+            yield return Named("cone", ConeShape.Cone(Vector3d.UnitX, new Vector3d(0.0, 9.0, 3.0), 4.0, 1.0), 0.1);
+            yield return Named("cylinder", ConeShape.Cylinder(Vector3d.UnitX, new Vector3d(0.0, 2.0, 1.0), 4.0), 0.1);
             Vector3d[] corners =
             {
                 new Vector3d(0, 0, 0), new Vector3d(8, 0, 0), new Vector3d(8, 8, 0), new Vector3d(0, 8, 0),

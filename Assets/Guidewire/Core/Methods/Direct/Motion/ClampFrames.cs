@@ -10,6 +10,7 @@ namespace Guidewire.Core
         private readonly StageSolver _solver;
         private double _proximal;  // turn that has been made, radians
         private double _distal;
+        private double _time;      // up to which motions of the ends have been made, s
 
         /// <summary>Frames that have made no turn yet.</summary>
         public ClampFrames(RodSchedule schedule, StageSolver solver)
@@ -35,7 +36,8 @@ namespace Guidewire.Core
         public bool AreInPlace(double time, double angle)
         {
             return Math.Abs(_schedule.Hub.FrameTurnAt(time) - _proximal) <= angle
-                && Math.Abs(_schedule.Distal.TurnAt(time) - _distal) <= angle;
+                && Math.Abs(_schedule.Distal.TurnAt(time) - _distal) <= angle
+                && _schedule.AngleBetween(_time, time) <= angle;
         }
 
         /// <summary>Turns the frames of a shape.</summary>
@@ -46,11 +48,14 @@ namespace Guidewire.Core
             inParts = false;
             double proximal = _schedule.Hub.FrameTurnAt(time) - _proximal;
             double distal = _schedule.Distal.TurnAt(time) - _distal;
-            if (proximal == 0.0 && distal == 0.0)
+            double rotation = _schedule.AngleBetween(_time, time);
+            if (proximal == 0.0 && distal == 0.0 && rotation == 0.0)
             {
+                _time = time;
                 return null;
             }
-            string? failure = Winding.Split(Math.Max(Math.Abs(proximal), Math.Abs(distal)), out int parts);
+            string? failure = Winding.Split(
+                Math.Max(Math.Max(Math.Abs(proximal), Math.Abs(distal)), rotation), out int parts);
             if (failure != null)
             {
                 return failure;
@@ -59,7 +64,8 @@ namespace Guidewire.Core
             for (int k = 1; k <= parts; k++)
             {
                 double fraction = (double)k / parts;
-                _schedule.TurnFrames(shape, _proximal + fraction * proximal, _distal + fraction * distal);
+                _schedule.TurnFrames(shape, _proximal + fraction * proximal, _distal + fraction * distal,
+                    k < parts ? _time + fraction * (time - _time) : time);
                 if (k < parts)
                 {
                     failure = _solver.Search(shape);
@@ -71,7 +77,15 @@ namespace Guidewire.Core
             }
             _proximal += proximal;
             _distal += distal;
+            _time = time;
             return null;
+        }
+
+        /// <summary>Up to when motions of the ends have been made, s.</summary>
+        public double Time
+        {
+            get => _time;
+            set => _time = value;
         }
 
         /// <summary>Writes or takes over the turns.</summary>

@@ -134,7 +134,7 @@ namespace Guidewire.Core
                 y[i] -= fraction * y[i - 1];
             }
             Vector3d end = (1.0 / _pivot[n]) * y[n];
-            if (_distal == DistalEnd.Clamped)
+            if (_terms.Supports.HoldsLastNode)
             {
                 end = last;
             }

@@ -216,6 +216,7 @@ namespace Guidewire.Core
         {
             _motion.Serialize(snapshot);
             Frames.Serialize(snapshot);
+            Frames.Time = snapshot.Serialize(Frames.Time);
             foreach (EnergyTerm term in _terms.All)
             {
                 term.Serialize(snapshot);
@@ -246,8 +247,7 @@ namespace Guidewire.Core
         private void BeginDamping(double time)
         {
             Damping?.Begin(_shape, _motion.Velocities, _motion.Spins,
-                new Vector3d(0.0, 0.0, _schedule.Hub.FrameTwistRate),
-                new Vector3d(0.0, 0.0, _schedule.Distal.TwistRateAt(time)));
+                _schedule.ProximalSpinAt(time), _schedule.DistalSpinAt(time));
         }
 
         /// <summary>By the quick iteration from the prediction, or else by the slower search.</summary>

@@ -122,6 +122,7 @@ namespace Guidewire.Core
             _stage.Frames.Serialize(snapshot);
             if (!snapshot.IsWritten)
             {
+                _stage.Frames.Time = time;
                 _stepper.Begin();
             }
         }

@@ -168,7 +168,7 @@ namespace Guidewire.Core
         {
             double after = time + SameTime * dt;
             StageRates rates = Stage.Rates;
-            Vector3d proximal = _schedule.Hub.Velocity;
+            Vector3d proximal = _schedule.Hub.VelocityAt(after);
             Vector3d distal = _schedule.Distal.VelocityAt(after);
             bool isInPlace = _start.IsHeldAt(_motion.Shape, _schedule, time, SamePosition * _length)
                 && Stage.Frames.AreInPlace(time, SamePosition);

@@ -36,7 +36,7 @@ namespace Guidewire.Core
         public string? Find(RodShape shape)
         {
             _terms.SetTime(_scene.Schedule, 0.0);
-            if (_scene.StartsStraight && !_scene.Supports.HasDistalJoint)
+            if (_scene.StartsStraight && _scene.Supports.Distal == DistalEnd.Free)
             {
                 var straight = new RodShape(shape.ElementCount);
                 straight.CopyFrom(shape);
@@ -66,14 +66,14 @@ namespace Guidewire.Core
         {
             RodSchedule schedule = _scene.Schedule;
             var statics = new RodStatics(_terms);
-            bool clamped = _scene.Supports.HasDistalJoint;
+            bool isHeld = _scene.Supports.Distal != DistalEnd.Free;
             int last = shape.ElementCount;
-            double turn = clamped ? schedule.Distal.TurnAt(0.0) : 0.0;
+            double turn = _scene.Supports.HasDistalJoint ? schedule.Distal.TurnAt(0.0) : 0.0;
             Vector3d from = shape.X[0];
             Vector3d startShift = schedule.Hub.PositionAt(0.0) - from;
             Vector3d end = shape.X[last];
-            Vector3d endShift = clamped ? schedule.Distal.PositionAt(0.0) - end : Vector3d.Zero;
-            double shift = Math.Max(endShift.Length, clamped ? startShift.Length : 0.0) / _scene.Rod.TotalLength;
+            Vector3d endShift = isHeld ? schedule.Distal.PositionAt(0.0) - end : Vector3d.Zero;
+            double shift = Math.Max(endShift.Length, isHeld ? startShift.Length : 0.0) / _scene.Rod.TotalLength;
             string? failure = Winding.Split(turn, out int turns);
             if (failure != null)
             {
@@ -85,7 +85,7 @@ namespace Guidewire.Core
                 // Each part is spread over the rod as an even stretch and an even twist; the solver does the rest.
                 for (int i = 0; i <= last; i++)
                 {
-                    Vector3d a = clamped ? Vector3d.Lerp(startShift, endShift, (double)i / last) : startShift;
+                    Vector3d a = isHeld ? Vector3d.Lerp(startShift, endShift, (double)i / last) : startShift;
                     shape.X[i] += a / parts;
                 }
                 for (int j = 0; j < last; j++)
@@ -93,7 +93,7 @@ namespace Guidewire.Core
                     double fraction = turn / parts * (j + 0.5) / last;
                     shape.Q[j] = shape.Q[j] * Quaterniond.FromAxisAngle(Vector3d.UnitZ, fraction);
                 }
-                schedule.TurnFrames(shape, 0.0, turn * k / parts);
+                schedule.TurnFrames(shape, 0.0, turn * k / parts, 0.0);
                 EquilibriumResult result = statics.Solve(shape, _tolerance, _mostIterations);
                 _report.EquilibriumIterations += result.Iterations;
                 _report.Factorisations += result.Factorisations;

@@ -57,6 +57,13 @@ namespace Guidewire.Core
                 - _dynamics.Terms.Walls()!.Spring.LagOf(_dynamics.Shape), _dynamics.Shape.X[0]);
             double turn = Math.Abs(_schedule.Hub.FrameTurnAt(_dynamics.Time + dt) - _dynamics.ProximalTurn)
                 + Math.Abs(_schedule.Distal.TurnAt(_dynamics.Time + dt) - _dynamics.DistalTurn);
+            if (_schedule.HasMotions)
+            {
+                double end = _dynamics.Time + dt;
+                turn += _schedule.AngleBetween(_dynamics.Time, end);
+                move = Math.Max(move, Vector3d.Distance(
+                    _schedule.Distal.PositionAt(_dynamics.Time), _schedule.Distal.PositionAt(end)));
+            }
             // Rounding, and the small distance of node 0 from its support, must not add a part.
             double parts = Math.Ceiling(Math.Max(move / _longestMove, turn / LargestTurn) * (1.0 - SmallExcess));
             return (int)Math.Min(Math.Max(parts, 1.0), MostParts);

@@ -74,7 +74,7 @@ namespace Guidewire.Core.Tests
                 shape.Q[j] = RotationVector.Exp(0.8 * new Vector3d(tilt.X, tilt.Y, 0.0))
                     * Quaterniond.FromAxisAngle(Vector3d.UnitZ, turn * (j + 0.5) / N);
             }
-            scene.Schedule.TurnFrames(shape, 0.0, turn);
+            scene.Schedule.TurnFrames(shape, 0.0, turn, 0.0);
             Assert.That(watch.FindLost(shape, turn), Is.Null);
             Assert.That(watch.FindLost(shape, turn + 4.0 * Math.PI), Does.Contain("has lost 2:"));
         }

@@ -1,0 +1,67 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using System.Security.Cryptography;
+using System.Text;
+using Newtonsoft.Json.Linq;
+
+namespace Guidewire.Io
+{
+    /// <summary>SHA-256 of all effective values but output paths: of files what they hold, not what they are
+    /// called.</summary>
+    internal static class ParameterHash
+    {
+        /// <summary>The hash, in hex.</summary>
+        /// <param name="values">The effective values.</param>
+        /// <param name="taken">The keys that the method takes.</param>
+        public static string Of(RunParameters values, IEnumerable<ParameterEntry> taken)
+        {
+            var text = new StringBuilder();
+            foreach (ParameterEntry entry in taken)
+            {
+                if (!entry.IsOutputPath && entry.Key != InstrumentLayer.Key && entry.Key != "startFile"
+                    && entry.Key != "vessel" && entry.Key != "loadTables" && !IsTableFile(entry.Key))
+                {
+                    text.Append(entry.Key).Append('=').Append(NumberText.Write(entry.Write(values))).Append('\n');
+                }
+            }
+            if (values.StartFile.Length > 0)
+            {
+                // What the file holds counts, not what it is called.
+                text.Append("start=").Append(File.ReadAllText(values.StartFile)).Append('\n');
+            }
+            text.Append(LoadTableReader.Content(values.LoadTables));
+            AppendFile(text, "drive=", values.DriveFile);
+            AppendFile(text, "proximalMotion=", values.ProximalMotionFile);
+            AppendFile(text, "distalMotion=", values.DistalMotionFile);
+            using SHA256 sha = SHA256.Create();
+            if (values.Vessel?.DeepClone() is JObject vessel)
+            {
+                string[] files = { (string?)vessel["file"] ?? "", (string?)vessel["anatomy"] ?? "" };
+                vessel.Remove("file");
+                vessel.Remove("anatomy");
+                text.Append("vessel=").Append(NumberText.Write(vessel)).Append('\n');
+                foreach (string file in files)
+                {
+                    text.Append(file.Length == 0 ? ""
+                        : Convert.ToBase64String(sha.ComputeHash(File.ReadAllBytes(file))));
+                }
+            }
+            byte[] digest = sha.ComputeHash(Encoding.UTF8.GetBytes(text.ToString()));
+            return BitConverter.ToString(digest).Replace("-", "").ToLowerInvariant();
+        }
+
+        private static bool IsTableFile(string key)
+        {
+            return key == "driveFile" || key == "proximalMotionFile" || key == "distalMotionFile";
+        }
+
+        private static void AppendFile(StringBuilder text, string name, string file)
+        {
+            if (file.Length > 0)
+            {
+                text.Append(name).Append(File.ReadAllText(file)).Append('\n');
+            }
+        }
+    }
+}
