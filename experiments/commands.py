@@ -293,6 +293,12 @@ def _anatomy(arguments: argparse.Namespace) -> int:
     return command.run(arguments)
 
 
+def _steer(arguments: argparse.Namespace) -> int:
+    from experiments import navigation
+
+    return navigation.run(arguments, _build_runner, _hand_to)
+
+
 def _stress(arguments: argparse.Namespace) -> int:
     from analysis.figures.stress import draw_stress
     from analysis.stress import read_stress
@@ -465,8 +471,8 @@ def _hand_to(command: list[str], cwd: Path | None = None, environment: Mapping[s
 
 _ACTIONS = {
     "demo": _demo, "test": _test, "run": _run, "sweep": _sweep, "figures": _figures, "advise": _advise,
-    "plot": _plot, "anatomy": _anatomy, "keys": _keys, "render": _render, "view": _view, "stress": _stress, "hub": _hub,
-    "compare": _compare, "modes": _modes, "instrument": _instrument, "python": _python, "native": _native,
+    "plot": _plot, "anatomy": _anatomy, "steer": _steer, "keys": _keys, "render": _render, "view": _view, "stress": _stress,
+    "hub": _hub, "compare": _compare, "modes": _modes, "instrument": _instrument, "python": _python, "native": _native,
     "bench": _bench, "unity-check": _unity_check,
 }
 _LEFT = {  # of a command that was interrupted
