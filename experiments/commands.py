@@ -471,9 +471,9 @@ def _hand_to(command: list[str], cwd: Path | None = None, environment: Mapping[s
 
 _ACTIONS = {
     "demo": _demo, "test": _test, "run": _run, "sweep": _sweep, "figures": _figures, "advise": _advise,
-    "plot": _plot, "anatomy": _anatomy, "steer": _steer, "keys": _keys, "render": _render, "view": _view, "stress": _stress,
-    "hub": _hub, "compare": _compare, "modes": _modes, "instrument": _instrument, "python": _python, "native": _native,
-    "bench": _bench, "unity-check": _unity_check,
+    "plot": _plot, "anatomy": _anatomy, "steer": _steer, "keys": _keys, "render": _render, "view": _view,
+    "stress": _stress, "hub": _hub, "compare": _compare, "modes": _modes, "instrument": _instrument,
+    "python": _python, "native": _native, "bench": _bench, "unity-check": _unity_check,
 }
 _LEFT = {  # of a command that was interrupted
     **dict.fromkeys(("demo", "run", "sweep", "figures", "advise"),

@@ -26,6 +26,7 @@ DRIVE, SCENE = "drive.csv", "steered.json"
 _CHUNK = 4.0  # mm pushed between two looks at the tip
 _TURN = 0.2  # rad a step
 _GOLDEN = np.pi * (3.0 - np.sqrt(5.0))
+_ASIDE = 2.0  # of a branch's radii that a tip is in it, from which on the branch is a wrong one
 _STALLED = 30.0  # mm pushed without progress, from which on an attempt has failed
 _BACK = (12.0, 30.0, 60.0, 110.0, 180.0)  # mm of insertion that attempts go back, four attempts each
 _ATTEMPTS_EACH = 4
@@ -68,21 +69,26 @@ class Route:
         self._near_target = float(self._radii[path[-1]])
 
     def _distances(self, parents: list[int], path: list[int]) -> np.ndarray:
-        """Of each point of the centreline, its distance from the path through the tree; of the path, 0."""
+        """Of each point of the centreline, its distance from the wall of the path's lumen along the tree, mm; negative
+        within it."""
+        # A branch begins at the wall of the path's lumen, a radius from the path.
         away = np.full(len(parents), np.inf)
-        away[path] = 0.0
+        away[path] = -self._radii[path]
         steps = [np.linalg.norm(self._points[k] - self._points[p]) if p >= 0 else 0.0 for k, p in enumerate(parents)]
-        for k, parent in enumerate(parents):  # parents come first
-            if parent >= 0:
+        is_beside = np.ones(len(parents), bool)
+        is_beside[path] = False
+        for k in range(len(parents) - 1, 0, -1):  # parents come first
+            if is_beside[parents[k]]:
+                away[parents[k]] = min(away[parents[k]], away[k] + steps[k])
+        for k, parent in enumerate(parents):
+            if parent >= 0 and is_beside[k]:
                 away[k] = min(away[k], away[parent] + steps[k])
-        for k in range(len(parents) - 1, 0, -1):
-            away[parents[k]] = min(away[parents[k]], away[k] + steps[k])
         return away
 
     def locate(self, tip: np.ndarray) -> tuple[float | None, bool]:
         """Distance of a tip (3,) along the path, None beside it; and whether it is in a wrong branch."""
         near = int(np.argmin(((self._points - tip)**2).sum(axis=1) - self._radii**2))
-        return self._arc.get(near), bool(self._beside[near] > 2.0 * self._radii[near])
+        return self._arc.get(near), bool(self._beside[near] > _ASIDE * self._radii[near])
 
     def is_reached(self, along: float | None) -> bool:
         """Whether a distance is within a radius of the target, as the summary counts it."""
