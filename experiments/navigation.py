@@ -14,6 +14,7 @@ import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -30,6 +31,7 @@ _ASIDE = 2.0  # of a branch's radii that a tip is in it, from which on the branc
 _STALLED = 30.0  # mm pushed without progress, from which on an attempt has failed
 _BACK = (12.0, 30.0, 60.0, 110.0, 180.0)  # mm of insertion that attempts go back, four attempts each
 _ATTEMPTS_EACH = 4
+_BENT_MORE = 2.3  # curvature of the second tip, over the scene's: 105 degrees in place of 45
 
 
 @dataclass(frozen=True)
@@ -42,6 +44,7 @@ class Steered:
     farthest: float
     length: float
     rows: list[tuple[float, float, float]]
+    tip: float = 1.0
 
 
 class Route:
@@ -95,7 +98,15 @@ class Route:
         return along is not None and along >= self.length - self._near_target
 
 
-def steer(scene: Path, most_attempts: int = 80, tell: Callable[[str], None] = lambda line: None) -> Steered:
+def with_tip(asked: dict[str, Any], tip: float) -> dict[str, Any]:
+    """A scene's parameters with so many times the curvature of its sections at rest."""
+    sections = [section | {"restCurvature": [tip * value for value in section["restCurvature"]]}
+                if "restCurvature" in section else section for section in asked.get("wireSections", [])]
+    return asked | {"wireSections": sections}
+
+
+def steer(scene: Path, most_attempts: int = 80, tell: Callable[[str], None] = lambda line: None, tip: float = 1.0
+          ) -> Steered:
     """Find a drive from a scene's inlet to its target.
 
     Parameters
@@ -103,16 +114,17 @@ def steer(scene: Path, most_attempts: int = 80, tell: Callable[[str], None] = la
     scene : ``scene.json`` of ``guidewire.py anatomy``.
     most_attempts : after which the search gives up.
     tell : hears one line for each attempt.
+    tip : curvature of the tip at rest over that of the scene.
 
     Raises
     ------
     experiments.session.SessionError : the scene cannot be used, or has no hub to steer.
     """
-    asked = json.loads(scene.read_text())
+    asked = with_tip(json.loads(scene.read_text()), tip)
     route = Route(scene.parent, asked["inlet"], asked["target"])
     step = 1e3 * asked["insertionSpeed"] * asked["timeStep"]  # mm
     longest = asked["guidewireLength"] - 40.0
-    with Session(scene, hand=True) as session:
+    with Session(scene, hand=True, wireSections=asked["wireSections"]) as session:
         rows = [(0.0, 0.0, 0.0)]
         kept = [(session.save(), tuple(rows[0]))]  # snapshots and the row of the drive at each
         attempts, farthest, tried, stuck_at = 0, 0.0, 0, 0.0
@@ -126,7 +138,7 @@ def steer(scene: Path, most_attempts: int = 80, tell: Callable[[str], None] = la
                 best, since = along, rows[-1][1]
                 farthest = max(farthest, best)
             if route.is_reached(along):
-                return Steered(True, attempts, farthest, route.length, rows)
+                return Steered(True, attempts, farthest, route.length, rows, tip)
             has_failed = (is_wrong or state.outcome is not None or rows[-1][1] >= longest
                           or rows[-1][1] - since > _STALLED)
             if not has_failed:
@@ -136,7 +148,7 @@ def steer(scene: Path, most_attempts: int = 80, tell: Callable[[str], None] = la
             why = "wrong branch" if is_wrong else state.outcome or "no farther"
             tell(f"attempt {attempts}: {why} after {rows[-1][1]:.0f} mm, {farthest:.0f} of {route.length:.0f} mm")
             if attempts >= most_attempts:
-                return Steered(False, attempts, farthest, route.length, rows)
+                return Steered(False, attempts, farthest, route.length, rows, tip)
             if farthest > stuck_at + 10.0:
                 stuck_at, tried = farthest, 0
             back = _BACK[min(tried // _ATTEMPTS_EACH, len(_BACK) - 1)]
@@ -159,7 +171,7 @@ def write(scene: Path, found: Steered) -> Path:
     folder = scene.parent
     write_whole(folder / DRIVE, "time,insertion,rotation\n" + "".join(
         f"{time:.9g},{1e-3 * way:.9g},{turn:.12g}\n" for time, way, turn in found.rows))
-    asked = json.loads(scene.read_text())
+    asked = with_tip(json.loads(scene.read_text()), found.tip)
     del asked["insertionSpeed"]
     steps = round(found.rows[-1][0] / asked["timeStep"])
     write_whole(folder / SCENE, json.dumps(asked | {"driveFile": DRIVE, "maxSimulationSteps": steps}, indent=2) + "\n")
@@ -194,11 +206,16 @@ def run(arguments: argparse.Namespace, build: Callable[[], list[str]], hand_to: 
         raise PreparationError(f"{scene}: inlet and target need to be numbers of ends, as 'anatomy' wrote them")
     try:
         found = steer(scene, arguments.attempts, print)
+        if not found.is_reached:
+            print(f"with this tip at {found.farthest:.0f} of {found.length:.0f} mm; now with a tip that is bent more")
+            more = steer(scene, arguments.attempts, print, _BENT_MORE)
+            found = max(found, more, key=lambda one: (one.is_reached, one.farthest))
     except SessionError as error:
         raise PreparationError(str(error)) from error
     steered = write(scene, found)
-    print(f"{'target reached' if found.is_reached else 'target not reached'}, {found.attempts} attempts failed; tip at "
-          f"{found.farthest:.0f} of {found.length:.0f} mm; drive: {os.path.relpath(steered)}")
+    print(f"target {'' if found.is_reached else 'not '}reached, {found.attempts} attempts failed; tip, {found.tip:g} "
+          f"times as bent as in the scene, at {found.farthest:.0f} of {found.length:.0f} mm; drive: "
+          f"{os.path.relpath(steered)}")
     code = hand_to([*command, "-parameters", str(steered), "-out", str(out), "-force"])
     if code:
         return code
