@@ -130,9 +130,12 @@ def steer(scene: Path, most_attempts: int = 80, tell: Callable[[str], None] = la
         attempts, farthest, tried, stuck_at = 0, 0.0, 0, 0.0
         best, since = 0.0, 0.0  # of this attempt: farthest place, mm, and the insertion at which it was reached
         while True:
-            state = session.step(push=_CHUNK, steps=max(1, round(_CHUNK / step)))
-            time, way, turn = rows[-1]
-            rows.append((time + max(1, round(_CHUNK / step)) * asked["timeStep"], way + _CHUNK, turn))
+            state = session.state
+            if state.outcome is None:  # a turn may have ended the run
+                steps = max(1, round(_CHUNK / step))
+                state = session.step(push=_CHUNK, steps=steps)
+                time, way, turn = rows[-1]
+                rows.append((time + steps * asked["timeStep"], way + _CHUNK, turn))
             along, is_wrong = route.locate(state.positions[-1])
             if along is not None and along > best:
                 best, since = along, rows[-1][1]
@@ -212,10 +215,13 @@ def run(arguments: argparse.Namespace, build: Callable[[], list[str]], hand_to: 
             found = max(found, more, key=lambda one: (one.is_reached, one.farthest))
     except SessionError as error:
         raise PreparationError(str(error)) from error
+    place = (f"{found.attempts} attempts failed; tip, {found.tip:g} times as bent as in the scene, at most at "
+             f"{found.farthest:.0f} of {found.length:.0f} mm")
+    if not found.is_reached:
+        print(f"target not reached, no drive written: {place}")
+        return 1
     steered = write(scene, found)
-    print(f"target {'' if found.is_reached else 'not '}reached, {found.attempts} attempts failed; tip, {found.tip:g} "
-          f"times as bent as in the scene, at {found.farthest:.0f} of {found.length:.0f} mm; drive: "
-          f"{os.path.relpath(steered)}")
+    print(f"target reached: {place}; drive: {os.path.relpath(steered)}")
     code = hand_to([*command, "-parameters", str(steered), "-out", str(out), "-force"])
     if code:
         return code
