@@ -43,10 +43,9 @@ def test_the_centreline_lies_on_the_tubes_axes(fork) -> None:
 
 
 @pytest.mark.skipif(os.environ.get("GUIDEWIRE_ALL") != "1", reason="the fork's centreline is tested in either case")
-@pytest.mark.parametrize("kind", ["arch", "iliac", "siphon", "coronary"])
-def test_the_centreline_of_a_made_anatomy_lies_on_its_axes(kind: str) -> None:
-    mesh, _, _ = make(kind, 2, 7, None, None)
-    _check_line(tubes_of(kind, 2, 7)[0], find_centreline(mesh, find_rims(mesh, Edges.of(mesh))))
+def test_the_centreline_of_a_made_siphon_lies_on_its_axes() -> None:
+    mesh, _, _ = make("siphon", 2, 7, None, None)
+    _check_line(tubes_of("siphon", 2, 7)[0], find_centreline(mesh, find_rims(mesh, Edges.of(mesh))))
 
 
 def _check_line(tubes: list[Tube], line) -> None:
