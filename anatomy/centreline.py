@@ -11,18 +11,16 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components, dijkstra
-from scipy.spatial import Delaunay, QhullError, cKDTree
+from scipy.sparse.csgraph import dijkstra
 
 from anatomy.inspection import narrow_radius
+from anatomy.medial_graph import BLIND, MedialGraph, WallDistance, walk_back
 from anatomy.mesh import AnatomyError, Edges, Mesh, Rim, close_rims, signed_volume
 
 _SAMPLES = (6_000, 40_000)  # points of the wall, at least and at most
 _DENSITY = 40.0  # of them on the square of a narrow radius
 _STEP = 0.25  # between points of the centreline, of the radius
-_BLIND = 1.0  # a blind end is a branch if it goes on so many radii beyond its parent's wall
-_THIN = 0.15  # and is at least so wide, of the nearest path's radius
+_THIN = 0.15  # a branch with a blind end is at least so wide, of the nearest path's radius
 _SMOOTHING = 1.5  # points, of the Gaussian along a branch
 _ROUNDS = 3
 
@@ -101,9 +99,9 @@ def find_centreline(mesh: Mesh, rims: list[Rim], root: np.ndarray | None = None)
     closed = close_rims(mesh, rims) if rims else mesh
     if signed_volume(closed) < 0.0:
         closed = closed.turned()
-    wall = _Wall(closed)
+    wall = WallDistance(closed)
     area = np.linalg.norm(closed.area_vectors(), axis=1).sum()
-    graph = _Medial(_sample(closed, int(np.clip(_DENSITY * area / narrow_radius(closed)**2, *_SAMPLES))))
+    graph = MedialGraph(_sample(closed, int(np.clip(_DENSITY * area / narrow_radius(closed)**2, *_SAMPLES))))
     nodes = [graph.at_rim(rim) for rim in rims]
     if not nodes:
         nodes = graph.two_ends()
@@ -116,147 +114,16 @@ def find_centreline(mesh: Mesh, rims: list[Rim], root: np.ndarray | None = None)
     if lost:
         raise AnatomyError(f"no path leads to {lost[0].name} at {np.round(lost[0].centre, 4).tolist()}: the lumen is "
                            "closed on the way")
-    known = set(_walk(before, start)) if len(nodes) == 1 else set().union(*(_walk(before, n) for n in nodes))
+    known = set(walk_back(before, start)) if len(nodes) == 1 else set().union(*(walk_back(before, n) for n in nodes))
     blind = graph.blind_ends(known, before, dijkstra(graph.lengths, directed=False, indices=start))
-    return _Builder(graph, wall, _Wall(mesh) if rims else wall, rims, nodes, blind, start, before).build()
-
-
-class _Wall:
-    """Distance from a mesh's triangles."""
-
-    def __init__(self, mesh: Mesh) -> None:
-        from vtkmodules.vtkCommonCore import mutable
-        from vtkmodules.vtkCommonDataModel import vtkGenericCell, vtkStaticCellLocator
-
-        from anatomy.surfaces import to_vtk
-
-        self._data = to_vtk(mesh)
-        self._locator = vtkStaticCellLocator()
-        self._locator.SetDataSet(self._data)
-        self._locator.BuildLocator()
-        self._words = ([0.0, 0.0, 0.0], vtkGenericCell(), mutable(0), mutable(0), mutable(0.0))
-
-    def distance(self, point: np.ndarray) -> float:
-        self._locator.FindClosestPoint(point, *self._words)
-        return float(self._words[4]) ** 0.5
-
-    def centre(self, point: np.ndarray, tangent: np.ndarray, radius: float, most: float) -> np.ndarray:
-        """Where the distance is largest across a tangent, no farther than `most` from a point."""
-        u = np.cross(tangent, np.eye(3)[np.argmin(np.abs(tangent))])
-        u /= np.linalg.norm(u)
-        w = np.cross(tangent, u)
-        best, value, step = point, self.distance(point), 0.3 * radius
-        while step > 0.004 * radius:
-            found = None
-            for k in range(6):
-                angle = k * np.pi / 3.0
-                tried = best + step * (np.cos(angle) * u + np.sin(angle) * w)
-                if np.linalg.norm(tried - point) > most:
-                    continue
-                distance = self.distance(tried)
-                if distance > value + 1e-9 * radius:
-                    found, value = tried, distance
-            if found is None:
-                step *= 0.5
-            else:
-                best = found
-        return best
-
-
-class _Medial:
-    """Voronoi vertices inside a lumen, and the lines between neighbouring ones.
-
-    centres : (m, 3); radii : (m,); weights, lengths : sparse (m, m), of the lines: length over radius, and length.
-    """
-
-    def __init__(self, samples: Mesh) -> None:
-        points, normals = samples.vertices, samples.vertex_normals()
-        try:
-            cells = Delaunay(points)
-        except QhullError as error:
-            raise AnatomyError("the wall's points lie in one plane") from error
-        corners = points[cells.simplices]
-        rows = corners[:, 1:] - corners[:, :1]
-        right = 0.5 * np.einsum("ijk,ijk->ij", rows, rows)
-        volume = np.linalg.det(rows)
-        size = np.linalg.norm(rows, axis=2).max(axis=1)
-        solid = np.abs(volume) > 1e-9 * size**3
-        offset = np.zeros((len(rows), 3))
-        offset[solid] = np.linalg.solve(rows[solid], right[solid][..., None])[..., 0]
-        radii = np.linalg.norm(offset, axis=1)
-        centres = corners[:, 0] + offset
-        ahead = np.einsum("ijk,ijk->ij", corners - centres[:, None], normals[cells.simplices])
-        solid &= ((centres > points.min(axis=0)) & (centres < points.max(axis=0))).all(axis=1)
-        inside = solid & ((ahead > 0.0).sum(axis=1) >= 3) & (ahead.sum(axis=1) > radii)
-        number = np.full(len(rows), -1)
-        number[inside] = np.arange(inside.sum())
-        self.centres, self.radii = centres[inside], radii[inside]
-        a = np.repeat(np.flatnonzero(inside), 4)
-        b = cells.neighbors[inside].ravel()
-        real = (b > a) & inside[b]
-        a, b = number[a[real]], number[b[real]]
-        lengths = np.linalg.norm(self.centres[a] - self.centres[b], axis=1) + 1e-12 * self.radii[a]
-        shape = (inside.sum(), inside.sum())
-        self.lengths = coo_matrix((lengths, (a, b)), shape=shape).tocsr()
-        cost = lengths * 0.5 * (1.0 / self.radii[a] + 1.0 / self.radii[b])
-        self.weights = coo_matrix((cost, (a, b)), shape=shape).tocsr()
-        if not len(self.radii):
-            raise AnatomyError("the surface has no lumen")
-        self.bodies = connected_components(self.weights, directed=False)[1]
-        self.largest = int(np.argmax(np.bincount(self.bodies, self.radii)))
-
-    def at_rim(self, rim: Rim) -> int:
-        """The vertex of the diagram from which a path goes straight to a rim."""
-        away = np.linalg.norm(self.centres - rim.centre, axis=1)
-        near = np.flatnonzero((away < 2.0 * rim.radius) & (self.bodies == self.largest))
-        if not len(near):
-            near = np.argsort(away + 1e9 * (self.bodies != self.largest))[:20]
-        wide = near[self.radii[near] > 0.6 * self.radii[near].max()]
-        target = rim.centre + 0.8 * rim.radius * rim.normal
-        return int(wide[np.argmin(np.linalg.norm(self.centres[wide] - target, axis=1))])
-
-    def radii_near(self, nodes: list[int]) -> list[float]:
-        """The largest radius of the 100 vertices around each of these: of those in a corner too."""
-        _, near = cKDTree(self.centres).query(self.centres[nodes], k=min(100, len(self.centres)))
-        return list(self.radii[near].max(axis=-1))
-
-    def two_ends(self) -> list[int]:
-        """Of a lumen without rims: the two vertices that are farthest from each other."""
-        inside = self.bodies == self.largest
-        some = int(np.flatnonzero(inside)[np.argmax(self.radii[inside])])
-        ends = []
-        for _ in range(2):
-            lengths = dijkstra(self.lengths, directed=False, indices=some)
-            lengths[~np.isfinite(lengths)] = -1.0
-            some = int(np.argmax(lengths))
-            ends.append(some)
-        return ends
-
-    def blind_ends(self, known: set[int], before: np.ndarray, lengths: np.ndarray) -> list[int]:
-        """Ends of branches that no path leads into yet: the farthest vertex from the root that is not near a path, and
-        so on. Near is up to so many radii of the path as the corners of an oval or faceted lumen are away."""
-        found: list[int] = []
-        bare = np.isfinite(lengths)
-        fresh = list(known)
-        while True:
-            # Along a path radii change slowly, so that the nearest of its spheres decide.
-            count = min(8, len(fresh))
-            away, near = cKDTree(self.centres[fresh]).query(self.centres[bare], k=count)
-            radii = self.radii[np.asarray(fresh)][near]
-            bare[bare] = (away > (1.0 + _BLIND) * radii).reshape(-1, count).all(axis=1)
-            if not bare.any():
-                return found
-            tip = int(np.flatnonzero(bare)[np.argmax(lengths[bare])])
-            found.append(tip)
-            fresh = [node for node in _walk(before, tip) if node not in known]
-            known.update(fresh)
+    return _Builder(graph, wall, WallDistance(mesh) if rims else wall, rims, nodes, blind, start, before).build()
 
 
 class _Builder:
     """Makes a smooth tree of the paths."""
 
-    def __init__(self, graph: _Medial, wall: _Wall, without_caps: _Wall, rims: list[Rim], nodes: list[int],
-                 blind: list[int], start: int, before: np.ndarray) -> None:
+    def __init__(self, graph: MedialGraph, wall: WallDistance, without_caps: WallDistance, rims: list[Rim],
+                 nodes: list[int], blind: list[int], start: int, before: np.ndarray) -> None:
         self._graph, self._wall, self._open = graph, wall, without_caps
         self._start, self._before = start, before
         self._targets = list(nodes) + blind
@@ -267,7 +134,7 @@ class _Builder:
         self._branches: list[int] = []
 
     def build(self) -> Centreline:
-        chains = [self._trim(_walk(self._before, target), rim) for target, rim in zip(self._targets, self._rims)]
+        chains = [self._trim(walk_back(self._before, target), rim) for target, rim in zip(self._targets, self._rims)]
         kept = self._apart(chains)
         chains = [chains[k] for k in kept]
         self._targets, self._rims = [self._targets[k] for k in kept], [self._rims[k] for k in kept]
@@ -308,7 +175,7 @@ class _Builder:
             if self._rims[k] is None and self._targets[k] != self._start and others:
                 away = np.linalg.norm(graph.centres[others] - graph.centres[chain[-1]], axis=1)
                 beside = graph.radii[others[int(np.argmin(away))]]
-                if (away < (1.0 + _BLIND) * graph.radii[others]).any() or graph.radii[chain[-1]] < _THIN * min(
+                if (away < (1.0 + BLIND) * graph.radii[others]).any() or graph.radii[chain[-1]] < _THIN * min(
                         beside, typical):
                     continue
             kept.append(k)
@@ -441,14 +308,6 @@ def _filtered(line: np.ndarray) -> np.ndarray:
     smooth = gaussian_filter1d(np.concatenate([before, line, after]), _SMOOTHING, axis=0)[pad:-pad]
     smooth[0], smooth[-1] = line[0], line[-1]
     return smooth
-
-
-def _walk(before: np.ndarray, node: int) -> list[int]:
-    """The path to a node, from the root."""
-    found = [int(node)]
-    while before[found[-1]] >= 0:
-        found.append(int(before[found[-1]]))
-    return found[::-1]
 
 
 def _sample(mesh: Mesh, count: int) -> Mesh:

@@ -6,7 +6,7 @@ from anatomy.centreline import find_centreline
 from anatomy.distance_grid import cut_open
 from anatomy.inspection import sort_rims
 from anatomy.mesh import Edges, find_rims
-from anatomy.repair import Change, Repaired
+from anatomy.repair import Change, Repaired, with_rims_apart
 
 _BACK = 1.0  # radii inside of an end: behind any cap, round or flat
 
@@ -22,5 +22,6 @@ def open_ends(repaired: Repaired) -> Repaired:
         cut = cut_open(mesh, end.centre + _BACK * end.radius * end.direction, end.direction, 1.5 * end.radius)
         count += cut is not mesh
         mesh = cut
+    mesh, _ = with_rims_apart(mesh)
     change = Change("closed ends cut open one radius inside", count)
     return Repaired(mesh, sort_rims(mesh, find_rims(mesh, Edges.of(mesh))), [*repaired.changes, change])

@@ -20,6 +20,7 @@ from experiments.whole_files import write_whole
 MESH, ANATOMY, SCENE, REPORT, PICTURE = "vessel.obj", "anatomy.json", "scene.json", "report.md", "picture.png"
 _SPEED, _TIME_STEP = 0.02, 0.05  # m/s, s: 1 mm a step
 _TIP, _BODY = 30.0, 5.0  # mm: length of the soft tip, with elements of 1 mm; length of the other elements
+_CLEARANCE = 3.0  # radius of a lumen over the wire's, from which on an end may be a target by default
 _PLACES = 10  # of a kind that a report lists
 
 
@@ -54,9 +55,18 @@ def find_end(line: Centreline, asked: str) -> End:
     raise AnatomyError(f"there is no end '{asked}': there are {names}{', ..' if len(line.ends) > 12 else ''}")
 
 
-def farthest_end(line: Centreline, inlet: End) -> End:
-    """The end with the longest path from an inlet."""
-    return max(line.ends, key=lambda end: line.length(line.path(inlet.point, end.point)))
+def farthest_end(line: Centreline, inlet: End, unit: Unit, diameter: float) -> End:
+    """The end with the longest path from an inlet, of those that a wire of a diameter in mm comes to; of all ends where
+    it comes to none."""
+    inner = line.inner()
+
+    def is_wide(end: End) -> bool:
+        path = line.path(inlet.point, end.point)
+        least = _CLEARANCE * 0.5e-3 * diameter / unit.metres
+        return end is not inlet and end.radius > least and bool((line.radii[path][inner[path]] > least).all())
+
+    wide = [end for end in line.ends if is_wide(end)]
+    return max(wide or line.ends, key=lambda end: line.length(line.path(inlet.point, end.point)))
 
 
 def scene(line: Centreline, unit: Unit, inlet: End, target: End, diameter: float) -> Mapping[str, Any]:

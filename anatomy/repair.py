@@ -53,6 +53,21 @@ class Repaired:
         return sum(change.moved for change in self.changes)
 
 
+def with_rims_apart(mesh: Mesh) -> tuple[Mesh, np.ndarray]:
+    """The mesh's largest body without the triangles around vertices at which a rim touches itself or another one, and
+    these vertices' places (k, 3)."""
+    places = np.empty((0, 3))
+    while True:
+        mesh = mesh.part(find_bodies(mesh) == 0)
+        edges = Edges.of(mesh)
+        triangle, k = np.argwhere(edges.counts[edges.of_triangles] == 1).T
+        met = np.bincount(mesh.triangles[triangle, k], minlength=len(mesh.vertices)) > 1
+        if not met.any():
+            return mesh, places
+        places = np.vstack([places, mesh.vertices[met]])
+        mesh = mesh.part(~met[mesh.triangles].any(axis=1))
+
+
 def repair(mesh: Mesh) -> Repaired:
     """A mesh that the program takes as a vessel.
 
@@ -71,7 +86,7 @@ def repair(mesh: Mesh) -> Repaired:
     work.fill_holes()
     work.cut_crossings_of_lids()
     work.remesh_if_needed()
-    work.mesh = work.mesh.part(find_bodies(work.mesh) == 0)
+    work.part_rims()
     work.orient()
     rims = [rim for rim in sort_rims(work.mesh, find_rims(work.mesh, Edges.of(work.mesh)))]
     return Repaired(work.mesh, rims, work.changes)
@@ -86,6 +101,11 @@ class _Work:
     def _note(self, name: str, count: int, moved: float = 0.0, place: np.ndarray | None = None) -> None:
         if count:
             self.changes.append(Change(name, count, moved, place))
+
+    def part_rims(self) -> None:
+        self.mesh, places = with_rims_apart(self.mesh)
+        self._note("places where rims touch themselves or each other cut away", len(places), 0.0,
+                   places[0] if len(places) else None)
 
     def weld(self) -> None:
         exact = weld_exactly(self.mesh)

@@ -4,12 +4,15 @@ Sizes are drawn with a seed from normal distributions cut at two standard deviat
 
 - thoracic aorta: diameters from Hager et al., J Thorac Cardiovasc Surg 123 (2002) 1060: ascending 30.9 +- 4.1 mm, arch
   27.7 +- 3.7, descending 24.3 +- 3.5;
-- types of the arch: Madhwal et al., J Invasive Cardiol 20 (2008) 200: from the top of the arch down to the origin of
-  the brachiocephalic trunk it is less than one diameter of the left common carotid (I), one to two (II), more (III);
+- types of the arch: from the top of the arch down to the origin of the brachiocephalic trunk it is less than one
+  diameter of the left common carotid (I), one to two (II), more (III); the usual definition, ascribed to Madhwal et
+  al., J Invasive Cardiol 20 (2008) 200, whose text was not at hand (second hand);
 - carotids: Krejza et al., Stroke 37 (2006) 1103: common 6.1 +- 0.8 mm, internal 4.7 +- 0.8 (women);
 - left coronary tree: Dodge et al., Circulation 86 (1992) 232: main 4.5 +- 0.5 mm, anterior descending 3.7 +- 0.4 to
-  1.9 +- 0.4, circumflex 3.4 +- 0.5; angle of the bifurcation: Pflederer et al., Eur Radiol 16 (2006) 2582: 80 +- 27
-  degrees;
+  1.9 +- 0.4, circumflex 3.4 +- 0.5; angle of the bifurcation: 80 +- 27 degrees, second hand from Pflederer et al., Eur
+  Radiol 16 (2006) 2582, whose text was not at hand; read as abstracts, others have 75.5 +- 19.8 (Eur J Radiol 2011, 30
+  patients, those with normal arteries), a median of 74 (J Invasive Cardiol 27 (2015) 401) and one of 88.5
+  (Rodriguez-Granillo et al., Int J Cardiovasc Imaging 23 (2007) 389);
 - what the literature gives no distribution for (lengths, bends, the iliac arteries) is drawn evenly from ranges that
   stand where they are used.
 """

@@ -112,6 +112,12 @@ def parse(argv: list[str]) -> argparse.Namespace:
 
     _add_anatomy(commands)
 
+    steer = commands.add_parser("steer", help="find a drive that brings a wire to its target in a vessel, and run it")
+    steer.add_argument("file", metavar="SCENE", type=Path, help="scene.json that 'anatomy' wrote")
+    steer.add_argument("--out", type=path, metavar="DIR", help="folder of the run (results/<folder of SCENE>-steered)")
+    steer.add_argument("--attempts", type=positive, default=80, metavar="N", help="at wrong branches, at most (80)")
+    steer.set_defaults(packages=("numpy",))
+
     view = commands.add_parser("view", help="in the browser: open a scene interactively, or replay one or two runs")
     view.add_argument("what", metavar="FILE|RUN", nargs="+", type=Path,
                       help="a parameter file: interactive; folder of a run: replay; two folders: side by side or "

@@ -181,7 +181,7 @@ def _render(arguments: argparse.Namespace) -> int:
         log = read_log(arguments.folder, "all")
         if arguments.fluoroscopy:
             checking.check_out(out.parent)
-            images = fluoroscopy.draw(run, log, arguments, out.suffix == ".gif", _tell_frames)
+            images = fluoroscopy.draw(run, log, arguments, out.suffix == ".gif", tell_frames)
             return _save_render(images, log, out)
         middle, diagonal = render.out_of_sheath(run, log)
         checking.check_out(out.parent)
@@ -260,6 +260,12 @@ def _anatomy(arguments: argparse.Namespace) -> int:
     from anatomy import command
 
     return command.run(arguments)
+
+
+def _steer(arguments: argparse.Namespace) -> int:
+    from experiments import navigation
+
+    return navigation.run(arguments, _build_runner, _hand_to)
 
 
 def _stress(arguments: argparse.Namespace) -> int:
@@ -430,9 +436,10 @@ def _tell_failures(result: SweepResult) -> None:
 
 _ACTIONS = {
     "demo": _demo, "test": _test, "run": _run, "sweep": _sweep, "figures": _figures, "advise": _advise,
-    "plot": _plot, "anatomy": _anatomy, "keys": _keys, "render": _render, "view": _view, "stress": _stress, "hub": _hub,
-    "compare": _compare, "modes": _modes, "instrument": _instrument, "tasks": _tasks, "python": _python,
-    "native": _native, "package": _package, "scenes": _scenes, "bench": _bench, "unity-check": _unity_check,
+    "plot": _plot, "anatomy": _anatomy, "steer": _steer, "keys": _keys, "render": _render, "view": _view,
+    "stress": _stress, "hub": _hub, "compare": _compare, "modes": _modes, "instrument": _instrument, "tasks": _tasks,
+    "python": _python, "native": _native, "package": _package, "scenes": _scenes, "bench": _bench,
+    "unity-check": _unity_check,
 }
 _OF_THE_REPOSITORY = ("test", "native", "package", "bench", "unity-check")
 _LEFT = {  # of a command that was interrupted

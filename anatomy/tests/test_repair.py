@@ -9,7 +9,7 @@ pytest.importorskip("vtkmodules", reason="VTK is not installed: apt-get install 
 
 from anatomy.inspection import inspect  # noqa: E402
 from anatomy.mesh import AnatomyError, Edges, Mesh, find_rims, signed_volume  # noqa: E402
-from anatomy.repair import repair  # noqa: E402
+from anatomy.repair import repair, with_rims_apart  # noqa: E402
 from anatomy.surfaces import distances  # noqa: E402
 from anatomy.tests.solids import SLANT, double_walled, joined, tube  # noqa: E402
 
@@ -146,3 +146,19 @@ def test_crossing_tubes_are_joined_by_a_remesh() -> None:
     tip = 20.0 * SLANT + 15.0 * across
     assert distances(tip[None], repaired.mesh)[0] < 1.0
     assert distances((20.0 * SLANT)[None], repaired.mesh)[0] > 2.0
+
+
+def test_a_rim_that_touches_itself_is_cut_back_to_where_it_does_not() -> None:
+    mesh = tube()
+    on_rim = (mesh.triangles < 24).sum(axis=1)
+    one = int(np.flatnonzero(on_rim == 1)[0])  # a corner on the rim, the edge opposite inside
+    pinched = mesh.part(np.arange(len(mesh.triangles)) != one)
+    edges = Edges.of(pinched)
+    triangle, k = np.argwhere(edges.counts[edges.of_triangles] == 1).T
+    assert np.bincount(pinched.triangles[triangle, k]).max() == 2
+    parted, places = with_rims_apart(pinched)
+    edges = Edges.of(parted)
+    triangle, k = np.argwhere(edges.counts[edges.of_triangles] == 1).T
+    assert np.bincount(parted.triangles[triangle, k]).max() == 1 and len(find_rims(parted, edges)) == 2
+    assert places == pytest.approx(mesh.vertices[mesh.triangles[one][mesh.triangles[one] < 24]])
+    assert len(with_rims_apart(mesh)[0].triangles) == len(mesh.triangles)

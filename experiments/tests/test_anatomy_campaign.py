@@ -1,0 +1,94 @@
+"""Wires pushed, pulled and turned at random in anatomies, and steered to targets: what logs and summaries say, held
+against a search of its own."""
+
+import json
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from analysis.logs import read_log
+from experiments import navigation
+from experiments.campaigns import anatomy_campaign, artery_folder
+from experiments.campaigns.anatomy_campaign import Vessel, campaign, judge
+from experiments.instruments import files
+from experiments.prepare import ROOT
+from experiments.runner import Request, Runner
+
+FULL = os.environ.get("GUIDEWIRE_ALL") == "1"
+NAMES = sorted(files())
+MADE = ("arch", "iliac", "siphon", "coronary")
+
+
+@pytest.fixture(scope="module")
+def artery(tmp_path_factory):
+    return Vessel(artery_folder.write(tmp_path_factory.mktemp("artery"), 2).parent)
+
+
+def _broken(runs):
+    return [f"{run.vessel} {run.seed} {run.outcome}: {run.claims}" for run in runs if run.claims]
+
+
+def test_pushes_pulls_and_turns_pass_no_wall_and_say_what_is_true(runner_command, artery, tmp_path):
+    runs = list(campaign(runner_command, artery, range(100) if FULL else (5,), tmp_path))
+    assert not _broken(runs), "\n".join(_broken(runs))
+    assert sum(run.outcome != "refused" for run in runs) > 0.5 * len(runs)
+
+
+@pytest.mark.parametrize("name", NAMES if FULL else ("lunderquist-extra-stiff-0.035", "catheter-simmons-2-5f"))
+def test_an_instrument_passes_no_wall_and_says_what_is_true(runner_command, artery, tmp_path, name):
+    run, = campaign(runner_command, artery, [2], tmp_path, name)
+    assert not run.claims and run.outcome != "refused", (run.claims, run.reason)
+
+
+@pytest.mark.skipif(not FULL, reason="makes four vessels and 400 runs; the artery's are made in either case")
+@pytest.mark.parametrize("kind", MADE)
+def test_wires_in_vessels_made_by_code_pass_no_wall(runner_command, tmp_path, kind):
+    pytest.importorskip("vtkmodules", reason="VTK is not installed: apt-get install python3-vtk9, or pip install vtk")
+    folder = tmp_path / kind
+    subprocess.run([sys.executable, str(ROOT / "guidewire.py"), "anatomy", "--make", kind, "--out", str(folder)],
+                   check=True)
+    runs = list(campaign(runner_command, Vessel(folder), range(100), tmp_path))
+    assert not _broken(runs), "\n".join(_broken(runs))
+
+
+def test_a_wire_beside_the_wall_and_a_hub_that_lies_are_claimed(runner_command, artery, tmp_path):
+    path = anatomy_campaign.draw(artery, 2, tmp_path)
+    runner = Runner(runner_command)
+    runner.run(Request("2", path, tmp_path / "run"))
+    runner.close()
+    summary = json.loads((tmp_path / "run" / "summary.json").read_text())
+    scene = json.loads((tmp_path / "run" / "parameters.json").read_text()) | {
+        "driveFile": str(path.with_suffix(".csv"))}
+    positions = read_log(tmp_path / "run", spheres="all").positions
+    assert judge(artery, scene, summary, positions) == []
+    through = positions.copy()
+    through[-1, -1] += [30.0, 0.0, 0.0]
+    assert any("crosses the wall" in claim for claim in judge(artery, scene, summary, through))
+    touching = positions.copy()
+    tip = touching[-1, -1]
+    out = np.array([1.0, 0.0, 0.0])
+    steps = np.linspace(0.0, 30.0, 3001)
+    is_in = artery.closed.inside(tip + steps[:, None] * out)
+    touching[-1, -1] = tip + (steps[is_in.argmin()] - 0.05) * out  # a wire of 0.18 mm or more in the wall
+    claims = judge(artery, scene, summary, touching)
+    assert any("the surface is in the wall" in claim or "crosses" in claim for claim in claims)
+    assert judge(artery, scene, summary | {"passages": 1}, positions) == ["passages = 1"]
+    hub = summary["hub"] | {"insertion": summary["hub"]["insertion"] + 1e-3}
+    assert any("the hub went" in claim for claim in judge(artery, scene, summary | {"hub": hub}, positions))
+    assert any("reliable" in claim for claim in judge(
+        artery, scene, summary | {"reliable": not summary["reliable"]}, positions))
+
+
+@pytest.mark.parametrize("target", [2, 3])
+def test_a_wire_is_steered_into_each_arm_and_its_drive_repeats_it(runner_command, tmp_path, target):
+    scene = artery_folder.write(tmp_path / "artery", target)
+    found = navigation.steer(scene)
+    assert found.is_reached and found.farthest > 0.9 * found.length
+    steered = navigation.write(scene, found)
+    subprocess.run([*runner_command, "-parameters", str(steered), "-out", str(tmp_path / "run")], check=True)
+    summary = json.loads((tmp_path / "run" / "summary.json").read_text())
+    assert summary["centreline"]["reached"] and summary["passages"] == 0
+    assert summary["centreline"]["target"] == f"end {target}"
