@@ -131,7 +131,10 @@ export class Fluoroscopy {
     this._cover(null);
   }
 
-  /** Draws and returns the grey levels, row by row from above. @param {[Instrument, ArrayLike<number>][]} instruments */
+  /**
+   * Draws and returns the grey levels, row by row from above.
+   * @param {[Instrument, ArrayLike<number>][]} instruments
+   */
   grey(instruments) {
     const { pixels, _gl: gl } = this;
     this.draw(instruments);

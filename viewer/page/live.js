@@ -221,7 +221,8 @@ export class Live {
       oninput: () => this.lookBack(Number(back.value)) });
     back.setAttribute("aria-label", "look back");
     const scenes = make("select", { id: "scenes", onchange: () => this.send({ do: "open", scene: scenes.value }) },
-      ...status.scenes.map((scene) => make("option", { value: scene, selected: scene === status.scene }, nameOf(scene))));
+      ...status.scenes.map((scene) =>
+        make("option", { value: scene, selected: scene === status.scene }, nameOf(scene))));
     const paces = make("select", { id: "pace", onchange: () => this.send({ do: "pace", value: Number(paces.value) }) },
       ...status.paces.map((pace) =>
         make("option", { value: pace, selected: pace === status.pace }, `${pace} x real time`)));

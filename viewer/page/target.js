@@ -26,7 +26,8 @@ export function progress(route, tip) {
   const beyond = Math.max(0, apart(route.points[best], tip) - route.radii[best]);
   const left = whole - route.distances[best] + beyond;
   const isReached = beyond === 0 && whole - route.distances[best] <= route.radii[last];
-  return { left: isReached ? 0 : left, fraction: isReached ? 1 : Math.max(0, Math.min(1, 1 - left / whole)), isReached };
+  const fraction = isReached ? 1 : Math.max(0, Math.min(1, 1 - left / whole));
+  return { left: isReached ? 0 : left, fraction, isReached };
 }
 
 /** @param {ArrayLike<number>} a @param {ArrayLike<number>} b */

@@ -115,7 +115,10 @@ export class Xray {
     this.drawn++;
   }
 
-  /** A middle that moves only when the tip is about to leave the picture. @param {Point} tip @param {number} side units */
+  /**
+   * A middle that moves only when the tip is about to leave the picture.
+   * @param {Point} tip @param {number} side units
+   */
   _kept(tip, side) {
     const last = this._middle;
     const isIn = last && last.every((value, k) => Math.abs(value - tip[k]) < 0.3 * side);
