@@ -52,7 +52,7 @@ export class Live {
     this._mark = 0;
     this._marks = new Map();
     this._newest = 0;
-    stage.onDrawn = () => this._shown();
+    stage.onDrawn = xray.onDrawn = () => this._shown();
     this._socket = new WebSocket(new URL("live", location.href.replace(/^http/, "ws")));
     this._socket.binaryType = "arraybuffer";
     this._socket.onmessage = ({ data }) => (typeof data === "string" ? this._hear(JSON.parse(data)) : this._take(data));

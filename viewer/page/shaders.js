@@ -100,21 +100,43 @@ void main() {
   depth = vec4(isFreeEnd && size.z == 1.0 ? -log(1.0 - window * (1.0 - exp(-full))) : window * full, 0.0, 0.0, 1.0);
 }`;
 
-/** Brightness of background, vessel and instruments. */
+/** Noise, as QuantumNoise of the core, and grey levels. */
+const GREY = `
+uniform float noise;
+uniform uint seed;
+uint mixed(uint h) {
+  h ^= h >> 16;
+  h *= 0x7feb352du;
+  h ^= h >> 15;
+  h *= 0x846ca68bu;
+  return h ^ (h >> 16);
+}
+vec4 grey(float brightness, ivec2 at, ivec2 size) {
+  if (noise > 0.0) {
+    uint h = mixed(mixed(seed ^ 0x9e3779b9u) + uint((size.y - 1 - at.y) * size.x + at.x));
+    uint pairs = (h & 0x00ff00ffu) + ((h >> 8) & 0x00ff00ffu);
+    float deviation = (float((pairs & 0xffffu) + (pairs >> 16)) - 510.0) / 147.80054;
+    brightness += noise * sqrt(brightness) * deviation;
+  }
+  return vec4(vec3(floor(255.0 * clamp(brightness, 0.0, 1.0) + 0.5) / 255.0), 1.0);
+}`;
+
+/** Brightness of background and vessel behind the instruments; or at once the grey levels, where nothing is blurred. */
 export const COMPOSE = `#version 300 es
 precision highp float;
-uniform highp sampler2D thickness;
+precision highp int;
+uniform highp sampler2D layer;
 uniform highp sampler2D depth;
-uniform float contrast;
-uniform float background;
-uniform int vessel;
-out vec4 brightness;
+uniform bool isLast;
+out vec4 colour;
+${GREY}
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
-  int rows = textureSize(thickness, 0).y;
-  float passed = vessel == 0 ? 1.0 : exp(-contrast * texelFetch(thickness, ivec2(at.x, rows - 1 - at.y), 0).r);
-  float layer = vessel == 2 ? 1.0 + 0.3 * (1.0 - passed) : passed;
-  brightness = vec4(background * layer * exp(-texelFetch(depth, at, 0).r), 0.0, 0.0, 1.0);
+  ivec2 size = textureSize(layer, 0);
+  float through = texelFetch(depth, at, 0).r;
+  float brightness = texelFetch(layer, ivec2(at.x, size.y - 1 - at.y), 0).r;
+  if (through > 0.0) brightness *= exp(-through);
+  colour = isLast ? grey(brightness, at, size) : vec4(brightness, 0.0, 0.0, 1.0);
 }`;
 
 /** Blur along rows or columns. */
@@ -136,30 +158,14 @@ void main() {
   brightness = vec4(sum, 0.0, 0.0, 1.0);
 }`;
 
-/** Noise, as QuantumNoise of the core, and grey levels. */
+/** Grey levels of what was blurred. */
 export const SHOW = `#version 300 es
 precision highp float;
 precision highp int;
 uniform highp sampler2D picture;
-uniform float noise;
-uniform uint seed;
 out vec4 colour;
-uint mixed(uint h) {
-  h ^= h >> 16;
-  h *= 0x7feb352du;
-  h ^= h >> 15;
-  h *= 0x846ca68bu;
-  return h ^ (h >> 16);
-}
+${GREY}
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
-  ivec2 size = textureSize(picture, 0);
-  float brightness = texelFetch(picture, at, 0).r;
-  if (noise > 0.0) {
-    uint h = mixed(mixed(seed ^ 0x9e3779b9u) + uint((size.y - 1 - at.y) * size.x + at.x));
-    uint pairs = (h & 0x00ff00ffu) + ((h >> 8) & 0x00ff00ffu);
-    float deviation = (float((pairs & 0xffffu) + (pairs >> 16)) - 510.0) / 147.80054;
-    brightness += noise * sqrt(brightness) * deviation;
-  }
-  colour = vec4(vec3(floor(255.0 * clamp(brightness, 0.0, 1.0) + 0.5) / 255.0), 1.0);
+  colour = grey(texelFetch(picture, at, 0).r, at, textureSize(picture, 0));
 }`;
