@@ -121,7 +121,7 @@ export class Fluoroscopy {
       const weights = gaussian(blur, this.pixels);
       gl.useProgram(this._blurred);
       gl.uniform1fv(gl.getUniformLocation(this._blurred, "weights"), weights);
-      gl.uniform1i(gl.getUniformLocation(this._blurred, "reach"), weights.length - 1);
+      gl.uniform1i(gl.getUniformLocation(this._blurred, "extent"), weights.length - 1);
       for (const [from, to, x, y] of /** @type {const} */ ([[this._first, this._second, 1, 0],
         [this._second, this._first, 0, 1]])) {
         this._bind(this._blurred, "picture", 0, from.texture);
@@ -213,8 +213,8 @@ function set(gl, of, name, value) {
 
 /** @param {number} deviation pixels @param {number} pixels */
 function gaussian(deviation, pixels) {
-  const reach = Math.min(Math.ceil(3 * deviation), pixels, MOST_WEIGHTS - 1);
-  const all = Array.from({ length: reach + 1 }, (_, k) => Math.exp((-0.5 * k * k) / (deviation * deviation)));
+  const extent = Math.min(Math.ceil(3 * deviation), pixels, MOST_WEIGHTS - 1);
+  const all = Array.from({ length: extent + 1 }, (_, k) => Math.exp((-0.5 * k * k) / (deviation * deviation)));
   const sum = all.reduce((total, weight) => total + 2 * weight, -1);
   return Float32Array.from(all, (weight) => weight / sum);
 }

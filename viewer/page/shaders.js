@@ -52,7 +52,7 @@ float chords(float u) {
   float v = clamp(u, -1.0, 1.0);
   return v * sqrt(1.0 - v * v) + asin(v);
 }
-float way(float s) {
+float inWall(float s) {
   float outer = sqrt(max(0.0, size.w * size.w - s * s));
   return 2.0 * (outer - sqrt(max(0.0, wall.x * wall.x - s * s)));
 }
@@ -65,7 +65,7 @@ float across(float distance, float one, float other) {
   if (!(width > 0.0)) return 0.0;
   float chord = chords(low / r);
   float lumen = a > 0.0 ? chords(low / a) : 0.0;
-  float side = way(low);
+  float side = inWall(low);
   float area = trapezoid(low - distance, one, other);
   float taken = 0.0;
   for (int k = 1; k <= PARTS; k++) {
@@ -78,7 +78,7 @@ float across(float distance, float one, float other) {
       through -= a * a * (nextLumen - lumen);
       lumen = nextLumen;
     }
-    float nextSide = way(edge);
+    float nextSide = inWall(edge);
     float spread = min(wall.y * abs(nextSide - side), 3.0);
     side = nextSide;
     float nextArea = trapezoid(edge - distance, one, other);
@@ -144,14 +144,14 @@ export const BLUR = `#version 300 es
 precision highp float;
 uniform highp sampler2D picture;
 uniform float weights[24];
-uniform int reach;
+uniform int extent;
 uniform ivec2 along;
 out vec4 brightness;
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
   ivec2 last = textureSize(picture, 0) - 1;
   float sum = weights[0] * texelFetch(picture, at, 0).r;
-  for (int k = 1; k <= reach; k++) {
+  for (int k = 1; k <= extent; k++) {
     sum += weights[k] * (texelFetch(picture, clamp(at + k * along, ivec2(0), last), 0).r
       + texelFetch(picture, clamp(at - k * along, ivec2(0), last), 0).r);
   }

@@ -10,9 +10,9 @@
 
 /**
  * How far the tip is from its target along the vessel. A point belongs to the sphere of the centreline with the least
- * |p - c|^2 - r^2; in another branch its distance from the last sphere of the way is added.
+ * |p - c|^2 - r^2; in another branch its distance from the nearest sphere of the route is added.
  * @param {Route} route @param {ArrayLike<number>} tip units
- * @returns {{left: number, fraction: number, isReached: boolean}} units; part of the way that is done, from 0 to 1
+ * @returns {{left: number, fraction: number, isReached: boolean}} units; part of the route that is done, from 0 to 1
  */
 export function progress(route, tip) {
   let best = 0;
