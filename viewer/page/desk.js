@@ -29,10 +29,10 @@ export class Desk {
     this._turn = new Dial("turn", (turn) => turn);
     const target = recording.described?.target;
     this._left = make("output", {});
-    this._wayDone = make("i", {});
+    this._routeDone = make("i", {});
     const card = make("div", { className: "card" },
       ...(target ? [make("div", { className: "line" }, make("span", {}, `to ${target.name}`), this._left),
-        make("div", { className: "way" }, this._wayDone)]
+        make("div", { className: "route" }, this._routeDone)]
         : [make("div", { className: "line" }, make("span", {}, "tip went"), this._left)]));
     const legend = make("div", { className: "card" }, ...recordings.flatMap((one) =>
       one.instruments.map((instrument) => make("div", {}, swatch(instrument.colour),
@@ -62,12 +62,12 @@ export class Desk {
     const clock = byId("clock");
     clock.textContent = `${at("time").toFixed(1)} s`;
     byId("score").textContent = String(this.score.points);
-    if (!this._left || !this._wayDone) return;
+    if (!this._left || !this._routeDone) return;
     if (recording.described?.target) {
       const { left, reachedAt, best } = this.score;
       this._left.textContent = Number.isNaN(reachedAt) ? `${(millimetres * left).toFixed(0)} mm`
         : `reached at ${reachedAt.toFixed(1)} s`;
-      this._wayDone.style.width = `${100 * best}%`;
+      this._routeDone.style.width = `${100 * best}%`;
     } else {
       const spheres = recording.channel("positions").width / 3;
       this._left.textContent = `${(millimetres * moved(recording, frame, spheres - 1)).toFixed(0)} mm`;

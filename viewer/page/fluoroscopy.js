@@ -26,7 +26,12 @@ export const plainLook = () => ({
   lao: 0, cranial: 0, centre: null, field: null, vessel: "roadmap", contrast: 0.1, background: 0.75, noise: 0, seed: 0,
   blur: 0,
 });
-const VESSELS = { none: 0, contrast: 1, roadmap: 2 };
+/** Brightness over the background's, of what passes the contrast agent. */
+const VESSELS = {
+  none: () => 1,
+  contrast: (/** @type {number} */ passed) => passed,
+  roadmap: (/** @type {number} */ passed) => 1 + 0.3 * (1 - passed),
+};
 const MOST_WEIGHTS = 24;
 
 /** X-ray pictures by the formula of the core, drawn by a shader. */
@@ -50,6 +55,7 @@ export class Fluoroscopy {
     this.millimetres = 1; // of a unit
     this.look = plainLook();
     this._seen = "";
+    this._shown = "";
     this._thickness = new Float32Array(pixels * pixels);
     this._strip = program(gl, STRIP_CORNERS, STRIP);
     this._compose = program(gl, COVER, COMPOSE);
@@ -80,7 +86,7 @@ export class Fluoroscopy {
     this._lumens = walls.filter((wall) => wall.kind === "vessel").map((wall) => new Lumen(wall));
     this.box = box;
     this.millimetres = millimetres;
-    this._seen = "";
+    this._seen = this._shown = "";
   }
 
   /** Where it is seen from. */
@@ -106,32 +112,40 @@ export class Fluoroscopy {
     gl.bindVertexArray(this._nothing);
     const blur = look.blur > 0 ? (look.blur / this.millimetres) * arm.scale : 0;
     gl.useProgram(this._compose);
-    this._bind(this._compose, "thickness", 0, this._layer);
+    this._bind(this._compose, "layer", 0, this._layer);
     this._bind(this._compose, "depth", 1, this._depth.texture);
-    set(gl, this._compose, "contrast", look.contrast * this.millimetres);
-    set(gl, this._compose, "background", look.background);
-    gl.uniform1i(gl.getUniformLocation(this._compose, "vessel"), VESSELS[look.vessel]);
-    this._cover(this._first.frame);
+    gl.uniform1i(gl.getUniformLocation(this._compose, "isLast"), blur > 0 ? 0 : 1);
+    this._setNoise(this._compose);
+    this._cover(blur > 0 ? this._first.frame : null);
     if (blur > 0) {
       const weights = gaussian(blur, this.pixels);
       gl.useProgram(this._blurred);
       gl.uniform1fv(gl.getUniformLocation(this._blurred, "weights"), weights);
-      gl.uniform1i(gl.getUniformLocation(this._blurred, "reach"), weights.length - 1);
+      gl.uniform1i(gl.getUniformLocation(this._blurred, "extent"), weights.length - 1);
       for (const [from, to, x, y] of /** @type {const} */ ([[this._first, this._second, 1, 0],
         [this._second, this._first, 0, 1]])) {
         this._bind(this._blurred, "picture", 0, from.texture);
         gl.uniform2i(gl.getUniformLocation(this._blurred, "along"), x, y);
         this._cover(to.frame);
       }
+      gl.useProgram(this._show);
+      this._bind(this._show, "picture", 0, this._first.texture);
+      this._setNoise(this._show);
+      this._cover(null);
     }
-    gl.useProgram(this._show);
-    this._bind(this._show, "picture", 0, this._first.texture);
-    set(gl, this._show, "noise", look.noise * Math.sqrt(look.background));
-    gl.uniform1ui(gl.getUniformLocation(this._show, "seed"), look.seed >>> 0);
-    this._cover(null);
   }
 
-  /** Draws and returns the grey levels, row by row from above. @param {[Instrument, ArrayLike<number>][]} instruments */
+  /** @param {WebGLProgram} of */
+  _setNoise(of) {
+    const { look, _gl: gl } = this;
+    gl.uniform1f(gl.getUniformLocation(of, "noise"), look.noise * Math.sqrt(look.background));
+    gl.uniform1ui(gl.getUniformLocation(of, "seed"), look.seed >>> 0);
+  }
+
+  /**
+   * Draws and returns the grey levels, row by row from above.
+   * @param {[Instrument, ArrayLike<number>][]} instruments
+   */
   grey(instruments) {
     const { pixels, _gl: gl } = this;
     this.draw(instruments);
@@ -155,18 +169,25 @@ export class Fluoroscopy {
     gl.disable(gl.BLEND);
   }
 
-  /** Computes the vessel's thickness where it is seen from elsewhere than before. @param {CArm} arm */
+  /** Computes the brightness of background and vessel where they are seen anew or otherwise. @param {CArm} arm */
   _setLayer(arm) {
-    const { lao, cranial } = this.look;
+    const { lao, cranial, vessel, contrast, background } = this.look;
     const seen = [lao, cranial, ...arm.centre, arm.scale].join();
-    if (seen === this._seen) return;
+    if (seen !== this._seen) {
+      this._thickness.fill(0);
+      for (const lumen of this._lumens) lumen.add(arm, this._thickness);
+    }
+    const shown = [seen, vessel, contrast, background].join();
+    if (shown === this._shown) return;
     this._seen = seen;
-    this._thickness.fill(0);
-    for (const lumen of this._lumens) lumen.add(arm, this._thickness);
+    this._shown = shown;
+    const factor = VESSELS[vessel];
+    const brightness = this._thickness.map((thickness) =>
+      background * factor(Math.exp(-contrast * this.millimetres * thickness)));
     const { _gl: gl } = this;
     gl.activeTexture(gl.TEXTURE0);
     gl.bindTexture(gl.TEXTURE_2D, this._layer);
-    gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, this.pixels, this.pixels, gl.RED, gl.FLOAT, this._thickness);
+    gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, this.pixels, this.pixels, gl.RED, gl.FLOAT, brightness);
   }
 
   /** @param {WebGLProgram} of @param {string} name @param {number} unit @param {WebGLTexture} image */
@@ -192,8 +213,8 @@ function set(gl, of, name, value) {
 
 /** @param {number} deviation pixels @param {number} pixels */
 function gaussian(deviation, pixels) {
-  const reach = Math.min(Math.ceil(3 * deviation), pixels, MOST_WEIGHTS - 1);
-  const all = Array.from({ length: reach + 1 }, (_, k) => Math.exp((-0.5 * k * k) / (deviation * deviation)));
+  const extent = Math.min(Math.ceil(3 * deviation), pixels, MOST_WEIGHTS - 1);
+  const all = Array.from({ length: extent + 1 }, (_, k) => Math.exp((-0.5 * k * k) / (deviation * deviation)));
   const sum = all.reduce((total, weight) => total + 2 * weight, -1);
   return Float32Array.from(all, (weight) => weight / sum);
 }

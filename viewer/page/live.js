@@ -52,7 +52,7 @@ export class Live {
     this._mark = 0;
     this._marks = new Map();
     this._newest = 0;
-    stage.onDrawn = () => this._shown();
+    stage.onDrawn = xray.onDrawn = () => this._shown();
     this._socket = new WebSocket(new URL("live", location.href.replace(/^http/, "ws")));
     this._socket.binaryType = "arraybuffer";
     this._socket.onmessage = ({ data }) => (typeof data === "string" ? this._hear(JSON.parse(data)) : this._take(data));
@@ -221,7 +221,8 @@ export class Live {
       oninput: () => this.lookBack(Number(back.value)) });
     back.setAttribute("aria-label", "look back");
     const scenes = make("select", { id: "scenes", onchange: () => this.send({ do: "open", scene: scenes.value }) },
-      ...status.scenes.map((scene) => make("option", { value: scene, selected: scene === status.scene }, nameOf(scene))));
+      ...status.scenes.map((scene) =>
+        make("option", { value: scene, selected: scene === status.scene }, nameOf(scene))));
     const paces = make("select", { id: "pace", onchange: () => this.send({ do: "pace", value: Number(paces.value) }) },
       ...status.paces.map((pace) =>
         make("option", { value: pace, selected: pace === status.pace }, `${pace} x real time`)));

@@ -62,6 +62,8 @@ const setTheme = (/** @type {string} */ theme) => {
 setTheme(matchMedia("(prefers-color-scheme: light)").matches ? "light" : "dark");
 byId("theme").onclick = () => setTheme(document.documentElement.dataset.theme === "light" ? "dark" : "light");
 
+/** Degrees of LAO and cranial by key. @type {Record<string, [number, number]>} */
+const ARM = { ArrowLeft: [-5, 0], ArrowRight: [5, 0], ArrowUp: [0, 5], ArrowDown: [0, -5] };
 const toggles = /** @type {Record<string, string>} */ ({ f: "arrows", t: "follow" });
 addEventListener("keydown", (event) => {
   const isTyped = event.target instanceof HTMLInputElement && event.target.type !== "range";
@@ -70,7 +72,7 @@ addEventListener("keydown", (event) => {
   const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
   const pressed = key === event.key ? event : new KeyboardEvent("keydown", { key, repeat: event.repeat });
   if (event.altKey && key.startsWith("Arrow")) {
-    const [lao, cranial] = { ArrowLeft: [-5, 0], ArrowRight: [5, 0], ArrowUp: [0, 5], ArrowDown: [0, -5] }[key] ?? [0, 0];
+    const [lao, cranial] = ARM[key] ?? [0, 0];
     xray.turnArm(lao, cranial);
     event.preventDefault();
   } else if (shown?.key(pressed)) event.preventDefault();

@@ -44,7 +44,8 @@ export class Replay {
     this._play = button("play", () => this.play(!this.isPlaying));
     this._over = button("", () => this.lay(!this.areOver));
     byId("bar").replaceChildren(button("|<", () => this.go(this._start), "to the start"),
-      button("<", () => this.step(-1), "one frame back"), this._play, button(">", () => this.step(1), "one frame on"), this._slider, this._speed,
+      button("<", () => this.step(-1), "one frame back"), this._play, button(">", () => this.step(1), "one frame on"),
+      this._slider, this._speed,
       ...(recordings.length > 1 ? [this._over] : []));
     this.lay(false);
   }

@@ -7,7 +7,7 @@ const PER_CAUTION = 1; // points a second of a wall force in the yellow band
 const PER_STOP = 5; // in the red one
 
 /**
- * The score of a run: 100 points for the whole way to the target, less one for each second with a wall force in the
+ * The score of a run: 100 points for the whole route to the target, less one for each second with a wall force in the
  * yellow band and five for each in the red one. It depends on the frames alone, so that a replay has the same.
  */
 export class Score {
@@ -21,7 +21,7 @@ export class Score {
     this.caution = 0;
     /** Seconds in the red one. */
     this.stop = 0;
-    /** Largest part of the way that was done. */
+    /** Largest part of the route that was done. */
     this.best = 0;
     /** Units to the target. */
     this.left = NaN;

@@ -52,7 +52,7 @@ float chords(float u) {
   float v = clamp(u, -1.0, 1.0);
   return v * sqrt(1.0 - v * v) + asin(v);
 }
-float way(float s) {
+float inWall(float s) {
   float outer = sqrt(max(0.0, size.w * size.w - s * s));
   return 2.0 * (outer - sqrt(max(0.0, wall.x * wall.x - s * s)));
 }
@@ -65,7 +65,7 @@ float across(float distance, float one, float other) {
   if (!(width > 0.0)) return 0.0;
   float chord = chords(low / r);
   float lumen = a > 0.0 ? chords(low / a) : 0.0;
-  float side = way(low);
+  float side = inWall(low);
   float area = trapezoid(low - distance, one, other);
   float taken = 0.0;
   for (int k = 1; k <= PARTS; k++) {
@@ -78,7 +78,7 @@ float across(float distance, float one, float other) {
       through -= a * a * (nextLumen - lumen);
       lumen = nextLumen;
     }
-    float nextSide = way(edge);
+    float nextSide = inWall(edge);
     float spread = min(wall.y * abs(nextSide - side), 3.0);
     side = nextSide;
     float nextArea = trapezoid(edge - distance, one, other);
@@ -100,50 +100,10 @@ void main() {
   depth = vec4(isFreeEnd && size.z == 1.0 ? -log(1.0 - window * (1.0 - exp(-full))) : window * full, 0.0, 0.0, 1.0);
 }`;
 
-/** Brightness of background, vessel and instruments. */
-export const COMPOSE = `#version 300 es
-precision highp float;
-uniform highp sampler2D thickness;
-uniform highp sampler2D depth;
-uniform float contrast;
-uniform float background;
-uniform int vessel;
-out vec4 brightness;
-void main() {
-  ivec2 at = ivec2(gl_FragCoord.xy);
-  int rows = textureSize(thickness, 0).y;
-  float passed = vessel == 0 ? 1.0 : exp(-contrast * texelFetch(thickness, ivec2(at.x, rows - 1 - at.y), 0).r);
-  float layer = vessel == 2 ? 1.0 + 0.3 * (1.0 - passed) : passed;
-  brightness = vec4(background * layer * exp(-texelFetch(depth, at, 0).r), 0.0, 0.0, 1.0);
-}`;
-
-/** Blur along rows or columns. */
-export const BLUR = `#version 300 es
-precision highp float;
-uniform highp sampler2D picture;
-uniform float weights[24];
-uniform int reach;
-uniform ivec2 along;
-out vec4 brightness;
-void main() {
-  ivec2 at = ivec2(gl_FragCoord.xy);
-  ivec2 last = textureSize(picture, 0) - 1;
-  float sum = weights[0] * texelFetch(picture, at, 0).r;
-  for (int k = 1; k <= reach; k++) {
-    sum += weights[k] * (texelFetch(picture, clamp(at + k * along, ivec2(0), last), 0).r
-      + texelFetch(picture, clamp(at - k * along, ivec2(0), last), 0).r);
-  }
-  brightness = vec4(sum, 0.0, 0.0, 1.0);
-}`;
-
 /** Noise, as QuantumNoise of the core, and grey levels. */
-export const SHOW = `#version 300 es
-precision highp float;
-precision highp int;
-uniform highp sampler2D picture;
+const GREY = `
 uniform float noise;
 uniform uint seed;
-out vec4 colour;
 uint mixed(uint h) {
   h ^= h >> 16;
   h *= 0x7feb352du;
@@ -151,15 +111,61 @@ uint mixed(uint h) {
   h *= 0x846ca68bu;
   return h ^ (h >> 16);
 }
-void main() {
-  ivec2 at = ivec2(gl_FragCoord.xy);
-  ivec2 size = textureSize(picture, 0);
-  float brightness = texelFetch(picture, at, 0).r;
+vec4 grey(float brightness, ivec2 at, ivec2 size) {
   if (noise > 0.0) {
     uint h = mixed(mixed(seed ^ 0x9e3779b9u) + uint((size.y - 1 - at.y) * size.x + at.x));
     uint pairs = (h & 0x00ff00ffu) + ((h >> 8) & 0x00ff00ffu);
     float deviation = (float((pairs & 0xffffu) + (pairs >> 16)) - 510.0) / 147.80054;
     brightness += noise * sqrt(brightness) * deviation;
   }
-  colour = vec4(vec3(floor(255.0 * clamp(brightness, 0.0, 1.0) + 0.5) / 255.0), 1.0);
+  return vec4(vec3(floor(255.0 * clamp(brightness, 0.0, 1.0) + 0.5) / 255.0), 1.0);
+}`;
+
+/** Brightness of background and vessel behind the instruments; or at once the grey levels, where nothing is blurred. */
+export const COMPOSE = `#version 300 es
+precision highp float;
+precision highp int;
+uniform highp sampler2D layer;
+uniform highp sampler2D depth;
+uniform bool isLast;
+out vec4 colour;
+${GREY}
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  ivec2 size = textureSize(layer, 0);
+  float through = texelFetch(depth, at, 0).r;
+  float brightness = texelFetch(layer, ivec2(at.x, size.y - 1 - at.y), 0).r;
+  if (through > 0.0) brightness *= exp(-through);
+  colour = isLast ? grey(brightness, at, size) : vec4(brightness, 0.0, 0.0, 1.0);
+}`;
+
+/** Blur along rows or columns. */
+export const BLUR = `#version 300 es
+precision highp float;
+uniform highp sampler2D picture;
+uniform float weights[24];
+uniform int extent;
+uniform ivec2 along;
+out vec4 brightness;
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  ivec2 last = textureSize(picture, 0) - 1;
+  float sum = weights[0] * texelFetch(picture, at, 0).r;
+  for (int k = 1; k <= extent; k++) {
+    sum += weights[k] * (texelFetch(picture, clamp(at + k * along, ivec2(0), last), 0).r
+      + texelFetch(picture, clamp(at - k * along, ivec2(0), last), 0).r);
+  }
+  brightness = vec4(sum, 0.0, 0.0, 1.0);
+}`;
+
+/** Grey levels of what was blurred. */
+export const SHOW = `#version 300 es
+precision highp float;
+precision highp int;
+uniform highp sampler2D picture;
+out vec4 colour;
+${GREY}
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  colour = grey(texelFetch(picture, at, 0).r, at, textureSize(picture, 0));
 }`;

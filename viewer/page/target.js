@@ -10,9 +10,9 @@
 
 /**
  * How far the tip is from its target along the vessel. A point belongs to the sphere of the centreline with the least
- * |p - c|^2 - r^2; in another branch its distance from the last sphere of the way is added.
+ * |p - c|^2 - r^2; in another branch its distance from the nearest sphere of the route is added.
  * @param {Route} route @param {ArrayLike<number>} tip units
- * @returns {{left: number, fraction: number, isReached: boolean}} units; part of the way that is done, from 0 to 1
+ * @returns {{left: number, fraction: number, isReached: boolean}} units; part of the route that is done, from 0 to 1
  */
 export function progress(route, tip) {
   let best = 0;
@@ -26,7 +26,8 @@ export function progress(route, tip) {
   const beyond = Math.max(0, apart(route.points[best], tip) - route.radii[best]);
   const left = whole - route.distances[best] + beyond;
   const isReached = beyond === 0 && whole - route.distances[best] <= route.radii[last];
-  return { left: isReached ? 0 : left, fraction: isReached ? 1 : Math.max(0, Math.min(1, 1 - left / whole)), isReached };
+  const fraction = isReached ? 1 : Math.max(0, Math.min(1, 1 - left / whole));
+  return { left: isReached ? 0 : left, fraction, isReached };
 }
 
 /** @param {ArrayLike<number>} a @param {ArrayLike<number>} b */

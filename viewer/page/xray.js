@@ -11,7 +11,7 @@ const VIEWS = /** @type {[string, number, number][]} */ ([["AP", 0, 0], ["LAO 30
 const DEGREES_A_POINT = 0.4; // of dragging
 const WIDEST = 180; // mm, as of a detector: where the vessel is larger the picture goes with the tip
 const CLOSE_UP = 80; // mm
-const WORN = { noise: 0.022, blur: 0.12 }; // how a picture looks on the screen
+const WORN = { noise: 0.022 }; // how a picture looks on the screen
 const MOST_CRANIAL = 60;
 
 /** The X-ray view: the C-arm, its buttons and mouse, and the target's mark. */
@@ -31,6 +31,8 @@ export class Xray {
     this._frames = 0;
     /** Pictures drawn so far. */
     this.drawn = 0;
+    /** Told after every picture. @type {() => void} */
+    this.onDrawn = () => {};
     this._isAsked = false;
     this._zoom = 1;
     /** @type {Point | undefined} */
@@ -113,9 +115,13 @@ export class Xray {
       /** @type {[import("./pieces.js").Instrument, Float64Array]} */ ([instrument, model.centreline(k)]))));
     this._label();
     this.drawn++;
+    this.onDrawn();
   }
 
-  /** A middle that moves only when the tip is about to leave the picture. @param {Point} tip @param {number} side units */
+  /**
+   * A middle that moves only when the tip is about to leave the picture.
+   * @param {Point} tip @param {number} side units
+   */
   _kept(tip, side) {
     const last = this._middle;
     const isIn = last && last.every((value, k) => Math.abs(value - tip[k]) < 0.3 * side);

@@ -30,11 +30,11 @@ namespace Guidewire.Benchmarks
             }
             double step = (Processor() - before).TotalMilliseconds / Math.Max(1, run.StepCount);
             var pictures = new RunPictures(session.Parameters);
-            foreach ((int pixels, bool isWorn) in new[] { (128, false), (256, false), (256, true), (512, true) })
+            foreach ((int pixels, bool hasNoise) in new[] { (128, false), (256, false), (256, true), (512, true) })
             {
                 var view = new PictureView { Pixels = pixels };
-                view.Settings.Noise = isWorn ? 0.03 : 0.0;
-                view.Settings.Blur = isWorn ? 0.3 : 0.0;
+                view.Settings.Noise = hasNoise ? 0.03 : 0.0;
+                view.Settings.Blur = hasNoise ? 0.3 : 0.0;
                 var grey = new byte[pixels * pixels];
                 TimeSpan start = default;
                 for (int k = -Pictures / 2; k < Pictures; k++)
@@ -46,7 +46,7 @@ namespace Guidewire.Benchmarks
                 double each = (Processor() - start).TotalMilliseconds / Pictures;
                 Console.WriteLine(string.Format(CultureInfo.InvariantCulture,
                     "{0}, {1} x {1}{2}: {3:0.000} ms of a processor, {4:0} a second; {5:0.00} of a step ({6:0.00} ms)",
-                    Path.GetFileName(file), pixels, isWorn ? " with noise and blur" : "", each, 1e3 / each, each / step,
+                    Path.GetFileName(file), pixels, hasNoise ? " with noise and blur" : "", each, 1e3 / each, each / step,
                     step));
             }
         }

@@ -5,7 +5,7 @@ namespace Guidewire.Core
     /// <summary>Adds instruments to a picture of optical depths: minus the logarithm of what part of a pixel's rays
     /// passes them.</summary>
     /// <remarks><para>A straight piece of length L, outer radius r and lumen radius a at the angle theta to the rays is
-    /// a strip of length L sin theta: at the distance s from its axis in the picture a ray's way through the wall is
+    /// a strip of length L sin theta: at the distance s from its axis in the picture a ray's length in the wall is
     /// 2 (sqrt(r^2 - s^2) - sqrt(a^2 - s^2))/sin theta. A pixel is a square: across the strip its area is distributed
     /// as a trapezoid, the convolution of two boxes of the widths |n_x| and |n_y| for a normal n of the axis. What of
     /// the strip is in the pixel is cut across into <see cref="StripProfile.Parts"/> parts of equal width; each has
@@ -92,7 +92,7 @@ namespace Guidewire.Core
             var strip = new StripProfile(r, a, mu * length / Math.Max(shown, tilt), peak,
                 Math.Max(Math.Abs(uy), Thinnest), Math.Max(Math.Abs(ux), Thinnest));
             double outer = 0.5 * (tilt + 1.0);
-            double beyond = strip.Reach;
+            double beyond = strip.HalfWidth;
             int lastRow = Row(start.Y, uy * shown, beyond, outer, false);
             for (int row = Row(start.Y, uy * shown, beyond, outer, true); row <= lastRow; row++)
             {

@@ -7,7 +7,7 @@ namespace Guidewire.Core
     /// Beyond the picture's border it goes on as at the border.</summary>
     internal sealed class SpotBlur
     {
-        private const double Reach = 3.0;    // standard deviations
+        private const double Extent = 3.0;    // standard deviations
 
         private readonly float[] _rows;
         private readonly int _pixels;
@@ -28,25 +28,25 @@ namespace Guidewire.Core
         public void Apply(float[] picture, double deviation)
         {
             SetWeights(deviation);
-            int reach = _weights.Length - 1;
+            int extent = _weights.Length - 1;
             for (int row = 0; row < _pixels; row++)
             {
                 int start = row * _pixels;
-                Array.Copy(picture, start, _line, reach, _pixels);
-                _line.AsSpan(0, reach).Fill(picture[start]);
-                _line.AsSpan(reach + _pixels, reach).Fill(picture[start + _pixels - 1]);
+                Array.Copy(picture, start, _line, extent, _pixels);
+                _line.AsSpan(0, extent).Fill(picture[start]);
+                _line.AsSpan(extent + _pixels, extent).Fill(picture[start + _pixels - 1]);
                 Array.Clear(_rows, start, _pixels);
-                Add(_weights[0], _line, reach, _rows, start);
-                for (int k = 1; k <= reach; k++)
+                Add(_weights[0], _line, extent, _rows, start);
+                for (int k = 1; k <= extent; k++)
                 {
-                    Add(_weights[k], _line, reach - k, _rows, start);
-                    Add(_weights[k], _line, reach + k, _rows, start);
+                    Add(_weights[k], _line, extent - k, _rows, start);
+                    Add(_weights[k], _line, extent + k, _rows, start);
                 }
             }
             Array.Clear(picture, 0, picture.Length);
             for (int row = 0; row < _pixels; row++)
             {
-                for (int k = -reach; k <= reach; k++)
+                for (int k = -extent; k <= extent; k++)
                 {
                     int from = Math.Min(Math.Max(row + k, 0), _pixels - 1) * _pixels;
                     Add(_weights[Math.Abs(k)], _rows, from, picture, row * _pixels);
@@ -74,18 +74,18 @@ namespace Guidewire.Core
                 return;
             }
             _deviation = deviation;
-            int reach = Math.Min((int)Math.Ceiling(Reach * deviation), _pixels);
-            _weights = new float[reach + 1];
+            int extent = Math.Min((int)Math.Ceiling(Extent * deviation), _pixels);
+            _weights = new float[extent + 1];
             double sum = -1.0;
-            for (int k = 0; k <= reach; k++)
+            for (int k = 0; k <= extent; k++)
             {
                 sum += 2.0 * Weight(k, deviation);
             }
-            for (int k = 0; k <= reach; k++)
+            for (int k = 0; k <= extent; k++)
             {
                 _weights[k] = (float)(Weight(k, deviation) / sum);
             }
-            _line = new float[_pixels + 2 * reach];
+            _line = new float[_pixels + 2 * extent];
         }
 
         private static double Weight(int k, double deviation)

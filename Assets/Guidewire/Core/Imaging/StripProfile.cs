@@ -38,7 +38,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Distance from the axis beyond which nothing is seen of the piece.</summary>
-        public double Reach => _r + 0.5 * (_one + _other);
+        public double HalfWidth => _r + 0.5 * (_one + _other);
 
         /// <summary>Integral up to x of the convolution of two boxes of these widths, above 0, and of area 1.</summary>
         public static double Trapezoid(double x, double one, double other)
@@ -87,7 +87,7 @@ namespace Guidewire.Core
             return -Math.Log(Math.Max(1.0 - taken, Opaque));
         }
 
-        // The ray's way through the wall at a distance from the axis, as a chord of the cross-section.
+        // Length of the ray in the wall at a distance from the axis, as a chord of the cross-section.
         private double Wall(double s)
         {
             double outer = Math.Sqrt(Math.Max(0.0, _r * _r - s * s));

@@ -65,8 +65,8 @@ namespace Guidewire.Io
         /// <summary>Whether the user holds the first element, instead of the drive.</summary>
         public bool IsSteered => _steering != null;
 
-        /// <summary>The centreline from the inlet to the target: "name", "points" (units), "radii" and "distances"; null
-        /// where the run has no target.</summary>
+        /// <summary>The centreline from the inlet to the target: "name", "points" (units), "radii" and "distances";
+        /// null where the run has no target.</summary>
         public JObject? RouteToTarget()
         {
             CentrelinePath? path = _handler.Values.Path;
