@@ -9,6 +9,7 @@ namespace Guidewire.Core
     {
         private readonly bool _hasMaterial;
         private readonly bool _hasSheath;
+        private readonly int _catheterCount;
         private readonly TimeStepper _stepper;
         private readonly StopRule _stopRule;
         private readonly StepClock _clock;
@@ -24,6 +25,7 @@ namespace Guidewire.Core
             _warnings = new RunWarnings(parameters);
             _hasMaterial = MethodTable.Of(parameters.Method.Solver).TakesMaterial;
             _hasSheath = parameters.Scene.Sheath != null;
+            _catheterCount = parameters.Scene.Catheters.Count;
             State = start.State;
             _stepper = start.Stepper;
             _stopRule = new StopRule(
@@ -145,6 +147,13 @@ namespace Guidewire.Core
             return _stepper.Hub();
         }
 
+        /// <summary>What is read off of a catheter over the wire as it is now; null without one. Each call writes the
+        /// record anew.</summary>
+        public CoaxialRecord? Coaxial()
+        {
+            return _stepper.Coaxial();
+        }
+
         /// <summary>One step. Does nothing once the run has ended.</summary>
         public void Step()
         {
@@ -184,6 +193,11 @@ namespace Guidewire.Core
             {
                 throw new ArgumentException("sheath needs to be there, or not, as it was: this run goes on with the"
                     + " wire that it has");
+            }
+            if (parameters.Scene.Catheters.Count != _catheterCount)
+            {
+                throw new ArgumentException("catheters need to be as many as they were: this run goes on with those"
+                    + " that it has");
             }
             var snapshot = new Snapshot();
             Serialize(snapshot);

@@ -15,6 +15,8 @@ namespace Guidewire.Core
         private Vector3d _firstPosition;  // of ends that are followed, m
         private Vector3d _lastPosition;
         private double _carried;       // J
+        private double _lead;          // of an inner hub that is followed, m
+        private double _hubTwist;      // radians
         private readonly double _stretch;  // the largest EA, N
         private readonly double _twist;    // the largest GJ, N m^2
 
@@ -74,6 +76,11 @@ namespace Guidewire.Core
             _lastPosition = shape.X[shape.ElementCount];
             _proximalTurn = proximalTurn;
             _distalTurn = distalTurn;
+            if (_terms.Bending is CoaxialBendTwist coaxial)
+            {
+                _lead = coaxial.Lead;
+                _hubTwist = coaxial.HubTwist;
+            }
         }
 
         /// <summary>Takes note of the speeds of the ends: what brings a wire at rest to them may be over within a part
@@ -104,9 +111,10 @@ namespace Guidewire.Core
             Vector3d lastMove = _holdsLast ? shape.X[last] - _lastPosition : Vector3d.Zero;
             double firstTurn = proximalTurn - _proximalTurn;
             double lastTurn = distalTurn - _distalTurn;
+            CountInner(shape, out double innerMove, out double innerTurn);
             Follow(shape, proximalTurn, distalTurn);
-            double move = firstMove.Length + lastMove.Length;
-            double turn = Math.Abs(firstTurn) + Math.Abs(lastTurn);
+            double move = firstMove.Length + lastMove.Length + innerMove;
+            double turn = Math.Abs(firstTurn) + Math.Abs(lastTurn) + innerTurn;
             if (move == 0.0 && turn == 0.0)
             {
                 return;
@@ -145,6 +153,21 @@ namespace Guidewire.Core
             SerializeWork(snapshot);
             snapshot.Serialize(ref _firstPosition);
             snapshot.Serialize(ref _lastPosition);
+            snapshot.Serialize(ref _lead);
+            snapshot.Serialize(ref _hubTwist);
+        }
+
+        private void CountInner(RodShape shape, out double move, out double turn)
+        {
+            move = 0.0;
+            turn = 0.0;
+            if (_terms.Bending is CoaxialBendTwist coaxial)
+            {
+                move = Math.Abs(coaxial.Lead - _lead);
+                turn = Math.Abs(coaxial.HubTwist - _hubTwist);
+                Work += Math.Abs(coaxial.InnerForce(shape, _terms.Stretch)) * move
+                    + Math.Abs(coaxial.InnerTorque(shape)) * turn;
+            }
         }
 
         private void Shift(RodShape shape, int node, in Vector3d to)

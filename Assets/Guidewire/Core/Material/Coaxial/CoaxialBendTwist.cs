@@ -34,6 +34,9 @@ namespace Guidewire.Core
             _law = default;
         }
 
+        /// <summary>How far the inner hub is behind the outer one, m.</summary>
+        public double Lead => _joints.Lead;
+
         /// <summary>Angle from the outer hub to the inner one, radians, without limit.</summary>
         public double HubTwist { get; set; }
 
@@ -41,6 +44,7 @@ namespace Guidewire.Core
         /// element at the outer tip. Negative where the instrument is driven out.</summary>
         public double InnerForce(RodShape shape, StretchEnergy stretch)
         {
+            SetIdleTwists(shape);
             double lead = _joints.Lead;
             double step = Difference * _rod.Rod.Length[0];
             _rod.SetLead(lead - step);
@@ -50,6 +54,9 @@ namespace Guidewire.Core
             _rod.SetLead(lead);
             return 0.5 * (ahead - behind) / step;
         }
+
+        /// <summary>Where the two hubs are in time; null where they are set by hand.</summary>
+        public CoaxialHubs? Hubs { get; set; }
 
         /// <summary>Torque of the inner hub on its instrument, N m: dE/dz of the hub.</summary>
         public double InnerTorque(RodShape shape)
@@ -64,8 +71,22 @@ namespace Guidewire.Core
         {
             for (int j = Math.Max(_joints.ActiveCount, 1); j < shape.Twist.Length; j++)
             {
-                shape.Twist[j] = j < _joints.OuterCount
-                    ? shape.Twist[j - 1] - _law.Measure(Relative(shape, j)).Z : 0.0;
+                shape.Twist[j] = j < _joints.OuterCount ? shape.Twist[j - 1] + _joints[j].InnerRestTwist
+                    - _law.Measure(Relative(shape, j)).Z : 0.0;
+            }
+        }
+
+        /// <inheritdoc/>
+        public override void SetTime(double time)
+        {
+            if (Hubs != null)
+            {
+                double lead = Hubs.LeadAt(time);
+                HubTwist = Hubs.TwistAt(time);
+                if (lead != _joints.Lead)
+                {
+                    _rod.SetLead(lead);
+                }
             }
         }
 

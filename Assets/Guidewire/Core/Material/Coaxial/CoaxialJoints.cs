@@ -74,6 +74,13 @@ namespace Guidewire.Core
             return k == _tip && Beyond > 0;
         }
 
+        /// <summary>What both instruments are made of at node k, in the overlap.</summary>
+        public void PiecesAt(int k, out CrossSection outer, out CrossSection inner)
+        {
+            outer = _outer.Pieces[_outer.PieceAt(_station[k])];
+            inner = _inner.Pieces[_inner.PieceAt(_station[k] + Lead)];
+        }
+
         /// <summary>The inner hub is this far behind the outer one.</summary>
         /// <param name="lead">d, m.</param>
         public void SetLead(double lead)
@@ -136,10 +143,10 @@ namespace Guidewire.Core
             }
             joint.Twist = 1.0 / all.OuterCompliance;
             joint.RestTwist = all.OuterRest;
+            joint.InnerRestTwist = innerRest;
             if (k < ActiveCount)
             {
                 joint.InnerTwist = 1.0 / innerCompliance;
-                joint.InnerRestTwist = innerRest;
             }
             else
             {

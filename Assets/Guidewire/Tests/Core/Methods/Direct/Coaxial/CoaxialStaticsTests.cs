@@ -38,10 +38,11 @@ namespace Guidewire.Core.Tests
             }
         }
 
-        [TestCase(10, 2.5e-3)]
-        [TestCase(20, 1e-3)]
-        public void HubTorque_IsThatOfTheDifferentialEquation(int n, double tolerance)
+        [Test]
+        public void HubTorque_IsThatOfTheDifferentialEquation()
         {
+            const int n = 20;
+            const double tolerance = 1e-3;
             foreach (double turn in new[] { 0.3, 1.0, 2.0, 3.0 })
             {
                 CoaxialPair pair = Pair(n, 0.6, 0.3, 1.0);
@@ -69,10 +70,9 @@ namespace Guidewire.Core.Tests
         [TestCase(2.0)]
         public void Stability_EndsEarlier_WithAStraightLengthBefore(double lead)
         {
-            // sqrt(c) L_t tan(sqrt(c) L) = 1 where only the inner one has it: its torsion alone is as long, so the
-            // straight length counts by (1/C_i)/(1/C_o + 1/C_i) of it.
+            // sqrt(c) L_t tan(sqrt(c) L) = 1 with L_t of both; here the inner one alone has a straight length.
             double found = Threshold(10, lead);
-            double effective = lead * (1.0 / 0.6) / (1.0 + 1.0 / 0.6);
+            double effective = lead * InnerPart(0.6);
             double low = 1e-3;
             double high = 0.5 * Math.PI - 1e-9;
             for (int k = 0; k < 60; k++)
@@ -83,6 +83,12 @@ namespace Guidewire.Core.Tests
                 high = isBelow ? high : middle;
             }
             Assert.That(found, Is.EqualTo(low).Within(2.5e-3 * low));
+        }
+
+        // Of the relative twist, that of the inner one where both have the same torque: (1/C_i)/(1/C_o + 1/C_i).
+        private static double InnerPart(double b)
+        {
+            return 1.0 / b / (1.0 + 1.0 / b);
         }
 
         // sqrt(c) at which the twist of pi becomes unstable.
@@ -121,11 +127,46 @@ namespace Guidewire.Core.Tests
         public void Snap_ComesAtTheAngleOfTheDifferentialEquation(double b, double nu, double k, double lead,
             double expected)
         {
+            lead /= InnerPart(b);
             Assert.That(SnapAngle(10, b, nu, k, lead), Is.EqualTo(expected).Within(2e-3 * expected), "n = 10");
             if (Rods.InFull)
             {
                 Assert.That(SnapAngle(20, b, nu, k, lead), Is.EqualTo(expected).Within(5e-4 * expected), "n = 20");
             }
+        }
+
+        [Test]
+        public void ThreeTurnsForthAndBack_SnapEveryTurn()
+        {
+            // Snaps at 215 + 360 k forth and at 865 - 360 k back: 1080 - 215 and so on.
+            CoaxialPair pair = Pair(10, 1.0, 0.3, 2.0);
+            var snaps = new System.Collections.Generic.List<double>();
+            var iterations = new System.Collections.Generic.List<int>();
+            double last = 0.0;
+            const double step = 2.5;
+            for (int k = 0; k <= 2 * 432; k++)
+            {
+                double degrees = step * (k <= 432 ? k : 864 - k);
+                pair.Solve(degrees * Math.PI / 180.0);
+                iterations.Add(pair.Iterations);
+                double tip = pair.Shape.Twist[9];
+                if (Math.Abs(tip - last) > 1.0)
+                {
+                    snaps.Add(degrees);
+                }
+                last = tip;
+            }
+            double[] expected = { 215.0, 575.0, 935.0, 865.0, 505.0, 145.0 };
+            Assert.That(snaps, Has.Count.EqualTo(6));
+            for (int k = 0; k < 6; k++)
+            {
+                double beyond = (snaps[k] - expected[k]) * (k < 3 ? 1.0 : -1.0);
+                Assert.That(beyond, Is.InRange(-0.5, step + 0.5), "snap " + k);
+            }
+            iterations.Sort();
+            TestContext.WriteLine("iterations: median {0}, most {1}", iterations[432], iterations[864]);
+            Assert.That(last, Is.EqualTo(0.0).Within(1e-8), "back where it was");
+            Assert.That(iterations[432], Is.LessThan(6));
         }
 
         // The last hub angle, in degrees, on the branch that comes from 0.
