@@ -54,7 +54,7 @@ namespace Guidewire.Core
         public double Torque { get; private set; }
 
         /// <summary>Displacement that the catheter's hub has lost, m.</summary>
-        public double Short { get; private set; }
+        public double Shortfall { get; private set; }
 
         /// <summary>Force of the wire's hub, N.</summary>
         public double WireForce { get; private set; }
@@ -144,7 +144,7 @@ namespace Guidewire.Core
             Array.Copy(shape.Q, Orientations, tip);
             Insertion = drive.Insertion;
             Turn = drive.Turn;
-            Short = drive.Slip;
+            Shortfall = drive.Slip;
             Force = force;
             Torque = torque;
             WireForce = wireForce;

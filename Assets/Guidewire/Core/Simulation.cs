@@ -62,7 +62,7 @@ namespace Guidewire.Core
         /// <summary>What is not as it should be at the run's end, one line each; empty while it runs, and where no step
         /// was made.</summary>
         public IReadOnlyList<string> Warnings => Outcome == Outcome.Running || StepCount == 0 ? Array.Empty<string>()
-            : _warnings.Of(State, Contacts);
+            : _warnings.Of(State, Contacts, Coaxial());
 
         /// <summary>Whether the run came to its end and nothing that it measures of itself says that its result is not
         /// to be trusted: it has converged or finished, its reason holds no "but", nothing passed a wall or lay deeper

@@ -85,6 +85,23 @@ namespace Guidewire.Io
             return handler;
         }
 
+        /// <summary>The parameters of an object within a file.</summary>
+        /// <param name="values">Its keys.</param>
+        /// <param name="source">The file, or "command line".</param>
+        /// <exception cref="ParameterException">As of a file of its own.</exception>
+        internal static ParameterHandler Load(IEnumerable<KeyValuePair<string, JToken>> values, string source)
+        {
+            var handler = new ParameterHandler { _file = source };
+            foreach (KeyValuePair<string, JToken> pair in values)
+            {
+                handler._given.Take(pair.Key, pair.Value, source);
+            }
+            handler._given.RefuseUnknown();
+            InstrumentLayer.Expand(handler._given, source);
+            handler.Apply();
+            return handler;
+        }
+
         /// <summary>All effective values of the keys that the method takes; a parameter file that repeats the
         /// run.</summary>
         public JObject ToJson()
@@ -160,14 +177,28 @@ namespace Guidewire.Io
             LoadTableReader.Read(Values, _given.SourceOf);
             DriveTableReader.Read(Values, _given.SourceOf("driveFile"));
             SheathReader.Read(Values, _given.SourceOf);
+            ReadCatheters();
             InletReader.Read(Values, _given);
-            if (_isSteered && Values.Sheath != null)
+            if (_isSteered && (Values.Sheath != null || Values.Catheters != null))
             {
                 simulation.Drive.Steering = new Steering(); // the drive asks for nothing then, and so not for too much
             }
             ReadWalls(simulation);
             Warn();
             Hash = ComputeHash();
+        }
+
+        private void ReadCatheters()
+        {
+            CatheterReader.Read(Values, _given.SourceOf(CatheterReader.Key), _warnings);
+            if (Values.Simulation.Scene.Catheters.Count > 0 && (Values.LogStrains || Values.LogContacts))
+            {
+                throw Refused(Values.LogStrains ? "logStrains" : "logContacts", "false with catheters");
+            }
+            foreach (Catheter catheter in Values.Simulation.Scene.Catheters)
+            {
+                catheter.Drive.Steering = _isSteered ? new Steering() : null;
+            }
         }
 
         // Takes out what the method does not take: refuses it from the command line, notes it from a file.
@@ -359,7 +390,7 @@ namespace Guidewire.Io
             foreach (ParameterEntry entry in Taken())
             {
                 if (!entry.IsOutputPath && entry.Key != InstrumentLayer.Key && entry.Key != "startFile"
-                    && entry.Key != "vessel" && entry.Key != "loadTables" && entry.Key != "driveFile")
+                    && entry.Key != "vessel" && entry.Key != CatheterReader.Key && entry.Key != "loadTables" && entry.Key != "driveFile")
                 {
                     text.Append(entry.Key).Append('=').Append(NumberText.Write(entry.Write(Values))).Append('\n');
                 }
@@ -374,6 +405,11 @@ namespace Guidewire.Io
             {
                 text.Append("drive=").Append(File.ReadAllText(Values.DriveFile)).Append('\n');
             }
+            foreach (Catheter catheter in Values.Simulation.Scene.Catheters)
+            {
+                text.Append("start=").Append(NumberText.Write(new JValue(catheter.Start))).Append('\n');
+            }
+            text.Append(Values.CatheterHashes);
             using SHA256 sha = SHA256.Create();
             if (Values.Vessel?.DeepClone() is JObject vessel)
             {

@@ -48,11 +48,13 @@ namespace Guidewire.Io
             StressRecord? stress = _parameters.LogStrains ? simulation.Stress() : null;
             ContactRecord? contacts = _parameters.LogContacts ? simulation.Contacts : null;
             HubRecord? hub = _parameters.LogHub || _parameters.Sheath != null ? simulation.Hub() : null;
+            CoaxialRecord? catheter = simulation.Coaxial();
             int first = _parameters.LogSpheres == LoggedSpheres.Last ? state.ElementCount : 0;
             if (_count == 0)
             {
                 Begin(state, first, stress != null);
                 AddHub(hub);
+                AddCatheter(catheter);
                 AddContacts(state, contacts);
                 WriteHeader();
             }
@@ -69,13 +71,7 @@ namespace Guidewire.Io
             Put(state.Velocities, first);
             if (_parameters.LogOrientations)
             {
-                foreach (Quaterniond q in state.Orientations)
-                {
-                    Put(q.X);
-                    Put(q.Y);
-                    Put(q.Z);
-                    Put(q.W);
-                }
+                Put(state.Orientations);
             }
             if (stress != null)
             {
@@ -89,6 +85,7 @@ namespace Guidewire.Io
                 Put(state.AngularVelocities, 0);
             }
             Put(hub);
+            Put(catheter);
             if (contacts != null)
             {
                 Put(contacts.Forces, 0);
@@ -195,6 +192,27 @@ namespace Guidewire.Io
             if (hub.LengthInBody != null)
             {
                 Add("lengthInBody", _number);
+            }
+        }
+
+        private void AddCatheter(CoaxialRecord? catheter)
+        {
+            if (catheter == null)
+            {
+                return;
+            }
+            Add("catheterPositions", _number, catheter.Positions.Length, 3);
+            if (_parameters.LogOrientations)
+            {
+                Add("catheterOrientations", _number, catheter.Orientations.Length, 4);
+            }
+            Add("catheterExtension", _number);
+            if (_parameters.LogHub)
+            {
+                Add("catheterInsertion", _number);
+                Add("catheterTurn", _number);
+                Add("catheterForce", _number);
+                Add("catheterTorque", _number);
             }
         }
 
@@ -334,6 +352,38 @@ namespace Guidewire.Io
             if (hub.LengthInBody is double length)
             {
                 Put(length);
+            }
+        }
+
+        private void Put(CoaxialRecord? catheter)
+        {
+            if (catheter == null)
+            {
+                return;
+            }
+            Put(catheter.Positions, 0);
+            if (_parameters.LogOrientations)
+            {
+                Put(catheter.Orientations);
+            }
+            Put(catheter.Extension);
+            if (_parameters.LogHub)
+            {
+                Put(catheter.Insertion);
+                Put(catheter.Turn);
+                Put(catheter.Force);
+                Put(catheter.Torque);
+            }
+        }
+
+        private void Put(Quaterniond[] orientations)
+        {
+            foreach (Quaterniond q in orientations)
+            {
+                Put(q.X);
+                Put(q.Y);
+                Put(q.Z);
+                Put(q.W);
             }
         }
 
