@@ -28,6 +28,7 @@ namespace Guidewire.Core
         private RodDynamics _dynamics = null!;
         private DirectStep _inner = null!;
         private int _active;                      // elements with both, when it was built
+        private double _lead;                     // between the hubs, when it was built, m
 
         /// <summary>A step of the instruments of these parameters, from their start.</summary>
         /// <param name="failure">Why there is no rest shape to start from, or null.</param>
@@ -89,8 +90,7 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void Advance(RodState state)
         {
-            LimitDrives();
-            MoveNodes();
+            BeginStep();
             _wireDrive.Prepare(_dynamics.Shape, _dynamics.Time);
             bool isDone = _inner.Step();
             Failure = _inner.Failure;
@@ -104,6 +104,14 @@ namespace Guidewire.Core
                 TakeWire();
                 WriteWire(state);
             }
+        }
+
+        /// <summary>A step begins: wire nodes that will be beyond the catheter's tip come in, others go. A second time
+        /// nothing changes.</summary>
+        public void BeginStep()
+        {
+            LimitDrives();
+            MoveNodes();
         }
 
         /// <summary>Writes the wire as it is into a state.</summary>
@@ -145,7 +153,7 @@ namespace Guidewire.Core
         public override void Serialize(Snapshot snapshot)
         {
             int beyond = _rod.Joints.Beyond;
-            double lead = _rod.Joints.Lead;
+            double lead = _lead;
             double time = _dynamics.Time;
             snapshot.Serialize(ref beyond);
             snapshot.Serialize(ref lead);
@@ -246,6 +254,7 @@ namespace Guidewire.Core
         private void Start(MaterialScene scene, RodTerms terms, double time, double turn)
         {
             _active = _rod.Joints.ActiveCount;
+            _lead = _rod.Joints.Lead;
             _dynamics = _setup.Dynamics(scene, terms);
             _dynamics.GoOn(time, turn);
             terms.SetTime(scene.Schedule, time);
