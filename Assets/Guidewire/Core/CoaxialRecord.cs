@@ -159,8 +159,8 @@ namespace Guidewire.Core
             for (int k = 0; k < joints.ElementCount; k++)
             {
                 Vector3d turn = bending.TurnOf(shape, k);
-                double length = 0.5 * (station[k + 1] - (k == 0 ? 0.0 : station[k - 1]));
-                LargestCurvature = Math.Max(LargestCurvature, Math.Sqrt(turn.X * turn.X + turn.Y * turn.Y) / length);
+                LargestCurvature = Math.Max(LargestCurvature,
+                    Math.Sqrt(turn.X * turn.X + turn.Y * turn.Y) / joints.LengthOf(k));
                 // The carrier's own twist is the wire's too, but for the hub's frame.
                 WireTwist += turn.Z;
             }

@@ -122,6 +122,10 @@ namespace Guidewire.Core
             {
                 return WireStart.FindProblem(parameters, scene);
             }
+            if (parameters.Scene.Catheters.Count > 0)
+            {
+                return new CoaxialSetup(parameters).FindProblemOfStart();
+            }
             var material = new MaterialScene(parameters, scene);
             return parameters.Scene.Sheath == null ? MaterialStart.FindProblem(parameters, material)
                 : SheathExit.FindProblem(parameters, material);

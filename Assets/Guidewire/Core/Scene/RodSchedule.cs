@@ -48,6 +48,12 @@ namespace Guidewire.Core
             return Math.Min(NextJump(time), Loads.NextRow(time));
         }
 
+        /// <summary>How far the hub of an instrument inside moves in a time, s, in m; 0 without one.</summary>
+        public double InnerMove(double duration)
+        {
+            return _inner == null ? 0.0 : duration * _inner.Velocity.Length;
+        }
+
         /// <summary>Whether all that is prescribed stays as it is from this time to an end, s.</summary>
         public bool IsOver(double time, double end)
         {

@@ -20,6 +20,7 @@ namespace Guidewire.Core
         private readonly CoaxialJoints _joints;
         private readonly TwistRow[] _row;
         private readonly RotationVectorLaw _law;
+        private double _startLead;     // m
         private bool _isStiffened;
         private RodBlock _clampBlock;  // what falls on the hub's frame, which does not move
         private RodVector _clampVector;
@@ -36,6 +37,12 @@ namespace Guidewire.Core
 
         /// <summary>How far the inner hub is behind the outer one, m.</summary>
         public double Lead => _joints.Lead;
+
+        /// <summary>Positions of the chain's nodes along it, m.</summary>
+        public double[] Stations => _joints.Stations;
+
+        /// <summary>How far the inner instrument has slid out of the outer one since the step's start, m.</summary>
+        public double Slide => _startLead - _joints.Lead;
 
         /// <summary>Angle from the outer hub to the inner one, radians, without limit.</summary>
         public double HubTwist { get; set; }
@@ -88,6 +95,12 @@ namespace Guidewire.Core
                     _rod.SetLead(lead);
                 }
             }
+        }
+
+        /// <summary>A step begins at a time, s.</summary>
+        public void BeginSlide(double time)
+        {
+            _startLead = Hubs == null ? _joints.Lead : Hubs.LeadAt(time);
         }
 
         /// <inheritdoc/>

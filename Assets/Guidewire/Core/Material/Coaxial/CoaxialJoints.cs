@@ -74,6 +74,12 @@ namespace Guidewire.Core
             return k == _tip && Beyond > 0;
         }
 
+        /// <summary>The length of the chain that the joint at node k stands for, m.</summary>
+        public double LengthOf(int k)
+        {
+            return 0.5 * (_station[Math.Min(k + 1, _station.Length - 1)] - _station[Math.Max(k - 1, 0)]);
+        }
+
         /// <summary>What both instruments are made of at node k, in the overlap.</summary>
         public void PiecesAt(int k, out CrossSection outer, out CrossSection inner)
         {

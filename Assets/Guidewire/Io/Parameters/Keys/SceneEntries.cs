@@ -126,7 +126,7 @@ namespace Guidewire.Io
                 + " (units, 0), length (units), elements (30), wireRadius and lumenRadius its outer and inner radius (m);"
                 + " the other keys are those of the wire: instrument, youngsModulus, shearModulus, density, shearFactor,"
                 + " bendingStiffness, torsionalStiffness, axialStiffness, massPerLength, restCurvature, wireSections,"
-                + " insertionSpeed, rotationSpeed, driveFile; needs proximalEnd \"clamped\" and no walls")
+                + " insertionSpeed, rotationSpeed, driveFile; needs proximalEnd \"clamped\"")
             {
                 Methods = Takers.Only(Solver.Direct),
                 IsRefusedElsewhere = true,

@@ -10,6 +10,7 @@ namespace Guidewire.Core
         private readonly InstrumentProfile _wireProfile;
         private readonly InstrumentProfile _catheterProfile;
         private readonly double _drag;
+        private readonly Barrier _barrier;
 
         /// <summary>For the wire and the catheter of these parameters.</summary>
         public CoaxialSetup(SimulationParameters parameters)
@@ -24,6 +25,17 @@ namespace Guidewire.Core
             _catheterProfile = ProfileOf(catheter, Wire.Metres);
             _drag = parameters.Material.MassDamping;
             WireStations = CoaxialRod.StationsOf(Wire.Rod);
+            if (Wire.Walls.Length > 0)
+            {
+                double step = parameters.Method.TimeStep;
+                double move = Math.Max(parameters.Drive.LargestMove(step, Wire.Metres),
+                    catheter.Drive.LargestMove(step, Wire.Metres));
+                Barrier one = BarrierDefaults.Of(Wire.Rod, parameters.Contact, Wire.Walls, Wire.Metres, move);
+                Barrier two = BarrierDefaults.Of(Catheter.Rod, parameters.Contact, Wire.Walls, Wire.Metres, move);
+                double distance = Math.Min(one.Distance, two.Distance);
+                _barrier = new Barrier(distance, Math.Max(one.Distance * one.Stiffness, two.Distance * two.Stiffness)
+                    / distance);
+            }
         }
 
         /// <summary>The wire as if it were alone.</summary>
@@ -60,7 +72,9 @@ namespace Guidewire.Core
         /// <summary>Energies and loads of both, which follow their hubs.</summary>
         public RodTerms Terms(MaterialScene scene, CoaxialHubs hubs)
         {
-            var terms = new RodTerms(scene.Rod, scene.Supports, _parameters.Scene, null, Array.Empty<EnergyTerm>());
+            WallTerms? walls = Wire.Walls.Length == 0 ? null
+                : DirectSetup.WallTermsOf(_parameters, scene, _barrier, new SupportSpring(scene.Rod, 0.0));
+            var terms = new RodTerms(scene.Rod, scene.Supports, _parameters.Scene, walls, Array.Empty<EnergyTerm>());
             ((CoaxialBendTwist)terms.Bending).Hubs = hubs;
             return terms;
         }
@@ -69,6 +83,19 @@ namespace Guidewire.Core
         public RodDynamics Dynamics(MaterialScene scene, RodTerms terms)
         {
             return DirectSetup.DynamicsOf(_parameters, scene, terms);
+        }
+
+        /// <summary>What is wrong with the start between walls, in one phrase, or null: of the catheter, and of the wire
+        /// beyond it.</summary>
+        public string? FindProblemOfStart()
+        {
+            double tip = Catheter.Schedule.Hub.PositionAt(0.0).Z - Wire.Schedule.Hub.PositionAt(0.0).Z
+                + Catheter.Rod.TotalLength;
+            int n = Wire.Rod.ElementCount;
+            int first = Array.FindIndex(WireStations, 1, station => station > tip);
+            string? problem = MaterialStart.FindProblem(Catheter, 0, Catheter.Rod.ElementCount);
+            return problem != null ? "of the catheter, " + problem
+                : first < 0 ? null : MaterialStart.FindProblem(Wire, first - 1, n);
         }
 
         private static MaterialScene SceneOf(SimulationParameters parameters)

@@ -46,6 +46,15 @@ namespace Guidewire.Core
             _spins = new Vector3d[n];
             _hub = new HubRecord(_setup.Wire.Rod, _setup.Wire.Supports);
             _record = new CoaxialRecord(_setup);
+            if (_setup.Wire.Walls.Length > 0)
+            {
+                string? outside = _setup.FindProblemOfStart();
+                if (outside != null)
+                {
+                    throw new ArgumentException(outside);
+                }
+                Contacts = new ContactRecord(n + 1);
+            }
             double lead = _hubs.LeadAt(0.0);
             _rod = _setup.Rod(NodesBeyond(0, lead, lead), lead);
             var shape = new RodShape(_rod.Joints.ElementCount, true);
@@ -64,6 +73,9 @@ namespace Guidewire.Core
             Start(scene, terms, 0.0, 0.0);
             TakeWire();
         }
+
+        /// <summary>Sums over the run and the walls' forces; that on each sphere is not told apart.</summary>
+        public override ContactRecord? Contacts { get; }
 
         /// <summary>Whether the start is a rest shape.</summary>
         public bool IsAtRest { get; }
@@ -102,6 +114,7 @@ namespace Guidewire.Core
                 Bending.SetIdleTwists(_dynamics.Shape);
                 _record.TakePlay(_rod.Joints, _dynamics.Shape);
                 TakeWire();
+                TakeContacts();
                 WriteWire(state);
             }
         }
@@ -174,6 +187,7 @@ namespace Guidewire.Core
             if (!snapshot.IsWritten)
             {
                 TakeWire();
+                TakeContacts();
             }
         }
 
@@ -209,7 +223,11 @@ namespace Guidewire.Core
             TakeMotion(scene, old.ElementCount);
             RodTerms terms = _setup.Terms(scene, _hubs);
             DirectStep before = _inner;
+            FrictionEnergy? friction = _dynamics.Terms.Walls()?.Friction;
             Start(scene, terms, time, _dynamics.ProximalTurn);
+            _inner.Contacts?.Take(before.Contacts!, _rod.Rod.ElementCount + 1);
+            FrictionAnchors? anchors = terms.Walls()?.Friction?.Anchors;
+            anchors?.TakeAround(friction!.Anchors, _rod.Joints.OuterCount);
             var counts = new Snapshot();
             before.SerializeCounts(counts);
             _inner.SerializeCounts(counts.ToRead());
@@ -258,7 +276,21 @@ namespace Guidewire.Core
             _dynamics = _setup.Dynamics(scene, terms);
             _dynamics.GoOn(time, turn);
             terms.SetTime(scene.Schedule, time);
-            _inner = new DirectStep(scene, _dynamics, _method, _report, null);
+            if (terms.Walls() != null)
+            {
+                terms.Walls()!.Spring.Axis = _setup.Axis;
+            }
+            _inner = new DirectStep(scene, _dynamics, _method, _report,
+                Contacts == null ? null : new ContactRecord(scene.Shape.X.Length));
+        }
+
+        private void TakeContacts()
+        {
+            if (Contacts != null)
+            {
+                // None of its spheres: they are not the chain's.
+                Contacts.Take(_inner.Contacts!, Contacts.Forces.Length + _inner.Contacts!.Forces.Length);
+            }
         }
 
         // The wire as the log has it: in the catheter on the shared centreline, before it on the axis.

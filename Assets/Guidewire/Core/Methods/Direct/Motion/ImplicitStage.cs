@@ -115,6 +115,7 @@ namespace Guidewire.Core
             Array.Copy(_shape.X, _startPositions, _startPositions.Length);
             _inertia.BeginStep(_shape, dt);
             BeginDamping(time + SameTime * dt);
+            (_terms.Bending as CoaxialBendTwist)?.BeginSlide(time);
             foreach (EnergyTerm term in _terms.All)
             {
                 term.BeginStep(_shape, dt);
