@@ -195,7 +195,8 @@ FITTED: dict[str, Callable[[Mapping[str, Any]], st.SearchStrategy]] = {
     "wireSections": wire_sections, "innerRadius": inner_radii,
     **{key: stiffness_of(key) for key in ("bendingStiffness", "torsionalStiffness", "axialStiffness", "massPerLength")},
     "loadTables": load_tables, "startFile": start_files,
-    "vessel": vessels, "obstacles": obstacles, "sheath": lambda scene: st.just(None),  # needs a vessel that the wire starts in
+    "vessel": vessels, "obstacles": obstacles, "catheters": lambda scene: st.just(None),  # go with few other keys
+    "sheath": lambda scene: st.just(None),  # needs a vessel that the wire starts in
     "inlet": lambda scene: st.just(None), "target": lambda scene: st.just(None),  # need the file of an anatomy
 }
 # An explicit step is stable below some 1e-7 s.

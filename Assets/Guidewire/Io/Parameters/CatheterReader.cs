@@ -32,10 +32,10 @@ namespace Guidewire.Io
 
         /// <summary>Sets the catheters of a scene.</summary>
         /// <param name="values">Its parameters.</param>
-        /// <param name="source">Who said it: a file, or "command line".</param>
+        /// <param name="sourceOf">Who said what stands at a path.</param>
         /// <param name="warnings">Takes what is allowed but most likely not meant.</param>
         /// <exception cref="ParameterException">An object that is no catheter.</exception>
-        public static void Read(RunParameters values, string source, List<string> warnings)
+        public static void Read(RunParameters values, Func<string, string> sourceOf, List<string> warnings)
         {
             var catheters = new List<Catheter>();
             var list = (JArray)(values.Catheters?.DeepClone() ?? new JArray());
@@ -45,31 +45,33 @@ namespace Guidewire.Io
                 string where = Key + "[" + k + "]";
                 if (!(list[k] is JObject item))
                 {
-                    throw new ParameterException(source, where, list[k].ToString(Formatting.None),
+                    throw new ParameterException(sourceOf(where), where, list[k].ToString(Formatting.None),
                         "an object {\"length\", \"wireRadius\", \"lumenRadius\", ...}");
                 }
-                catheters.Add(Read(values, item, source, where, warnings));
+                catheters.Add(Read(values, item, sourceOf, where, warnings));
             }
             values.Simulation.Scene.Catheters = catheters;
         }
 
-        private static Catheter Read(RunParameters values, JObject item, string source, string where,
+        private static Catheter Read(RunParameters values, JObject item, Func<string, string> sourceOf, string where,
             List<string> warnings)
         {
-            var given = new List<KeyValuePair<string, JToken>>
+            string whole = sourceOf(where);
+            var given = new List<(string Key, JToken Value, string Source)>
             {
-                new KeyValuePair<string, JToken>("solver", "direct"),
-                new KeyValuePair<string, JToken>("drive", "displace"),
-                new KeyValuePair<string, JToken>("proximalEnd", "clamped"),
+                ("solver", "direct", whole),
+                ("drive", "displace", whole),
+                ("proximalEnd", "clamped", whole),
             };
             foreach (string key in FromScene)
             {
-                given.Add(new KeyValuePair<string, JToken>(key, ParameterTable.Find(key)!.Write(values)));
+                given.Add((key, ParameterTable.Find(key)!.Write(values), whole));
             }
             double start = 0.0;
             foreach (JProperty property in item.Properties())
             {
                 int at = Array.FindIndex(Names, name => name.Own == property.Name);
+                string source = sourceOf(where + "." + property.Name);
                 if (property.Name == "start")
                 {
                     if (!NumberEntry.TryNumber(property.Value, out start) || !(start >= 0.0))
@@ -80,8 +82,7 @@ namespace Guidewire.Io
                 }
                 else if (at >= 0 || Array.IndexOf(Shared, property.Name) >= 0)
                 {
-                    given.Add(new KeyValuePair<string, JToken>(at >= 0 ? Names[at].Wire : property.Name,
-                        property.Value));
+                    given.Add((at >= 0 ? Names[at].Wire : property.Name, property.Value, source));
                 }
                 else
                 {
@@ -94,10 +95,10 @@ namespace Guidewire.Io
             {
                 if (item[name] == null && item["instrument"] == null && name != "elements")
                 {
-                    throw new ParameterException(source + ": " + where + " needs " + name + ", or an instrument");
+                    throw new ParameterException(whole + ": " + where + " needs " + name + ", or an instrument");
                 }
             }
-            ParameterHandler handler = Load(given, source, where);
+            ParameterHandler handler = Load(given, where);
             warnings.AddRange(handler.Warnings);
             SimulationParameters own = handler.Values.Simulation;
             if (item["driveFile"] != null)
@@ -115,22 +116,24 @@ namespace Guidewire.Io
             };
         }
 
-        private static ParameterHandler Load(List<KeyValuePair<string, JToken>> given, string source, string where)
+        // An error says which catheter it is of, and calls keys as a catheter does.
+        private static ParameterHandler Load(List<(string Key, JToken Value, string Source)> given, string where)
         {
             try
             {
-                return ParameterHandler.Load(given, source);
+                return ParameterHandler.Load(given);
             }
             catch (ParameterException error)
             {
                 string line = error.Message;
-                string start = source + ": ";
-                line = line.StartsWith(start, StringComparison.Ordinal) ? line.Substring(start.Length) : line;
+                string source = given.Find(
+                    item => line.StartsWith(item.Source + ": ", StringComparison.Ordinal)).Source ?? "";
+                line = source.Length > 0 ? line.Substring(source.Length + 2) : line;
                 foreach ((string own, string wire) in Names)
                 {
                     line = line.Replace(wire, own);
                 }
-                throw new ParameterException(start + where + "." + line);
+                throw new ParameterException((source.Length > 0 ? source + ": " : "") + where + "." + line);
             }
         }
     }

@@ -86,18 +86,17 @@ namespace Guidewire.Io
         }
 
         /// <summary>The parameters of an object within a file.</summary>
-        /// <param name="values">Its keys.</param>
-        /// <param name="source">The file, or "command line".</param>
+        /// <param name="values">Its keys, and who said each: a file, or "command line".</param>
         /// <exception cref="ParameterException">As of a file of its own.</exception>
-        internal static ParameterHandler Load(IEnumerable<KeyValuePair<string, JToken>> values, string source)
+        internal static ParameterHandler Load(IEnumerable<(string Key, JToken Value, string Source)> values)
         {
-            var handler = new ParameterHandler { _file = source };
-            foreach (KeyValuePair<string, JToken> pair in values)
+            var handler = new ParameterHandler();
+            foreach ((string key, JToken value, string source) in values)
             {
-                handler._given.Take(pair.Key, pair.Value, source);
+                handler._given.Take(key, value, source);
             }
             handler._given.RefuseUnknown();
-            InstrumentLayer.Expand(handler._given, source);
+            InstrumentLayer.Expand(handler._given, handler._given.SourceOf(InstrumentLayer.Key));
             handler.Apply();
             return handler;
         }
@@ -190,7 +189,7 @@ namespace Guidewire.Io
 
         private void ReadCatheters()
         {
-            CatheterReader.Read(Values, _given.SourceOf(CatheterReader.Key), _warnings);
+            CatheterReader.Read(Values, _given.SourceOf, _warnings);
             if (Values.Simulation.Scene.Catheters.Count > 0 && (Values.LogStrains || Values.LogContacts))
             {
                 throw Refused(Values.LogStrains ? "logStrains" : "logContacts", "false with catheters");

@@ -14,6 +14,7 @@ namespace Guidewire.Core.Tests
         private readonly double _wireRadius;       // units
         private readonly double _catheterRadius;
         private readonly string _vessel;
+        private double _extension;
 
         /// <summary>Draws both and takes them to the end.</summary>
         public RandomCoaxialPush(int seed)
@@ -56,6 +57,9 @@ namespace Guidewire.Core.Tests
 
         /// <summary>Points of the outermost axes outside a wall after a step, summed over the steps.</summary>
         public int PointsOutside { get; private set; }
+
+        /// <summary>Steps after which the sense changed in which one tip is beyond the other.</summary>
+        public int Overtakings { get; private set; }
 
         /// <summary>Whether all numbers were finite.</summary>
         public bool IsFinite { get; private set; } = true;
@@ -138,6 +142,8 @@ namespace Guidewire.Core.Tests
         private void Look()
         {
             CoaxialRecord record = Simulation.Coaxial()!;
+            Overtakings += _extension * record.Extension < 0.0 ? 1 : 0;
+            _extension = record.Extension;
             Vector3d[] catheter = record.Positions;
             Look(catheter, 0, _catheterRadius);
             Vector3d[] wire = Simulation.State.Positions;

@@ -25,6 +25,8 @@ namespace Guidewire.Core.Tests
             var worst = new List<string>();
             int outside = 0;
             int failed = 0;
+            int touching = 0;
+            int overtaking = 0;
             for (int seed = first; seed < first + runs; seed++)
             {
                 RandomCoaxialPush push;
@@ -41,6 +43,8 @@ namespace Guidewire.Core.Tests
                 bool isOutside = push.Contacts.Passages > 0 || push.PointsOutside > 0 || !push.IsFinite
                     || push.Contacts.MaxPenetration > 0.0;
                 bool isRunning = push.Simulation.Outcome == Outcome.Running;
+                touching += push.Contacts.LargestForce > 1e-3 ? 1 : 0;
+                overtaking += push.Overtakings;
                 outside += isOutside ? 1 : 0;
                 failed += isRunning ? 0 : 1;
                 if (isOutside || !isRunning)
@@ -52,7 +56,10 @@ namespace Guidewire.Core.Tests
             {
                 TestContext.WriteLine(line);
             }
-            TestContext.WriteLine(failed + " of " + runs + " failed, " + outside + " outside");
+            TestContext.WriteLine(failed + " of " + runs + " failed, " + outside + " outside, " + touching
+                + " touched a wall, " + overtaking + " overtakings");
+            Assert.That(touching, Is.GreaterThan(runs / 2), "runs in which a wall is touched");
+            Assert.That(overtaking, Is.GreaterThan(runs / 4), "times that one tip overtakes the other");
             Assert.That(outside, Is.Zero, "runs with an instrument outside");
             Assert.That(failed, Is.LessThanOrEqualTo(0.005 * runs));
         }
