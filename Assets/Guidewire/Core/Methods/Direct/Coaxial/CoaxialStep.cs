@@ -5,12 +5,14 @@ namespace Guidewire.Core
     /// <summary>Steps of a wire in a catheter: both as one rod, by a <see cref="DirectStep"/> of its own, while wire
     /// nodes beyond the catheter's tip come and go with the hubs.</summary>
     /// <remarks>Before a step a wire node comes in where it is 0.02 of its element's length beyond the tip to the
-    /// step's end, and goes where it would come nearer than 0.01. What is simulated is built anew whenever that happens,
-    /// and where the wire's tip comes into another of the catheter's elements.</remarks>
+    /// step's end. It goes where it is 0.01 beyond it, and a step ends a part there: so what takes its place lies where it
+    /// was. What is simulated is built anew whenever that happens, and where the wire's tip comes into another of the
+    /// catheter's elements.</remarks>
     internal sealed class CoaxialStep : TimeStepper
     {
         private const double Reached = 0.02;    // of an element's length
         private const double Left = 0.01;
+        private const double SameTime = 1e-6;   // of a step, or of that length
         private const double Nowhere = 1e9;     // m, farther than any drive goes
 
         private readonly MethodParameters _method;
@@ -103,8 +105,17 @@ namespace Guidewire.Core
         public override void Advance(RodState state)
         {
             BeginStep();
-            _wireDrive.Prepare(_dynamics.Shape, _dynamics.Time);
-            bool isDone = _inner.Step();
+            double start = _dynamics.Time;
+            bool isDone = true;
+            for (double done = 0.0; isDone && done < _method.TimeStep;)
+            {
+                double length = Math.Min(TimeToNode(), _method.TimeStep - done);
+                length = _method.TimeStep - done - length < SameTime * _method.TimeStep
+                    ? _method.TimeStep - done : length;
+                MoveNodes(length);
+                isDone = _inner.StepPart(length);
+                done = length == _method.TimeStep - done ? _method.TimeStep : _dynamics.Time - start;
+            }
             Failure = _inner.Failure;
             Divergence = _inner.Divergence;
             SteadyState = _inner.SteadyState;
@@ -119,12 +130,38 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>A step begins: wire nodes that will be beyond the catheter's tip come in, others go. A second time
-        /// nothing changes.</summary>
-        public void BeginStep()
+        /// <summary>A step begins: the hubs go as far as they may, wire nodes that will be beyond the catheter's tip come
+        /// in.</summary>
+        private void BeginStep()
         {
             LimitDrives();
-            MoveNodes();
+            _catheterDrive.Prepare(_dynamics.Shape, _dynamics.Time);
+            _wireDrive.Prepare(_dynamics.Shape, _dynamics.Time);
+        }
+
+        // Until the first wire node beyond the tip is as near to it as one may come, s: there it goes, before the element
+        // that takes over its length would be another than the two that were. Or until the wire's tip is as far out as it
+        // comes in: there it is where the catheter's tip has been, and outside no wall.
+        private double TimeToNode()
+        {
+            int beyond = _rod.Joints.Beyond;
+            double time = _dynamics.Time;
+            double rate = Vector3d.Dot(_hubs.Outer.Velocity - _hubs.Inner.Velocity, _setup.Axis);
+            int n = _wire.ElementCount;
+            double tip = _hubs.LeadAt(time) + _setup.Catheter.Rod.TotalLength;
+            if (beyond == 0 || !(rate > 0.0))
+            {
+                double ahead = Reached * _setup.Wire.Rod.Length[n - 1] - (_setup.WireStations[n] - tip);
+                return beyond == 0 && rate < 0.0 && ahead > SameTime * _setup.Wire.Rod.Length[n - 1] ? ahead / -rate
+                    : double.PositiveInfinity;
+            }
+            while (beyond > 0 && _setup.WireStations[n + 1 - beyond] - tip
+                <= (1.0 + SameTime) * Left * _setup.Wire.Rod.Length[n - beyond])
+            {
+                beyond--;
+            }
+            return beyond == 0 ? double.PositiveInfinity : (_setup.WireStations[n + 1 - beyond] - tip
+                - Left * _setup.Wire.Rod.Length[n - beyond]) / rate;
         }
 
         /// <summary>Writes the wire as it is into a state.</summary>
@@ -206,11 +243,12 @@ namespace Guidewire.Core
             _catheterDrive.Limit(Math.Min(0.0, wire - lead), Math.Max(0.0, inside + wire));
         }
 
-        private void MoveNodes()
+        // For a part of a step, s.
+        private void MoveNodes(double length)
         {
             double time = _dynamics.Time;
             double lead = _hubs.LeadAt(time);
-            double next = lead + _catheterDrive.NextMove(time) - _wireDrive.NextMove(time);
+            double next = _hubs.LeadAt(time + length);
             int beyond = NodesBeyond(_rod.Joints.Beyond, lead, next);
             if (beyond == _rod.Joints.Beyond && _rod.Joints.ActiveCount == _active)
             {
@@ -241,11 +279,11 @@ namespace Guidewire.Core
             double[] station = _setup.WireStations;
             double Distance(int count) => station[n + 1 - count] - tip;
             double Length(int count) => _setup.Wire.Rod.Length[n - count];
-            while (beyond > 0 && Distance(beyond) < Left * Length(beyond))
+            while (beyond > 0 && Distance(beyond) < (1.0 - SameTime) * Left * Length(beyond))
             {
                 beyond--;
             }
-            while (beyond < n && Distance(beyond + 1) >= Reached * Length(beyond + 1))
+            while (beyond < n && Distance(beyond + 1) >= Reached * Length(beyond + 1) - SameTime * Length(beyond + 1))
             {
                 beyond++;
             }

