@@ -23,8 +23,8 @@ namespace Guidewire.Core
             }
             if (!(lumen > widest))
             {
-                return Text("a lumenRadius of more than the radius of the wire inside, {0:G4} m (it is {1:G4} m)", widest,
-                    lumen);
+                return Text("a lumenRadius of more than the radius of the wire inside, {0:G4} m (it is {1:G4} m)",
+                    widest, lumen);
             }
             foreach (CrossSection piece in new WireProfile(catheter.Material, catheter.Length).Pieces)
             {
@@ -42,8 +42,8 @@ namespace Guidewire.Core
             double most = scene.GuidewireLength - element;
             if (catheter.Start > most)
             {
-                return Text("a start of at most {0:G6} units, so that the wire reaches through the first of its elements"
-                    + " (it is {1:G6})", most, catheter.Start);
+                return Text("a start of at most {0:G6} units, so that the wire reaches through the first of its"
+                    + " elements (it is {1:G6})", most, catheter.Start);
             }
             return FindCrossing(parameters, catheter);
         }

@@ -389,7 +389,8 @@ namespace Guidewire.Io
             foreach (ParameterEntry entry in Taken())
             {
                 if (!entry.IsOutputPath && entry.Key != InstrumentLayer.Key && entry.Key != "startFile"
-                    && entry.Key != "vessel" && entry.Key != CatheterReader.Key && entry.Key != "loadTables" && entry.Key != "driveFile")
+                    && entry.Key != "vessel" && entry.Key != CatheterReader.Key && entry.Key != "loadTables"
+                    && entry.Key != "driveFile")
                 {
                     text.Append(entry.Key).Append('=').Append(NumberText.Write(entry.Write(Values))).Append('\n');
                 }

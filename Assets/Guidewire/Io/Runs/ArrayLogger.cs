@@ -23,7 +23,7 @@ namespace Guidewire.Io
         private readonly FileStream _rows;
         private readonly RunParameters _parameters;
         private readonly string _number;
-        private readonly List<Column> _columns = new List<Column>();
+        private readonly List<ArrayColumn> _columns = new List<ArrayColumn>();
         private byte[] _block = Array.Empty<byte>();
         private int _length;
         private int _rowLength;
@@ -242,7 +242,7 @@ namespace Guidewire.Io
         {
             _block = new byte[Math.Max(Block, _rowLength)];
             var fields = new List<string>();
-            foreach (Column column in _columns)
+            foreach (ArrayColumn column in _columns)
             {
                 fields.Add("('" + column.Name + "', '" + column.Type + "', " + Tuple(column.Shape) + ")");
             }
@@ -258,7 +258,7 @@ namespace Guidewire.Io
             {
                 length *= size;
             }
-            _columns.Add(new Column(name, type, shape, _rowLength, length));
+            _columns.Add(new ArrayColumn(name, type, shape, _rowLength, length));
             _rowLength += length;
         }
 
@@ -268,7 +268,7 @@ namespace Guidewire.Io
             var block = new byte[rows * _rowLength];
             var part = new byte[rows * _rowLength];
             using var source = new FileStream(path, FileMode.Open, FileAccess.Read, FileShare.Read, 1);
-            foreach (Column column in _columns)
+            foreach (ArrayColumn column in _columns)
             {
                 using Stream entry = archive.CreateEntry(column.Name + ".npy", CompressionLevel.NoCompression).Open();
                 var shape = new List<string> { _count.ToString(System.Globalization.CultureInfo.InvariantCulture) };
@@ -430,29 +430,6 @@ namespace Guidewire.Io
         {
             _rows.Write(_block, 0, _length);
             _length = 0;
-        }
-
-        private readonly struct Column
-        {
-            public Column(string name, string type, int[] shape, int offset, int length)
-            {
-                Name = name;
-                Type = type;
-                Shape = shape;
-                Offset = offset;
-                Length = length;
-            }
-
-            public string Name { get; }
-
-            public string Type { get; }
-
-            public int[] Shape { get; }
-
-            // In a row, in bytes.
-            public int Offset { get; }
-
-            public int Length { get; }
         }
     }
 }

@@ -9,8 +9,8 @@ namespace Guidewire.Io
     /// "1": ...}</c>, and where asked for <c>"orientation": {"0": {"x","y","z","w"}, ...}</c> and <c>"contact":
     /// {"total": {"x","y","z"}, "reaction": ..., "sphere": {"i": ..., spheres without contact left out}}</c> and
     /// <c>"stress": {"kineticEnergy": J, .., "curvature": [[x, y, z], ...], ..}</c> as key logStrains says, and
-    /// <c>"hub": {"insertion": m, ..}</c> as key logHub does; of a catheter over the wire <c>"catheters": [{"sphere": [[x,
-    /// y, z], ...], "extension": m, ..}]</c>, units but for what its hub has.</summary>
+    /// <c>"hub": {"insertion": m, ..}</c> as key logHub does; of a catheter over the wire <c>"catheters":
+    /// [{"sphere": [[x, y, z], ...], "extension": m, ..}]</c>, units but for what its hub has.</summary>
     /// <remarks>Entry "k" is the state after k steps. Until <see cref="Close"/> the file is not whole JSON, but every
     /// line that ends is a whole entry. Numbers are round-trip exact; one that is not finite is null.</remarks>
     internal sealed class DataLogger : StateLog

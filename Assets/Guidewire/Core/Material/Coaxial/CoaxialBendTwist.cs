@@ -8,9 +8,9 @@ namespace Guidewire.Core
     /// joint between elements a and b has phi = log(conj(q_a) q_b), t = (1 - w) z_a + w z_b and delta = z_b - z_a; at
     /// the outer tip phi = log(conj(q_a R(z_a)) q_b) and t = z_a, for the inner frame goes on. At fixed t and delta a
     /// joint is one of <see cref="RotationVectorLaw"/> with the rest f(t); with h = d2E/(dphi dz) and dphi = T
-    /// dtheta_b - T^T dtheta_a the angle meets the rotations by T^T h and -T h. At the tip dz also turns the frame a, as
-    /// e3 dz does: with C, F, g of that frame, R the rotation by z, the angle meets theta_a by R (C e3 + 1/2 e3 x g - T
-    /// h) and theta_b by F e3 + T^T h.</remarks>
+    /// dtheta_b - T^T dtheta_a the angle meets the rotations by T^T h and -T h. At the tip dz also turns the frame a,
+    /// as e3 dz does: with C, F, g of that frame, R the rotation by z, the angle meets theta_a by R (C e3 + 1/2 e3 x g
+    /// - T h) and theta_b by F e3 + T^T h.</remarks>
     internal sealed class CoaxialBendTwist : BendTwistTerm
     {
         private const double Difference = 1e-4;   // of an element, between two energies whose difference is a force
@@ -144,7 +144,7 @@ namespace Guidewire.Core
                 {
                     RodVector a = default;
                     _law.AddGradient(s.Joint, s.Relative, ref a, ref gradient[k]);
-                    AddTurned(ref gradient[k - 1], s.Before, a);
+                    TurnedFrame.Add(ref gradient[k - 1], s.Before, a);
                     gradient[twist + k - 1].T3 += s.Slope + a.T3;
                     continue;
                 }
@@ -374,10 +374,10 @@ namespace Guidewire.Core
             row.NextTwist += w * (1.0 - w) * second - stiffness;
             Vector3d before = (1.0 - w) * s.Mixed - stiffness * Vector3d.UnitZ;
             Vector3d after = w * s.Mixed + stiffness * Vector3d.UnitZ;
-            row.Turn -= TimesT(s.Turn, before, 0.5);
-            row.NextTurn += TimesT(s.Turn, before, -0.5);
-            row.TurnOfNext -= TimesT(s.Turn, after, 0.5);
-            next.Turn += TimesT(s.Turn, after, -0.5);
+            row.Turn -= TurnedFrame.TimesT(s.Turn, before, 0.5);
+            row.NextTurn += TurnedFrame.TimesT(s.Turn, before, -0.5);
+            row.TurnOfNext -= TurnedFrame.TimesT(s.Turn, after, 0.5);
+            next.Turn += TurnedFrame.TimesT(s.Turn, after, -0.5);
         }
 
         private void AddTipBlocks(in State s, ref RodVector a, ref RodVector b, ref RodBlock blockA,
@@ -386,35 +386,17 @@ namespace Guidewire.Core
             RodVector g = default;
             RodBlock own = default;
             AddJoint(s, ref g, ref b, ref own, ref blockB);
-            AddTurned(ref a, s.Before, g);
+            TurnedFrame.Add(ref a, s.Before, g);
             twist.T3 += s.Slope + g.T3;
-            Vector3d mixed = TimesT(s.Turn, s.Mixed, 0.5);
+            Vector3d mixed = TurnedFrame.TimesT(s.Turn, s.Mixed, 0.5);
             double half = _isStiffened ? 0.0 : 0.5;
             Vector3d turn = new Vector3d(own.C31 - half * g.T2, own.C32 + half * g.T1, own.C33) - mixed;
             double c = Math.Cos(s.Before);
             double si = Math.Sin(s.Before);
             row.Turn += new Vector3d(c * turn.X - si * turn.Y, si * turn.X + c * turn.Y, turn.Z);
-            row.NextTurn += new Vector3d(own.F13, own.F23, own.F33) + TimesT(s.Turn, s.Mixed, -0.5);
+            row.NextTurn += new Vector3d(own.F13, own.F23, own.F33) + TurnedFrame.TimesT(s.Turn, s.Mixed, -0.5);
             row.Diagonal += Kept(s.Second) + own.C33 - 2.0 * mixed.Z;
-            AddTurnedBlock(ref blockA, own, c, si);
-        }
-
-        // C := R C R^T and F := F R^T of a block by theta_a' = R^T theta_a.
-        private static void AddTurnedBlock(ref RodBlock to, in RodBlock from, double c, double s)
-        {
-            double x1 = c * from.C11 - s * from.C21;
-            double x2 = c * from.C21 - s * from.C22;
-            double y1 = s * from.C11 + c * from.C21;
-            double y2 = s * from.C21 + c * from.C22;
-            to.C11 += c * x1 - s * x2;
-            to.C21 += c * y1 - s * y2;
-            to.C22 += s * y1 + c * y2;
-            to.C31 += c * from.C31 - s * from.C32;
-            to.C32 += s * from.C31 + c * from.C32;
-            to.C33 += from.C33;
-            to.F11 += c * from.F11 - s * from.F12; to.F12 += s * from.F11 + c * from.F12; to.F13 += from.F13;
-            to.F21 += c * from.F21 - s * from.F22; to.F22 += s * from.F21 + c * from.F22; to.F23 += from.F23;
-            to.F31 += c * from.F31 - s * from.F32; to.F32 += s * from.F31 + c * from.F32; to.F33 += from.F33;
+            TurnedFrame.Add(ref blockA, own, c, si);
         }
 
         private void AddJoint(in State s, ref RodVector a, ref RodVector b, ref RodBlock blockA, ref RodBlock blockB)
@@ -433,23 +415,6 @@ namespace Guidewire.Core
         private double Kept(double second)
         {
             return _isStiffened ? Math.Max(second, 0.0) : second;
-        }
-
-        private static void AddTurned(ref RodVector to, double angle, in RodVector g)
-        {
-            double c = Math.Cos(angle);
-            double s = Math.Sin(angle);
-            to.T1 += c * g.T1 - s * g.T2;
-            to.T2 += s * g.T1 + c * g.T2;
-            to.T3 += g.T3;
-        }
-
-        // T v with T = (1 - c |phi|^2) 1 + c phi phi^T + [phi]/2, or T^T v with half negative.
-        private static Vector3d TimesT(in Vector3d phi, in Vector3d v, double half)
-        {
-            double square = phi.LengthSquared;
-            double c = RotationVector.CotangentFactor(square);
-            return (1.0 - c * square) * v + (c * Vector3d.Dot(phi, v)) * phi + half * Vector3d.Cross(phi, v);
         }
 
         // A joint in a shape.

@@ -123,10 +123,10 @@ namespace Guidewire.Io
             new JsonEntry("catheters", JTokenType.Array, "null or a list of one {\"start\", \"length\", \"elements\","
                 + " \"wireRadius\", \"lumenRadius\", ...}",
                 "a catheter over the wire, on one shared centreline: start is how far its hub is ahead of the wire's"
-                + " (units, 0), length (units), elements (30), wireRadius and lumenRadius its outer and inner radius (m);"
-                + " the other keys are those of the wire: instrument, youngsModulus, shearModulus, density, shearFactor,"
-                + " bendingStiffness, torsionalStiffness, axialStiffness, massPerLength, restCurvature, wireSections,"
-                + " insertionSpeed, rotationSpeed, driveFile; needs proximalEnd \"clamped\"")
+                + " (units, 0), length (units), elements (30), wireRadius and lumenRadius its outer and inner radius"
+                + " (m); the other keys are those of the wire: instrument, youngsModulus, shearModulus, density,"
+                + " shearFactor, bendingStiffness, torsionalStiffness, axialStiffness, massPerLength, restCurvature,"
+                + " wireSections, insertionSpeed, rotationSpeed, driveFile; needs proximalEnd \"clamped\"")
             {
                 Methods = Takers.Only(Solver.Direct),
                 IsRefusedElsewhere = true,

@@ -9,7 +9,8 @@ namespace Guidewire.Core.Tests
     public sealed class CatheterReaderTests
     {
         private const string Good = "{\"start\": 100, \"length\": 150, \"elements\": 15, \"wireRadius\": 0.00083,"
-            + " \"lumenRadius\": 0.0006, \"bendingStiffness\": 7e-4, \"torsionalStiffness\": 5e-4, \"rotationSpeed\": 2}";
+            + " \"lumenRadius\": 0.0006, \"bendingStiffness\": 7e-4, \"torsionalStiffness\": 5e-4,"
+            + " \"rotationSpeed\": 2}";
 
         [Test]
         public void Catheter_IsReadWithTheKeysOfAWire()
@@ -24,7 +25,7 @@ namespace Guidewire.Core.Tests
             Assert.That(catheter.Drive.RotationSpeed, Is.EqualTo(2.0));
         }
 
-        [TestCase("\"lumenRadius\": 0.0006", "\"lumenRadius\": 0.0004", "a lumenRadius of more than the radius of the wire")]
+        [TestCase("\"lumenRadius\": 0.0006", "\"lumenRadius\": 0.0004", "a lumenRadius of more than the radius")]
         [TestCase("\"lumenRadius\": 0.0006", "\"lumenRadius\": 0.0009", "lumenRadius")]
         [TestCase("\"lumenRadius\": 0.0006,", "", "catheters[0] needs lumenRadius")]
         [TestCase("\"length\": 150", "\"length\": -1", "catheters[0].length = -1 is not allowed: needs a number > 0")]

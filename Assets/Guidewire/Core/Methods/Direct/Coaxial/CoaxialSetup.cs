@@ -85,8 +85,8 @@ namespace Guidewire.Core
             return DirectSetup.DynamicsOf(_parameters, scene, terms);
         }
 
-        /// <summary>What is wrong with the start between walls, in one phrase, or null: of the catheter, and of the wire
-        /// beyond it.</summary>
+        /// <summary>What is wrong with the start between walls, in one phrase, or null: of the catheter, and of the
+        /// wire beyond it.</summary>
         public string? FindProblemOfStart()
         {
             double tip = Catheter.Schedule.Hub.PositionAt(0.0).Z - Wire.Schedule.Hub.PositionAt(0.0).Z
@@ -105,7 +105,8 @@ namespace Guidewire.Core
 
         private static InstrumentProfile ProfileOf(SimulationParameters parameters, double metres)
         {
-            return new InstrumentProfile(new WireProfile(parameters.Material, parameters.Scene.GuidewireLength), metres);
+            return new InstrumentProfile(
+                new WireProfile(parameters.Material, parameters.Scene.GuidewireLength), metres);
         }
     }
 }

@@ -5,9 +5,9 @@ namespace Guidewire.Core
     /// <summary>Steps of a wire in a catheter: both as one rod, by a <see cref="DirectStep"/> of its own, while wire
     /// nodes beyond the catheter's tip come and go with the hubs.</summary>
     /// <remarks>Before a step a wire node comes in where it is 0.02 of its element's length beyond the tip to the
-    /// step's end. It goes where it is 0.01 beyond it, and a step ends a part there: so what takes its place lies where it
-    /// was. What is simulated is built anew whenever that happens, and where the wire's tip comes into another of the
-    /// catheter's elements.</remarks>
+    /// step's end. It goes where it is 0.01 beyond it, and a step ends a part there: so what takes its place lies where
+    /// it was. What is simulated is built anew whenever that happens, and where the wire's tip comes into another of
+    /// the catheter's elements.</remarks>
     internal sealed class CoaxialStep : TimeStepper
     {
         private const double Reached = 0.02;    // of an element's length
@@ -130,8 +130,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>A step begins: the hubs go as far as they may, wire nodes that will be beyond the catheter's tip come
-        /// in.</summary>
+        // The hubs go as far as they may.
         private void BeginStep()
         {
             LimitDrives();
@@ -139,9 +138,9 @@ namespace Guidewire.Core
             _wireDrive.Prepare(_dynamics.Shape, _dynamics.Time);
         }
 
-        // Until the first wire node beyond the tip is as near to it as one may come, s: there it goes, before the element
-        // that takes over its length would be another than the two that were. Or until the wire's tip is as far out as it
-        // comes in: there it is where the catheter's tip has been, and outside no wall.
+        // Until the first wire node beyond the tip is as near to it as one may come, s: there it goes, before the
+        // element that takes over its length would be another than the two that were. Or until the wire's tip is as far
+        // out as it comes in: there it is where the catheter's tip has been, and outside no wall.
         private double TimeToNode()
         {
             int beyond = _rod.Joints.Beyond;

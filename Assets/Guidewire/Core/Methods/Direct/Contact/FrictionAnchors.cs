@@ -64,7 +64,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Takes over the anchors of another wire between the same walls, in which nodes have come in after one,
+        /// <summary>Takes over the anchors of another wire between the same walls, where nodes have come in after one
         /// or have gone there.</summary>
         /// <param name="node">The last one before them.</param>
         public void TakeAround(FrictionAnchors other, int node)

@@ -93,8 +93,8 @@ namespace Guidewire.Core.Tests
         [Test]
         public void ClosedCycleOfBothHubs_TakesNoWork()
         {
-            // Slowly, in steps of 0.1 of an element, while no border of the one's pieces passes one of the other's, where
-            // a force jumps: trapezoids of forces and torques over one cycle of both hubs.
+            // Slowly, in steps of 0.1 of an element, while no border of the one's pieces passes one of the other's, for
+            // there a force jumps: trapezoids of forces and torques over one cycle of both hubs.
             double one = CycleWork(0.1, out double peak);
             double two = CycleWork(0.2, out _);
             TestContext.WriteLine("{0:G3} and {1:G3} of {2:G3} J", one, two, peak);
