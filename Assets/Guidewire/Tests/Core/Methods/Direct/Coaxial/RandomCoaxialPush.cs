@@ -90,7 +90,7 @@ namespace Guidewire.Core.Tests
         private SimulationParameters Draw(RandomGeometry random, int vessel)
         {
             SimulationParameters parameters = WallScenes.Wire(30 + random.Index(50), 1e-3 * _wireRadius);
-            double length = random.Number(200.0, 290.0);
+            double length = random.Number(200.0, 270.0);
             double extension = random.Index(2) == 0 ? random.Number(1.0, 40.0) : -random.Number(0.0, 60.0);
             double lead = random.Number(10.0, 100.0);
             // Both tips start before what stands in the vessel.
