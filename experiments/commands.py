@@ -265,7 +265,7 @@ def _anatomy(arguments: argparse.Namespace) -> int:
 def _steer(arguments: argparse.Namespace) -> int:
     from experiments import navigation
 
-    return navigation.run(arguments, _build_runner, _hand_to)
+    return navigation.run(arguments, _build_runner, hand_to)
 
 
 def _stress(arguments: argparse.Namespace) -> int:

@@ -204,7 +204,7 @@ FITTED: dict[str, Callable[[Mapping[str, Any]], st.SearchStrategy]] = {
     **{key: stiffness_of(key) for key in ("bendingStiffness", "torsionalStiffness", "axialStiffness", "massPerLength")},
     "loadTables": load_tables, "startFile": start_files, "start": lambda scene: st.just(None),
     "duration": lambda scene: st.just(None),  # takes the place of maxSimulationSteps
-    "pointLoads": point_loads,
+    "pointLoads": point_loads, "catheters": lambda scene: st.just(None),  # go with few other keys
     "vessel": vessels, "obstacles": obstacles, "sheath": lambda scene: st.just(None),  # needs a vessel that the wire starts in
     "inlet": lambda scene: st.just(None), "target": lambda scene: st.just(None),  # need the file of an anatomy
 }

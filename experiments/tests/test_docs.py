@@ -188,7 +188,8 @@ def test_every_key_of_a_log_is_explained(runner_command, tmp_path):
 def test_every_array_of_a_log_is_explained(runner_command, tmp_path):
     told = set(table_keys(section(RUNS, "### positions.npz")))
     found = set()
-    for k, (scene, key) in enumerate((("sheath", "logContacts"), ("cantilever", "logStrains"))):
+    scenes = (("sheath", "logContacts"), ("cantilever", "logStrains"), ("catheter", "logHub"))
+    for k, (scene, key) in enumerate(scenes):
         folder = run(runner_command, tmp_path / str(k), ROOT / f"params/{scene}.json", maxSimulationSteps=1,
                      logFormat="npz", logOrientations=True, **{key: True})
         with np.load(folder / "positions.npz") as log:

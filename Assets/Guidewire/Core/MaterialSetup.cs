@@ -6,7 +6,7 @@ namespace Guidewire.Core
     internal static class MaterialSetup
     {
         // A search for a rest shape starts far away and may take more than a stage of a motion.
-        private const int EquilibriumFactor = 10;
+        public const int EquilibriumFactor = 10;
 
         /// <summary>What makes the stepper of a scene, its rest shape found.</summary>
         /// <param name="parameters">The run's.</param>
@@ -19,9 +19,13 @@ namespace Guidewire.Core
         /// <summary>Builds the wire at its start, in its rest shape where that is asked for, and its stepper.</summary>
         public static MethodStart Build(SimulationParameters parameters, Scene prescribed, CreateStepper create)
         {
-            var scene = new MaterialScene(parameters, prescribed);
             var state = new RodState(ElementLayout.Lengths(parameters, 1.0, out _), parameters.Pbd.TotalMass,
                 parameters.Scene.GuidewireOffset);
+            if (parameters.Scene.Catheters.Count > 0)
+            {
+                return BuildCoaxial(parameters, state);
+            }
+            var scene = new MaterialScene(parameters, prescribed);
             bool isSheathed = parameters.Scene.Sheath != null;
             WallTerms? walls = isSheathed ? null : Walls(parameters, scene);
             var terms = new RodTerms(scene.Rod, scene.Supports, parameters.Scene, walls, Array.Empty<EnergyTerm>());
@@ -49,6 +53,15 @@ namespace Guidewire.Core
                 Failure = failure,
                 IsAtRest = isAtRest && failure == null,
             };
+        }
+
+        private static MethodStart BuildCoaxial(SimulationParameters parameters, RodState state)
+        {
+            state.InverseMasses[0] = 0.0;
+            var stepper = new CoaxialStep(parameters, new SolverReport(), out string? failure);
+            stepper.WriteWire(state);
+            stepper.WriteWire(state);
+            return new MethodStart(state, stepper) { Failure = failure, IsAtRest = stepper.IsAtRest };
         }
 
         private static WallTerms? Walls(SimulationParameters parameters, MaterialScene scene)

@@ -131,6 +131,26 @@ namespace Guidewire.Core
             OfSheath(p => p.Method.Integrator == Integrator.ImplicitEuler, "integrator \"implicitEuler\""),
             OfSheath(p => p.Material.BendLaw == BendLaw.RotationVector, "bendLaw \"rotationVector\""),
             OfSheath(p => p.Drive.Displacement == 0.0 || p.Drive.Kind != Drive.Hold, "displacement 0"),
+            OfCatheters(p => p.Scene.Catheters.Count == 1, "no more than one catheter"),
+            OfCatheters(p => p.Traits.HasBarriers, "solver direct"),
+            OfCatheters(p => !p.HasWalls || p.Method.Integrator == Integrator.ImplicitEuler,
+                "integrator \"implicitEuler\" between walls"),
+            OfCatheters(p => p.Drive.HubForceLimit == 0.0, "no hubForceLimit"),
+            OfCatheters(p => p.Scene.Sheath == null, "no sheath"),
+            OfCatheters(p => p.IsClamped, "proximalEnd \"clamped\""),
+            OfCatheters(p => p.Drive.Kind == Drive.Displace || p.Drive.Kind == Drive.Hold,
+                "drive \"displace\" or \"hold\""),
+            OfCatheters(p => p.Drive.Kind == Drive.Hold || Vector3d.Normalize(p.Drive.DisplacementDirection).Z == 1.0,
+                "displacementDirection [0, 0, 1], along the wire"),
+            OfCatheters(p => p.Drive.Displacement == 0.0 || p.Drive.Kind != Drive.Hold, "displacement 0"),
+            OfCatheters(p => p.Scene.DistalEnd == DistalEnd.Free, "distalEnd \"free\""),
+            OfCatheters(p => p.Scene.StartShape == StartShape.Straight
+                && (p.Scene.Start == null || p.Scene.Start.IsReached), "startShape \"straight\" and no startFile"),
+            OfCatheters(p => p.Scene.TipMoment == Vector3d.Zero && p.Scene.TipFollowerForce == Vector3d.Zero,
+                "no tipMoment and no tipFollowerForce"),
+            OfCatheters(p => p.Material.MaterialDamping == 0.0, "materialDamping 0"),
+            OfCatheters(p => p.Material.BendLaw == BendLaw.RotationVector, "bendLaw \"rotationVector\""),
+            new Rule("catheters", p => FindInCatheters(p.All) != null, p => FindInCatheters(p.All)!),
         };
 
         private const string ClampedByDrive = "proximalEnd \"clamped\", and no drive \"force\"";
@@ -166,6 +186,16 @@ namespace Guidewire.Core
             var facts = new Facts(parameters);
             Rule? broken = Array.Find(rules, rule => rule.IsBroken(facts));
             return broken == null ? null : new ParameterConflict(broken.Key, broken.Needed(facts));
+        }
+
+        private static Rule OfCatheters(Predicate<Facts> holds, string needed)
+        {
+            return new Rule("catheters", p => p.Scene.Catheters.Count > 0 && !holds(p), needed);
+        }
+
+        private static string? FindInCatheters(SimulationParameters parameters)
+        {
+            return parameters.Scene.Catheters.Count > 0 ? CoaxialStart.FindProblem(parameters) : null;
         }
 
         private static Rule OfSheath(Predicate<Facts> holds, string needed)

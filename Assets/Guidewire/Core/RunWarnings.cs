@@ -27,9 +27,15 @@ namespace Guidewire.Core
 
         /// <summary>One line for each, and one where the tip left a wall by an open rim, which is no error.</summary>
         /// <param name="contacts">Null where there are no walls.</param>
-        public IReadOnlyList<string> Of(RodState state, ContactRecord? contacts)
+        /// <param name="coaxial">Null without a catheter.</param>
+        public IReadOnlyList<string> Of(RodState state, ContactRecord? contacts, CoaxialRecord? coaxial)
         {
             List<string> lines = Doubts(state, contacts);
+            string? play = coaxial?.PlayWarning;
+            if (play != null)
+            {
+                lines.Add(play);
+            }
             string? exit = _rims.Line;
             if (exit != null)
             {

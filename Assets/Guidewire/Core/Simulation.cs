@@ -9,6 +9,7 @@ namespace Guidewire.Core
     {
         private readonly bool _hasMaterial;
         private readonly bool _hasSheath;
+        private readonly int _catheterCount;
         private readonly TimeStepper _stepper;
         private readonly StopRule _stopRule;
         private readonly StepClock _clock;
@@ -24,6 +25,7 @@ namespace Guidewire.Core
             _warnings = new RunWarnings(parameters);
             _hasMaterial = MethodTable.Of(parameters.Method.Solver).TakesMaterial;
             _hasSheath = parameters.Scene.Sheath != null;
+            _catheterCount = parameters.Scene.Catheters.Count;
             State = start.State;
             _stepper = start.Stepper;
             _stopRule = new StopRule(
@@ -60,7 +62,7 @@ namespace Guidewire.Core
         /// <summary>What is not as it should be at the run's end, one line each; empty while it runs, and where no step
         /// was made.</summary>
         public IReadOnlyList<string> Warnings => Outcome == Outcome.Running || StepCount == 0 ? Array.Empty<string>()
-            : _warnings.Of(State, Contacts);
+            : _warnings.Of(State, Contacts, Coaxial());
 
         /// <summary>Whether the run came to its end and nothing that it measures of itself says that its result is not
         /// to be trusted: it has converged or finished, its reason holds no "but", nothing passed a wall or lay deeper
@@ -120,6 +122,10 @@ namespace Guidewire.Core
             {
                 return WireStart.FindProblem(parameters, scene);
             }
+            if (parameters.Scene.Catheters.Count > 0)
+            {
+                return new CoaxialSetup(parameters).FindProblemOfStart();
+            }
             var material = new MaterialScene(parameters, scene);
             return parameters.Scene.Sheath == null ? MaterialStart.FindProblem(parameters, material)
                 : SheathExit.FindProblem(parameters, material);
@@ -143,6 +149,13 @@ namespace Guidewire.Core
         public HubRecord? Hub()
         {
             return _stepper.Hub();
+        }
+
+        /// <summary>What is read off of a catheter over the wire as it is now; null without one. Each call writes the
+        /// record anew.</summary>
+        public CoaxialRecord? Coaxial()
+        {
+            return _stepper.Coaxial();
         }
 
         /// <summary>One step. Does nothing once the run has ended.</summary>
@@ -184,6 +197,11 @@ namespace Guidewire.Core
             {
                 throw new ArgumentException("sheath needs to be there, or not, as it was: this run goes on with the"
                     + " wire that it has");
+            }
+            if (parameters.Scene.Catheters.Count != _catheterCount)
+            {
+                throw new ArgumentException("catheters need to be as many as they were: this run goes on with those"
+                    + " that it has");
             }
             var snapshot = new Snapshot();
             Serialize(snapshot);

@@ -17,6 +17,8 @@ namespace Guidewire.Core
         private Quaterniond _firstFrame;  // the same
         private Quaterniond _lastFrame;
         private double _carried;       // J
+        private double _lead;          // of an inner hub that is followed, m
+        private double _hubTwist;      // radians
         private readonly double _stretch;  // the largest EA, N
         private readonly double _twist;    // the largest GJ, N m^2
 
@@ -78,6 +80,11 @@ namespace Guidewire.Core
             _lastFrame = shape.DistalFrame;
             _proximalTurn = proximalTurn;
             _distalTurn = distalTurn;
+            if (_terms.Bending is CoaxialBendTwist coaxial)
+            {
+                _lead = coaxial.Lead;
+                _hubTwist = coaxial.HubTwist;
+            }
         }
 
         /// <summary>Takes note of the speeds of the ends: what brings a wire at rest to them may be over within a part
@@ -115,10 +122,11 @@ namespace Guidewire.Core
                 firstRotation = Between(_firstFrame, shape.ProximalFrame);
                 lastRotation = Between(_lastFrame, shape.DistalFrame);
             }
+            CountInner(shape, out double innerMove, out double innerTurn);
             Follow(shape, proximalTurn, distalTurn);
-            double move = firstMove.Length + lastMove.Length;
-            double turn = _schedule.HasMotions ? firstRotation.Length + lastRotation.Length
-                : Math.Abs(firstTurn) + Math.Abs(lastTurn);
+            double move = firstMove.Length + lastMove.Length + innerMove;
+            double turn = innerTurn + (_schedule.HasMotions ? firstRotation.Length + lastRotation.Length
+                : Math.Abs(firstTurn) + Math.Abs(lastTurn));
             if (move == 0.0 && turn == 0.0)
             {
                 return;
@@ -162,6 +170,21 @@ namespace Guidewire.Core
             snapshot.Serialize(ref _lastPosition);
             snapshot.Serialize(ref _firstFrame);
             snapshot.Serialize(ref _lastFrame);
+            snapshot.Serialize(ref _lead);
+            snapshot.Serialize(ref _hubTwist);
+        }
+
+        private void CountInner(RodShape shape, out double move, out double turn)
+        {
+            move = 0.0;
+            turn = 0.0;
+            if (_terms.Bending is CoaxialBendTwist coaxial)
+            {
+                move = Math.Abs(coaxial.Lead - _lead);
+                turn = Math.Abs(coaxial.HubTwist - _hubTwist);
+                Work += Math.Abs(coaxial.InnerForce(shape, _terms.Stretch)) * move
+                    + Math.Abs(coaxial.InnerTorque(shape)) * turn;
+            }
         }
 
         private void Shift(RodShape shape, int node, in Vector3d to)

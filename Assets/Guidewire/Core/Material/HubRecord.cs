@@ -87,6 +87,20 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>Takes the hub of a wire in a catheter.</summary>
+        internal void Take(MaterialDrive drive, double force, double torque, in Vector3d tipDirection, double twist,
+            double largestCurvature)
+        {
+            Insertion = drive.Insertion;
+            Turn = drive.Turn;
+            Force = force;
+            Torque = torque;
+            Work = double.NaN;
+            TipDirection = tipDirection;
+            Twist = twist;
+            LargestCurvature = largestCurvature;
+        }
+
         // Up to the first node outside the wire is straight.
         private void TakeBody(SheathWindow window, RodShape shape)
         {

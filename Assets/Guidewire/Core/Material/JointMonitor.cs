@@ -63,7 +63,7 @@ namespace Guidewire.Core
             int worst = 0;
             for (int k = 1; k < n; k++)
             {
-                double cosine = Cosine(q[k - 1], q[k]);
+                double cosine = Cosine(Before(shape, k), q[k]);
                 if (cosine < least)
                 {
                     least = cosine;
@@ -162,6 +162,13 @@ namespace Guidewire.Core
         {
             return joint == 0 ? " against the proximal clamp"
                 : joint == _rod.ElementCount ? " against the distal clamp" : "";
+        }
+
+        // The frame from which joint k turns: at the tip of an outer instrument that of the one inside.
+        private Quaterniond Before(RodShape shape, int k)
+        {
+            return _supports.Coaxial != null && _supports.Coaxial.Joints.IsTip(k)
+                ? CoaxialShape.InnerFrame(shape, k - 1) : shape.Q[k - 1];
         }
 
         // cos(a/2) of the turn from a to b.

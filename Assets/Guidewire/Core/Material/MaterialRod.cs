@@ -140,19 +140,28 @@ namespace Guidewire.Core
                 MassDamping = MassDamping,
                 MaterialDamping = MaterialDamping,
             };
-            Array.Copy(Length, first, rod.Length, 0, rod.ElementCount);
-            Array.Copy(StretchStiffness, first, rod.StretchStiffness, 0, rod.ElementCount);
-            Array.Copy(ShearStiffness, first, rod.ShearStiffness, 0, rod.ElementCount);
-            Array.Copy(BendStiffness1, first, rod.BendStiffness1, 0, rod.ElementCount);
-            Array.Copy(BendStiffness2, first, rod.BendStiffness2, 0, rod.ElementCount);
-            Array.Copy(TwistStiffness, first, rod.TwistStiffness, 0, rod.ElementCount);
-            Array.Copy(LineDensity, first, rod.LineDensity, 0, rod.ElementCount);
-            Array.Copy(RotaryInertia1, first, rod.RotaryInertia1, 0, rod.ElementCount);
-            Array.Copy(RotaryInertia2, first, rod.RotaryInertia2, 0, rod.ElementCount);
-            Array.Copy(RestCurvature, first, rod.RestCurvature, 0, rod.ElementCount);
-            Array.Copy(Radius, first, rod.Radius, 0, rod.ElementCount);
-            Array.Copy(_sides, first, rod._sides, 0, rod.ElementCount);
+            for (int j = 0; j < rod.ElementCount; j++)
+            {
+                rod.Take(j, this, first + j);
+            }
             return rod;
+        }
+
+        /// <summary>Makes element j that of another rod.</summary>
+        public void Take(int j, MaterialRod other, int element)
+        {
+            Length[j] = other.Length[element];
+            StretchStiffness[j] = other.StretchStiffness[element];
+            ShearStiffness[j] = other.ShearStiffness[element];
+            BendStiffness1[j] = other.BendStiffness1[element];
+            BendStiffness2[j] = other.BendStiffness2[element];
+            TwistStiffness[j] = other.TwistStiffness[element];
+            LineDensity[j] = other.LineDensity[element];
+            RotaryInertia1[j] = other.RotaryInertia1[element];
+            RotaryInertia2[j] = other.RotaryInertia2[element];
+            RestCurvature[j] = other.RestCurvature[element];
+            Radius[j] = other.Radius[element];
+            _sides[j] = other._sides[element];
         }
 
         /// <summary>Makes element j a round wire of this radius and material; its length and rest curvature

@@ -65,6 +65,33 @@ namespace Guidewire.Core
             Joints = new JointMonitor(this, 0.0);
         }
 
+        /// <summary>Coaxial instruments as one rod, as a scene of its own.</summary>
+        /// <param name="outer">The scene of the outer one alone.</param>
+        /// <param name="coaxial">The rod.</param>
+        /// <param name="shape">Where it is.</param>
+        /// <param name="drive">Moves the outer hub.</param>
+        /// <param name="inner">The motion of the inner hub.</param>
+        public MaterialScene(MaterialScene outer, CoaxialRod coaxial, RodShape shape, MaterialDrive drive,
+            HubMotion inner)
+        {
+            _scene = outer._scene;
+            Rod = coaxial.Rod;
+            Shape = shape;
+            Velocities = new Vector3d[shape.X.Length];
+            Spins = new Vector3d[shape.Q.Length];
+            StartsStraight = true;
+            Supports = new RodSupports
+            {
+                Clamp = ClampRule.HalfElement,
+                Mass = outer.Supports.Mass,
+                HasSpring = outer.Supports.HasSpring,
+                Coaxial = coaxial,
+            };
+            Drive = drive;
+            Schedule = new RodSchedule(outer.Schedule.Loads, drive.Hub, outer.Schedule.Distal, inner);
+            Joints = new JointMonitor(this, 0.0);
+        }
+
         /// <summary>Metres per unit.</summary>
         public double Metres => _scene.UnitLength;
 

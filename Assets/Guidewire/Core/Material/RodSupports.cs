@@ -15,6 +15,9 @@ namespace Guidewire.Core
         /// null.</summary>
         public SheathWindow? Sheath { get; set; }
 
+        /// <summary>The instruments of a rod that is several coaxial ones; null for one alone.</summary>
+        public CoaxialRod? Coaxial { get; set; }
+
         /// <summary>The distal end; default free.</summary>
         public DistalEnd Distal { get; set; } = DistalEnd.Free;
 

@@ -36,7 +36,8 @@ namespace Guidewire.Core
             Supports = supports;
             Mass = new RodMass(rod, supports.Mass);
             Stretch = new StretchEnergy(rod);
-            Bending = BendTwistTerm.Create(rod.Joints(supports), supports);
+            Bending = supports.Coaxial != null ? new CoaxialBendTwist(supports.Coaxial)
+                : BendTwistTerm.Create(rod.Joints(supports), supports);
             Loads = new DeadLoads(Mass, rod.Length);
             Followers = new TipFollowers(rod, scene);
             _elastic = new EnergyTerm[]
@@ -58,7 +59,7 @@ namespace Guidewire.Core
             Contact = contact;
             All = Joined(_elastic, _loads);
             All = contact == null ? All : Joined(All, contact.All);
-            _endGradient = new RodVector[rod.ElementCount + 2];
+            _endGradient = new RodVector[VectorCount];
         }
 
         /// <summary>The rod.</summary>
@@ -90,6 +91,9 @@ namespace Guidewire.Core
 
         /// <summary>Every term.</summary>
         public EnergyTerm[] All { get; }
+
+        /// <summary>Length of a gradient: n + 2, and n + 1 where there are twist angles.</summary>
+        public int VectorCount => (Supports.Coaxial == null ? 1 : 2) * (Rod.ElementCount + 1) + 1;
 
         /// <summary>Whether every term is a true energy, so that rest shapes are its minima.</summary>
         public bool HavePotential => Array.TrueForAll(All, term => term.HasPotential);

@@ -78,7 +78,15 @@ namespace Guidewire.Core
                 {
                     continue;
                 }
-                double perLength = 1.0 / (fraction * lengths[k]);
+                double length = fraction * lengths[k];
+                if (terms.Supports.Coaxial != null)
+                {
+                    // Lengths at the outer tip change; there the joint's frame is the inner one's.
+                    CoaxialJoints coaxial = terms.Supports.Coaxial.Joints;
+                    length = coaxial.LengthOf(k);
+                    change = coaxial.IsTip(k) ? Vector3d.Zero : change;
+                }
+                double perLength = 1.0 / length;
                 largest = Math.Max(largest, perLength * perLength * (turn.X * turn.X + turn.Y * turn.Y));
                 int before = Math.Max(k - 1, 0);
                 int after = Math.Min(k, n - 1);

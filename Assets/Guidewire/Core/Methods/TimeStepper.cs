@@ -41,6 +41,12 @@ namespace Guidewire.Core
             return null;
         }
 
+        /// <summary>What is read off of a catheter over the wire; null without one.</summary>
+        public virtual CoaxialRecord? Coaxial()
+        {
+            return null;
+        }
+
         /// <summary>Advances the state by one step.</summary>
         public abstract void Advance(RodState state);
 

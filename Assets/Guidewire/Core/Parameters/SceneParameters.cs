@@ -112,6 +112,9 @@ namespace Guidewire.Core
         /// <summary>The sheath from which the wire is fed into the vessel, or null.</summary>
         public Sheath? Sheath { get; set; }
 
+        /// <summary>Catheters over the wire, outermost first.</summary>
+        public IReadOnlyList<Catheter> Catheters { get; set; } = Array.Empty<Catheter>();
+
         /// <summary>The tables of the loads that there are.</summary>
         internal TimeTable[] UsedLoadTables()
         {

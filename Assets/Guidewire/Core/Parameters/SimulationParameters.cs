@@ -33,6 +33,21 @@ namespace Guidewire.Core
             return parameters;
         }
 
+        /// <summary>The same scene with a catheter as if it were the wire.</summary>
+        /// <param name="axis">Of the wire at its start, along which the catheter's hub moves.</param>
+        internal SimulationParameters OfCatheter(Catheter catheter, in Vector3d axis)
+        {
+            SimulationParameters own = Copy();
+            own.Scene.GuidewireLength = catheter.Length;
+            own.Scene.NumberRodElements = catheter.Elements;
+            own.Scene.GuidewireOffset += catheter.Start;
+            own.Material = catheter.Material;
+            own.Drive = catheter.Drive.Copy();
+            own.Drive.Kind = Core.Drive.Displace;
+            own.Drive.DisplacementDirection = axis;
+            return own;
+        }
+
         /// <summary>The same values; lists, walls and steering are shared.</summary>
         internal SimulationParameters Copy()
         {

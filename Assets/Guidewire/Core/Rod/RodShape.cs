@@ -7,11 +7,13 @@ namespace Guidewire.Core
     internal sealed class RodShape
     {
         /// <summary>A rod of <paramref name="elementCount"/> elements, all at the origin and unturned.</summary>
-        public RodShape(int elementCount)
+        /// <param name="hasTwist">Whether another instrument is inside it.</param>
+        public RodShape(int elementCount, bool hasTwist = false)
         {
             X = new Vector3d[elementCount + 1];
             Q = new Quaterniond[elementCount];
             Array.Fill(Q, Quaterniond.Identity);
+            Twist = hasTwist ? new double[elementCount] : Array.Empty<double>();
         }
 
         /// <summary>Positions of the n+1 nodes.</summary>
@@ -19,6 +21,10 @@ namespace Guidewire.Core
 
         /// <summary>Orientations of the n elements; d3 = q e3 q* points along the element.</summary>
         public Quaterniond[] Q { get; }
+
+        /// <summary>Angle about d3 from each element to the instrument inside it, radians, without limit; none where
+        /// there is one instrument alone.</summary>
+        public double[] Twist { get; }
 
         /// <summary>The frame to which the proximal end is clamped, if it is.</summary>
         public Quaterniond ProximalFrame { get; set; } = Quaterniond.Identity;
@@ -34,6 +40,7 @@ namespace Guidewire.Core
         {
             Array.Copy(other.X, X, X.Length);
             Array.Copy(other.Q, Q, Q.Length);
+            Array.Copy(other.Twist, Twist, Twist.Length);
             ProximalFrame = other.ProximalFrame;
             DistalFrame = other.DistalFrame;
         }
@@ -43,6 +50,10 @@ namespace Guidewire.Core
         {
             snapshot.Serialize(X);
             snapshot.Serialize(Q);
+            if (Twist.Length > 0)
+            {
+                snapshot.Serialize(Twist);
+            }
             ProximalFrame = snapshot.Serialize(ProximalFrame);
             DistalFrame = snapshot.Serialize(DistalFrame);
         }

@@ -6,9 +6,13 @@ namespace Guidewire.Core
     /// end.</summary>
     internal sealed class RodSchedule
     {
+        private readonly HubMotion? _inner;
+
         /// <summary>Made of these.</summary>
-        public RodSchedule(PrescribedLoads loads, HubMotion hub, DistalMotion distal)
+        /// <param name="inner">The hub of an instrument inside, or null.</param>
+        public RodSchedule(PrescribedLoads loads, HubMotion hub, DistalMotion distal, HubMotion? inner = null)
         {
+            _inner = inner;
             Loads = loads;
             Hub = hub;
             Distal = distal;
@@ -45,10 +49,17 @@ namespace Guidewire.Core
             return Math.Min(NextJump(time), Loads.NextRow(time));
         }
 
+        /// <summary>How far the hub of an instrument inside moves in a time, s, in m; 0 without one.</summary>
+        public double InnerMove(double duration)
+        {
+            return _inner == null ? 0.0 : duration * _inner.Velocity.Length;
+        }
+
         /// <summary>Whether all that is prescribed stays as it is from this time to an end, s.</summary>
         public bool IsOver(double time, double end)
         {
-            return Distal.IsOver(time) && Loads.AreOver(time, end) && Hub.IsOver(time);
+            return Distal.IsOver(time) && Loads.AreOver(time, end) && Hub.IsOver(time)
+                && (_inner == null || _inner.IsOver(time));
         }
 
         /// <summary>The largest turn between the two frames from a time to an end, s, over that at the time; 1 where

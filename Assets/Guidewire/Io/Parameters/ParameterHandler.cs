@@ -105,6 +105,22 @@ namespace Guidewire.Io
             return handler;
         }
 
+        /// <summary>The parameters of an object within a file.</summary>
+        /// <param name="values">Its keys, and who said each: a file, or "command line".</param>
+        /// <exception cref="ParameterException">As of a file of its own.</exception>
+        internal static ParameterHandler Load(IEnumerable<(string Key, JToken Value, string Source)> values)
+        {
+            var handler = new ParameterHandler();
+            foreach ((string key, JToken value, string source) in values)
+            {
+                handler._given.Take(key, value, source);
+            }
+            handler._given.RefuseUnknown();
+            InstrumentLayer.Expand(handler._given, handler._given.SourceOf(InstrumentLayer.Key));
+            handler.Apply();
+            return handler;
+        }
+
         /// <summary>All effective values of the keys that the method takes; a parameter file that repeats the
         /// run.</summary>
         public JObject ToJson()
@@ -179,14 +195,28 @@ namespace Guidewire.Io
             EndMotionReader.Read(Values, _given.SourceOf);
             DriveTableReader.Read(Values, _given.SourceOf("driveFile"));
             SheathReader.Read(Values, _given.SourceOf);
+            ReadCatheters();
             InletReader.Read(Values, _given);
-            if (_isSteered && Values.Sheath != null)
+            if (_isSteered && (Values.Sheath != null || Values.Catheters != null))
             {
                 simulation.Drive.Steering = new Steering(); // the drive asks for nothing then, and so not for too much
             }
             ReadWalls(simulation);
             Warn();
             Hash = ParameterHash.Of(Values, Taken());
+        }
+
+        private void ReadCatheters()
+        {
+            CatheterReader.Read(Values, _given.SourceOf, _warnings);
+            if (Values.Simulation.Scene.Catheters.Count > 0 && (Values.LogStrains || Values.LogContacts))
+            {
+                throw Refused(Values.LogStrains ? "logStrains" : "logContacts", "false with catheters");
+            }
+            foreach (Catheter catheter in Values.Simulation.Scene.Catheters)
+            {
+                catheter.Drive.Steering = _isSteered ? new Steering() : null;
+            }
         }
 
         // Takes out what the method does not take: refuses it from the command line, notes it from a file.

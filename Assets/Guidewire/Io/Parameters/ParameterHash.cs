@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.IO;
 using System.Security.Cryptography;
 using System.Text;
+using Guidewire.Core;
 using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
@@ -20,7 +21,8 @@ namespace Guidewire.Io
             foreach (ParameterEntry entry in taken)
             {
                 if (!entry.IsOutputPath && entry.Key != InstrumentLayer.Key && entry.Key != "startFile"
-                    && entry.Key != "vessel" && entry.Key != "loadTables" && !IsTableFile(entry.Key))
+                    && entry.Key != "vessel" && entry.Key != CatheterReader.Key && entry.Key != "loadTables"
+                    && !IsTableFile(entry.Key))
                 {
                     text.Append(entry.Key).Append('=').Append(NumberText.Write(entry.Write(values))).Append('\n');
                 }
@@ -34,6 +36,11 @@ namespace Guidewire.Io
             AppendFile(text, "drive=", values.DriveFile);
             AppendFile(text, "proximalMotion=", values.ProximalMotionFile);
             AppendFile(text, "distalMotion=", values.DistalMotionFile);
+            foreach (Catheter catheter in values.Simulation.Scene.Catheters)
+            {
+                text.Append("start=").Append(NumberText.Write(new JValue(catheter.Start))).Append('\n');
+            }
+            text.Append(values.CatheterHashes);
             using SHA256 sha = SHA256.Create();
             if (values.Vessel?.DeepClone() is JObject vessel)
             {

@@ -83,6 +83,12 @@ namespace Guidewire.Io
         /// <summary>The sheath as its key has it, or null.</summary>
         public JToken? Sheath { get; set; }
 
+        /// <summary>The catheters as their key has them, or null.</summary>
+        public JToken? Catheters { get; set; }
+
+        /// <summary>Of all that makes the catheters, a line each.</summary>
+        internal string CatheterHashes { get; set; } = "";
+
         /// <summary>The end at which the wire starts as its key has it, or null.</summary>
         public JToken? Inlet { get; set; }
 

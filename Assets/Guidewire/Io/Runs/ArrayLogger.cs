@@ -23,7 +23,7 @@ namespace Guidewire.Io
         private readonly FileStream _rows;
         private readonly RunParameters _parameters;
         private readonly string _number;
-        private readonly List<Column> _columns = new List<Column>();
+        private readonly List<ArrayColumn> _columns = new List<ArrayColumn>();
         private byte[] _block = Array.Empty<byte>();
         private int _length;
         private int _rowLength;
@@ -48,11 +48,13 @@ namespace Guidewire.Io
             StressRecord? stress = _parameters.LogStrains ? simulation.Stress() : null;
             ContactRecord? contacts = _parameters.LogContacts ? simulation.Contacts : null;
             HubRecord? hub = _parameters.LogHub || _parameters.Sheath != null ? simulation.Hub() : null;
+            CoaxialRecord? catheter = simulation.Coaxial();
             int first = _parameters.LogSpheres == LoggedSpheres.Last ? state.ElementCount : 0;
             if (_count == 0)
             {
                 Begin(state, first, stress != null);
                 AddHub(hub);
+                AddCatheter(catheter);
                 AddContacts(state, contacts);
                 WriteHeader();
             }
@@ -69,13 +71,7 @@ namespace Guidewire.Io
             Put(state.Velocities, first);
             if (_parameters.LogOrientations)
             {
-                foreach (Quaterniond q in state.Orientations)
-                {
-                    Put(q.X);
-                    Put(q.Y);
-                    Put(q.Z);
-                    Put(q.W);
-                }
+                Put(state.Orientations);
             }
             if (stress != null)
             {
@@ -89,6 +85,7 @@ namespace Guidewire.Io
                 Put(state.AngularVelocities, 0);
             }
             Put(hub);
+            Put(catheter);
             if (contacts != null)
             {
                 Put(contacts.Forces, 0);
@@ -198,6 +195,27 @@ namespace Guidewire.Io
             }
         }
 
+        private void AddCatheter(CoaxialRecord? catheter)
+        {
+            if (catheter == null)
+            {
+                return;
+            }
+            Add("catheterPositions", _number, catheter.Positions.Length, 3);
+            if (_parameters.LogOrientations)
+            {
+                Add("catheterOrientations", _number, catheter.Orientations.Length, 4);
+            }
+            Add("catheterExtension", _number);
+            if (_parameters.LogHub)
+            {
+                Add("catheterInsertion", _number);
+                Add("catheterTurn", _number);
+                Add("catheterForce", _number);
+                Add("catheterTorque", _number);
+            }
+        }
+
         private void AddContacts(RodState state, ContactRecord? contacts)
         {
             if (contacts == null)
@@ -224,7 +242,7 @@ namespace Guidewire.Io
         {
             _block = new byte[Math.Max(Block, _rowLength)];
             var fields = new List<string>();
-            foreach (Column column in _columns)
+            foreach (ArrayColumn column in _columns)
             {
                 fields.Add("('" + column.Name + "', '" + column.Type + "', " + Tuple(column.Shape) + ")");
             }
@@ -240,7 +258,7 @@ namespace Guidewire.Io
             {
                 length *= size;
             }
-            _columns.Add(new Column(name, type, shape, _rowLength, length));
+            _columns.Add(new ArrayColumn(name, type, shape, _rowLength, length));
             _rowLength += length;
         }
 
@@ -250,7 +268,7 @@ namespace Guidewire.Io
             var block = new byte[rows * _rowLength];
             var part = new byte[rows * _rowLength];
             using var source = new FileStream(path, FileMode.Open, FileAccess.Read, FileShare.Read, 1);
-            foreach (Column column in _columns)
+            foreach (ArrayColumn column in _columns)
             {
                 using Stream entry = archive.CreateEntry(column.Name + ".npy", CompressionLevel.NoCompression).Open();
                 var shape = new List<string> { _count.ToString(System.Globalization.CultureInfo.InvariantCulture) };
@@ -337,6 +355,38 @@ namespace Guidewire.Io
             }
         }
 
+        private void Put(CoaxialRecord? catheter)
+        {
+            if (catheter == null)
+            {
+                return;
+            }
+            Put(catheter.Positions, 0);
+            if (_parameters.LogOrientations)
+            {
+                Put(catheter.Orientations);
+            }
+            Put(catheter.Extension);
+            if (_parameters.LogHub)
+            {
+                Put(catheter.Insertion);
+                Put(catheter.Turn);
+                Put(catheter.Force);
+                Put(catheter.Torque);
+            }
+        }
+
+        private void Put(Quaterniond[] orientations)
+        {
+            foreach (Quaterniond q in orientations)
+            {
+                Put(q.X);
+                Put(q.Y);
+                Put(q.Z);
+                Put(q.W);
+            }
+        }
+
         private void Put(Vector3d[] values, int first)
         {
             for (int i = first; i < values.Length; i++)
@@ -380,29 +430,6 @@ namespace Guidewire.Io
         {
             _rows.Write(_block, 0, _length);
             _length = 0;
-        }
-
-        private readonly struct Column
-        {
-            public Column(string name, string type, int[] shape, int offset, int length)
-            {
-                Name = name;
-                Type = type;
-                Shape = shape;
-                Offset = offset;
-                Length = length;
-            }
-
-            public string Name { get; }
-
-            public string Type { get; }
-
-            public int[] Shape { get; }
-
-            // In a row, in bytes.
-            public int Offset { get; }
-
-            public int Length { get; }
         }
     }
 }

@@ -9,7 +9,8 @@ namespace Guidewire.Io
     /// "1": ...}</c>, and where asked for <c>"orientation": {"0": {"x","y","z","w"}, ...}</c> and <c>"contact":
     /// {"total": {"x","y","z"}, "reaction": ..., "sphere": {"i": ..., spheres without contact left out}}</c> and
     /// <c>"stress": {"kineticEnergy": J, .., "curvature": [[x, y, z], ...], ..}</c> as key logStrains says, and
-    /// <c>"hub": {"insertion": m, ..}</c> as key logHub does.</summary>
+    /// <c>"hub": {"insertion": m, ..}</c> as key logHub does; of a catheter over the wire <c>"catheters":
+    /// [{"sphere": [[x, y, z], ...], "extension": m, ..}]</c>, units but for what its hub has.</summary>
     /// <remarks>Entry "k" is the state after k steps. Until <see cref="Close"/> the file is not whole JSON, but every
     /// line that ends is a whole entry. Numbers are round-trip exact; one that is not finite is null.</remarks>
     internal sealed class DataLogger : StateLog
@@ -79,6 +80,10 @@ namespace Guidewire.Io
             if (_parameters.LogHub && simulation.Hub() is HubRecord hub)
             {
                 AppendHub(hub);
+            }
+            if (simulation.Coaxial() is CoaxialRecord catheter)
+            {
+                AppendCatheter(catheter);
             }
             if (_parameters.LogContacts && simulation.Contacts != null)
             {
@@ -159,6 +164,35 @@ namespace Guidewire.Io
                 Append(", \"lengthInBody\": ", length);
             }
             Append("}");
+        }
+
+        private void AppendCatheter(CoaxialRecord catheter)
+        {
+            Append(", \"catheters\": [{");
+            Append("\"sphere\": ", catheter.Positions);
+            if (_parameters.LogOrientations)
+            {
+                Append(", \"orientation\": ");
+                for (int j = 0; j < catheter.Orientations.Length; j++)
+                {
+                    Quaterniond q = catheter.Orientations[j];
+                    Append(j == 0 ? "[[" : ", [", q.X);
+                    Append(", ", q.Y);
+                    Append(", ", q.Z);
+                    Append(", ", q.W);
+                    Append("]");
+                }
+                Append("]");
+            }
+            Append(", \"extension\": ", catheter.Extension);
+            if (_parameters.LogHub)
+            {
+                Append(", \"insertion\": ", catheter.Insertion);
+                Append(", \"turn\": ", catheter.Turn);
+                Append(", \"force\": ", catheter.Force);
+                Append(", \"torque\": ", catheter.Torque);
+            }
+            Append("}]");
         }
 
         private void Append(string name, Vector3d[] values)

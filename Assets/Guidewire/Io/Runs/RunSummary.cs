@@ -76,6 +76,10 @@ namespace Guidewire.Io
                 ["parameterHash"] = notes.Count == 0 ? handler.Hash : null,
                 ["complete"] = true,
             };
+            if (simulation.Coaxial() is CoaxialRecord catheter)
+            {
+                json.Property("hub")!.AddAfterSelf(new JProperty("catheters", new JArray(Catheter(catheter))));
+            }
             if (target != null)
             {
                 json.Property("hub")!.AddAfterSelf(new JProperty("centreline", target.ToJson()));
@@ -151,6 +155,29 @@ namespace Guidewire.Io
                 ["largestCurvature"] = Finite(hub.LargestCurvature),
                 ["lengthInBody"] = hub.LengthInBody,
                 ["spheresInBody"] = hub.SpheresInBody,
+            };
+        }
+
+        /// <summary>What is read off of a catheter, as summaries and answers have it.</summary>
+        public static JObject Catheter(CoaxialRecord catheter)
+        {
+            Vector3d[] nodes = catheter.Positions;
+            return new JObject
+            {
+                ["insertion"] = Finite(catheter.Insertion),
+                ["turn"] = Finite(catheter.Turn),
+                ["force"] = Finite(catheter.Force),
+                ["torque"] = Finite(catheter.Torque),
+                ["shortfall"] = Finite(catheter.Shortfall),
+                ["tipPosition"] = Vector(nodes[nodes.Length - 1]),
+                ["tipDirection"] = Vector(catheter.Orientations[catheter.Orientations.Length - 1].Director3),
+                ["extension"] = Finite(catheter.Extension),
+                ["overlap"] = Finite(catheter.Overlap),
+                ["playAngle"] = Finite(catheter.PlayAngle),
+                ["playLength"] = Finite(catheter.PlayLength),
+                ["lengthNotCoupled"] = Finite(catheter.LengthLost),
+                ["lumenFriction"] = 0.0,
+                ["frictionHeldPerCoefficient"] = Finite(catheter.FrictionHeld),
             };
         }
 

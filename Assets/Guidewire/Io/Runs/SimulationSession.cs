@@ -142,12 +142,19 @@ namespace Guidewire.Io
         /// <param name="push">Motion of sphere 0 along the first element in it (thesis eq. 3.6), units; negative values
         /// pull.</param>
         /// <param name="turn">Turn of the first element about its axis in it, rad.</param>
-        public void Step(double push, double turn)
+        /// <param name="hub">Whose hub the user holds: 0 the wire's, 1 that of the first catheter.</param>
+        public void Step(double push, double turn, int hub = 0)
         {
             if (_steering != null)
             {
-                _steering.Push = push;
-                _steering.Turn = turn;
+                _steering.Push = hub == 0 ? push : 0.0;
+                _steering.Turn = hub == 0 ? turn : 0.0;
+                IReadOnlyList<Catheter> catheters = Parameters.Scene.Catheters;
+                for (int k = 0; k < catheters.Count; k++)
+                {
+                    catheters[k].Drive.Steering!.Push = hub == k + 1 ? push : 0.0;
+                    catheters[k].Drive.Steering!.Turn = hub == k + 1 ? turn : 0.0;
+                }
             }
             long before = Stopwatch.GetTimestamp();
             if (_results != null)

@@ -28,6 +28,13 @@ namespace Guidewire.Core
         /// Only blocks from .. to are touched, the last by what its predecessor leaves on it.</summary>
         public abstract void AddBlocks(RodShape shape, RodBlock[] blocks, RodVector[] gradient, int from, int to);
 
+        /// <summary>Adds the second derivatives by the twist angles from (inclusive) to to (exclusive) of an instrument
+        /// inside; their gradient is added with that of the rest. Called after <see cref="AddBlocks"/> with the same
+        /// indices.</summary>
+        public virtual void AddTwistRows(RodShape shape, TwistRow[] rows, int from, int to)
+        {
+        }
+
         /// <summary>The value in the shape in which the term was anchored last, J, after it was asked for the value
         /// there.</summary>
         /// <param name="before">That value.</param>

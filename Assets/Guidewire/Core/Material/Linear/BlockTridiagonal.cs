@@ -7,7 +7,8 @@ namespace Guidewire.Core
     /// <remarks>A long rod is assembled and eliminated piece by piece, so that a block is still in the cache when it is
     /// eliminated. At a support the fixed direction's row and column become those of the unit matrix. Nodes and
     /// elements before the first active node take no part: they are neither assembled nor eliminated, and do not
-    /// move.</remarks>
+    /// move. A rod with an instrument inside it has one twist angle more for each element: its vectors go on, behind
+    /// the place holder, with one entry an element, whose T3 is the angle's.</remarks>
     internal sealed class BlockTridiagonal
     {
         private const int Piece = 32;  // blocks; 12 KB
@@ -19,6 +20,9 @@ namespace Guidewire.Core
         private readonly bool _holdsStart;
         private readonly DistalEnd _distalEnd;
         private readonly Vector3d _slidingAxis;
+        private readonly CoaxialJoints? _coaxial;
+        private readonly TwistRow[] _twist = Array.Empty<TwistRow>();
+        private int _twistCount;            // angles that are unknown
 
         /// <summary>A system for this rod between these supports.</summary>
         public BlockTridiagonal(MaterialRod rod, RodSupports supports)
@@ -35,10 +39,16 @@ namespace Guidewire.Core
             _holdsStart = supports.Proximal != ProximalEnd.Free && !supports.HasSpring;
             _distalEnd = supports.Distal;
             _slidingAxis = supports.SlidingAxis;
+            _coaxial = supports.Coaxial?.Joints;
+            if (_coaxial != null)
+            {
+                _twist = new TwistRow[_count];
+            }
         }
 
-        /// <summary>Number of vectors that a right-hand side must hold: one more than there are blocks.</summary>
-        public int VectorCount => _count + 1;
+        /// <summary>Number of vectors that a right-hand side must hold: one more than there are blocks, and as many as
+        /// blocks again where there are twist angles.</summary>
+        public int VectorCount => _count + 1 + _twist.Length;
 
         /// <summary>Assembles gradient and blocks of all terms, adds shift times the metric (l on theta, l/L^2 on x),
         /// and factorises; with it goes the right-hand side -gradient.</summary>
@@ -49,6 +59,7 @@ namespace Guidewire.Core
             y[0] = default;
             gradient[0] = default;
             _block[0] = default;
+            BeginTwists(gradient, y);
             int negative = 0;
             int from = 0;
             while (from < _count)
@@ -64,6 +75,10 @@ namespace Guidewire.Core
                 for (int k = 0; k < terms.Length; k++)
                 {
                     terms[k].AddBlocks(shape, _block, gradient, from, to);
+                }
+                if (_twistCount > from)
+                {
+                    AssembleTwists(terms, shape, shift, from, to);
                 }
                 if (shift != 0.0)
                 {
@@ -81,6 +96,14 @@ namespace Guidewire.Core
                 for (int i = from; i < to; i++)
                 {
                     negative += BlockElimination.Eliminate(ref _block[i], ref _block[i + 1], ref y[i], ref y[i + 1]);
+                    if (i < _twistCount)
+                    {
+                        ref RodVector z = ref y[_count + 1 + i];
+                        ref RodVector nextZ = ref y[_count + 2 + i];
+                        z.T3 -= gradient[_count + 1 + i].T3;
+                        negative += TwistElimination.Eliminate(_block[i], ref _block[i + 1], ref _twist[i],
+                            ref _twist[i + 1], y[i], ref y[i + 1], ref z.T3, ref nextZ.T3);
+                    }
                 }
                 from = to;
             }
@@ -99,6 +122,14 @@ namespace Guidewire.Core
             }
             Array.Clear(y, 0, y.Length);
             Subtract(gradient, y, 0, _count);
+            if (_coaxial != null)
+            {
+                int twists = _coaxial.ActiveCount;
+                for (int j = 0; j < twists; j++)
+                {
+                    y[_count + 1 + j].T3 = -gradient[_count + 1 + j].T3;
+                }
+            }
             return measured;
         }
 
@@ -109,6 +140,11 @@ namespace Guidewire.Core
             for (int i = 0; i < _count; i++)
             {
                 BlockElimination.Forward(_block[i], ref y[i], ref y[i + 1]);
+                if (i < _twistCount)
+                {
+                    TwistElimination.Forward(_twist[i], y[i], ref y[i + 1], ref y[_count + 1 + i].T3,
+                        ref y[_count + 2 + i].T3);
+                }
             }
             Back(y);
         }
@@ -120,6 +156,11 @@ namespace Guidewire.Core
             y[_count] = default;
             for (int i = _count - 1; i >= 0; i--)
             {
+                if (i < _twistCount)
+                {
+                    TwistElimination.Backward(_twist[i], ref y[i], y[i + 1], ref y[_count + 1 + i].T3,
+                        i + 1 < _twistCount ? y[_count + 2 + i].T3 : 0.0);
+                }
                 BlockElimination.Backward(_block[i], ref y[i], y[i + 1]);
             }
         }
@@ -156,6 +197,11 @@ namespace Guidewire.Core
         {
             ProjectStart(ref v[0]);
             ProjectEnd(ref v[_count - 1]);
+            for (int j = 0; j < _twist.Length; j++)
+            {
+                ref RodVector z = ref v[_count + 1 + j];
+                z = new RodVector { T3 = j < _coaxial!.ActiveCount ? z.T3 : 0.0 };
+            }
         }
 
         /// <summary>a . b over all free directions, weighted by the metric: l on theta, l/L^2 on x.</summary>
@@ -167,6 +213,10 @@ namespace Guidewire.Core
                 double x = a[i].X1 * b[i].X1 + a[i].X2 * b[i].X2 + a[i].X3 * b[i].X3;
                 double t = a[i].T1 * b[i].T1 + a[i].T2 * b[i].T2 + a[i].T3 * b[i].T3;
                 sum += _weight[i] * (t + _perLengthSquared * x);
+            }
+            for (int j = 0; j < _twist.Length; j++)
+            {
+                sum += _weight[j] * a[_count + 1 + j].T3 * b[_count + 1 + j].T3;
             }
             return sum;
         }
@@ -184,6 +234,35 @@ namespace Guidewire.Core
                 v[i].T1 *= t;
                 v[i].T2 *= t;
                 v[i].T3 *= t;
+            }
+            for (int j = 0; j < _twist.Length; j++)
+            {
+                v[_count + 1 + j].T3 *= _weight[j];
+            }
+        }
+
+        private void BeginTwists(RodVector[] gradient, RodVector[] y)
+        {
+            if (_coaxial == null)
+            {
+                return;
+            }
+            _twistCount = _coaxial.ActiveCount;
+            Array.Clear(_twist, 0, _twist.Length);
+            Array.Clear(gradient, _count + 1, _twist.Length);
+            Array.Clear(y, _count + 1, _twist.Length);
+        }
+
+        private void AssembleTwists(EnergyTerm[] terms, RodShape shape, double shift, int from, int to)
+        {
+            int end = Math.Min(to, _twistCount);
+            for (int k = 0; k < terms.Length; k++)
+            {
+                terms[k].AddTwistRows(shape, _twist, from, end);
+            }
+            for (int j = from; j < end; j++)
+            {
+                _twist[j].Diagonal += shift * _weight[j];
             }
         }
 

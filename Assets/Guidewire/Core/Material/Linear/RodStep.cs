@@ -42,6 +42,7 @@ namespace Guidewire.Core
                 move = nextMove;
                 old = nextOld;
             }
+            ApplyTwist(shape, direction, scale, to);
             if (supports.Distal != DistalEnd.Free)
             {
                 Close(supports, to, old + move);
@@ -65,6 +66,17 @@ namespace Guidewire.Core
                         * RotationVector.Exp(new Vector3d(scale * d.T1, scale * d.T2, scale * d.T3));
                     to.Q[j] = (1.5 - 0.5 * q.LengthSquared) * q;
                 }
+            }
+            ApplyTwist(shape, direction, scale, to);
+        }
+
+        // The angles stand behind the n + 2 vectors of nodes and elements (BlockTridiagonal).
+        private static void ApplyTwist(RodShape shape, RodVector[] direction, double scale, RodShape to)
+        {
+            int first = shape.ElementCount + 2;
+            for (int j = 0; j < shape.Twist.Length; j++)
+            {
+                to.Twist[j] = shape.Twist[j] + scale * direction[first + j].T3;
             }
         }
 
@@ -130,6 +142,10 @@ namespace Guidewire.Core
                     double c = d.T3 - e.T3;
                     difference = Math.Max(difference, a * a + b * b + c * c);
                 }
+            }
+            for (int j = elementCount + 2; j < direction.Length; j++)
+            {
+                turn = Math.Max(turn, direction[j].T3 * direction[j].T3);
             }
             relative = Math.Sqrt(difference);
             return Math.Max(Math.Sqrt(turn), Math.Sqrt(shift) / length);

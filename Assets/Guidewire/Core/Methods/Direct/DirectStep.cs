@@ -93,9 +93,23 @@ namespace Guidewire.Core
         /// <returns>False where it has no solution or has lost the wire.</returns>
         public bool Step()
         {
-            int last = Shape.ElementCount;
             (double insertion, double turn) = (Drive.Insertion, Drive.Turn);
             Drive.Prepare(Shape, Time);
+            return Step(TimeStep, insertion, turn);
+        }
+
+        /// <summary>A part of a step whose drive has been prepared.</summary>
+        /// <param name="length">s.</param>
+        /// <returns>False where it has no solution or has lost the wire.</returns>
+        public bool StepPart(double length)
+        {
+            return Step(length, Drive.Insertion, Drive.Turn);
+        }
+
+        // From where the hub was at the step's start, m and radians.
+        private bool Step(double length, double insertion, double turn)
+        {
+            int last = Shape.ElementCount;
             SupportSpring? spring = Terms.Walls()?.Spring;
             if (spring != null && Drive.Axis != Vector3d.Zero)
             {
@@ -103,12 +117,12 @@ namespace Guidewire.Core
             }
             double exit = Terms.Sheath == null ? 0.0 : Terms.Sheath.Exit;
             _hubWork += 0.5 * SheathWork(exit);
-            Vector3d free = Shape.X[last] + TimeStep * Velocities[last]
-                + (TimeStep * TimeStep) * Schedule.Loads.Gravity;
+            Vector3d free = Shape.X[last] + length * Velocities[last]
+                + (length * length) * Schedule.Loads.Gravity;
             Vector3d held = spring == null ? Vector3d.Zero : spring.HeldPosition(Shape);
             double dissipated = Dissipated;
             long innerSteps = _dynamics.Control.Steps;
-            string? failure = _walls == null ? _halved.Step(TimeStep) : _walls.Step(TimeStep);
+            string? failure = _walls == null ? _halved.Step(length) : _walls.Step(length);
             if (failure != null)
             {
                 string time = Time.ToString("G6", CultureInfo.InvariantCulture);
@@ -122,7 +136,7 @@ namespace Guidewire.Core
                     + (_jam == null ? "" : "; " + _jam.Text(Shape)) + Remedy;
                 return false;
             }
-            Ends.Count(Shape, HubTurn, _dynamics.DistalTurn, TimeStep);
+            Ends.Count(Shape, HubTurn, _dynamics.DistalTurn, length);
             if (HasBlownUp("; lower timeStep, or take another integrator"))
             {
                 return false;
@@ -141,11 +155,11 @@ namespace Guidewire.Core
                 if (spring != null && Terms.Walls()!.HoldsStart)
                 {
                     SlipHub(spring);
-                    CountDrive(held, spring.HeldPosition(Shape));
+                    CountDrive(length / TimeStep * Drive.Asked, held, spring.HeldPosition(Shape));
                     Failure ??= FindOverdriven() ?? FindDrivenOut();
                 }
             }
-            TakeExtremes(dissipated, innerSteps);
+            TakeExtremes(length, dissipated, innerSteps);
             return true;
         }
 
@@ -192,9 +206,9 @@ namespace Guidewire.Core
         private double Dissipated => Terms.Walls()?.Friction?.Anchors.Dissipated ?? 0.0;
 
         // Since friction had turned so much into heat, J, and so many inner steps were done.
-        private void TakeExtremes(double dissipated, long innerSteps)
+        private void TakeExtremes(double length, double dissipated, long innerSteps)
         {
-            _spinLoss?.Take(Terms.Rod, Shape, Spins, TimeStep,
+            _spinLoss?.Take(Terms.Rod, Shape, Spins, length,
                 Math.Max(1, _dynamics.Control.Steps - innerSteps));
             _extremes.TakeShape(Terms, _joints, _jointLengths, Shape);
             if (_elementForces == null)
@@ -210,7 +224,7 @@ namespace Guidewire.Core
             }
             if (Terms.Walls()!.Friction != null)
             {
-                _extremes.TakeFriction(Dissipated - dissipated, TimeStep);
+                _extremes.TakeFriction(Dissipated - dissipated, length);
             }
         }
 
@@ -367,11 +381,11 @@ namespace Guidewire.Core
             }
         }
 
-        // What the drive asked in the last step, and what of it was not gone, units.
-        private void CountDrive(in Vector3d before, in Vector3d after)
+        // What the drive asked in the last step, m, and what of it was not gone.
+        private void CountDrive(double asked, in Vector3d before, in Vector3d after)
         {
-            Contacts!.DriveAsked += Drive.Asked / Scene.Metres;
-            Contacts.DriveShortfall += (Drive.Asked - Drive.Gone(before, after)) / Scene.Metres;
+            Contacts!.DriveAsked += asked / Scene.Metres;
+            Contacts.DriveShortfall += (asked - Drive.Gone(before, after)) / Scene.Metres;
         }
 
         // A hub that misses its position by a tenth of an element pulls at node 0 with EA, the force under which a wire

@@ -35,7 +35,7 @@ namespace Guidewire.Core
             System = new BlockTridiagonal(rod, supports);
             Gradient = new RodVector[System.VectorCount];
             Direction = new RodVector[System.VectorCount];
-            Trial = new RodShape(rod.ElementCount);
+            Trial = new RodShape(rod.ElementCount, supports.Coaxial != null);
         }
 
         /// <summary>The second derivative, as it was factorised last.</summary>

@@ -146,6 +146,17 @@ namespace Guidewire.Io
                 Methods = Takers.Only(Solver.Direct),
                 IsRefusedElsewhere = true,
             },
+            new JsonEntry("catheters", JTokenType.Array, "null or a list of one {\"start\", \"length\", \"elements\","
+                + " \"wireRadius\", \"lumenRadius\", ...}",
+                "a catheter over the wire, on one shared centreline: start is how far its hub is ahead of the wire's"
+                + " (units, 0), length (units), elements (30), wireRadius and lumenRadius its outer and inner radius"
+                + " (m); the other keys are those of the wire: instrument, youngsModulus, shearModulus, density,"
+                + " shearFactor, bendingStiffness, torsionalStiffness, axialStiffness, massPerLength, restCurvature,"
+                + " wireSections, insertionSpeed, rotationSpeed, driveFile; needs proximalEnd \"clamped\"")
+            {
+                Methods = Takers.Only(Solver.Direct),
+                IsRefusedElsewhere = true,
+            },
             new EndEntry("inlet",
                 "end of the vessel at which the wire starts, straight along the centreline there, whatever z is;"
                 + " guidewireOffset is then measured from that end, positive into the vessel; its default puts the tip"

@@ -64,6 +64,32 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>Takes over the anchors of another wire between the same walls, where nodes have come in after one
+        /// or have gone there.</summary>
+        /// <param name="node">The last one before them.</param>
+        public void TakeAround(FrictionAnchors other, int node)
+        {
+            int more = _nodes - other._nodes;
+            Dissipated = other.Dissipated;
+            for (int w = 0; w < _walls; w++)
+            {
+                int own = w * (2 * _nodes - 1);
+                int others = w * (2 * other._nodes - 1);
+                for (int i = 0; i < _nodes; i++)
+                {
+                    int from = i <= node ? i : i - more;
+                    bool isThere = i <= node || from > node;
+                    _anchors[own + i] = isThere ? other._anchors[others + from] : default;
+                    from = i < node ? i : i - more;
+                    isThere = i < node || from >= node;
+                    if (i < _nodes - 1)
+                    {
+                        _anchors[own + _nodes + i] = isThere ? other._anchors[others + other._nodes + from] : default;
+                    }
+                }
+            }
+        }
+
         /// <summary>Writes or takes over all of it.</summary>
         public void Serialize(Snapshot snapshot)
         {

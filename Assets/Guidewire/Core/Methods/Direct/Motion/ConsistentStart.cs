@@ -29,7 +29,7 @@ namespace Guidewire.Core
             _holdsFirst = terms.Supports.Proximal != ProximalEnd.Free;
             _distal = terms.Supports.Distal;
             _axis = terms.Supports.SlidingAxis;
-            _gradient = new RodVector[n + 2];
+            _gradient = new RodVector[terms.VectorCount];
             _pivot = new double[n + 1];
             _change = new Vector3d[n + 1];
         }

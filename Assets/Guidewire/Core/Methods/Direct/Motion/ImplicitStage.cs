@@ -41,7 +41,7 @@ namespace Guidewire.Core
             _schedule = schedule;
             _motion = motion;
             _shape = motion.Shape;
-            _before = new RodShape(n);
+            _before = new RodShape(n, _shape.Twist.Length > 0);
             _startPositions = new Vector3d[n + 1];
             _velocityHistory = new Vector3d[n + 1];
             _predicted = new Quaterniond[n];
@@ -115,6 +115,7 @@ namespace Guidewire.Core
             Array.Copy(_shape.X, _startPositions, _startPositions.Length);
             _inertia.BeginStep(_shape, dt);
             BeginDamping(time + SameTime * dt);
+            (_terms.Bending as CoaxialBendTwist)?.BeginSlide(time);
             foreach (EnergyTerm term in _terms.All)
             {
                 term.BeginStep(_shape, dt);

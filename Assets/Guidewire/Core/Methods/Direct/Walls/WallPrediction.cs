@@ -23,6 +23,9 @@ namespace Guidewire.Core
         private readonly Vector3d[] _point;
         private readonly double[] _at;           // s_i, m
         private readonly double _shortest;       // element, m
+        private readonly CoaxialBendTwist? _coaxial;
+        private readonly int _tip;                // of an outer instrument; beyond it nodes slide with the inner one
+        private double _slide;                    // m
         private Vector3d _start;
         private bool _isHeld;
         private double _travel;                     // p, m
@@ -39,10 +42,12 @@ namespace Guidewire.Core
             _point = new Vector3d[_past.Length];
             _at = new double[_past.Length];
             _shortest = double.PositiveInfinity;
+            _coaxial = terms.Bending as CoaxialBendTwist;
+            _tip = terms.Supports.Coaxial == null ? terms.Rod.ElementCount : terms.Supports.Coaxial.Joints.OuterCount;
             for (int j = 0; j < terms.Rod.ElementCount; j++)
             {
                 _at[j + 1] = _at[j] + terms.Rod.Length[j];
-                _shortest = Math.Min(_shortest, terms.Rod.Length[j]);
+                _shortest = j == _tip ? _shortest : Math.Min(_shortest, terms.Rod.Length[j]);
             }
         }
 
@@ -64,12 +69,14 @@ namespace Guidewire.Core
             _start = start;
             _travel = Vector3d.Dot((_isHeld ? start : _inertia.FreePositions[0]) - shape.X[0], along);
             int at = 0;
+            SetSlide(shape);
             double travelBefore = Vector3d.Dot(shape.X[0] - _past[0], along);
             for (int i = 0; i <= n; i++)
             {
                 _change[i] = shape.X[i] - PointOn(_past, _at[i] + travelBefore, ref at);
             }
-            return (int)Math.Min(MostParts, Math.Ceiling(Math.Max(1.0, Math.Abs(_travel) / (OfElement * _shortest))));
+            return (int)Math.Min(MostParts, Math.Ceiling(Math.Max(1.0,
+                Math.Max(Math.Abs(_travel), Math.Abs(_travel + _slide)) / (OfElement * _shortest))));
         }
 
         /// <summary>Sets the prediction.</summary>
@@ -84,13 +91,14 @@ namespace Guidewire.Core
             int at = 0;
             for (int i = 0; i <= last; i++)
             {
-                _point[i] = PointOn(_before, _at[i] + fraction * _travel, ref at) + fraction * _change[i];
+                double travel = i > _tip ? _travel + _slide : _travel;
+                _point[i] = PointOn(_before, _at[i] + fraction * travel, ref at) + fraction * _change[i];
             }
             predicted.X[0] = _isHeld ? Vector3d.Lerp(_before[0], _start, fraction) : _point[0];
-            Lay(_point, predicted.X, last);
+            Lay(_point, predicted.X, last, fraction);
             _projection.Apply(shape, predicted, last);
             Array.Copy(predicted.X, _point, last + 1);
-            Lay(_point, predicted.X, last);
+            Lay(_point, predicted.X, last, fraction);
             for (int j = 0; j < n; j++)
             {
                 Vector3d before = shape.X[j + 1] - shape.X[j];
@@ -101,13 +109,29 @@ namespace Guidewire.Core
             }
         }
 
+        // What slides out of an outer instrument in the stage, and where nodes are before it does.
+        private void SetSlide(RodShape shape)
+        {
+            if (_coaxial == null || shape.ElementCount == _tip)
+            {
+                return;
+            }
+            _slide = _coaxial.Slide;
+            double[] station = _coaxial.Stations;
+            for (int i = _tip + 1; i < _at.Length; i++)
+            {
+                _at[i] = station[i] - _slide;
+            }
+        }
+
         // Nodes 1 to last one after the other, in the directions of a curve, at unchanged distances: a compressed wire
         // would be an unstable start.
-        private void Lay(Vector3d[] curve, Vector3d[] x, int last)
+        private void Lay(Vector3d[] curve, Vector3d[] x, int last, double fraction)
         {
             for (int i = 1; i <= last; i++)
             {
                 double length = Vector3d.Distance(_before[i - 1], _before[i]);
+                length = i == _tip + 1 ? length + fraction * _slide : length;
                 x[i] = x[i - 1] + length * Vector3d.Normalize(curve[i] - curve[i - 1]);
             }
         }

@@ -22,8 +22,8 @@ namespace Guidewire.Core
             _terms = terms;
             _supports = terms.Supports;
             _prediction = new WallPrediction(terms, inertia);
-            _predicted = new RodShape(n);
-            _direction = new RodVector[n + 2];
+            _predicted = new RodShape(n, terms.Supports.Coaxial != null);
+            _direction = new RodVector[terms.VectorCount];
             _totalLength = terms.Rod.TotalLength;
             Newton = new BarrierNewton(terms, moving);
         }

@@ -55,6 +55,7 @@ namespace Guidewire.Core
         {
             double move = Vector3d.Distance(_schedule.Hub.PositionAt(_dynamics.Time + dt)
                 - _dynamics.Terms.Walls()!.Spring.LagOf(_dynamics.Shape), _dynamics.Shape.X[0]);
+            move = Math.Max(move, _schedule.InnerMove(dt));
             double turn = Math.Abs(_schedule.Hub.FrameTurnAt(_dynamics.Time + dt) - _dynamics.ProximalTurn)
                 + Math.Abs(_schedule.Distal.TurnAt(_dynamics.Time + dt) - _dynamics.DistalTurn);
             if (_schedule.HasMotions)

@@ -130,7 +130,8 @@ namespace Guidewire.Core.Tests
             return parameters;
         }
 
-        private static ContactShape[] Walls(RandomGeometry random, int vessel, double radius)
+        /// <summary>A vessel of this number and what stands in it, wide enough for a radius, units.</summary>
+        internal static ContactShape[] Walls(RandomGeometry random, int vessel, double radius)
         {
             switch (vessel)
             {

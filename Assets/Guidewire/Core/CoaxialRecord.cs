@@ -1,0 +1,169 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>What is read off of a wire in a catheter at one moment: of the catheter all, of the wire what its hub
+    /// feels; and what the model of one shared centreline leaves out.</summary>
+    /// <remarks>Force and torque are those of a hub on its instrument: a thrust and a turn to the right, as seen from
+    /// the hub, are positive. The wire's are derivatives of the energy in its hub's position and turn, the catheter's
+    /// the chain's reaction less those.
+    ///
+    /// With the radial play delta and a difference dk of the two rest curvatures the instruments lie on one another but
+    /// for a length a = sqrt(12 delta/dk) from each end of the overlap, and leave it at an angle of sqrt(3 delta dk);
+    /// 0.66 a of coupled length is lost at a free tip.</remarks>
+    public sealed class CoaxialRecord
+    {
+        /// <summary>Play angle in degrees from which on a warning is due.</summary>
+        public const double LargePlay = 15.0;
+
+        /// <summary>The same of a over the overlap.</summary>
+        public const double LargeLength = 0.1;
+
+        private const double LostAtTip = 0.66;
+
+        private readonly double _units;
+        private readonly double _lumen;   // radius, m
+        private double _play;             // where the play angle has been the largest, m
+        private double _mismatch;         // 1/m
+        private double _reduced;          // B_r, N m^2
+
+        internal CoaxialRecord(CoaxialSetup setup)
+        {
+            _units = 1.0 / setup.Wire.Metres;
+            Positions = new Vector3d[setup.Catheter.Rod.ElementCount + 1];
+            Orientations = new Quaterniond[setup.Catheter.Rod.ElementCount];
+            _lumen = setup.LumenRadius;
+        }
+
+        /// <summary>The catheter's n + 1 nodes, units.</summary>
+        public Vector3d[] Positions { get; }
+
+        /// <summary>Its n elements.</summary>
+        public Quaterniond[] Orientations { get; }
+
+        /// <summary>How far the catheter's hub has gone along its axis since the start, m.</summary>
+        public double Insertion { get; private set; }
+
+        /// <summary>How far it has turned since the start, rad.</summary>
+        public double Turn { get; private set; }
+
+        /// <summary>Force of the catheter's hub, N.</summary>
+        public double Force { get; private set; }
+
+        /// <summary>Torque of the catheter's hub, N m.</summary>
+        public double Torque { get; private set; }
+
+        /// <summary>Displacement that the catheter's hub has lost, m.</summary>
+        public double Shortfall { get; private set; }
+
+        /// <summary>Force of the wire's hub, N.</summary>
+        public double WireForce { get; private set; }
+
+        /// <summary>Torque of the wire's hub, N m.</summary>
+        public double WireTorque { get; private set; }
+
+        /// <summary>Twist of the wire from its hub to its tip, rad.</summary>
+        public double WireTwist { get; private set; }
+
+        /// <summary>Largest curvature of any joint of both, 1/m.</summary>
+        public double LargestCurvature { get; private set; }
+
+        /// <summary>How far the wire's tip is beyond the catheter's, m; negative inside.</summary>
+        public double Extension { get; private set; }
+
+        /// <summary>Length over which the wire is in the catheter, m.</summary>
+        public double Overlap { get; private set; }
+
+        /// <summary>The largest play angle of the run at any node of the overlap, degrees.</summary>
+        public double PlayAngle => 180.0 / Math.PI * Math.Sqrt(3.0 * _play * _mismatch);
+
+        /// <summary>a there, m; 0 where the two have had one rest curvature all along.</summary>
+        public double PlayLength => _mismatch > 0.0 ? Math.Sqrt(12.0 * _play / _mismatch) : 0.0;
+
+        /// <summary>Coupled length that is lost at the tip, m, at most all of the overlap.</summary>
+        public double LengthLost => Math.Min(LostAtTip * PlayLength, Overlap);
+
+        /// <summary>The axial force, N, that friction of the lumen would have been able to hold per unit of its
+        /// coefficient: by the two lips, 2 B_r dk/a each.</summary>
+        public double FrictionHeld => _mismatch > 0.0 ? 4.0 * _reduced * _mismatch / PlayLength : 0.0;
+
+        /// <summary>What is not to be trusted for the play that is left out, in one line; or null.</summary>
+        public string? PlayWarning
+        {
+            get
+            {
+                bool isSharp = PlayAngle > LargePlay;
+                bool isLong = PlayLength > LargeLength * Overlap;
+                return isSharp || isLong ? string.Format(System.Globalization.CultureInfo.InvariantCulture,
+                    "the wire has {0:G3} mm of play in the catheter, which is not simulated: it may leave it at up to"
+                    + " {1:G3} degrees from its axis, and {2:G3} mm of {3:G3} mm of overlap are not coupled",
+                    1e3 * _play, PlayAngle, 1e3 * LengthLost, 1e3 * Overlap) : null;
+            }
+        }
+
+        /// <summary>Takes the largest play angle of a shape.</summary>
+        internal void TakePlay(CoaxialJoints joints, RodShape shape)
+        {
+            for (int k = 1; k < joints.ActiveCount; k++)
+            {
+                joints.PiecesAt(k, out CrossSection outer, out CrossSection inner);
+                double angle = 0.5 * (shape.Twist[k - 1] + shape.Twist[k]);
+                double c = Math.Cos(angle);
+                double s = Math.Sin(angle);
+                Vector3d a = outer.RestCurvature;
+                Vector3d b = inner.RestCurvature;
+                double x = a.X - c * b.X + s * b.Y;
+                double y = a.Y - s * b.X - c * b.Y;
+                double mismatch = Math.Sqrt(x * x + y * y);
+                double play = _lumen - inner.Radius;
+                if (play * mismatch > _play * _mismatch)
+                {
+                    _play = play;
+                    _mismatch = mismatch;
+                    _reduced = outer.BendStiffness1 * inner.BendStiffness1
+                        / (outer.BendStiffness1 + inner.BendStiffness1);
+                }
+            }
+        }
+
+        internal void Serialize(Snapshot snapshot)
+        {
+            snapshot.Serialize(ref _play);
+            snapshot.Serialize(ref _mismatch);
+            snapshot.Serialize(ref _reduced);
+        }
+
+        internal void Take(CoaxialJoints joints, RodTerms terms, RodShape shape, MaterialDrive drive, double force,
+            double torque, double wireForce, double wireTorque)
+        {
+            int tip = joints.OuterCount;
+            for (int i = 0; i <= tip; i++)
+            {
+                Positions[i] = _units * shape.X[i];
+            }
+            Array.Copy(shape.Q, Orientations, tip);
+            Insertion = drive.Insertion;
+            Turn = drive.Turn;
+            Shortfall = drive.Slip;
+            Force = force;
+            Torque = torque;
+            WireForce = wireForce;
+            WireTorque = wireTorque;
+            Extension = joints.Extension;
+            Overlap = joints.Stations[tip] + Math.Min(0.0, Extension);
+            var bending = (CoaxialBendTwist)terms.Bending;
+            double[] station = joints.Stations;
+            int last = Math.Max(joints.ActiveCount - 1, 0);
+            WireTwist = shape.Twist[last] - bending.HubTwist;
+            LargestCurvature = 0.0;
+            for (int k = 0; k < joints.ElementCount; k++)
+            {
+                Vector3d turn = bending.TurnOf(shape, k);
+                LargestCurvature = Math.Max(LargestCurvature,
+                    Math.Sqrt(turn.X * turn.X + turn.Y * turn.Y) / joints.LengthOf(k));
+                // The carrier's own twist is the wire's too, but for the hub's frame.
+                WireTwist += turn.Z;
+            }
+        }
+    }
+}

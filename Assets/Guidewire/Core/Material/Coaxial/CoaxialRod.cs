@@ -1,0 +1,90 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>An instrument with another one inside it as one rod: elements of the outer one with the mass of both,
+    /// one of any length at its tip, and those of the inner one beyond.</summary>
+    /// <remarks>The axial force in the overlap is that of both; it strains the elements as the outer instrument alone.
+    /// The inner one strains along all of its length from its own hub, and so does the element at the outer tip in its
+    /// stead: its EA is l over the compliance of that length.</remarks>
+    internal sealed class CoaxialRod
+    {
+        private readonly MaterialRod _outer;
+        private readonly InstrumentProfile _innerProfile;
+
+        /// <summary>Of these instruments.</summary>
+        /// <param name="outer">The outer one.</param>
+        /// <param name="outerProfile">What it is made of.</param>
+        /// <param name="inner">The inner one.</param>
+        /// <param name="innerProfile">What it is made of.</param>
+        /// <param name="beyond">How many of the inner nodes are beyond the outer tip.</param>
+        /// <param name="lead">How far the inner hub is behind the outer one, m.</param>
+        public CoaxialRod(MaterialRod outer, InstrumentProfile outerProfile, MaterialRod inner,
+            InstrumentProfile innerProfile, int beyond, double lead)
+        {
+            _outer = outer;
+            _innerProfile = innerProfile;
+            Joints = new CoaxialJoints(outerProfile, innerProfile, StationsOf(outer), StationsOf(inner), beyond, lead);
+            Rod = new MaterialRod(Joints.ElementCount) { MassDamping = outer.MassDamping };
+            int tip = outer.ElementCount;
+            for (int j = 0; j < Rod.ElementCount; j++)
+            {
+                MaterialRod from = j < tip ? outer : inner;
+                int at = j < tip ? j : inner.ElementCount - beyond + j - tip;
+                Rod.Take(j, from, at);
+            }
+            SetLead(lead);
+            SetMass();
+        }
+
+        /// <summary>Where their joints are and what these are made of.</summary>
+        public CoaxialJoints Joints { get; }
+
+        /// <summary>Both as one rod.</summary>
+        public MaterialRod Rod { get; }
+
+        /// <summary>The inner hub is this far behind the outer one.</summary>
+        /// <param name="lead">m.</param>
+        public void SetLead(double lead)
+        {
+            Joints.SetLead(lead);
+            if (Joints.Beyond > 0)
+            {
+                int tip = Joints.OuterCount;
+                double length = Joints.Stations[tip + 1] - Joints.Stations[tip];
+                Rod.Length[tip] = length;
+                Rod.StretchStiffness[tip] = length / _innerProfile.Integral(0.0, Joints.Stations[tip + 1] + lead,
+                    piece => 1.0 / piece.StretchStiffness);
+            }
+        }
+
+        /// <summary>Gives each element the mass and the inertia of what is in it at the present lead.</summary>
+        public void SetMass()
+        {
+            double[] station = Joints.Stations;
+            for (int j = 0; j < Joints.OuterCount; j++)
+            {
+                double from = station[j] + Joints.Lead;
+                double to = station[j + 1] + Joints.Lead;
+                double perLength = 1.0 / (to - from);
+                Rod.LineDensity[j] = _outer.LineDensity[j]
+                    + perLength * _innerProfile.Integral(from, to, piece => piece.LineDensity);
+                Rod.RotaryInertia1[j] = _outer.RotaryInertia1[j]
+                    + perLength * _innerProfile.Integral(from, to, piece => piece.RotaryInertia1);
+                Rod.RotaryInertia2[j] = _outer.RotaryInertia2[j]
+                    + perLength * _innerProfile.Integral(from, to, piece => piece.RotaryInertia2);
+            }
+        }
+
+        /// <summary>Distances of a rod's nodes from its first, m.</summary>
+        public static double[] StationsOf(MaterialRod rod)
+        {
+            var stations = new double[rod.ElementCount + 1];
+            for (int j = 0; j < rod.ElementCount; j++)
+            {
+                stations[j + 1] = stations[j] + rod.Length[j];
+            }
+            return stations;
+        }
+    }
+}

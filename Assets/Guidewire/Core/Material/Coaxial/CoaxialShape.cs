@@ -1,0 +1,57 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>What becomes of a shape of coaxial instruments where inner nodes come in beyond the outer tip, or
+    /// go.</summary>
+    internal static class CoaxialShape
+    {
+        /// <summary>The shape with as many nodes as these joints have: an element that comes in is a piece of the first
+        /// one beyond the tip, or goes on from the tip; where one goes, the next one reaches back to the tip.</summary>
+        public static RodShape Take(RodShape old, CoaxialJoints joints)
+        {
+            int n = joints.ElementCount;
+            int tip = joints.OuterCount;
+            int more = n - old.ElementCount;
+            var shape = new RodShape(n, true) { ProximalFrame = old.ProximalFrame, DistalFrame = old.DistalFrame };
+            for (int j = 0; j < n; j++)
+            {
+                int from = SourceOf(j, tip, more, old.ElementCount);
+                shape.Q[j] = from >= 0 ? old.Q[from] : InnerFrame(old, tip - 1);
+                shape.Twist[j] = j < tip ? old.Twist[j] : 0.0;
+            }
+            Array.Copy(old.X, shape.X, tip + 1);
+            for (int i = tip + 1; i <= n; i++)
+            {
+                if (i - more > tip)
+                {
+                    shape.X[i] = old.X[i - more];
+                }
+            }
+            // What comes in lies on the element that it divides, or on the axis of the outer tip.
+            double[] station = joints.Stations;
+            bool isDivided = old.ElementCount > tip;
+            for (int i = tip + 1; i <= tip + more; i++)
+            {
+                Vector3d chord = isDivided
+                    ? (1.0 / (station[tip + more + 1] - station[tip])) * (old.X[tip + 1] - old.X[tip])
+                    : old.Q[tip - 1].Director3;
+                shape.X[i] = old.X[tip] + (station[i] - station[tip]) * chord;
+            }
+            return shape;
+        }
+
+        /// <summary>The old element of which element j goes on; -1 where there was none beyond the outer tip.</summary>
+        /// <param name="more">Elements that come in, negative where some go.</param>
+        public static int SourceOf(int j, int tip, int more, int oldCount)
+        {
+            return j < tip ? j : oldCount > tip ? Math.Max(j - more, tip) : -1;
+        }
+
+        /// <summary>The frame of the inner instrument in an element of the outer one.</summary>
+        public static Quaterniond InnerFrame(RodShape shape, int element)
+        {
+            return shape.Q[element] * Quaterniond.FromAxisAngle(Vector3d.UnitZ, shape.Twist[element]);
+        }
+    }
+}

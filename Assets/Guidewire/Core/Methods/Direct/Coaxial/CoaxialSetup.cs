@@ -1,0 +1,112 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>Builds what is simulated of a wire in a catheter: scenes of both as if alone, and both as one
+    /// rod.</summary>
+    internal sealed class CoaxialSetup
+    {
+        private readonly SimulationParameters _parameters;
+        private readonly InstrumentProfile _wireProfile;
+        private readonly InstrumentProfile _catheterProfile;
+        private readonly double _drag;
+        private readonly Barrier _barrier;
+
+        /// <summary>For the wire and the catheter of these parameters.</summary>
+        public CoaxialSetup(SimulationParameters parameters)
+        {
+            _parameters = parameters;
+            SimulationParameters wire = parameters.Copy();
+            wire.Scene.Start = null;   // of a run that goes on; its snapshot says all of it
+            Wire = SceneOf(wire);
+            SimulationParameters catheter = wire.OfCatheter(parameters.Scene.Catheters[0], Axis);
+            Catheter = SceneOf(catheter);
+            _wireProfile = ProfileOf(wire, Wire.Metres);
+            _catheterProfile = ProfileOf(catheter, Wire.Metres);
+            _drag = parameters.Material.MassDamping;
+            WireStations = CoaxialRod.StationsOf(Wire.Rod);
+            if (Wire.Walls.Length > 0)
+            {
+                double step = parameters.Method.TimeStep;
+                double move = Math.Max(parameters.Drive.LargestMove(step, Wire.Metres),
+                    catheter.Drive.LargestMove(step, Wire.Metres));
+                Barrier one = BarrierDefaults.Of(Wire.Rod, parameters.Contact, Wire.Walls, Wire.Metres, move);
+                Barrier two = BarrierDefaults.Of(Catheter.Rod, parameters.Contact, Wire.Walls, Wire.Metres, move);
+                double distance = Math.Min(one.Distance, two.Distance);
+                _barrier = new Barrier(distance, Math.Max(one.Distance * one.Stiffness, two.Distance * two.Stiffness)
+                    / distance);
+            }
+        }
+
+        /// <summary>The wire as if it were alone.</summary>
+        public MaterialScene Wire { get; }
+
+        /// <summary>The catheter as if it were alone.</summary>
+        public MaterialScene Catheter { get; }
+
+        /// <summary>Along which both hubs move, a unit vector.</summary>
+        public Vector3d Axis => Wire.Schedule.Hub.Frame.Director3;
+
+        /// <summary>Radius of the catheter's lumen, m.</summary>
+        public double LumenRadius => _parameters.Scene.Catheters[0].Material.InnerRadius;
+
+        /// <summary>Distance of each of the wire's nodes from its hub, m.</summary>
+        public double[] WireStations { get; }
+
+        /// <summary>Both as one rod.</summary>
+        /// <param name="beyond">Wire nodes beyond the catheter's tip.</param>
+        /// <param name="lead">How far the wire's hub is behind the catheter's, m.</param>
+        public CoaxialRod Rod(int beyond, double lead)
+        {
+            var rod = new CoaxialRod(Catheter.Rod, _catheterProfile, Wire.Rod, _wireProfile, beyond, lead);
+            rod.Rod.MassDamping = _drag;
+            return rod;
+        }
+
+        /// <summary>A drive of one of the hubs along the axis.</summary>
+        public MaterialDrive DriveOf(MaterialScene scene)
+        {
+            return new MaterialDrive(scene.Drive, scene.Schedule.Hub, Axis);
+        }
+
+        /// <summary>Energies and loads of both, which follow their hubs.</summary>
+        public RodTerms Terms(MaterialScene scene, CoaxialHubs hubs)
+        {
+            WallTerms? walls = Wire.Walls.Length == 0 ? null
+                : DirectSetup.WallTermsOf(_parameters, scene, _barrier, new SupportSpring(scene.Rod, 0.0));
+            var terms = new RodTerms(scene.Rod, scene.Supports, _parameters.Scene, walls, Array.Empty<EnergyTerm>());
+            ((CoaxialBendTwist)terms.Bending).Hubs = hubs;
+            return terms;
+        }
+
+        /// <summary>The motion of both.</summary>
+        public RodDynamics Dynamics(MaterialScene scene, RodTerms terms)
+        {
+            return DirectSetup.DynamicsOf(_parameters, scene, terms);
+        }
+
+        /// <summary>What is wrong with the start between walls, in one phrase, or null: of the catheter, and of the
+        /// wire beyond it.</summary>
+        public string? FindProblemOfStart()
+        {
+            double tip = Catheter.Schedule.Hub.PositionAt(0.0).Z - Wire.Schedule.Hub.PositionAt(0.0).Z
+                + Catheter.Rod.TotalLength;
+            int n = Wire.Rod.ElementCount;
+            int first = Array.FindIndex(WireStations, 1, station => station > tip);
+            string? problem = MaterialStart.FindProblem(Catheter, 0, Catheter.Rod.ElementCount);
+            return problem != null ? "of the catheter, " + problem
+                : first < 0 ? null : MaterialStart.FindProblem(Wire, first - 1, n);
+        }
+
+        private static MaterialScene SceneOf(SimulationParameters parameters)
+        {
+            return new MaterialScene(parameters, new Scene(parameters));
+        }
+
+        private static InstrumentProfile ProfileOf(SimulationParameters parameters, double metres)
+        {
+            return new InstrumentProfile(
+                new WireProfile(parameters.Material, parameters.Scene.GuidewireLength), metres);
+        }
+    }
+}

@@ -1,0 +1,22 @@
+namespace Guidewire.Core
+{
+    /// <summary>A catheter over the wire: an instrument of its own, fed and turned at its own hub, on the wire's axis
+    /// at its start.</summary>
+    public sealed class Catheter
+    {
+        /// <summary>L, units.</summary>
+        public double Length { get; set; }
+
+        /// <summary>n.</summary>
+        public int Elements { get; set; } = 30;
+
+        /// <summary>How far its hub is ahead of the wire's at the start, units.</summary>
+        public double Start { get; set; }
+
+        /// <summary>What it is made of; <see cref="MaterialParameters.InnerRadius"/> is that of its lumen.</summary>
+        public MaterialParameters Material { get; set; } = new MaterialParameters();
+
+        /// <summary>What moves its hub; along the wire's axis.</summary>
+        public DriveParameters Drive { get; set; } = new DriveParameters();
+    }
+}

@@ -1,0 +1,140 @@
+using System;
+using System.Collections.Generic;
+using Guidewire.Core;
+using Newtonsoft.Json;
+using Newtonsoft.Json.Linq;
+
+namespace Guidewire.Io
+{
+    /// <summary>Reads the key catheters: a list of objects, each with the keys of an instrument of its own.</summary>
+    internal static class CatheterReader
+    {
+        /// <summary>The key.</summary>
+        public const string Key = "catheters";
+
+        // What a catheter calls it, and what the wire does.
+        private static readonly (string Own, string Wire)[] Names =
+        {
+            ("length", "guidewireLength"),
+            ("elements", "numberRodElements"),
+            ("lumenRadius", "innerRadius"),
+        };
+
+        private static readonly string[] Shared =
+        {
+            "instrument", "wireRadius", "youngsModulus", "shearModulus", "density", "shearFactor", "bendingStiffness",
+            "torsionalStiffness", "axialStiffness", "massPerLength", "restCurvature", "wireSections", "insertionSpeed",
+            "rotationSpeed", "driveFile",
+        };
+
+        // What the wire says for all.
+        private static readonly string[] FromScene = { "metresPerUnit", "timeStep", "maxSimulationSteps" };
+
+        /// <summary>Sets the catheters of a scene.</summary>
+        /// <param name="values">Its parameters.</param>
+        /// <param name="sourceOf">Who said what stands at a path.</param>
+        /// <param name="warnings">Takes what is allowed but most likely not meant.</param>
+        /// <exception cref="ParameterException">An object that is no catheter.</exception>
+        public static void Read(RunParameters values, Func<string, string> sourceOf, List<string> warnings)
+        {
+            var catheters = new List<Catheter>();
+            var list = (JArray)(values.Catheters?.DeepClone() ?? new JArray());
+            values.Catheters = values.Catheters == null ? null : list;
+            for (int k = 0; k < list.Count; k++)
+            {
+                string where = Key + "[" + k + "]";
+                if (!(list[k] is JObject item))
+                {
+                    throw new ParameterException(sourceOf(where), where, list[k].ToString(Formatting.None),
+                        "an object {\"length\", \"wireRadius\", \"lumenRadius\", ...}");
+                }
+                catheters.Add(Read(values, item, sourceOf, where, warnings));
+            }
+            values.Simulation.Scene.Catheters = catheters;
+        }
+
+        private static Catheter Read(RunParameters values, JObject item, Func<string, string> sourceOf, string where,
+            List<string> warnings)
+        {
+            string whole = sourceOf(where);
+            var given = new List<(string Key, JToken Value, string Source)>
+            {
+                ("solver", "direct", whole),
+                ("drive", "displace", whole),
+                ("proximalEnd", "clamped", whole),
+            };
+            foreach (string key in FromScene)
+            {
+                given.Add((key, ParameterTable.Find(key)!.Write(values), whole));
+            }
+            double start = 0.0;
+            foreach (JProperty property in item.Properties())
+            {
+                int at = Array.FindIndex(Names, name => name.Own == property.Name);
+                string source = sourceOf(where + "." + property.Name);
+                if (property.Name == "start")
+                {
+                    if (!NumberEntry.TryNumber(property.Value, out start) || !(start >= 0.0))
+                    {
+                        throw new ParameterException(source, where + ".start",
+                            property.Value.ToString(Formatting.None), "a number >= 0 (units)");
+                    }
+                }
+                else if (at >= 0 || Array.IndexOf(Shared, property.Name) >= 0)
+                {
+                    given.Add((at >= 0 ? Names[at].Wire : property.Name, property.Value, source));
+                }
+                else
+                {
+                    throw new ParameterException(source + ": unknown key '" + where + "." + property.Name
+                        + "': allowed are start, " + string.Join(", ", Array.ConvertAll(Names, name => name.Own)) + ", "
+                        + string.Join(", ", Shared));
+                }
+            }
+            foreach ((string name, string _) in Names)
+            {
+                if (item[name] == null && item["instrument"] == null && name != "elements")
+                {
+                    throw new ParameterException(whole + ": " + where + " needs " + name + ", or an instrument");
+                }
+            }
+            ParameterHandler handler = Load(given, where);
+            warnings.AddRange(handler.Warnings);
+            SimulationParameters own = handler.Values.Simulation;
+            if (item["driveFile"] != null)
+            {
+                item["driveFile"] = handler.Values.DriveFile;
+            }
+            values.CatheterHashes += handler.Hash + "\n";
+            return new Catheter
+            {
+                Length = own.Scene.GuidewireLength,
+                Elements = own.Scene.NumberRodElements,
+                Start = start,
+                Material = own.Material,
+                Drive = own.Drive,
+            };
+        }
+
+        // An error says which catheter it is of, and calls keys as a catheter does.
+        private static ParameterHandler Load(List<(string Key, JToken Value, string Source)> given, string where)
+        {
+            try
+            {
+                return ParameterHandler.Load(given);
+            }
+            catch (ParameterException error)
+            {
+                string line = error.Message;
+                string source = given.Find(
+                    item => line.StartsWith(item.Source + ": ", StringComparison.Ordinal)).Source ?? "";
+                line = source.Length > 0 ? line.Substring(source.Length + 2) : line;
+                foreach ((string own, string wire) in Names)
+                {
+                    line = line.Replace(wire, own);
+                }
+                throw new ParameterException((source.Length > 0 ? source + ": " : "") + where + "." + line);
+            }
+        }
+    }
+}

@@ -1,0 +1,113 @@
+using System.Collections.Generic;
+using Guidewire.Io;
+using Newtonsoft.Json.Linq;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>The key catheters: what it reads, and its one line for each bad input.</summary>
+    public sealed class CatheterReaderTests
+    {
+        private const string Good = "{\"start\": 100, \"length\": 150, \"elements\": 15, \"wireRadius\": 0.00083,"
+            + " \"lumenRadius\": 0.0006, \"bendingStiffness\": 7e-4, \"torsionalStiffness\": 5e-4,"
+            + " \"rotationSpeed\": 2}";
+
+        [Test]
+        public void Catheter_IsReadWithTheKeysOfAWire()
+        {
+            Catheter catheter = Load(Good).Values.Simulation.Scene.Catheters[0];
+            Assert.That(catheter.Length, Is.EqualTo(150.0));
+            Assert.That(catheter.Elements, Is.EqualTo(15));
+            Assert.That(catheter.Start, Is.EqualTo(100.0));
+            Assert.That(catheter.Material.InnerRadius, Is.EqualTo(0.6e-3));
+            Assert.That(catheter.Material.YoungsModulus * catheter.Material.SecondMomentOfArea,
+                Is.EqualTo(7e-4).Within(1e-12));
+            Assert.That(catheter.Drive.RotationSpeed, Is.EqualTo(2.0));
+        }
+
+        [TestCase("\"lumenRadius\": 0.0006", "\"lumenRadius\": 0.0004", "a lumenRadius of more than the radius")]
+        [TestCase("\"lumenRadius\": 0.0006", "\"lumenRadius\": 0.0009", "lumenRadius")]
+        [TestCase("\"lumenRadius\": 0.0006,", "", "catheters[0] needs lumenRadius")]
+        [TestCase("\"length\": 150", "\"length\": -1", "catheters[0].length = -1 is not allowed: needs a number > 0")]
+        [TestCase("\"length\": 150,", "", "catheters[0] needs length")]
+        [TestCase("\"start\": 100", "\"start\": -1", "catheters[0].start = -1 is not allowed")]
+        [TestCase("\"start\": 100", "\"start\": 295", "a start of at most 290 units")]
+        [TestCase("\"start\": 100", "\"begin\": 100", "unknown key 'catheters[0].begin'")]
+        [TestCase("\"rotationSpeed\": 2", "\"insertionSpeed\": -0.2", "hubs that do not cross")]
+        [TestCase("\"rotationSpeed\": 2", "\"instrument\": \"nonesuch\"", "nonesuch")]
+        [TestCase("\"rotationSpeed\": 2", "\"driveFile\": \"nowhere.csv\"", "nowhere.csv: no such file")]
+        [TestCase("\"rotationSpeed\": 2", "\"wireSections\": [{\"from\": 0, \"to\": 9, \"bendingStiffness1\": 1e-3}]",
+            "bends alike")]
+        public void BadInput_IsOneLine(string part, string other, string expected)
+        {
+            ParameterException error = Assert.Throws<ParameterException>(() => Load(Good.Replace(part, other)))!;
+            Assert.That(error.Message, Does.Contain(expected));
+            Assert.That(error.Message, Does.Not.Contain("\n"));
+        }
+
+        [TestCase("solver", "\"xpbd\"", "solver direct")]
+        [TestCase("sheath", "{}", "sheath")]
+        [TestCase("proximalEnd", "\"held\"", "clamped")]
+        [TestCase("materialDamping", "0.001", "materialDamping 0")]
+        [TestCase("tipMoment", "[0, 0, 1]", "no tipMoment")]
+        [TestCase("distalEnd", "\"clamped\"", "distalEnd")]
+        [TestCase("logStrains", "true", "false with catheters")]
+        [TestCase("displacementDirection", "[0, 1, 0]", "displacementDirection")]
+        public void KeyThatDoesNotGoWithACatheter_IsRefused(string key, string value, string expected)
+        {
+            ParameterException error = Assert.Throws<ParameterException>(() => Load(Good, (key, value)))!;
+            Assert.That(error.Message, Does.Contain(expected));
+        }
+
+        [Test]
+        public void TwoCatheters_AreRefused()
+        {
+            ParameterException error = Assert.Throws<ParameterException>(() => Load(Good + ", " + Good))!;
+            Assert.That(error.Message, Does.Contain("no more than one catheter"));
+        }
+
+        [Test]
+        public void Session_HoldsOneHubAtATime()
+        {
+            using SimulationSession session = SimulationSession.Open(null, Given(Good), true);
+            session.Step(1.0, 0.1);
+            session.Step(0.5, 0.2, 1);
+            Assert.That(session.Simulation.Hub()!.Insertion, Is.EqualTo(1e-3).Within(1e-15));
+            Assert.That(session.Simulation.Hub()!.Turn, Is.EqualTo(0.1).Within(1e-12));
+            Assert.That(session.Simulation.Coaxial()!.Insertion, Is.EqualTo(0.5e-3).Within(1e-15));
+            Assert.That(session.Simulation.Coaxial()!.Turn, Is.EqualTo(0.2).Within(1e-12));
+        }
+
+        private static ParameterHandler Load(string catheters, params (string Key, string Value)[] others)
+        {
+            return ParameterHandler.Load(null, Given(catheters, others));
+        }
+
+        private static List<KeyValuePair<string, JToken>> Given(string catheters,
+            params (string Key, string Value)[] others)
+        {
+            var keys = new Dictionary<string, string>
+            {
+                ["solver"] = "\"direct\"",
+                ["guidewireLength"] = "300",
+                ["guidewireOffset"] = "0",
+                ["wireRadius"] = "0.00045",
+                ["proximalEnd"] = "\"clamped\"",
+                ["drive"] = "\"displace\"",
+                ["maxSimulationSteps"] = "100",
+                ["timeStep"] = "0.01",
+                ["catheters"] = "[" + catheters + "]",
+            };
+            foreach ((string key, string value) in others)
+            {
+                keys[key] = value;
+            }
+            var given = new List<KeyValuePair<string, JToken>>();
+            foreach (KeyValuePair<string, string> pair in keys)
+            {
+                given.Add(new KeyValuePair<string, JToken>(pair.Key, JToken.Parse(pair.Value)));
+            }
+            return given;
+        }
+    }
+}

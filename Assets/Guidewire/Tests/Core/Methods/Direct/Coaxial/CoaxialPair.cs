@@ -1,0 +1,147 @@
+using System;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>Two coaxial instruments with even pieces, straight along z from the outer hub, and their rest
+    /// shapes.</summary>
+    internal sealed class CoaxialPair
+    {
+        public const double Stretch = 1e6;  // EA and GA, N
+
+        private readonly Piece[] _outer;
+        private readonly Piece[] _inner;
+        private readonly MaterialRod _outerRod;
+        private readonly MaterialRod _innerRod;
+
+        /// <summary>A pair.</summary>
+        /// <param name="nu">GJ = EI/(1 + nu).</param>
+        public CoaxialPair(Piece[] outer, int outerElements, Piece[] inner, int innerElements, double nu, double lead,
+            int beyond = 0)
+        {
+            _outer = outer;
+            _inner = inner;
+            Nu = nu;
+            _outerRod = RodOf(outer, outerElements);
+            _innerRod = RodOf(inner, innerElements);
+            Build(beyond, lead);
+            Shape.SetStraight(Vector3d.Zero, Quaterniond.Identity, Coaxial.Joints.Stations);
+        }
+
+        /// <summary>Poisson's ratio of both.</summary>
+        public double Nu { get; }
+
+        /// <summary>The pair as one rod.</summary>
+        public CoaxialRod Coaxial { get; private set; } = null!;
+
+        /// <summary>Its terms.</summary>
+        public RodTerms Terms { get; private set; } = null!;
+
+        /// <summary>Where it is.</summary>
+        public RodShape Shape { get; private set; } = null!;
+
+        /// <summary>Its supports.</summary>
+        public RodSupports Supports { get; private set; } = null!;
+
+        /// <summary>Newton iterations of the last search.</summary>
+        public int Iterations { get; private set; }
+
+        /// <summary>Its bending.</summary>
+        public CoaxialBendTwist Bending => (CoaxialBendTwist)Terms.Bending;
+
+        /// <summary>Force on the last node, N.</summary>
+        public Vector3d TipForce { get; set; }
+
+        /// <summary>A piece of an instrument.</summary>
+        public readonly struct Piece
+        {
+            public readonly double Length;
+            public readonly double Bend;
+            public readonly Vector3d Curvature;
+
+            public Piece(double length, double bend, double curvature1, double curvature2 = 0.0, double twist = 0.0)
+            {
+                Length = length;
+                Bend = bend;
+                Curvature = new Vector3d(curvature1, curvature2, twist);
+            }
+        }
+
+        /// <summary>A new number of nodes beyond the outer tip, or lead, with the shape as it is: inner nodes come in
+        /// after the tip or go there.</summary>
+        public void Build(int beyond, double lead)
+        {
+            RodShape? old = Shape;
+            var rod = new CoaxialRod(_outerRod, ProfileOf(_outer), _innerRod, ProfileOf(_inner), beyond, lead);
+            Supports = new RodSupports { Clamp = ClampRule.HalfElement, Coaxial = rod };
+            Coaxial = rod;
+            Terms = new RodTerms(rod.Rod, Supports);
+            if (old != null)
+            {
+                Bending.HubTwist = _hubTwist;
+            }
+            Shape = old == null ? new RodShape(rod.Joints.ElementCount, true) : CoaxialShape.Take(old, rod.Joints);
+        }
+
+        private double _hubTwist;
+
+        /// <summary>The rest shape at an angle of the inner hub; throws where there is none.</summary>
+        public void Solve(double hubTwist)
+        {
+            _hubTwist = hubTwist;
+            Bending.HubTwist = hubTwist;
+            Bending.SetIdleTwists(Shape);
+            Terms.Loads.Set(Vector3d.Zero, TipForce);
+            EquilibriumResult result = new RodStatics(Terms).Solve(Shape, 1e-11, 300);
+            Iterations = result.Iterations;
+            if (!result.Converged)
+            {
+                throw new InvalidOperationException(result.Reason);
+            }
+        }
+
+        /// <summary>Torque of the inner hub, N m.</summary>
+        public double Torque => Bending.InnerTorque(Shape);
+
+        /// <summary>Force of the inner hub, N.</summary>
+        public double Force => Bending.InnerForce(Shape, Terms.Stretch);
+
+        private InstrumentProfile ProfileOf(Piece[] pieces)
+        {
+            var borders = new double[pieces.Length + 1];
+            for (int k = 0; k < pieces.Length; k++)
+            {
+                borders[k + 1] = borders[k] + pieces[k].Length;
+            }
+            return new InstrumentProfile(borders, Array.ConvertAll(pieces, SectionOf));
+        }
+
+        private CrossSection SectionOf(Piece piece)
+        {
+            return new CrossSection
+            {
+                StretchStiffness = Stretch,
+                ShearStiffness = Stretch,
+                BendStiffness1 = piece.Bend,
+                BendStiffness2 = piece.Bend,
+                TwistStiffness = piece.Bend / (1.0 + Nu),
+                LineDensity = 1e-3,
+                RotaryInertia1 = 1e-9,
+                RotaryInertia2 = 1e-9,
+                RestCurvature = piece.Curvature,
+                Radius = 1e-3,
+            };
+        }
+
+        private MaterialRod RodOf(Piece[] pieces, int elements)
+        {
+            InstrumentProfile profile = ProfileOf(pieces);
+            var rod = new MaterialRod(elements);
+            for (int j = 0; j < elements; j++)
+            {
+                rod.Length[j] = profile.Length / elements;
+                profile.Pieces[profile.PieceAt((j + 0.5) * rod.Length[j])].CopyTo(rod, j);
+            }
+            return rod;
+        }
+    }
+}

@@ -1,0 +1,177 @@
+using System;
+using Guidewire.Core;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>A wire in a catheter, both of random properties with bent tips, pushed, pulled and turned at both hubs
+    /// in one of several vessels, and what came of that.</summary>
+    internal sealed class RandomCoaxialPush
+    {
+        private const int Samples = 10;        // an element
+        private const int Pieces = 6;          // of the manoeuvre, each with speeds of its own
+
+        private readonly SimulationParameters _parameters;
+        private readonly double _wireRadius;       // units
+        private readonly double _catheterRadius;
+        private readonly string _vessel;
+        private double _extension;
+
+        /// <summary>Draws both and takes them to the end.</summary>
+        public RandomCoaxialPush(int seed)
+        {
+            Seed = seed;
+            var random = new RandomGeometry(seed);
+            int vessel = seed % RandomWallPush.Vessels.Length;
+            _vessel = RandomWallPush.Vessels[vessel];
+            _wireRadius = random.Number(0.15, 0.45);
+            _catheterRadius = _wireRadius + random.Number(0.1, 0.4);
+            _parameters = Draw(random, vessel);
+            Simulation = Simulation.Create(_parameters);
+            int steps = 20 + random.Index(20);
+            double dt = _parameters.Method.TimeStep;
+            Catheter catheter = _parameters.Scene.Catheters[0];
+            for (int piece = 0; piece < Pieces; piece++)
+            {
+                _parameters.Drive.Steering!.Push = dt * Speed(random, 0.65);
+                _parameters.Drive.Steering.Turn = dt * random.Number(-10.0, 10.0);
+                catheter.Drive.Steering!.Push = dt * Speed(random, 0.6);
+                catheter.Drive.Steering.Turn = dt * random.Number(-10.0, 10.0);
+                for (int k = 0; k < steps && Simulation.Outcome == Outcome.Running; k++)
+                {
+                    Simulation.Step();
+                    if (Simulation.Outcome == Outcome.Running)
+                    {
+                        WireAsked += _parameters.Drive.Steering.Push;
+                        CatheterAsked += catheter.Drive.Steering.Push;
+                        Look();
+                    }
+                }
+            }
+        }
+
+        public int Seed { get; }
+
+        public Simulation Simulation { get; }
+
+        public ContactRecord Contacts => Simulation.Contacts!;
+
+        /// <summary>Points of the outermost axes outside a wall after a step, summed over the steps.</summary>
+        public int PointsOutside { get; private set; }
+
+        /// <summary>Steps after which the sense changed in which one tip is beyond the other.</summary>
+        public int Overtakings { get; private set; }
+
+        /// <summary>Whether all numbers were finite.</summary>
+        public bool IsFinite { get; private set; } = true;
+
+        /// <summary>Sum of what the wire's hub was asked to go, units.</summary>
+        public double WireAsked { get; private set; }
+
+        /// <summary>The same of the catheter's.</summary>
+        public double CatheterAsked { get; private set; }
+
+        public override string ToString()
+        {
+            return "seed " + Seed + ": " + _vessel + ", wire n " + _parameters.Scene.NumberRodElements + ", catheter n "
+                + _parameters.Scene.Catheters[0].Elements + ", r " + _wireRadius.ToString("F2") + " in "
+                + _catheterRadius.ToString("F2") + ", dt " + _parameters.Method.TimeStep.ToString("G3") + ", "
+                + Simulation.Outcome + " after " + Simulation.StepCount + ", passages " + Contacts.Passages
+                + ", outside " + PointsOutside + ", deepest " + Contacts.MaxPenetration.ToString("G3") + ": "
+                + Simulation.Reason;
+        }
+
+        // Forth more often than back, units/s.
+        private static double Speed(RandomGeometry random, double forth)
+        {
+            double speed = Math.Pow(10.0, random.Number(0.5, 2.2));
+            return random.Number(0.0, 1.0) < forth ? speed : -speed;
+        }
+
+        private SimulationParameters Draw(RandomGeometry random, int vessel)
+        {
+            SimulationParameters parameters = WallScenes.Wire(30 + random.Index(50), 1e-3 * _wireRadius);
+            double length = random.Number(200.0, 270.0);
+            double extension = random.Index(2) == 0 ? random.Number(1.0, 40.0) : -random.Number(0.0, 60.0);
+            double lead = random.Number(10.0, 100.0);
+            // Both tips start before what stands in the vessel.
+            double tip = -Math.Max(extension, 0.0) - 1.0;
+            parameters.Scene.GuidewireLength = lead + length + extension;
+            parameters.Scene.GuidewireOffset = tip - length - lead;
+            parameters.Scene.Walls = RandomWallPush.Walls(random, vessel, _catheterRadius);
+            foreach (ContactShape wall in parameters.Scene.Walls)
+            {
+                wall.FrictionCoefficient = random.Index(2) == 0 ? 0.0 : random.Number(0.0, 0.2);
+            }
+            parameters.Scene.Gravity = random.Number(0.0, 9.81) * random.Direction();
+            parameters.Method.TimeStep = Math.Pow(10.0, random.Number(-3.0, -2.0));
+            parameters.Method.MaxSimulationSteps = 1000;
+            parameters.Drive.Kind = Drive.Displace;
+            parameters.Drive.Steering = new Steering();
+            parameters.Material.YoungsModulus = Math.Pow(10.0, random.Number(9.5, 11.0));
+            parameters.Material.ShearModulus = 0.38 * parameters.Material.YoungsModulus;
+            parameters.Material.Sections = new[] { Tip(random, parameters.Scene.GuidewireLength, 30.0) };
+            var catheter = new Catheter
+            {
+                Length = length,
+                Elements = 15 + random.Index(30),
+                Start = lead,
+                Drive = { Steering = new Steering() },
+            };
+            MaterialParameters material = catheter.Material;
+            material.WireRadius = 1e-3 * _catheterRadius;
+            material.InnerRadius = 0.5e-3 * (_catheterRadius + _wireRadius);
+            material.YoungsModulus = Math.Pow(10.0, random.Number(8.5, 10.0));
+            material.ShearModulus = 0.38 * material.YoungsModulus;
+            material.Density = 1200.0;
+            material.Sections = new[] { Tip(random, length, 20.0) };
+            parameters.Scene.Catheters = new[] { catheter };
+            return parameters;
+        }
+
+        private static WireSection Tip(RandomGeometry random, double length, double curvature)
+        {
+            return new WireSection
+            {
+                From = length - random.Number(10.0, 60.0),
+                To = length,
+                RestCurvature = new Vector3d(random.Number(-curvature, curvature), random.Number(-5.0, 5.0), 0.0),
+            };
+        }
+
+        // The catheter's axis, and the wire's beyond it.
+        private void Look()
+        {
+            CoaxialRecord record = Simulation.Coaxial()!;
+            Overtakings += _extension * record.Extension < 0.0 ? 1 : 0;
+            _extension = record.Extension;
+            Vector3d[] catheter = record.Positions;
+            Look(catheter, 0, _catheterRadius);
+            Vector3d[] wire = Simulation.State.Positions;
+            int n = _parameters.Scene.NumberRodElements;
+            double perUnit = n / _parameters.Scene.GuidewireLength;
+            int beyond = (int)Math.Floor(1e3 * record.Extension * perUnit);
+            if (beyond > 0)
+            {
+                Look(wire, n - beyond, _wireRadius);
+            }
+        }
+
+        private void Look(Vector3d[] x, int first, double radius)
+        {
+            foreach (ContactShape wall in _parameters.Scene.Walls)
+            {
+                for (int k = first * Samples; k <= Samples * (x.Length - 1); k++)
+                {
+                    int j = Math.Min(k / Samples, x.Length - 2);
+                    Vector3d point = Vector3d.Lerp(x[j], x[j + 1], (double)(k - j * Samples) / Samples);
+                    IsFinite &= point.IsFinite;
+                    int hint = -1;
+                    if (wall.Nearest(point, point, radius, ref hint, out SurfaceContact contact))
+                    {
+                        PointsOutside += contact.Distance <= 0.0 ? 1 : 0;
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,67 @@
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>A wire in a catheter, pushed, pulled and turned at both hubs in vessels of many kinds: neither is ever
+    /// outside, and each run ends as asked or says why not.</summary>
+    /// <remarks>The environment variable GUIDEWIRE_COAXIAL_PUSHES = FIRST:COUNT asks for other pushes than the first
+    /// 100.</remarks>
+    [TestFixture]
+    internal sealed class RandomCoaxialPushTests
+    {
+        private const string Asked = "GUIDEWIRE_COAXIAL_PUSHES";
+
+        [Test]
+        [Category("Long")]
+        public void NeitherInstrumentIsEverOutside_AndEveryRunHasAnEnd()
+        {
+            string[] asked = (Environment.GetEnvironmentVariable(Asked) ?? "0:0").Split(new[] { ':' });
+            int first = int.Parse(asked[0], CultureInfo.InvariantCulture);
+            int runs = int.Parse(asked[1], CultureInfo.InvariantCulture);
+            runs = runs > 0 ? runs : RandomGeometry.Cases(100, 10);
+            var worst = new List<string>();
+            int outside = 0;
+            int failed = 0;
+            int touching = 0;
+            int overtaking = 0;
+            for (int seed = first; seed < first + runs; seed++)
+            {
+                RandomCoaxialPush push;
+                try
+                {
+                    push = new RandomCoaxialPush(seed);
+                }
+                catch (ArgumentException error)
+                {
+                    worst.Add("seed " + seed + ": " + error.Message);
+                    outside++;
+                    continue;
+                }
+                bool isOutside = push.Contacts.Passages > 0 || push.PointsOutside > 0 || !push.IsFinite
+                    || push.Contacts.MaxPenetration > 0.0;
+                bool isRunning = push.Simulation.Outcome == Outcome.Running;
+                touching += push.Contacts.LargestForce > 1e-3 ? 1 : 0;
+                overtaking += push.Overtakings;
+                outside += isOutside ? 1 : 0;
+                failed += isRunning ? 0 : 1;
+                if (isOutside || !isRunning)
+                {
+                    worst.Add(push.ToString());
+                }
+            }
+            foreach (string line in worst)
+            {
+                TestContext.WriteLine(line);
+            }
+            TestContext.WriteLine(failed + " of " + runs + " failed, " + outside + " outside, " + touching
+                + " touched a wall, " + overtaking + " overtakings");
+            Assert.That(touching, Is.GreaterThan(runs / 2), "runs in which a wall is touched");
+            Assert.That(overtaking, Is.GreaterThan(runs / 4), "times that one tip overtakes the other");
+            Assert.That(outside, Is.Zero, "runs with an instrument outside");
+            Assert.That(failed, Is.LessThanOrEqualTo(0.005 * runs));
+        }
+    }
+}
