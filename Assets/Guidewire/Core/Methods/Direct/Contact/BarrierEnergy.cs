@@ -222,12 +222,12 @@ namespace Guidewire.Core
             return fraction;
         }
 
-        /// <summary>Newton's method tries steps from a shape: second derivatives are from now on those by the estimates
+        /// <summary>Newton's method tries a whole step from a shape: second derivatives are from now on those by the estimates
         /// of the contact forces to which the step leads.</summary>
-        public void EstimateForces(RodShape shape, RodVector[] direction, double scale)
+        public void EstimateForces(RodShape shape, RodVector[] direction)
         {
             Update(shape);
-            _multipliers.Advance(_sums.Contacts, direction, scale);
+            _multipliers.Advance(_sums.Contacts, direction);
         }
 
         /// <summary>Newton's method has ended: second derivatives are those of the energy again.</summary>

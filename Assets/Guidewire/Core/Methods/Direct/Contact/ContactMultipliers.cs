@@ -9,10 +9,11 @@ namespace Guidewire.Core
     /// <remarks>With b'' a gap that is far too small only doubles in an iteration, and the force of a contact that ends
     /// only falls to a quarter. The gradient stays that of the energy: a stiffness above 0 changes the direction of a
     /// step, and not where Newton's method ends. Near the solution estimates and forces agree, and b'' counts.
-    /// </remarks>
+    /// A step that is cut leaves no estimates: what it met was not in its linear law.</remarks>
     internal sealed class ContactMultipliers
     {
         private const double NearlySame = 0.1;    // relative difference up to which b'' counts
+        private const double Softest = 0.25;      // of b'': a gap that is nearly closed opens to some four times itself
         private readonly Barrier _barrier;
         private readonly int _nodes;
         private readonly Linear[] _law;           // by wall: its nodes, then its elements
@@ -99,7 +100,7 @@ namespace Guidewire.Core
                 return curvature;
             }
             HaveCounted = true;
-            return chord;
+            return Math.Max(chord, Softest * curvature);
         }
 
         /// <summary>Takes the contacts at a place, in the shape from which the next step starts.</summary>
@@ -114,10 +115,10 @@ namespace Guidewire.Core
             _law[at].Second = second;
         }
 
-        /// <summary>Takes a step along a direction: the estimates become those of the linear law there, 0 where nothing
+        /// <summary>Takes a whole step along a direction: the estimates become those of the linear law there, 0 where nothing
         /// touched.</summary>
         /// <param name="contacts">In the shape where the step starts.</param>
-        public void Advance(StructList<WallContact> contacts, RodVector[] direction, double scale)
+        public void Advance(StructList<WallContact> contacts, RodVector[] direction)
         {
             for (int at = 0; at < _law.Length; at++)
             {
@@ -131,7 +132,7 @@ namespace Guidewire.Core
                 ref Linear law = ref _law[contact.IsNode ? AtNode(contact.Wall, i) : AtElement(contact.Wall, j)];
                 double change = Dot(law.First, direction[i])
                     + (contact.IsNode ? 0.0 : Dot(law.Second, direction[j + 1]));
-                law.Estimate = Math.Max(0.0, law.Force - scale * change);
+                law.Estimate = Math.Max(0.0, law.Force - change);
             }
             AreKnown = true;
         }

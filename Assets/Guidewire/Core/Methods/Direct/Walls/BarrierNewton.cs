@@ -120,7 +120,14 @@ namespace Guidewire.Core
                 Iterations++;
                 double size = _newton.Size(out double relative);
                 double scale = _newton.MaxStep(shape, size, relative, out _);
-                _barrier.EstimateForces(shape, _newton.Direction, scale);
+                if (scale == 1.0)
+                {
+                    _barrier.EstimateForces(shape, _newton.Direction);
+                }
+                else
+                {
+                    _barrier.ForgetForces();
+                }
                 if (!_newton.Search(shape, !hasValues, ref scale, size, out bool isHidden))
                 {
                     if (wasFar)

@@ -74,7 +74,7 @@ namespace Guidewire.Core.Tests
                 {
                     continue;
                 }
-                energy.EstimateForces(shape, direction, 0.3);
+                energy.EstimateForces(shape, direction);
                 Assert.That(energy.Value(moved), Is.EqualTo(other.Value(moved)));
                 double[] usual = Blocks(other, moved, out double[] gradient);
                 double[] estimated = Blocks(energy, moved, out double[] same);
