@@ -39,7 +39,6 @@ namespace Guidewire.Core
         private readonly double[] _nodeGap;       // by wall and node, m, no more than the barrier's distance
         private readonly double[] _edgeGap;      // by wall and element, between its nodes
         private readonly ContactSums _sums;       // of the current shape
-        private readonly ContactMultipliers _multipliers;
         private readonly Vector3d[] _resultant;   // of each wall on the wire, N
         private readonly StructList<ContactPoint> _contactPoints = new StructList<ContactPoint>(16);
         private readonly StructList<EdgeContact> _edgeContacts = new StructList<EdgeContact>(16);
@@ -84,7 +83,6 @@ namespace Guidewire.Core
             _nodeGap = new double[walls.Length * (n + 1)];
             _edgeGap = new double[walls.Length * n];
             _sums = new ContactSums(n);
-            _multipliers = new ContactMultipliers(barrier, walls.Length, n);
             _resultant = new Vector3d[walls.Length];
         }
 
@@ -222,21 +220,6 @@ namespace Guidewire.Core
             return fraction;
         }
 
-        /// <summary>Newton's method tries steps from a shape: second derivatives are from now on those by the estimates
-        /// of the contact forces to which the step leads.</summary>
-        public void EstimateForces(RodShape shape, RodVector[] direction, double scale)
-        {
-            Update(shape);
-            _multipliers.Advance(_sums.Contacts, direction, scale);
-        }
-
-        /// <summary>Newton's method has ended: second derivatives are those of the energy again.</summary>
-        public void ForgetForces()
-        {
-            _isKnown &= !_multipliers.HaveCounted;
-            _multipliers.Forget();
-        }
-
         /// <summary>The neighbours of a shape; gaps are those of another.</summary>
         public NeighbourList Near(RodShape shape, RodShape other)
         {
@@ -304,7 +287,6 @@ namespace Guidewire.Core
                 return;
             }
             _sums.Clear();
-            _multipliers.BeginShape();
             _inside = SetNodes(shape, _x);
             Array.Clear(_resultant, 0, _resultant.Length);
             _isKnown = true;
@@ -353,10 +335,6 @@ namespace Guidewire.Core
             Vector3d gradient = Vector3d.Zero;
             Symmetric3 second = default;
             bool mayBeNegative = false;
-            int at = _multipliers.AtNode(w, i);
-            double ratio = _multipliers.Ratio(at, _contactPoints, _units, radius);
-            double force = 0.0;
-            Vector3d stiffness = Vector3d.Zero;
             ref double nearest = ref _nodeGap[w * _x.Length + i];
             for (int k = 0; k < _contactPoints.Count; k++)
             {
@@ -370,11 +348,8 @@ namespace Guidewire.Core
                     continue;
                 }
                 _value += point.Weight * value;
-                curvature = _multipliers.Stiffness(gap, slope, curvature, ratio);
                 slope *= point.Weight;
                 Vector3d n = point.Contact.Normal;
-                force -= slope;
-                stiffness += point.Weight * curvature * n;
                 double along = slope * point.Curvature * _units;
                 double across = slope * point.CrossCurvature * _units;
                 mayBeNegative |= point.Weight < 0 || along < 0.0 || across < 0.0;
@@ -392,7 +367,6 @@ namespace Guidewire.Core
                 return;
             }
             _resultant[w] -= gradient;
-            _multipliers.Set(at, force, stiffness, Vector3d.Zero);
             _sums.AddNode(w, i, gradient, mayBeNegative ? second.PositivePart() : second);
         }
 
@@ -403,11 +377,6 @@ namespace Guidewire.Core
             ref double nearest = ref _edgeGap[w * _elementRadius.Length + j];
             _walls[w].FindEdgeContacts(_x[j], _x[j + 1], _units * (radius + _barrier.Distance),
                 _near.FeaturesOf(w, j, _x[j], _x[j + 1]), _edgeContacts);
-            int at = _multipliers.AtElement(w, j);
-            double ratio = _multipliers.Ratio(at, _edgeContacts, _units, radius);
-            double force = 0.0;
-            Vector3d first = Vector3d.Zero;
-            Vector3d second = Vector3d.Zero;
             for (int k = 0; k < _edgeContacts.Count; k++)
             {
                 ref EdgeContact edge = ref _edgeContacts[k];
@@ -425,13 +394,8 @@ namespace Guidewire.Core
                     return;
                 }
                 _value += edge.Weight * value;
-                curvature = _multipliers.Stiffness(gap, slope, curvature, ratio);
-                force -= edge.Weight * slope;
-                first += edge.Weight * curvature * (1.0 - edge.Position) * edge.Normal;
-                second += edge.Weight * curvature * edge.Position * edge.Normal;
                 _resultant[w] -= _sums.AddEdgeContact(w, j, edge, _x[j + 1] - _x[j], _units, value, slope, curvature);
             }
-            _multipliers.Set(at, force, first, second);
         }
     }
 }

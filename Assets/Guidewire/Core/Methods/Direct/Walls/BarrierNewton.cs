@@ -82,13 +82,6 @@ namespace Guidewire.Core
         /// <returns>Null, or why it has not converged; the shape is then not to be used.</returns>
         public string? Solve(RodShape shape, double stageLength, double loads, bool isFar, double tolerances)
         {
-            string? failure = Descend(shape, stageLength, loads, isFar, tolerances);
-            _barrier.ForgetForces();
-            return failure;
-        }
-
-        private string? Descend(RodShape shape, double stageLength, double loads, bool isFar, double tolerances)
-        {
             double rounding = LastPlace * (shape.X[0].Length + _totalLength)
                 * (10.0 * _axialSpring + _mass / (stageLength * stageLength));
             double left = double.PositiveInfinity;
@@ -120,7 +113,6 @@ namespace Guidewire.Core
                 Iterations++;
                 double size = _newton.Size(out double relative);
                 double scale = _newton.MaxStep(shape, size, relative, out _);
-                _barrier.EstimateForces(shape, _newton.Direction, scale);
                 if (!_newton.Search(shape, !hasValues, ref scale, size, out bool isHidden))
                 {
                     if (wasFar)
