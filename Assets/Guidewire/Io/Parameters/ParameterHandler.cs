@@ -110,7 +110,7 @@ namespace Guidewire.Io
         /// <exception cref="ParameterException">As of a file of its own.</exception>
         internal static ParameterHandler Load(IEnumerable<(string Key, JToken Value, string Source)> values)
         {
-            var handler = new ParameterHandler();
+            var handler = new ParameterHandler(ParameterSource.OfFile(null));
             foreach ((string key, JToken value, string source) in values)
             {
                 handler._given.Take(key, value, source);

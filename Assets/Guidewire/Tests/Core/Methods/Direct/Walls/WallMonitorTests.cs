@@ -100,7 +100,7 @@ namespace Guidewire.Core.Tests
             return record.Passages;
         }
 
-        private static ContactShape Tube(double radius)
+        private static MeshShape Tube(double radius)
         {
             return new MeshShape(TestMeshes.Tube(Sides, 10, Length, z => radius).Build(
                 new[] { Vector3d.Zero, new Vector3d(0.0, 0.0, Length) }));
