@@ -6,13 +6,14 @@ namespace Guidewire.Core
     /// <summary>Solves one implicit stage between walls: Newton's method on one energy, that of inertia, wire, loads
     /// and barriers, from a shape whose gaps are all open to one whose forces balance.</summary>
     /// <remarks>A step goes no farther than every gap allows on the straight path of the nodes, and is shortened until
-    /// the energy falls by a fraction of what the slope predicts (Armijo); so no iterate is outside a wall. Where the
-    /// second derivative is not positive definite, a wire under thrust away from the solution, its negative pivots
-    /// change sign where the direction is then short, or else a multiple of the metric is added, kept from one
-    /// iteration to the next. The former slows down only what is unstable: a wire whose forces balance in the plane of
-    /// its bend converges in it as fast as ever, though it would go on out of the plane. A stage is solved when no
-    /// piece of the rod, from its start to any node, is out of balance by more than S, as in <see
-    /// cref="StageSolver"/>; where the energy's own rounding hides the decrease the balance decides alone.</remarks>
+    /// the energy falls by a fraction of what the slope predicts (Armijo); so no iterate is outside a wall.
+    /// Where the second derivative is not positive definite, a wire under thrust away from the solution,
+    /// its negative pivots change sign where there is friction and the direction is then short, or else a
+    /// multiple of the metric is added, kept from one iteration to the next. The former slows down only
+    /// what is unstable: a wire whose forces balance in the plane of its bend converges in it as fast as
+    /// ever, though it would go on out of the plane. A stage is solved when no piece of the rod, from its
+    /// start to any node, is out of balance by more than S, as in <see cref="StageSolver"/>; where the
+    /// energy's own rounding hides the decrease the balance decides alone.</remarks>
     internal sealed class BarrierNewton
     {
         private const double LastPlace = 1.0 / (1L << 52);
@@ -32,6 +33,7 @@ namespace Guidewire.Core
         private readonly double _mass;
         private readonly double _bendForce;       // EI/L^2, N
         private readonly double _axialSpring;     // EA/l and that of the support, N/m
+        private readonly bool _hasFriction;
         private double _shift;
 
         /// <summary>For a rod under its terms and those of its motion.</summary>
@@ -40,6 +42,7 @@ namespace Guidewire.Core
             _rod = terms.Rod;
             _terms = terms.With(moving);
             _barrier = terms.Walls()!.Barrier;
+            _hasFriction = terms.Walls()!.Friction != null;
             _newton = new NewtonDescent(_rod, terms.Supports, _terms, true, MostCuts);
             _forces = new RodVector[_newton.Gradient.Length];
             _totalLength = _rod.TotalLength;
@@ -166,7 +169,7 @@ namespace Guidewire.Core
         {
             Factorisations++;
             int negative = _newton.Factorise(shape, 0.0);
-            if (negative > 0)
+            if (negative > 0 && _hasFriction)
             {
                 _newton.System.ReflectNegativePivots(_newton.Direction);
                 _newton.System.Back(_newton.Direction);
@@ -174,6 +177,9 @@ namespace Guidewire.Core
                 {
                     return;
                 }
+            }
+            if (negative > 0)
+            {
                 Stiffen(isStiffened, true);
                 Factorisations++;
                 negative = _newton.Factorise(shape, 0.0);
