@@ -29,7 +29,6 @@ namespace Guidewire.Io
         private readonly List<string> _ignored = new List<string>();
 
         private bool _isSteered;
-
         private readonly ParameterSource _from;
 
         private ParameterHandler(ParameterSource from)
