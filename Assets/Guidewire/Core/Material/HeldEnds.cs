@@ -182,8 +182,8 @@ namespace Guidewire.Core
             {
                 move = Math.Abs(coaxial.Lead - _lead);
                 turn = Math.Abs(coaxial.HubTwist - _hubTwist);
-                Work += Math.Abs(coaxial.InnerForce(shape, _terms.Stretch)) * move
-                    + Math.Abs(coaxial.InnerTorque(shape)) * turn;
+                Work += move > 0.0 ? Math.Abs(coaxial.InnerForce(shape, _terms.Stretch)) * move : 0.0;
+                Work += turn > 0.0 ? Math.Abs(coaxial.InnerTorque(shape)) * turn : 0.0;
             }
         }
 
