@@ -5,8 +5,6 @@ namespace Guidewire.Core
     /// <summary>Builds the step of a run with a material, once, from its parameters.</summary>
     internal static class MaterialSetup
     {
-        // A search for a rest shape starts far away and may take more than a stage of a motion.
-        public const int EquilibriumFactor = 10;
 
         /// <summary>What makes the stepper of a scene, its rest shape found.</summary>
         /// <param name="parameters">The run's.</param>
@@ -35,7 +33,7 @@ namespace Guidewire.Core
             if (isAtRest && failure == null)
             {
                 failure = new RestShape(scene, terms, Math.Min(parameters.Method.SolverTolerance, 1e-9),
-                    EquilibriumFactor * parameters.Method.MaxNewtonIterations, report).Find(scene.Shape);
+                    RestShape.IterationFactor * parameters.Method.MaxNewtonIterations, report).Find(scene.Shape);
             }
             else if (scene.Supports.Proximal != ProximalEnd.Free && scene.Walls.Length == 0)
             {

@@ -47,7 +47,7 @@ namespace Guidewire.Core
             _velocities = new Vector3d[n + 1];
             _spins = new Vector3d[n];
             _hub = new HubRecord(_setup.Wire.Rod, _setup.Wire.Supports);
-            _record = new CoaxialRecord(_setup);
+            _record = new CoaxialRecord(_setup.Catheter.Rod.ElementCount, _setup.Wire.Metres, _setup.LumenRadius);
             if (_setup.Wire.Walls.Length > 0)
             {
                 string? outside = _setup.FindProblemOfStart();
@@ -69,7 +69,7 @@ namespace Guidewire.Core
             if (IsAtRest)
             {
                 failure = new RestShape(scene, terms, Math.Min(_method.SolverTolerance, 1e-9),
-                    MaterialSetup.EquilibriumFactor * _method.MaxNewtonIterations, report).Find(shape);
+                    RestShape.IterationFactor * _method.MaxNewtonIterations, report).Find(shape);
                 IsAtRest = failure == null;
             }
             Start(scene, terms, 0.0, 0.0);

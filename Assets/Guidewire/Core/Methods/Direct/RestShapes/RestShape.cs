@@ -8,6 +8,9 @@ namespace Guidewire.Core
     /// does not get there from the straight shape.</summary>
     internal sealed class RestShape
     {
+        /// <summary>Iterations over those of a stage of a motion: a search may start far away.</summary>
+        public const int IterationFactor = 10;
+
         private const double LargestShift = 0.01;  // of L a part
         private const double MostShifts = 1000.0;  // parts of a shift; by more than 10 L each is larger
 

@@ -27,12 +27,15 @@ namespace Guidewire.Core
         private double _mismatch;         // 1/m
         private double _reduced;          // B_r, N m^2
 
-        internal CoaxialRecord(CoaxialSetup setup)
+        /// <param name="elements">n of the catheter.</param>
+        /// <param name="metres">A unit of length.</param>
+        /// <param name="lumenRadius">Of the catheter, m.</param>
+        internal CoaxialRecord(int elements, double metres, double lumenRadius)
         {
-            _units = 1.0 / setup.Wire.Metres;
-            Positions = new Vector3d[setup.Catheter.Rod.ElementCount + 1];
-            Orientations = new Quaterniond[setup.Catheter.Rod.ElementCount];
-            _lumen = setup.LumenRadius;
+            _units = 1.0 / metres;
+            Positions = new Vector3d[elements + 1];
+            Orientations = new Quaterniond[elements];
+            _lumen = lumenRadius;
         }
 
         /// <summary>The catheter's n + 1 nodes, units.</summary>
