@@ -5,7 +5,6 @@ namespace Guidewire.Core
     /// <summary>Builds the step of a run with a material, once, from its parameters.</summary>
     internal static class MaterialSetup
     {
-
         /// <summary>What makes the stepper of a scene, its rest shape found.</summary>
         /// <param name="parameters">The run's.</param>
         /// <param name="scene">The rod at its start.</param>
