@@ -26,6 +26,10 @@ namespace Guidewire.Core
         private double _play;             // where the play angle has been the largest, m
         private double _mismatch;         // 1/m
         private double _reduced;          // B_r, N m^2
+        private double _asked;            // of the catheter's hub, m
+        private double _gone;
+        private double _wireAsked;
+        private double _wireGone;
 
         /// <param name="elements">n of the catheter.</param>
         /// <param name="metres">A unit of length.</param>
@@ -56,8 +60,23 @@ namespace Guidewire.Core
         /// <summary>Torque of the catheter's hub, N m.</summary>
         public double Torque { get; private set; }
 
+        /// <summary>Displacement that the catheter's hub was asked, there and back both counted, m.</summary>
+        public double Asked => _asked;
+
+        /// <summary>What it went of that, m.</summary>
+        public double Gone => _gone;
+
         /// <summary>Displacement that the catheter's hub has lost, m.</summary>
         public double Shortfall { get; private set; }
+
+        /// <summary>Displacement that the wire's hub was asked, there and back both counted, m.</summary>
+        public double WireAsked => _wireAsked;
+
+        /// <summary>What it went of that, m.</summary>
+        public double WireGone => _wireGone;
+
+        /// <summary>Displacement that the wire's hub has lost, m.</summary>
+        public double WireShortfall { get; private set; }
 
         /// <summary>Force of the wire's hub, N.</summary>
         public double WireForce { get; private set; }
@@ -129,15 +148,30 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>Counts a step that both drives have prepared.</summary>
+        /// <param name="from">Insertion of the catheter's hub before it, m.</param>
+        /// <param name="wireFrom">The same of the wire's.</param>
+        internal void TakeStep(MaterialDrive drive, double from, MaterialDrive wireDrive, double wireFrom)
+        {
+            _asked += drive.Asked;
+            _gone += Math.Abs(drive.Insertion - from);
+            _wireAsked += wireDrive.Asked;
+            _wireGone += Math.Abs(wireDrive.Insertion - wireFrom);
+        }
+
         internal void Serialize(Snapshot snapshot)
         {
             snapshot.Serialize(ref _play);
             snapshot.Serialize(ref _mismatch);
             snapshot.Serialize(ref _reduced);
+            snapshot.Serialize(ref _asked);
+            snapshot.Serialize(ref _gone);
+            snapshot.Serialize(ref _wireAsked);
+            snapshot.Serialize(ref _wireGone);
         }
 
-        internal void Take(CoaxialJoints joints, RodTerms terms, RodShape shape, MaterialDrive drive, double force,
-            double torque, double wireForce, double wireTorque)
+        internal void Take(CoaxialJoints joints, RodTerms terms, RodShape shape, MaterialDrive drive,
+            MaterialDrive wireDrive, double force, double torque, double wireForce, double wireTorque)
         {
             int tip = joints.OuterCount;
             for (int i = 0; i <= tip; i++)
@@ -148,6 +182,7 @@ namespace Guidewire.Core
             Insertion = drive.Insertion;
             Turn = drive.Turn;
             Shortfall = drive.Slip;
+            WireShortfall = wireDrive.Slip;
             Force = force;
             Torque = torque;
             WireForce = wireForce;

@@ -78,6 +78,9 @@ namespace Guidewire.Io
             };
             if (simulation.Coaxial() is CoaxialRecord catheter)
             {
+                json.Property("hub")!.AddAfterSelf(new JProperty("hubs", new JArray(
+                    HubTravel(catheter.WireAsked, catheter.WireGone, catheter.WireShortfall),
+                    HubTravel(catheter.Asked, catheter.Gone, catheter.Shortfall))));
                 json.Property("hub")!.AddAfterSelf(new JProperty("catheters", new JArray(Catheter(catheter))));
             }
             if (target != null)
@@ -158,6 +161,16 @@ namespace Guidewire.Io
             };
         }
 
+        private static JObject HubTravel(double asked, double gone, double shortfall)
+        {
+            return new JObject
+            {
+                ["asked"] = Finite(asked),
+                ["gone"] = Finite(gone),
+                ["shortfall"] = Finite(shortfall),
+            };
+        }
+
         /// <summary>What is read off of a catheter, as summaries and answers have it.</summary>
         public static JObject Catheter(CoaxialRecord catheter)
         {
@@ -168,7 +181,6 @@ namespace Guidewire.Io
                 ["turn"] = Finite(catheter.Turn),
                 ["force"] = Finite(catheter.Force),
                 ["torque"] = Finite(catheter.Torque),
-                ["shortfall"] = Finite(catheter.Shortfall),
                 ["tipPosition"] = Vector(nodes[nodes.Length - 1]),
                 ["tipDirection"] = Vector(catheter.Orientations[catheter.Orientations.Length - 1].Director3),
                 ["extension"] = Finite(catheter.Extension),

@@ -134,8 +134,11 @@ namespace Guidewire.Core
         private void BeginStep()
         {
             LimitDrives();
+            double catheter = _catheterDrive.Insertion;
+            double wire = _wireDrive.Insertion;
             _catheterDrive.Prepare(_dynamics.Shape, _dynamics.Time);
             _wireDrive.Prepare(_dynamics.Shape, _dynamics.Time);
+            _record.TakeStep(_catheterDrive, catheter, _wireDrive, wire);
         }
 
         // Until the first wire node beyond the tip is as near to it as one may come, s: there it goes, before the
@@ -186,7 +189,7 @@ namespace Guidewire.Core
             RodShape shape = _dynamics.Shape;
             double force = Bending.InnerForce(shape, terms.Stretch);
             double torque = Bending.InnerTorque(shape);
-            _record.Take(_rod.Joints, terms, shape, _catheterDrive,
+            _record.Take(_rod.Joints, terms, shape, _catheterDrive, _wireDrive,
                 Vector3d.Dot(_dynamics.ReactionAt(0), _setup.Axis) - force,
                 Vector3d.Dot(terms.Bending.ProximalCouple(shape), _setup.Axis) - torque, force, torque);
             return _record;

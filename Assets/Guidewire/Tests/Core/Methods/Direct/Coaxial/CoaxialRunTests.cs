@@ -164,6 +164,8 @@ namespace Guidewire.Core.Tests
             Assert.That(other.State.Orientations, Is.EqualTo(run.State.Orientations));
             Assert.That(other.Coaxial()!.Positions, Is.EqualTo(run.Coaxial()!.Positions));
             Assert.That(other.Coaxial()!.WireForce, Is.EqualTo(run.Coaxial()!.WireForce));
+            Assert.That(other.Coaxial()!.WireAsked, Is.EqualTo(run.Coaxial()!.WireAsked));
+            Assert.That(other.Coaxial()!.Gone, Is.EqualTo(run.Coaxial()!.Gone));
             parameters.Scene.Catheters = Array.Empty<Catheter>();
             Assert.That(() => run.Continue(parameters), Throws.ArgumentException.With.Message.StartsWith("catheters"));
         }
@@ -182,13 +184,25 @@ namespace Guidewire.Core.Tests
                 new Steering { Push = catheter / Unit * parameters.Method.TimeStep };
             Simulation run = Simulation.Create(parameters);
             double start = run.Coaxial()!.Extension;
+            double went = 0.0;
+            double wireWent = 0.0;
+            CoaxialRecord record = run.Coaxial()!;
             for (int k = 0; k < 500 && run.Outcome == Outcome.Running; k++)
             {
+                double from = record.Insertion;
+                double wireFrom = run.Hub()!.Insertion;
                 run.Step();
+                record = run.Coaxial()!;
+                went += Math.Abs(record.Insertion - from);
+                wireWent += Math.Abs(run.Hub()!.Insertion - wireFrom);
             }
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Running), run.Reason);
-            CoaxialRecord record = run.Coaxial()!;
             double asked = 500.0 * parameters.Method.TimeStep;
+            Assert.That(record.Asked, Is.EqualTo(asked * Math.Abs(catheter)).Within(1e-9));
+            Assert.That(record.WireAsked, Is.EqualTo(asked * Math.Abs(wire)).Within(1e-9));
+            Assert.That(record.Gone, Is.EqualTo(went).Within(1e-9));
+            Assert.That(record.WireGone, Is.EqualTo(wireWent).Within(1e-9));
+            Assert.That(record.WireShortfall, Is.EqualTo(asked * Math.Abs(wire) - wireWent).Within(1e-9));
             Assert.That(Math.Abs(run.Hub()!.Insertion) + (wire == 0.0 ? 0.0 : WireShortfall(run, asked * wire)),
                 Is.EqualTo(asked * Math.Abs(wire)).Within(1e-9));
             Assert.That(Math.Abs(record.Insertion) + record.Shortfall, Is.EqualTo(asked * Math.Abs(catheter))
