@@ -162,9 +162,13 @@ def test_every_key_of_a_summary_is_explained(runner_command, tmp_path, parameter
 def test_every_explained_key_of_a_summary_is_one(runner_command, tmp_path):
     summary = json.loads((run(runner_command, tmp_path, ROOT / "params/cantilever.json", maxSimulationSteps=1)
                           / "summary.json").read_text())
+    coaxial = json.loads((run(runner_command, tmp_path / "coaxial", ROOT / "params/catheter.json", maxSimulationSteps=2)
+                          / "summary.json").read_text())
     explained = table_keys(section(RUNS, "## summary.json"))
-    assert set(explained) == {
-        *summary, *summary["solver"], *summary["versions"], *summary["hub"], *summary["extremes"]}
+    assert set(explained) == {*summary, *summary["solver"], *summary["versions"], *summary["hub"], *summary["extremes"],
+                              *coaxial, *coaxial["hubs"][0]}
+    for hub in coaxial["hubs"]:
+        assert hub["gone"] + hub["shortfall"] == pytest.approx(hub["asked"], abs=1e-9)
 
 
 _SHEATHED = {

@@ -195,7 +195,8 @@ def test_a_gamepad_and_a_finger_steer_and_what_was_steered_is_saved(browse, runn
             ["see", "pad.axes[1] = 0.05"], ["until", "viewer.shown.steering.push === 0"],
             ["see", touch], ["see", STEERED], ["until", f"{HUB} > 0.01"], ["see", lift], ["see", STEERED],
             ["see", "pad.buttons[0].pressed = true"], ["until", "viewer.shown.status.isPaused"],
-            ["see", "fetch('steered.csv').then((answer) => answer.text())"], ["see", HUB],
+            ["see", "fetch('steered.csv').then((answer) => answer.text()).then((text) => window.saved = text)"],
+            ["until", f"Math.abs({HUB} - saved.trim().split('\\n').pop().split(',')[1]) < 1e-9 * {HUB}"], ["see", HUB],
             ["see", "[...document.querySelectorAll('button, select, input, canvas[tabindex]')].filter((one) =>"
                     " !(one.textContent.trim() || one.getAttribute('aria-label') || one.closest('label')))"
                     ".map((one) => one.outerHTML)"],
