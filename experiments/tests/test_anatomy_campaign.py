@@ -82,7 +82,7 @@ def test_a_wire_beside_the_wall_and_a_hub_that_lies_are_claimed(runner_command, 
         artery, scene, summary | {"reliable": not summary["reliable"]}, positions))
 
 
-@pytest.mark.parametrize("target", [2, 3])
+@pytest.mark.parametrize("target", [2, 3] if FULL else [3])  # the other arm takes twice the attempts
 def test_a_wire_is_steered_into_each_arm_and_its_drive_repeats_it(runner_command, tmp_path, target):
     scene = artery_folder.write(tmp_path / "artery", target)
     found = navigation.steer(scene)
