@@ -76,27 +76,6 @@ def environment_rate(native: bool, seed: int = 0) -> tuple[float, float]:
     return float(np.median(rates[WARM_UP:])), float(np.median(resets[WARM_UP:]))
 
 
-def environment_rate(native: bool, seed: int = 0) -> tuple[float, float]:
-    """Steps a second of the environment `artery` under turn and retry, and the median time of a reset to a start that
-    is loaded, ms."""
-    with Environment("artery", native=native) as environment:
-        policy = TurnAndRetry(environment)
-        starts = [{"target": target, "friction": 0.05, "tip_turn": 0.5, "insertion": 0.09} for target in (0, 1)]
-        rates, resets = [], []
-        for episode in range(WARM_UP + 4 * ROUNDS):
-            before = time.perf_counter()
-            observation, _ = environment.reset(seed=seed + episode, options=starts[episode % 2])
-            began = time.perf_counter()
-            policy.reset(observation)
-            steps, ended = 0, False
-            while not ended:
-                observation, _, terminated, truncated, _ = environment.step(policy.act(observation))
-                steps, ended = steps + 1, terminated or truncated
-            rates.append(steps / (time.perf_counter() - began))
-            resets.append(1e3 * (began - before))
-    return float(np.median(rates[WARM_UP:])), float(np.median(resets[WARM_UP:]))
-
-
 def main() -> None:
     natives = (False, True) if building.native_library() else (False,)
     for name, overrides in (("a tube", {"vessel": tube()}), ("a mesh", {})):
