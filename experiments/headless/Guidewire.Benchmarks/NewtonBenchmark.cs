@@ -1,3 +1,5 @@
+using System;
+using System.Collections.Generic;
 using BenchmarkDotNet.Attributes;
 using Guidewire.Core;
 
@@ -19,6 +21,8 @@ namespace Guidewire.Benchmarks
         private RodShape _moved = null!;
         private RodVector[] _gradient = null!;
         private RodVector[] _direction = null!;
+        private RodVector[] _step = null!;
+        private RodBlock[] _blocks = null!;
 
         /// <summary>n.</summary>
         [Params(30, 1000, 10000, 100000)]
@@ -45,11 +49,45 @@ namespace Guidewire.Benchmarks
             {
                 _shape.Q[j] *= RotationVector.Exp(new Vector3d(Turn, 0.5 * Turn, Turn));
             }
-            System.Array.Copy(_shape.X, inertia.FreePositions, Elements + 1);
+            Array.Copy(_shape.X, inertia.FreePositions, Elements + 1);
             _system = new BlockTridiagonal(_rod, _supports);
             _gradient = new RodVector[_system.VectorCount];
             _direction = new RodVector[_system.VectorCount];
+            _blocks = new RodBlock[Elements + 2];
             Newton();
+            _step = (RodVector[])_direction.Clone();
+        }
+
+        /// <summary>The parts of an iteration, and of what stands beside it in a search along the energy.</summary>
+        public IEnumerable<(string Name, Action Part)> Parts()
+        {
+            EnergyTerm stretch = _terms[0];
+            EnergyTerm bending = _terms[1];
+            EnergyTerm inertia = _terms[_terms.Length - 1];
+            EnergyTerm[] loads = _terms[2..^1];
+            EnergyTerm[] regular = { inertia };
+            yield return ("Newton iteration", () => Newton());
+            yield return ("iteration, factorisation kept", Kept);
+            yield return ("assembly, elimination", () => Factorise(_terms));
+            yield return ("elimination and inertia blocks", () => Factorise(regular));
+            yield return ("blocks: stretch", () => Blocks(stretch));
+            yield return ("blocks: bend-twist", () => Blocks(bending));
+            yield return ("blocks: inertia", () => Blocks(inertia));
+            yield return ("blocks: loads", () => Array.ForEach(loads, Blocks));
+            yield return ("back substitution", () => _system.Back(_direction));
+            yield return ("forward and back substitution", () => _system.Solve(_direction));
+            yield return ("size of the step", () => RodStep.Size(_step, Elements, _rod.TotalLength, out _));
+            yield return ("move", () => RodStep.Apply(_rod, _supports, _shape, _step, 1.0, _moved));
+            yield return ("move on straight lines", () => RodStep.ApplyStraight(_shape, _step, 1.0, _moved));
+            yield return ("gradient", () => _system.Gradient(_terms, _shape, _gradient, _direction));
+            yield return ("gradient: stretch", () => Gradient(stretch));
+            yield return ("gradient: bend-twist", () => Gradient(bending));
+            yield return ("gradient: inertia", () => Gradient(inertia));
+            yield return ("value", () => EnergySum.Value(_terms, _shape, out _));
+            yield return ("value: stretch", () => stretch.Value(_shape));
+            yield return ("value: bend-twist", () => bending.Value(_shape));
+            yield return ("value: inertia", () => inertia.Value(_shape));
+            yield return ("anchor", () => EnergySum.Anchor(_terms, _shape));
         }
 
         [Benchmark]
@@ -69,6 +107,22 @@ namespace Guidewire.Benchmarks
             _system.Gradient(_terms, _shape, _gradient, _direction);
             _system.Solve(_direction);
             Move();
+        }
+
+        private void Factorise(EnergyTerm[] terms)
+        {
+            _system.Factorise(terms, _shape, _gradient, _direction, 0.0);
+        }
+
+        private void Blocks(EnergyTerm term)
+        {
+            term.AddBlocks(_shape, _blocks, _gradient, 0, Elements + 1);
+        }
+
+        private void Gradient(EnergyTerm term)
+        {
+            var measured = default(GradientMeasures);
+            term.AddGradient(_shape, _gradient, 0, Elements + 1, ref measured);
         }
 
         private void Move()

@@ -34,6 +34,11 @@ namespace Guidewire.Benchmarks
                 PrintArch();
                 return 0;
             }
+            if (arguments.Contains("--newton"))
+            {
+                NewtonParts.Print();
+                return 0;
+            }
             if (arguments.Contains("--sheath"))
             {
                 SheathFeed.Print();
@@ -74,6 +79,7 @@ namespace Guidewire.Benchmarks
             {
                 LaneBenchmark.Print();
                 PrintNewton();
+                NewtonParts.Print();
                 PrintCantilever();
                 PrintArch();
                 SheathFeed.Print();
