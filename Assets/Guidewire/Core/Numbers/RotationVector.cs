@@ -10,10 +10,10 @@ namespace Guidewire.Core
     internal static class RotationVector
     {
         // Below |sin(angle/2)|^2 = 0.02 eight terms of asin(s)/s are exact to 1e-16.
-        private const double SmallSineSquared = 0.02;
+        public const double SmallSineSquared = 0.02;
 
         // Below angle^2 = 0.09 six terms of the cotangent series are exact to 1e-16.
-        private const double SmallAngleSquared = 0.09;
+        public const double SmallAngleSquared = 0.09;
 
         /// <summary>The unit quaternion that turns by <paramref name="theta"/>.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -109,9 +109,18 @@ namespace Guidewire.Core
             {
                 sum += _law.Value(First, FirstRelative(shape));
             }
-            for (int k = 1; k < n; k++)
+            int j = 0;
+            while (j < n - 1)
             {
-                sum += _law.Value(_joint[k], shape.Q[k - 1].Conjugate * shape.Q[k]);
+                int stop = Math.Min(j + 4, n - 1);
+                if (stop == j + 4 && HasLanes && RotationVectorLanes.AddValue(_joint, shape, j, ref sum))
+                {
+                    j = stop;
+                }
+                for (; j < stop; j++)
+                {
+                    sum += _law.Value(_joint[j + 1], Relative(shape, j));
+                }
             }
             if (_hasDistal)
             {
@@ -131,9 +140,18 @@ namespace Guidewire.Core
                     ref gradient[0]);
             }
             int end = to < n - 1 ? to : n - 1;
-            for (int j = from; j < end; j++)
+            int j = from;
+            while (j < end)
             {
-                _law.AddGradient(_joint[j + 1], Relative(shape, j), ref gradient[j], ref gradient[j + 1]);
+                int stop = Math.Min(j + 4, end);
+                if (stop == j + 4 && HasLanes && RotationVectorLanes.AddGradient(_joint, shape, gradient, j))
+                {
+                    j = stop;
+                }
+                for (; j < stop; j++)
+                {
+                    _law.AddGradient(_joint[j + 1], Relative(shape, j), ref gradient[j], ref gradient[j + 1]);
+                }
             }
             if (to >= n && from < n && _hasDistal)
             {
@@ -159,10 +177,20 @@ namespace Guidewire.Core
                     ref _clampBlock, ref blocks[0]);
             }
             int end = to < n - 1 ? to : n - 1;
-            for (int j = from; j < end; j++)
+            int j = from;
+            while (j < end)
             {
-                AddJoint(_joint[j + 1], Relative(shape, j), ref gradient[j], ref gradient[j + 1], ref blocks[j],
-                    ref blocks[j + 1]);
+                int stop = Math.Min(j + 4, end);
+                if (stop == j + 4 && HasLanes
+                    && RotationVectorLanes.AddBlocks(_joint, shape, blocks, gradient, j, _isStiffened))
+                {
+                    j = stop;
+                }
+                for (; j < stop; j++)
+                {
+                    AddJoint(_joint[j + 1], Relative(shape, j), ref gradient[j], ref gradient[j + 1], ref blocks[j],
+                        ref blocks[j + 1]);
+                }
             }
             if (to >= n && from < n && _hasDistal)
             {
@@ -324,6 +352,8 @@ namespace Guidewire.Core
             _winding = turn;
             _wound = Quaterniond.FromAxisAngle(Vector3d.UnitZ, turn);
         }
+
+        private static bool HasLanes => typeof(TLaw) == typeof(RotationVectorLaw);
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         private static Quaterniond Relative(RodShape shape, int j)

@@ -3,19 +3,19 @@ using System.Runtime.InteropServices;
 namespace Guidewire.Core
 {
     /// <summary>What one node and the element after it hold of a symmetric matrix over (x_0, theta_0, x_1, theta_1,
-    /// ...): 48 numbers, six lines of cache, each 3x3 block contiguous by rows.</summary>
+    /// ...): 48 numbers, six lines of cache, column by column of the matrix from its diagonal down.</summary>
     /// <remarks>A = (x, x), B = (theta, x), C = (theta, theta), and against the next node
     /// D = (x+, x), E = (x+, theta), F = (theta+, theta). Row index first; of A and C the lower triangle. The pair
     /// (theta+, x) does not occur: a node's position acts on the elements at its two sides only.</remarks>
     [StructLayout(LayoutKind.Sequential)]
     internal struct RodBlock
     {
-        public double A11, A21, A22, A31, A32, A33;
-        public double B11, B12, B13, B21, B22, B23, B31, B32, B33;
-        public double C11, C21, C22, C31, C32, C33;
-        public double D11, D12, D13, D21, D22, D23, D31, D32, D33;
-        public double E11, E12, E13, E21, E22, E23, E31, E32, E33;
-        public double F11, F12, F13, F21, F22, F23, F31, F32, F33;
+        public double A11, A21, A31, B11, B21, B31, D11, D21, D31;
+        public double A22, A32, B12, B22, B32, D12, D22, D32;
+        public double A33, B13, B23, B33, D13, D23, D33;
+        public double C11, C21, C31, E11, E21, E31, F11, F21, F31;
+        public double C22, C32, E12, E22, E32, F12, F22, F32;
+        public double C33, E13, E23, E33, F13, F23, F33;
 
         /// <summary>Adds a stiffness h against motions of the point at s of an element, from 0 at its node to 1 at the
         /// next.</summary>

@@ -39,7 +39,14 @@ namespace Guidewire.Core
         public override double Value(RodShape shape)
         {
             double sum = 0.0;
-            for (int j = 0; j < _length.Length; j++)
+            int first = 0;
+#if NET8_0_OR_GREATER
+            if (HasLanes)
+            {
+                first = StretchLanes.AddValue(shape, _length, _shear, _stretch, 0, _length.Length, ref sum);
+            }
+#endif
+            for (int j = first; j < _length.Length; j++)
             {
                 Vector3d n = Stress(shape, j, out Vector3d p);
                 Vector3d strain = p - (_rest == null ? Vector3d.UnitZ : _rest[j]);
@@ -65,6 +72,12 @@ namespace Guidewire.Core
         {
             int end = to < _length.Length ? to : _length.Length;
             double largest = 0.0;
+#if NET8_0_OR_GREATER
+            if (HasLanes)
+            {
+                from = StretchLanes.AddGradient(shape, _length, _shear, _stretch, gradient, from, end, ref largest);
+            }
+#endif
             for (int j = from; j < end; j++)
             {
                 Vector3d n = Stress(shape, j, out Vector3d p);
@@ -79,6 +92,13 @@ namespace Guidewire.Core
         public override void AddBlocks(RodShape shape, RodBlock[] blocks, RodVector[] gradient, int from, int to)
         {
             int end = to < _length.Length ? to : _length.Length;
+#if NET8_0_OR_GREATER
+            if (HasLanes)
+            {
+                from = StretchLanes.AddBlocks(shape, _length, _shear, _stretch, blocks, gradient, from, end,
+                    _isStiffened);
+            }
+#endif
             for (int j = from; j < end; j++)
             {
                 double l = _length[j];
@@ -142,6 +162,10 @@ namespace Guidewire.Core
                 block.C32 += lh * (g.Y * p.Z + g.Z * p.Y) - ls * p.Y * p.Z;
             }
         }
+
+#if NET8_0_OR_GREATER
+        private bool HasLanes => _rest == null && Rows4.IsSupported;
+#endif
 
         private Vector3d StressFrom(in Vector3d rest, in Vector3d p, int j)
         {

@@ -18,35 +18,55 @@ namespace Guidewire.Core
             int n = rod.ElementCount;
             to.ProximalFrame = shape.ProximalFrame;
             to.DistalFrame = shape.DistalFrame;
-            RodVector d = direction[0];
-            Vector3d move = new Vector3d(scale * d.X1, scale * d.X2, scale * d.X3);
-            Vector3d x = shape.X[0] + move;
+            Vector3d x = shape.X[0] + Move(direction[0], scale);
             Vector3d old = shape.X[0];
             to.X[0] = x;
-            for (int j = 0; j < n; j++)
+            int j = 0;
+            while (j < n)
             {
-                Vector3d turn = new Vector3d(scale * d.T1, scale * d.T2, scale * d.T3);
-                d = direction[j + 1];
-                Vector3d nextMove = new Vector3d(scale * d.X1, scale * d.X2, scale * d.X3);
-                Vector3d nextOld = shape.X[j + 1];
-                Quaterniond q = shape.Q[j];
-                Quaterniond inverse = q.Conjugate;
-                Vector3d chord = Quaterniond.Rotate(inverse, nextOld - old);
-                Vector3d changed = chord + Quaterniond.Rotate(inverse, nextMove - move)
-                    + Vector3d.Cross(chord, turn);
-                q = q * RotationVector.Exp(turn);
-                q = (1.5 - 0.5 * q.LengthSquared) * q;
-                to.Q[j] = q;
-                x += Quaterniond.Rotate(q, changed);
-                to.X[j + 1] = x;
-                move = nextMove;
-                old = nextOld;
+                int stop = Math.Min(j + 4, n);
+                if (stop == j + 4 && StepLanes.Apply(shape, direction, scale, to, j, ref old, ref x))
+                {
+                    j = stop;
+                }
+                for (; j < stop; j++)
+                {
+                    MoveElement(shape, direction, scale, to, j, ref old, ref x);
+                }
             }
             ApplyTwist(shape, direction, scale, to);
             if (supports.Distal != DistalEnd.Free)
             {
-                Close(supports, to, old + move);
+                Close(supports, to, old + Move(direction[n], scale));
             }
+        }
+
+        /// <summary>Element j and the node after it, of <see cref="Apply"/>.</summary>
+        /// <param name="old">In and out: the last node before the step, m.</param>
+        /// <param name="x">In and out: the last node after it.</param>
+        public static void MoveElement(RodShape shape, RodVector[] direction, double scale, RodShape to, int j,
+            ref Vector3d old, ref Vector3d x)
+        {
+            RodVector d = direction[j];
+            Vector3d turn = new Vector3d(scale * d.T1, scale * d.T2, scale * d.T3);
+            Vector3d nextOld = shape.X[j + 1];
+            Quaterniond q = shape.Q[j];
+            Quaterniond inverse = q.Conjugate;
+            Vector3d chord = Quaterniond.Rotate(inverse, nextOld - old);
+            Vector3d changed = chord
+                + Quaterniond.Rotate(inverse, Move(direction[j + 1], scale) - Move(d, scale))
+                + Vector3d.Cross(chord, turn);
+            q = q * RotationVector.Exp(turn);
+            q = (1.5 - 0.5 * q.LengthSquared) * q;
+            to.Q[j] = q;
+            x += Quaterniond.Rotate(q, changed);
+            to.X[j + 1] = x;
+            old = nextOld;
+        }
+
+        private static Vector3d Move(in RodVector d, double scale)
+        {
+            return new Vector3d(scale * d.X1, scale * d.X2, scale * d.X3);
         }
 
         /// <summary>The same with positions on straight lines, on which gaps to walls are bounded
@@ -56,17 +76,24 @@ namespace Guidewire.Core
             int n = shape.ElementCount;
             to.ProximalFrame = shape.ProximalFrame;
             to.DistalFrame = shape.DistalFrame;
-            for (int j = 0; j <= n; j++)
+            int j = 0;
+            while (j < n)
             {
-                RodVector d = direction[j];
-                to.X[j] = shape.X[j] + new Vector3d(scale * d.X1, scale * d.X2, scale * d.X3);
-                if (j < n)
+                int stop = Math.Min(j + 4, n);
+                if (stop == j + 4 && StepLanes.ApplyStraight(shape, direction, scale, to, j))
                 {
+                    j = stop;
+                }
+                for (; j < stop; j++)
+                {
+                    RodVector d = direction[j];
+                    to.X[j] = shape.X[j] + Move(d, scale);
                     Quaterniond q = shape.Q[j]
                         * RotationVector.Exp(new Vector3d(scale * d.T1, scale * d.T2, scale * d.T3));
                     to.Q[j] = (1.5 - 0.5 * q.LengthSquared) * q;
                 }
             }
+            to.X[n] = shape.X[n] + Move(direction[n], scale);
             ApplyTwist(shape, direction, scale, to);
         }
 

@@ -22,7 +22,7 @@ namespace Guidewire.Core
         private readonly Vector3d[] _anchorCouple;
         private double _nodes;                // energy of the nodes in the shape whose value was asked last, J
         private readonly Quaterniond[] _seen;      // orientations whose couples are known in this stage
-        private readonly Vector3d[] _seenCouple;
+        private readonly Vector3d[] _couple;         // found last, N m
         private readonly Vector3d[] _countedTurn;  // phi with its full turns, in the shape that was last evaluated
         private readonly Vector3d[] _keptTurn;
 
@@ -37,7 +37,7 @@ namespace Guidewire.Core
             _anchor = new Quaterniond[n];
             _anchorCouple = new Vector3d[n];
             _seen = new Quaterniond[n];
-            _seenCouple = new Vector3d[n];
+            _couple = new Vector3d[n];
             _countedTurn = new Vector3d[n];
             _keptTurn = new Vector3d[n];
             Start = new Quaterniond[n];
@@ -183,11 +183,9 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void Anchor(RodShape shape)
         {
-            for (int j = 0; j < _anchor.Length; j++)
-            {
-                _anchor[j] = shape.Q[j];
-                _anchorCouple[j] = Couple(shape.Q[j], j);
-            }
+            Array.Copy(shape.Q, _anchor, _anchor.Length);
+            FindCouples(shape, 0, _anchor.Length);
+            Array.Copy(_couple, _anchorCouple, _couple.Length);
         }
 
         /// <inheritdoc/>
@@ -205,13 +203,26 @@ namespace Guidewire.Core
                 {
                     Vector3d e = shape.X[i + 1] - FreePositions[i + 1];
                     nodes += _coupling[i] * Vector3d.Dot(d, e);
-                    Vector3d turn = RotationVector.Log(_anchor[i].Conjugate * shape.Q[i]);
-                    Vector3d rotary = _rotary[i];
-                    turns += Vector3d.Dot(_anchorCouple[i], turn) + 0.5 * perTurn * (rotary.X * turn.X * turn.X
-                        + rotary.Y * turn.Y * turn.Y + rotary.Z * turn.Z * turn.Z);
                 }
             }
             _nodes = perSquare * nodes;
+            int j = 0;
+            while (j < _rotary.Length)
+            {
+                int stop = Math.Min(j + 4, _rotary.Length);
+                if (stop == j + 4
+                    && InertiaLanes.AddWork(_anchor, _anchorCouple, _rotary, perTurn, shape, j, ref turns))
+                {
+                    j = stop;
+                }
+                for (; j < stop; j++)
+                {
+                    Vector3d turn = RotationVector.Log(_anchor[j].Conjugate * shape.Q[j]);
+                    Vector3d rotary = _rotary[j];
+                    turns += Vector3d.Dot(_anchorCouple[j], turn) + 0.5 * perTurn * (rotary.X * turn.X * turn.X
+                        + rotary.Y * turn.Y * turn.Y + rotary.Z * turn.Z * turn.Z);
+                }
+            }
             return _nodes + turns;
         }
 
@@ -221,7 +232,10 @@ namespace Guidewire.Core
         {
             double perSquare = 1.0 / (StageLength * StageLength);
             int nodes = Math.Min(to, _diagonal.Length);
-            for (int i = from; i < nodes; i++)
+            int elements = Math.Min(to, _coupling.Length);
+            FindCouples(shape, from, elements);
+            int first = InertiaLanes.AddGradient(this, _diagonal, _coupling, _couple, shape, gradient, from, elements);
+            for (int i = first; i < nodes; i++)
             {
                 Vector3d a = perSquare * (shape.X[i] - FreePositions[i]);
                 double mass = _diagonal[i];
@@ -234,7 +248,7 @@ namespace Guidewire.Core
                     gradient[i + 1].X1 += coupling * a.X;
                     gradient[i + 1].X2 += coupling * a.Y;
                     gradient[i + 1].X3 += coupling * a.Z;
-                    Vector3d couple = Couple(shape.Q[i], i);
+                    Vector3d couple = _couple[i];
                     gradient[i].T1 += couple.X;
                     gradient[i].T2 += couple.Y;
                     gradient[i].T3 += couple.Z;
@@ -282,21 +296,43 @@ namespace Guidewire.Core
             b.A33 += mass;
         }
 
-        /// <summary>I (w - w^)/h + w x I w + a I w.</summary>
-        private Vector3d Couple(in Quaterniond orientation, int j)
+        // I (w - w^)/h + w x I w + a I w of elements from (inclusive) to to (exclusive).
+        private void FindCouples(RodShape shape, int from, int to)
         {
-            if (!RemembersCouples)
+            int j = from;
+            while (j < to)
             {
-                return FindCouple(orientation, j);
+                int stop = Math.Min(j + 4, to);
+                if (stop == j + 4 && IsNew(shape, j)
+                    && InertiaLanes.FindCouples(this, _rotary, shape, _countedTurn, SurelyFirst, _couple, j))
+                {
+                    Remember(shape, j, 4);
+                    j = stop;
+                }
+                for (; j < stop; j++)
+                {
+                    if (!RemembersCouples || shape.Q[j] != _seen[j])
+                    {
+                        _couple[j] = FindCouple(shape.Q[j], j);
+                        Remember(shape, j, 1);
+                    }
+                }
             }
-            ref Quaterniond seen = ref _seen[j];
-            if (orientation.X != seen.X || orientation.Y != seen.Y || orientation.Z != seen.Z
-                || orientation.W != seen.W)
+        }
+
+        // Whether no couple of elements j to j+3 is known.
+        private bool IsNew(RodShape shape, int j)
+        {
+            return !RemembersCouples || (shape.Q[j] != _seen[j] && shape.Q[j + 1] != _seen[j + 1]
+                && shape.Q[j + 2] != _seen[j + 2] && shape.Q[j + 3] != _seen[j + 3]);
+        }
+
+        private void Remember(RodShape shape, int j, int count)
+        {
+            if (RemembersCouples)
             {
-                seen = orientation;
-                _seenCouple[j] = FindCouple(orientation, j);
+                Array.Copy(shape.Q, j, _seen, j, count);
             }
-            return _seenCouple[j];
         }
 
         [MethodImpl(Compiled.AtOnce)]

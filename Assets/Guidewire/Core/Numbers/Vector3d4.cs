@@ -1,0 +1,98 @@
+#if NET8_0_OR_GREATER
+using System.Runtime.CompilerServices;
+using System.Runtime.Intrinsics;
+using System.Runtime.Intrinsics.X86;
+
+namespace Guidewire.Core
+{
+    /// <summary>Four vectors, one a lane. Every operation is that of <see cref="Vector3d"/> in the same order, rounded
+    /// by itself, so that each lane holds the bits which plain doubles give.</summary>
+    internal readonly struct Vector3d4
+    {
+        /// <summary>Components along the x axis.</summary>
+        public readonly Vector256<double> X;
+
+        /// <summary>Components along the y axis.</summary>
+        public readonly Vector256<double> Y;
+
+        /// <summary>Components along the z axis.</summary>
+        public readonly Vector256<double> Z;
+
+        /// <summary>The vectors (x, y, z).</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public Vector3d4(Vector256<double> x, Vector256<double> y, Vector256<double> z)
+        {
+            X = x;
+            Y = y;
+            Z = z;
+        }
+
+        /// <summary>|v|^2.</summary>
+        public Vector256<double> LengthSquared
+        {
+            [MethodImpl(MethodImplOptions.AggressiveInlining)]
+            get => X * X + Y * Y + Z * Z;
+        }
+
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public static Vector3d4 operator +(Vector3d4 a, Vector3d4 b)
+        {
+            return new Vector3d4(a.X + b.X, a.Y + b.Y, a.Z + b.Z);
+        }
+
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public static Vector3d4 operator -(Vector3d4 a, Vector3d4 b)
+        {
+            return new Vector3d4(a.X - b.X, a.Y - b.Y, a.Z - b.Z);
+        }
+
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public static Vector3d4 operator *(Vector256<double> s, Vector3d4 a)
+        {
+            return new Vector3d4(s * a.X, s * a.Y, s * a.Z);
+        }
+
+        /// <summary>a . b.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public static Vector256<double> Dot(Vector3d4 a, Vector3d4 b)
+        {
+            return a.X * b.X + a.Y * b.Y + a.Z * b.Z;
+        }
+
+        /// <summary>a x b.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public static Vector3d4 Cross(Vector3d4 a, Vector3d4 b)
+        {
+            return new Vector3d4(a.Y * b.Z - a.Z * b.Y, a.Z * b.X - a.X * b.Z, a.X * b.Y - a.Y * b.X);
+        }
+
+        /// <summary>Four successive vectors in memory.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public static Vector3d4 Load(ref Vector3d first)
+        {
+            ref double numbers = ref Unsafe.As<Vector3d, double>(ref first);
+            Vector256<double> a = Vector256.LoadUnsafe(ref numbers);       // x0 y0 z0 x1
+            Vector256<double> b = Vector256.LoadUnsafe(ref numbers, 4);    // y1 z1 x2 y2
+            Vector256<double> c = Vector256.LoadUnsafe(ref numbers, 8);    // z2 x3 y3 z3
+            Vector256<double> xy = Avx.Blend(a, b, 0b1100);                // x0 y0 x2 y2
+            Vector256<double> zx = Avx.Permute2x128(a, c, 0x21);           // z0 x1 z2 x3
+            Vector256<double> yz = Avx.Blend(b, c, 0b1100);                // y1 z1 y3 z3
+            return new Vector3d4(Avx.Shuffle(xy, zx, 0b1010), Avx.Shuffle(xy, yz, 0b0101),
+                Avx.Shuffle(zx, yz, 0b1010));
+        }
+
+        /// <summary>Writes the vectors to successive positions in memory.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public void Store(ref Vector3d first)
+        {
+            ref double numbers = ref Unsafe.As<Vector3d, double>(ref first);
+            Vector256<double> xy = Avx.UnpackLow(X, Y);
+            Vector256<double> zx = Avx.Shuffle(Z, X, 0b1010);
+            Vector256<double> yz = Avx.UnpackHigh(Y, Z);
+            Avx.Permute2x128(xy, zx, 0x20).StoreUnsafe(ref numbers);
+            Avx.Blend(yz, xy, 0b1100).StoreUnsafe(ref numbers, 4);
+            Avx.Permute2x128(zx, yz, 0x31).StoreUnsafe(ref numbers, 8);
+        }
+    }
+}
+#endif
