@@ -233,7 +233,7 @@ namespace Guidewire.Core
         /// <summary>Eigenvalues of a symmetric 3x3 matrix that are not positive, from its leading minors: each change
         /// of sign in 1, m1, m2, m3 is a negative one. A minor that is 0 or not a number counts as negative.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private static int CountNegative(double m1, double m2, double m3)
+        public static int CountNegative(double m1, double m2, double m3)
         {
             if (m1 > 0.0 && m2 > 0.0 && m3 > 0.0)
             {

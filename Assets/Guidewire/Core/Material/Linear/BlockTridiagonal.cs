@@ -93,7 +93,15 @@ namespace Guidewire.Core
                     HoldEnd();
                 }
                 Subtract(gradient, y, from, to);
-                for (int i = from; i < to; i++)
+                int first = from;
+#if NET8_0_OR_GREATER
+                if (_twistCount == 0 && Rows4.IsSupported)
+                {
+                    negative += EliminationLanes.Eliminate(_block, y, from, to);
+                    first = to;
+                }
+#endif
+                for (int i = first; i < to; i++)
                 {
                     negative += BlockElimination.Eliminate(ref _block[i], ref _block[i + 1], ref y[i], ref y[i + 1]);
                     if (i < _twistCount)
