@@ -37,6 +37,8 @@ namespace Guidewire.Core.Tests
             int failed = 0;
             int touching = 0;
             int overtaking = 0;
+            int beyond = 0;
+            double wrong = 0.0;
             for (int seed = first; seed < first + runs; seed++)
             {
                 RandomCoaxialPush push;
@@ -57,7 +59,9 @@ namespace Guidewire.Core.Tests
                 overtaking += push.Overtakings;
                 outside += isOutside ? 1 : 0;
                 failed += isRunning ? 0 : 1;
-                if (isOutside || !isRunning)
+                beyond += push.Beyond > 1e-3 ? 1 : 0;
+                wrong = Math.Max(wrong, isRunning ? push.Missing : 0.0);
+                if (isOutside || !isRunning || push.Beyond > 1e-3)
                 {
                     worst.Add(push.ToString());
                 }
@@ -67,10 +71,12 @@ namespace Guidewire.Core.Tests
                 TestContext.WriteLine(line);
             }
             TestContext.WriteLine(failed + " of " + runs + " failed, " + outside + " outside, " + touching
-                + " touched a wall, " + overtaking + " overtakings");
+                + " touched a wall, " + overtaking + " overtakings, "
+                + beyond + " with a hub beyond its force");
             Assert.That(touching, Is.GreaterThan(runs / 2), "runs in which a wall is touched");
             Assert.That(overtaking, Is.GreaterThan(runs / 4), "times that one tip overtakes the other");
             Assert.That(outside, Is.Zero, "runs with an instrument outside");
+            Assert.That(wrong, Is.LessThan(1e-9), "m between what a hub was asked, and what it went and fell short");
             Assert.That(failed, Is.LessThanOrEqualTo(0.005 * runs));
         }
     }
