@@ -17,6 +17,7 @@ namespace Guidewire.Core
         private readonly bool _followsSpring;
         private double _leastInsertion = double.NegativeInfinity;  // m
         private double _mostInsertion = double.PositiveInfinity;   // m
+        private double? _given;              // of the next step, m
         private double _sense = 1.0;         // 1 where it was last asked to push, -1 to pull
 
         /// <summary>The drive of this scene.</summary>
@@ -94,6 +95,12 @@ namespace Guidewire.Core
             _mostInsertion = Insertion + forward;
         }
 
+        /// <summary>In the steps that follow node 0 moves by this, m, whatever is asked; null: as is asked.</summary>
+        public void Give(double? displacement)
+        {
+            _given = displacement;
+        }
+
         /// <summary>Sets where node 0 is and how fast it goes and turns, from this time on.</summary>
         public void Prepare(RodShape shape, double time)
         {
@@ -115,7 +122,7 @@ namespace Guidewire.Core
             double asked = speed * _timeStep;
             _sense = Math.Abs(asked) < Nothing ? _sense : Math.Sign(asked);
             Asked = Math.Abs(asked);
-            double goes = Limited(asked);
+            double goes = Limited(_given ?? asked);
             if (goes != asked)
             {
                 Slip += _sense * (asked - goes);
@@ -129,7 +136,7 @@ namespace Guidewire.Core
         /// <summary>How far it will move node 0 in the step that begins at this time, m.</summary>
         public double NextMove(double time)
         {
-            return _direction == null ? 0.0 : Limited(SpeedAt(time) * _timeStep);
+            return _direction == null ? 0.0 : Limited(_given ?? SpeedAt(time) * _timeStep);
         }
 
         /// <summary>The hub slips, after a step, along its axis.</summary>
@@ -149,6 +156,12 @@ namespace Guidewire.Core
         public double Gone(in Vector3d from, in Vector3d to)
         {
             return _sense * Vector3d.Dot(to - from, Axis);
+        }
+
+        /// <summary>The same since another insertion, m.</summary>
+        public double GoneSince(double insertion)
+        {
+            return _sense * (Insertion - insertion);
         }
 
         /// <summary>Writes or takes over how far the hub has come.</summary>

@@ -154,9 +154,9 @@ namespace Guidewire.Core
         internal void TakeStep(MaterialDrive drive, double from, MaterialDrive wireDrive, double wireFrom)
         {
             _asked += drive.Asked;
-            _gone += Math.Abs(drive.Insertion - from);
+            _gone += drive.GoneSince(from);
             _wireAsked += wireDrive.Asked;
-            _wireGone += Math.Abs(wireDrive.Insertion - wireFrom);
+            _wireGone += wireDrive.GoneSince(wireFrom);
         }
 
         internal void Serialize(Snapshot snapshot)

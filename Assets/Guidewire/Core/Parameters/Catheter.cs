@@ -13,6 +13,9 @@ namespace Guidewire.Core
         /// <summary>How far its hub is ahead of the wire's at the start, units.</summary>
         public double Start { get; set; }
 
+        /// <summary>Coefficient of friction of its outside with all walls; NaN: those of the walls.</summary>
+        public double FrictionCoefficient { get; set; } = double.NaN;
+
         /// <summary>What it is made of; <see cref="MaterialParameters.InnerRadius"/> is that of its lumen.</summary>
         public MaterialParameters Material { get; set; } = new MaterialParameters();
 

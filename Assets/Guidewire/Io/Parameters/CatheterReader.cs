@@ -24,7 +24,7 @@ namespace Guidewire.Io
         {
             "instrument", "wireRadius", "youngsModulus", "shearModulus", "density", "shearFactor", "bendingStiffness",
             "torsionalStiffness", "axialStiffness", "massPerLength", "restCurvature", "wireSections", "insertionSpeed",
-            "rotationSpeed", "driveFile",
+            "rotationSpeed", "driveFile", "hubForceLimit",
         };
 
         // What the wire says for all.
@@ -68,17 +68,18 @@ namespace Guidewire.Io
                 given.Add((key, ParameterTable.Find(key)!.Write(values), whole));
             }
             double start = 0.0;
+            double friction = double.NaN;
             foreach (JProperty property in item.Properties())
             {
                 int at = Array.FindIndex(Names, name => name.Own == property.Name);
                 string source = sourceOf(where + "." + property.Name);
                 if (property.Name == "start")
                 {
-                    if (!NumberEntry.TryNumber(property.Value, out start) || !(start >= 0.0))
-                    {
-                        throw new ParameterException(source, where + ".start",
-                            property.Value.ToString(Formatting.None), "a number >= 0 (units)");
-                    }
+                    start = NotNegative(property, source, where, " (units)");
+                }
+                else if (property.Name == "frictionCoefficient")
+                {
+                    friction = NotNegative(property, source, where, "");
                 }
                 else if (at >= 0 || Array.IndexOf(Shared, property.Name) >= 0)
                 {
@@ -87,7 +88,8 @@ namespace Guidewire.Io
                 else
                 {
                     throw new ParameterException(source + ": unknown key '" + where + "." + property.Name
-                        + "': allowed are start, " + string.Join(", ", Array.ConvertAll(Names, name => name.Own)) + ", "
+                        + "': allowed are start,"
+                        + " frictionCoefficient, " + string.Join(", ", Array.ConvertAll(Names, name => name.Own)) + ", "
                         + string.Join(", ", Shared));
                 }
             }
@@ -111,9 +113,18 @@ namespace Guidewire.Io
                 Length = own.Scene.GuidewireLength,
                 Elements = own.Scene.NumberRodElements,
                 Start = start,
+                FrictionCoefficient = friction,
                 Material = own.Material,
                 Drive = own.Drive,
             };
+        }
+
+        private static double NotNegative(JProperty property, string source, string where, string unit)
+        {
+            return NumberEntry.TryNumber(property.Value, out double number) && number >= 0.0
+                && number <= double.MaxValue ? number
+                : throw new ParameterException(source, where + "." + property.Name,
+                    property.Value.ToString(Formatting.None), "a number >= 0" + unit);
         }
 
         // An error says which catheter it is of, and calls keys as a catheter does.

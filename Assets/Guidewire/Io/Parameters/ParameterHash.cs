@@ -39,6 +39,11 @@ namespace Guidewire.Io
             foreach (Catheter catheter in values.Simulation.Scene.Catheters)
             {
                 text.Append("start=").Append(NumberText.Write(new JValue(catheter.Start))).Append('\n');
+                if (!double.IsNaN(catheter.FrictionCoefficient))
+                {
+                    text.Append("friction=").Append(NumberText.Write(new JValue(catheter.FrictionCoefficient)))
+                        .Append('\n');
+                }
             }
             text.Append(values.CatheterHashes);
             using SHA256 sha = SHA256.Create();

@@ -9,8 +9,11 @@ namespace Guidewire.Core
     /// stead: its EA is l over the compliance of that length.</remarks>
     internal sealed class CoaxialRod
     {
+        private const double Viscosity = 1e-3;   // of saline that flushes a lumen, Pa s
+
         private readonly MaterialRod _outer;
         private readonly InstrumentProfile _innerProfile;
+        private readonly double _lumenRadius;   // m; 0 where its fluid is left out
 
         /// <summary>Of these instruments.</summary>
         /// <param name="outer">The outer one.</param>
@@ -19,9 +22,13 @@ namespace Guidewire.Core
         /// <param name="innerProfile">What it is made of.</param>
         /// <param name="beyond">How many of the inner nodes are beyond the outer tip.</param>
         /// <param name="lead">How far the inner hub is behind the outer one, m.</param>
+        /// <param name="lumenRadius">Of the outer one, m; 0 leaves out the drag of the fluid in it.</param>
         public CoaxialRod(MaterialRod outer, InstrumentProfile outerProfile, MaterialRod inner,
-            InstrumentProfile innerProfile, int beyond, double lead)
+            InstrumentProfile innerProfile, int beyond, double lead, double lumenRadius = 0.0)
         {
+            _lumenRadius = lumenRadius;
+            InnerSpin = new double[outer.ElementCount];
+            LumenDrag = new double[outer.ElementCount];
             _outer = outer;
             _innerProfile = innerProfile;
             Joints = new CoaxialJoints(outerProfile, innerProfile, StationsOf(outer), StationsOf(inner), beyond, lead);
@@ -42,6 +49,14 @@ namespace Guidewire.Core
 
         /// <summary>Both as one rod.</summary>
         public MaterialRod Rod { get; }
+
+        /// <summary>Inertia about the axis of the inner instrument's part in each element of the outer one, rho (I1 +
+        /// I2) times its length, kg m^2.</summary>
+        public double[] InnerSpin { get; }
+
+        /// <summary>Couple of the fluid in each element against the spin of one instrument in the other, over that
+        /// spin, N m s.</summary>
+        public double[] LumenDrag { get; }
 
         /// <summary>The inner hub is this far behind the outer one.</summary>
         /// <param name="lead">m.</param>
@@ -73,7 +88,17 @@ namespace Guidewire.Core
                     + perLength * _innerProfile.Integral(from, to, piece => piece.RotaryInertia1);
                 Rod.RotaryInertia2[j] = _outer.RotaryInertia2[j]
                     + perLength * _innerProfile.Integral(from, to, piece => piece.RotaryInertia2);
+                InnerSpin[j] = _innerProfile.Integral(from, to, piece => piece.RotaryInertia1 + piece.RotaryInertia2);
+                LumenDrag[j] = _innerProfile.Integral(from, to, DragOf);
             }
+        }
+
+        // Flow between two cylinders of which one turns: 4 pi mu r^2 R^2/(R^2 - r^2) per length, N s.
+        private double DragOf(CrossSection piece)
+        {
+            double inner = piece.Radius * piece.Radius;
+            double outer = _lumenRadius * _lumenRadius;
+            return outer > inner ? 4.0 * Math.PI * Viscosity * inner * outer / (outer - inner) : 0.0;
         }
 
         /// <summary>Distances of a rod's nodes from its first, m.</summary>

@@ -48,6 +48,24 @@ namespace Guidewire.Core
             return j < tip ? j : oldCount > tip ? Math.Max(j - more, tip) : -1;
         }
 
+        /// <summary>The turn in a direction of the first element beyond the outer tip against the inner instrument's
+        /// frame before it, radians: |theta_b - R^T theta_a - e3 dz|; 0 where none is beyond.</summary>
+        /// <param name="rod">The instruments, or null for one alone.</param>
+        public static double TurnAtTip(CoaxialRod? rod, RodShape shape, RodVector[] direction)
+        {
+            if (rod == null || rod.Joints.Beyond == 0)
+            {
+                return 0.0;
+            }
+            int tip = rod.Joints.OuterCount;
+            RodVector a = direction[tip - 1];
+            RodVector b = direction[tip];
+            double c = Math.Cos(shape.Twist[tip - 1]);
+            double s = Math.Sin(shape.Twist[tip - 1]);
+            return new Vector3d(b.T1 - c * a.T1 - s * a.T2, b.T2 + s * a.T1 - c * a.T2,
+                b.T3 - a.T3 - direction[shape.ElementCount + 1 + tip].T3).Length;
+        }
+
         /// <summary>The frame of the inner instrument in an element of the outer one.</summary>
         public static Quaterniond InnerFrame(RodShape shape, int element)
         {

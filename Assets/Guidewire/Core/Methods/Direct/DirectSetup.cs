@@ -17,14 +17,19 @@ namespace Guidewire.Core
         }
 
         /// <summary>What walls add to a wire's energy.</summary>
+        /// <param name="outerFriction">Coefficient of an outer instrument on all walls; NaN: those of the
+        /// walls.</param>
         public static WallTerms WallTermsOf(SimulationParameters parameters, MaterialScene scene, Barrier barrier,
-            SupportSpring spring)
+            SupportSpring spring, double outerFriction = double.NaN)
         {
             double move = parameters.Drive.LargestMove(parameters.Method.TimeStep, scene.Metres);
             var contact = new BarrierEnergy(scene.Rod, scene.Walls, scene.Metres, barrier, scene.Supports.Sheath);
-            FrictionEnergy? friction = Array.Exists(scene.Walls, wall => wall.FrictionCoefficient > 0.0)
+            FrictionEnergy? friction = outerFriction > 0.0
+                || Array.Exists(scene.Walls, wall => wall.FrictionCoefficient > 0.0)
                 ? new FrictionEnergy(contact, scene.Rod.ElementCount, parameters.Contact.ElasticSlip > 0.0
                     ? parameters.Contact.ElasticSlip : FrictionEnergy.ElasticSlipOf(scene.Rod)) : null;
+            friction?.SetOuter(scene.Supports.Coaxial == null ? 0 : scene.Supports.Coaxial.Joints.OuterCount,
+                outerFriction);
             // Looked for where it is asked for: the rule measures how narrow a vessel is, all of it.
             ContactParameters given = parameters.Contact;
             Func<string?>? advice = null;

@@ -92,10 +92,13 @@ namespace Guidewire.Core
         }
 
         /// <summary>The largest step along the direction, at most 1.</summary>
+        /// <param name="relative">The largest turn of one element against the next, radians; that of an instrument
+        /// against the one whose tip it leaves is found here.</param>
         /// <param name="fraction">What the terms allow of one that turns no element too far.</param>
         public double MaxStep(RodShape shape, double size, double relative, out double fraction)
         {
-            double scale = Math.Min(1.0, Math.Min(LargestTurn / size, LargestRelativeTurn / relative));
+            double most = Math.Max(relative, CoaxialShape.TurnAtTip(_supports.Coaxial, shape, Direction));
+            double scale = Math.Min(1.0, Math.Min(LargestTurn / size, LargestRelativeTurn / most));
             fraction = EnergySum.MaxStep(_terms, shape, Direction, scale);
             return scale * fraction;
         }

@@ -150,9 +150,11 @@ namespace Guidewire.Io
                 + " \"wireRadius\", \"lumenRadius\", ...}",
                 "a catheter over the wire, on one shared centreline: start is how far its hub is ahead of the wire's"
                 + " (units, 0), length (units), elements (30), wireRadius and lumenRadius its outer and inner radius"
-                + " (m); the other keys are those of the wire: instrument, youngsModulus, shearModulus, density,"
+                + " (m), frictionCoefficient that of its outside with all walls (by default as the walls have it); the"
+                + " other keys are those of the wire: instrument, youngsModulus, shearModulus, density,"
                 + " shearFactor, bendingStiffness, torsionalStiffness, axialStiffness, massPerLength, restCurvature,"
-                + " wireSections, insertionSpeed, rotationSpeed, driveFile; needs proximalEnd \"clamped\"")
+                + " wireSections, insertionSpeed, rotationSpeed, driveFile, hubForceLimit; needs"
+                + " proximalEnd \"clamped\"")
             {
                 Methods = Takers.Only(Solver.Direct),
                 IsRefusedElsewhere = true,

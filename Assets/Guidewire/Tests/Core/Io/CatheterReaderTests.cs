@@ -23,6 +23,10 @@ namespace Guidewire.Core.Tests
             Assert.That(catheter.Material.YoungsModulus * catheter.Material.SecondMomentOfArea,
                 Is.EqualTo(7e-4).Within(1e-12));
             Assert.That(catheter.Drive.RotationSpeed, Is.EqualTo(2.0));
+            Assert.That(catheter.FrictionCoefficient, Is.NaN);
+            ParameterHandler slippery = Load(Good.Replace("{", "{\"frictionCoefficient\": 0.04, "));
+            Assert.That(slippery.Values.Simulation.Scene.Catheters[0].FrictionCoefficient, Is.EqualTo(0.04));
+            Assert.That(slippery.Hash, Is.Not.EqualTo(Load(Good).Hash));
         }
 
         [TestCase("\"lumenRadius\": 0.0006", "\"lumenRadius\": 0.0004", "a lumenRadius of more than the radius")]
@@ -31,6 +35,8 @@ namespace Guidewire.Core.Tests
         [TestCase("\"length\": 150", "\"length\": -1", "catheters[0].length = -1 is not allowed: needs a number > 0")]
         [TestCase("\"length\": 150,", "", "catheters[0] needs length")]
         [TestCase("\"start\": 100", "\"start\": -1", "catheters[0].start = -1 is not allowed")]
+        [TestCase("\"start\": 100", "\"start\": 100, \"frictionCoefficient\": -0.1",
+            "catheters[0].frictionCoefficient = -0.1 is not allowed: needs a number >= 0")]
         [TestCase("\"start\": 100", "\"start\": 295", "a start of at most 290 units")]
         [TestCase("\"start\": 100", "\"begin\": 100", "unknown key 'catheters[0].begin'")]
         [TestCase("\"rotationSpeed\": 2", "\"insertionSpeed\": -0.2", "hubs that do not cross")]

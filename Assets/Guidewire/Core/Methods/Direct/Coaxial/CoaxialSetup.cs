@@ -58,7 +58,8 @@ namespace Guidewire.Core
         /// <param name="lead">How far the wire's hub is behind the catheter's, m.</param>
         public CoaxialRod Rod(int beyond, double lead)
         {
-            var rod = new CoaxialRod(Catheter.Rod, _catheterProfile, Wire.Rod, _wireProfile, beyond, lead);
+            var rod = new CoaxialRod(Catheter.Rod, _catheterProfile, Wire.Rod, _wireProfile, beyond, lead,
+                LumenRadius);
             rod.Rod.MassDamping = _drag;
             return rod;
         }
@@ -73,7 +74,8 @@ namespace Guidewire.Core
         public RodTerms Terms(MaterialScene scene, CoaxialHubs hubs)
         {
             WallTerms? walls = Wire.Walls.Length == 0 ? null
-                : DirectSetup.WallTermsOf(_parameters, scene, _barrier, new SupportSpring(scene.Rod, 0.0));
+                : DirectSetup.WallTermsOf(_parameters, scene, _barrier, new SupportSpring(scene.Rod, 0.0),
+                    _parameters.Scene.Catheters[0].FrictionCoefficient);
             var terms = new RodTerms(scene.Rod, scene.Supports, _parameters.Scene, walls, Array.Empty<EnergyTerm>());
             ((CoaxialBendTwist)terms.Bending).Hubs = hubs;
             return terms;

@@ -13,6 +13,7 @@ namespace Guidewire.Core
         private const double Reached = 0.02;    // of an element's length
         private const double Left = 0.01;
         private const double SameTime = 1e-6;   // of a step, or of that length
+        private const double OfRadius = 0.01;   // of a radius, by which a hub gives way at first
         private const double Nowhere = 1e9;     // m, farther than any drive goes
 
         private readonly MethodParameters _method;
@@ -23,6 +24,9 @@ namespace Guidewire.Core
         private readonly CoaxialHubs _hubs;
         private readonly CoaxialRecord _record;
         private readonly HubRecord _hub;
+        private readonly HubSlip _catheterSlip;
+        private readonly HubSlip _wireSlip;
+        private readonly StepStart _start;
         private readonly RodShape _wire;          // as the log has it
         private readonly Vector3d[] _velocities;
         private readonly Vector3d[] _spins;
@@ -41,6 +45,10 @@ namespace Guidewire.Core
             _setup = new CoaxialSetup(parameters);
             _catheterDrive = _setup.DriveOf(_setup.Catheter);
             _wireDrive = _setup.DriveOf(_setup.Wire);
+            _catheterSlip = new HubSlip(_catheterDrive, parameters.Scene.Catheters[0].Drive.HubForceLimit,
+                OfRadius * _setup.Catheter.Rod.Radius[0]);
+            _wireSlip = new HubSlip(_wireDrive, parameters.Drive.HubForceLimit, OfRadius * _setup.Wire.Rod.Radius[0]);
+            _start = new StepStart(Serialize);
             _hubs = new CoaxialHubs(_catheterDrive.Hub, _wireDrive.Hub, _setup.Axis);
             int n = _setup.Wire.Rod.ElementCount;
             _wire = new RodShape(n);
@@ -96,13 +104,63 @@ namespace Guidewire.Core
                 double slip = Math.Abs(_wireDrive.Slip) > Math.Abs(_catheterDrive.Slip) ? _wireDrive.Slip
                     : _catheterDrive.Slip;
                 return slip != 0.0 ? string.Format(System.Globalization.CultureInfo.InvariantCulture,
-                    "a hub fell short by {0:G3} m: the wire's came to the catheter's, or its tip to the first element"
-                    + " of the catheter", slip) : null;
+                    "a hub fell short by {0:G3} m: {1}the wire's came to the catheter's, or its tip to the first"
+                    + " element of the catheter", slip, _catheterSlip.IsLimited || _wireSlip.IsLimited
+                        ? "it slipped at its hubForceLimit, or " : "") : null;
             }
         }
 
         /// <inheritdoc/>
         public override void Advance(RodState state)
+        {
+            bool isDone = _catheterSlip.IsLimited || _wireSlip.IsLimited ? StepWithSlip() : StepAsAsked();
+            Failure = _inner.Failure;
+            Divergence = _inner.Divergence;
+            SteadyState = _inner.SteadyState;
+            PredictionError = _inner.PredictionError;
+            if (isDone)
+            {
+                Bending.SetIdleTwists(_dynamics.Shape);
+                _record.TakePlay(_rod.Joints, _dynamics.Shape);
+                TakeWire();
+                TakeContacts();
+                WriteWire(state);
+            }
+        }
+
+        // The step is taken again until neither hub has more than its force: the wire's in each trial of the
+        // catheter's.
+        private bool StepWithSlip()
+        {
+            _start.Save();
+            _catheterSlip.Begin();
+            bool isDone;
+            double catheter = _catheterDrive.Insertion;
+            do
+            {
+                _catheterDrive.Give(_catheterSlip.Displacement);
+                _wireSlip.Begin();
+                double wire;
+                do
+                {
+                    if (_wireSlip.Displacement != null || _catheterSlip.Displacement != null)
+                    {
+                        _start.Restore();
+                    }
+                    wire = _wireDrive.Insertion;
+                    _wireDrive.Give(_wireSlip.Displacement);
+                    isDone = StepAsAsked();
+                }
+                while (_wireSlip.NeedsAnother(_wireDrive.Insertion - wire, isDone ? Coaxial()!.WireForce : double.NaN));
+            }
+            while (_catheterSlip.NeedsAnother(_catheterDrive.Insertion - catheter,
+                isDone ? Coaxial()!.Force : double.NaN));
+            _catheterDrive.Give(null);
+            _wireDrive.Give(null);
+            return isDone;
+        }
+
+        private bool StepAsAsked()
         {
             BeginStep();
             double start = _dynamics.Time;
@@ -116,18 +174,7 @@ namespace Guidewire.Core
                 isDone = _inner.StepPart(length);
                 done = length == _method.TimeStep - done ? _method.TimeStep : _dynamics.Time - start;
             }
-            Failure = _inner.Failure;
-            Divergence = _inner.Divergence;
-            SteadyState = _inner.SteadyState;
-            PredictionError = _inner.PredictionError;
-            if (isDone)
-            {
-                Bending.SetIdleTwists(_dynamics.Shape);
-                _record.TakePlay(_rod.Joints, _dynamics.Shape);
-                TakeWire();
-                TakeContacts();
-                WriteWire(state);
-            }
+            return isDone;
         }
 
         // The hubs go as far as they may.
@@ -264,7 +311,14 @@ namespace Guidewire.Core
             RodTerms terms = _setup.Terms(scene, _hubs);
             DirectStep before = _inner;
             FrictionEnergy? friction = _dynamics.Terms.Walls()?.Friction;
+            double[] rates = _dynamics.TwistRates;
+            int active = _active;
             Start(scene, terms, time, _dynamics.ProximalTurn);
+            // Where the wire's tip comes in, it turns as it does before.
+            for (int j = 0; j < _rod.Joints.ActiveCount; j++)
+            {
+                _dynamics.TwistRates[j] = rates[Math.Min(j, active - 1)];
+            }
             _inner.Contacts?.Take(before.Contacts!, _rod.Rod.ElementCount + 1);
             FrictionAnchors? anchors = terms.Walls()?.Friction?.Anchors;
             anchors?.TakeAround(friction!.Anchors, _rod.Joints.OuterCount);

@@ -30,6 +30,8 @@ namespace Guidewire.Core
         private readonly double[] _limitSum;          // sum of the limits by anchor, N
         private readonly Vector3d[] _start;       // x_0, m
         private readonly Quaterniond[] _frames;   // q_0
+        private int _outerCount;                  // elements of an outer instrument
+        private double _outerCoefficient = double.NaN;
 
         /// <summary>Friction at the contacts of a barrier.</summary>
         /// <param name="elasticSlip">s, m.</param>
@@ -42,6 +44,14 @@ namespace Guidewire.Core
             Array.Fill(_frames, Quaterniond.Identity);
             Anchors = new FrictionAnchors(barrier.Walls.Length, elementCount);
             _limitSum = new double[Anchors.Count];
+        }
+
+        /// <summary>The first elements are an outer instrument's, with a coefficient of its own on all walls.</summary>
+        /// <param name="coefficient">NaN: those of the walls.</param>
+        public void SetOuter(int elements, double coefficient)
+        {
+            _outerCount = elements;
+            _outerCoefficient = coefficient;
         }
 
         /// <summary>s by rule, m: a hundredth of the thinnest element's radius, by which a surface turns about the
@@ -82,7 +92,7 @@ namespace Guidewire.Core
             for (int k = 0; k < contacts.Count; k++)
             {
                 ref WallContact contact = ref contacts[k];
-                double limit = _barrier.Walls[contact.Wall].FrictionCoefficient * contact.Force;
+                double limit = CoefficientOf(contact) * contact.Force;
                 if (limit > 0.0)
                 {
                     int index = Anchors.IndexOf(contact);
@@ -185,6 +195,12 @@ namespace Guidewire.Core
                 }
                 AddBlocks(contact, turn, h, ref blocks[j], ref blocks[j + 1]);
             }
+        }
+
+        private double CoefficientOf(in WallContact contact)
+        {
+            return contact.Element < _outerCount && !double.IsNaN(_outerCoefficient) ? _outerCoefficient
+                : _barrier.Walls[contact.Wall].FrictionCoefficient;
         }
 
         // Force over displacement, N/m.

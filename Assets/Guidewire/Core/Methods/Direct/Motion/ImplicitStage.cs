@@ -60,6 +60,12 @@ namespace Guidewire.Core
             }
             EnergyTerm[] moving = Damping == null
                 ? new EnergyTerm[] { _inertia } : new EnergyTerm[] { _inertia, Damping };
+            if (_supports.Coaxial != null)
+            {
+                Inner = new InnerSpin(_supports.Coaxial, _inertia, motion, stageCount);
+                Array.Resize(ref moving, moving.Length + 1);
+                moving[moving.Length - 1] = Inner;
+            }
             Solver = new StageSolver(terms, moving);
             _walls = terms.Walls() == null ? null : new WallStage(terms, _inertia, moving);
             Frames = new ClampFrames(schedule, Solver);
@@ -69,6 +75,9 @@ namespace Guidewire.Core
 
         /// <summary>What resists velocities and rates of strain, or null.</summary>
         public RodDamping? Damping { get; }
+
+        /// <summary>The spin of an instrument inside, or null.</summary>
+        public InnerSpin? Inner { get; }
 
         /// <summary>Solves the stages, and counts what was solved.</summary>
         public StageSolver Solver { get; }
@@ -120,6 +129,7 @@ namespace Guidewire.Core
             {
                 term.BeginStep(_shape, dt);
             }
+            Inner?.BeginStep(_shape, dt);
         }
 
         /// <summary>A stage of a Runge-Kutta scheme begins.</summary>
@@ -130,6 +140,7 @@ namespace Guidewire.Core
             _inertia.StageLength = row[row.Length - 1] * dt;
             Rates.Prepare(_inertia, row, dt, _startPositions, _motion.Velocities, _motion.Spins, _velocityHistory);
             Damping?.BeginStage(row, dt);
+            Inner?.BeginStage(row, dt);
         }
 
         /// <summary>The one stage of a step by BDF2 begins.</summary>
@@ -138,6 +149,7 @@ namespace Guidewire.Core
             double h = history.Prepare(_inertia, _startPositions, _motion.Velocities, _motion.Spins, _velocityHistory,
                 dt);
             Damping?.BeginStage(history.IsComplete, h);
+            Inner?.BeginStage(history.IsComplete);
         }
 
         /// <summary>Rates from the forces of this time are asked for, at the start of a step of length h, s.</summary>
@@ -152,6 +164,7 @@ namespace Guidewire.Core
         public void Accept()
         {
             Rates.Accept(_inertia, _motion.Velocities, _motion.Spins);
+            Inner?.Accept();
         }
 
         /// <summary>The step is kept.</summary>
@@ -168,6 +181,7 @@ namespace Guidewire.Core
         {
             _hasPast = false;
             Rates.Clear();
+            Inner?.Clear();
         }
 
         /// <summary>Places the supports, predicts from stages before, solves, and takes the stage's
@@ -208,6 +222,7 @@ namespace Guidewire.Core
             }
             Rates.Take(stage, _shape, _inertia, _velocityHistory, _hasPast);
             Damping?.EndStage(stage, _shape);
+            Inner?.EndStage(stage, _shape);
             Reactions.TakeStage();
             return null;
         }
@@ -241,6 +256,7 @@ namespace Guidewire.Core
         {
             Rates.Serialize(snapshot);
             _inertia.Serialize(snapshot);
+            Inner?.Serialize(snapshot);
             Solver.SerializeTrust(snapshot);
             snapshot.Serialize(ref _hasPast);
         }

@@ -111,6 +111,13 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>w_3 and w_3' of element j in this orientation.</summary>
+        public void AxialSpin(in Quaterniond orientation, int j, out double spin, out double rate)
+        {
+            spin = Spin(Turn(orientation, j), j).Z;
+            rate = (1.0 / StageLength) * (spin - SpinHistory[j].Z);
+        }
+
         /// <summary>Shifts a rod that nothing holds, as a whole, until its inertia balances the sum of the loads (N).
         /// The shift costs no elastic energy; what Newton's last step leaves of the sum would change the
         /// momentum.</summary>

@@ -66,6 +66,9 @@ namespace Guidewire.Core
         /// <summary>w of the elements along their own axes, rad/s.</summary>
         public Vector3d[] Spins => _motion.Spins;
 
+        /// <summary>z' of the angles to an instrument inside, rad/s; none where there is one alone.</summary>
+        public double[] TwistRates => _motion.TwistRates;
+
         /// <summary>s.</summary>
         public double Time { get; private set; }
 
@@ -94,7 +97,12 @@ namespace Guidewire.Core
         public Vector3d Momentum => _terms.Mass.Momentum(Velocities);
 
         /// <summary>Elastic plus kinetic energy less the work of the loads, J.</summary>
-        public double Energy => _terms.Mass.KineticEnergy(Velocities, Spins) + _terms.Potential(Shape);
+        public double Energy => KineticEnergy + _terms.Potential(Shape);
+
+        /// <summary>J.</summary>
+        public double KineticEnergy => _terms.Mass.KineticEnergy(Velocities, Spins)
+            + (_terms.Supports.Coaxial == null ? 0.0
+                : InnerSpin.KineticEnergy(_terms.Supports.Coaxial, Spins, TwistRates));
 
         /// <summary>Force of the supports on a node as the rod is now, N.</summary>
         public Vector3d ReactionAt(int node)
@@ -119,6 +127,10 @@ namespace Guidewire.Core
             double time = Time;
             MaterialSnapshot.Serialize(snapshot, _schedule, Shape, Velocities, Spins, ref time);
             Time = time;
+            if (TwistRates.Length > 0)
+            {
+                snapshot.Serialize(TwistRates);
+            }
             _stage.Frames.Serialize(snapshot);
             if (!snapshot.IsWritten)
             {

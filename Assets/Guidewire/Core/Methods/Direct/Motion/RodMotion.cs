@@ -11,6 +11,7 @@ namespace Guidewire.Core
             Shape = shape;
             Velocities = new Vector3d[shape.ElementCount + 1];
             Spins = new Vector3d[shape.ElementCount];
+            TwistRates = new double[shape.Twist.Length];
         }
 
         /// <summary>Positions and orientations.</summary>
@@ -21,6 +22,9 @@ namespace Guidewire.Core
 
         /// <summary>w of the elements along their own axes, rad/s.</summary>
         public Vector3d[] Spins { get; }
+
+        /// <summary>z' of the angles to an instrument inside, rad/s; none where there is one alone.</summary>
+        public double[] TwistRates { get; }
 
         /// <summary>Takes over velocities.</summary>
         public void Begin(Vector3d[] velocities, Vector3d[] spins)
@@ -35,6 +39,10 @@ namespace Guidewire.Core
             Shape.Serialize(snapshot);
             snapshot.Serialize(Velocities);
             snapshot.Serialize(Spins);
+            if (TwistRates.Length > 0)
+            {
+                snapshot.Serialize(TwistRates);
+            }
         }
     }
 }

@@ -37,7 +37,7 @@ namespace Guidewire.Core
             _terms = terms;
             _schedule = schedule;
             _motion = motion;
-            _start = new ConsistentStart(terms, Stage.Damping);
+            _start = new ConsistentStart(terms, Stage.Damping, Stage.Inner);
             _partStart = new StepStart(SerializeStep);
             _length = terms.Rod.TotalLength;
         }
@@ -176,6 +176,7 @@ namespace Guidewire.Core
             if (_hasRates && isInPlace && !jumps && _schedule.NextJump(time - SameTime * dt) > after)
             {
                 rates.SetFirst(_motion.Velocities, _motion.Spins, true);
+                Stage.Inner?.SetFirst(true);
                 return true;
             }
             if (jumps || !_hasRates)
@@ -191,9 +192,11 @@ namespace Guidewire.Core
             if (!isInPlace || !(h * h * move <= LargestStart))
             {
                 rates.Clear();
+                Stage.Inner?.Clear();
                 return false;
             }
             rates.SetFirst(_motion.Velocities, _motion.Spins, false);
+            Stage.Inner?.SetFirst(false);
             Stage.Reactions.Take(_start.Forces);
             return true;
         }

@@ -8,8 +8,9 @@ namespace Guidewire.Core
     /// <remarks>With c(s) the curve through the nodes and p the travel along it, x_i -> c(s_i + p) + x_i - c'(s_i +
     /// p'), where ' was a stage before, x' = 2 x - x~ with x~ where the nodes would go without forces: where p is 0,
     /// that is free flight, and a wire that slides along its walls preserves its shape. Free flight alone would leave
-    /// the curve by p^2/2 of its curvature, and lengthen elements that turn. Each element turns with its chord, and
-    /// about it by its spin.</remarks>
+    /// the curve by p^2/2 of its curvature, and lengthen elements that turn. Beyond the tip of an outer instrument s,
+    /// p and p' are the inner one's: what slid out in the stage before is no change of shape. Each element turns with
+    /// its chord, and about it by its spin.</remarks>
     internal sealed class WallPrediction
     {
         private const int MostParts = 16;
@@ -71,10 +72,14 @@ namespace Guidewire.Core
             int at = 0;
             SetSlide(shape);
             double travelBefore = Vector3d.Dot(shape.X[0] - _past[0], along);
+            double slideBefore = SlideBefore(shape);
+            ShiftInner(-slideBefore);
             for (int i = 0; i <= n; i++)
             {
-                _change[i] = shape.X[i] - PointOn(_past, _at[i] + travelBefore, ref at);
+                double s = i > _tip ? _at[i] + slideBefore : _at[i];
+                _change[i] = shape.X[i] - PointOn(_past, s + travelBefore, ref at);
             }
+            ShiftInner(slideBefore);
             return (int)Math.Min(MostParts, Math.Ceiling(Math.Max(1.0,
                 Math.Max(Math.Abs(_travel), Math.Abs(_travel + _slide)) / (OfElement * _shortest))));
         }
@@ -121,6 +126,22 @@ namespace Guidewire.Core
             for (int i = _tip + 1; i < _at.Length; i++)
             {
                 _at[i] = station[i] - _slide;
+            }
+        }
+
+        // By how much the element at an outer tip became longer in the stage before, m: what slid out.
+        private double SlideBefore(RodShape shape)
+        {
+            return shape.ElementCount == _tip ? 0.0 : Vector3d.Distance(shape.X[_tip], shape.X[_tip + 1])
+                - Vector3d.Distance(_past[_tip], _past[_tip + 1]);
+        }
+
+        // Along the curve, m.
+        private void ShiftInner(double length)
+        {
+            for (int i = _tip + 1; i < _at.Length; i++)
+            {
+                _at[i] += length;
             }
         }
 

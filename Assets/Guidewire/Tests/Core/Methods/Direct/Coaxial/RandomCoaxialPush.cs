@@ -8,6 +8,7 @@ namespace Guidewire.Core.Tests
     internal sealed class RandomCoaxialPush
     {
         private const int Samples = 10;        // an element
+        private const int OtherSeeds = 1 << 20;   // of what is drawn besides, so that the rest stays as it is
         private const int Pieces = 6;          // of the manoeuvre, each with speeds of its own
 
         private readonly SimulationParameters _parameters;
@@ -26,6 +27,7 @@ namespace Guidewire.Core.Tests
             _wireRadius = random.Number(0.15, 0.45);
             _catheterRadius = _wireRadius + random.Number(0.1, 0.4);
             _parameters = Draw(random, vessel);
+            DrawHubs(new RandomGeometry(seed + OtherSeeds));
             Simulation = Simulation.Create(_parameters);
             int steps = 20 + random.Index(20);
             double dt = _parameters.Method.TimeStep;
@@ -41,8 +43,8 @@ namespace Guidewire.Core.Tests
                     Simulation.Step();
                     if (Simulation.Outcome == Outcome.Running)
                     {
-                        WireAsked += _parameters.Drive.Steering.Push;
-                        CatheterAsked += catheter.Drive.Steering.Push;
+                        WireAsked += 1e-3 * Math.Abs(_parameters.Drive.Steering.Push);
+                        CatheterAsked += 1e-3 * Math.Abs(catheter.Drive.Steering.Push);
                         Look();
                     }
                 }
@@ -64,7 +66,21 @@ namespace Guidewire.Core.Tests
         /// <summary>Whether all numbers were finite.</summary>
         public bool IsFinite { get; private set; } = true;
 
-        /// <summary>Sum of what the wire's hub was asked to go, units.</summary>
+        /// <summary>Between what either hub was asked, and what it went and fell short, m.</summary>
+        public double Missing
+        {
+            get
+            {
+                CoaxialRecord record = Simulation.Coaxial()!;
+                return Math.Max(Math.Abs(CatheterAsked - record.Gone - record.Shortfall),
+                    Math.Abs(WireAsked - record.WireGone - record.WireShortfall));
+            }
+        }
+
+        /// <summary>Largest part by which a hub's force was beyond its limit.</summary>
+        public double Beyond { get; private set; }
+
+        /// <summary>Sum of what the wire's hub was asked to go, there and back both counted, m.</summary>
         public double WireAsked { get; private set; }
 
         /// <summary>The same of the catheter's.</summary>
@@ -72,7 +88,8 @@ namespace Guidewire.Core.Tests
 
         public override string ToString()
         {
-            return "seed " + Seed + ": " + _vessel + ", wire n " + _parameters.Scene.NumberRodElements + ", catheter n "
+            return "seed " + Seed + ": beyond the limit by " + Beyond.ToString("P1") + ", "
+                + _vessel + ", wire n " + _parameters.Scene.NumberRodElements + ", catheter n "
                 + _parameters.Scene.Catheters[0].Elements + ", r " + _wireRadius.ToString("F2") + " in "
                 + _catheterRadius.ToString("F2") + ", dt " + _parameters.Method.TimeStep.ToString("G3") + ", "
                 + Simulation.Outcome + " after " + Simulation.StepCount + ", passages " + Contacts.Passages
@@ -128,6 +145,18 @@ namespace Guidewire.Core.Tests
             return parameters;
         }
 
+        // In one of four both or one of the hubs slip; in one of three the catheter has friction of its own.
+        private void DrawHubs(RandomGeometry random)
+        {
+            Catheter catheter = _parameters.Scene.Catheters[0];
+            double wireLimit = Math.Pow(10.0, random.Number(-1.5, 0.5));
+            double catheterLimit = Math.Pow(10.0, random.Number(-1.0, 0.5));
+            int which = random.Index(12);
+            _parameters.Drive.HubForceLimit = which < 2 ? wireLimit : 0.0;
+            catheter.Drive.HubForceLimit = which > 0 && which < 3 ? catheterLimit : 0.0;
+            catheter.FrictionCoefficient = random.Index(3) == 0 ? random.Number(0.0, 0.3) : double.NaN;
+        }
+
         private static WireSection Tip(RandomGeometry random, double length, double curvature)
         {
             return new WireSection
@@ -144,6 +173,8 @@ namespace Guidewire.Core.Tests
             CoaxialRecord record = Simulation.Coaxial()!;
             Overtakings += _extension * record.Extension < 0.0 ? 1 : 0;
             _extension = record.Extension;
+            Beyond = Math.Max(Beyond, Math.Max(OverLimit(record.WireForce, _parameters.Drive.HubForceLimit),
+                OverLimit(record.Force, _parameters.Scene.Catheters[0].Drive.HubForceLimit)));
             Vector3d[] catheter = record.Positions;
             Look(catheter, 0, _catheterRadius);
             Vector3d[] wire = Simulation.State.Positions;
@@ -154,6 +185,11 @@ namespace Guidewire.Core.Tests
             {
                 Look(wire, n - beyond, _wireRadius);
             }
+        }
+
+        private static double OverLimit(double force, double limit)
+        {
+            return limit > 0.0 ? Math.Abs(force) / limit - 1.0 : 0.0;
         }
 
         private void Look(Vector3d[] x, int first, double radius)
