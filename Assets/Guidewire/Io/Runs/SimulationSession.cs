@@ -138,13 +138,34 @@ namespace Guidewire.Io
             return session;
         }
 
-        /// <summary>One step. A run that is not steered takes no notice of what is asked.</summary>
+        /// <summary>Instruments, the wire among them.</summary>
+        public int InstrumentCount => 1 + Parameters.Scene.Catheters.Count;
+
+        /// <summary>What the instruments are called, the wire first: by its name in the folder of instruments, or as
+        /// what it is.</summary>
+        public IReadOnlyList<string> InstrumentNames()
+        {
+            int catheters = Parameters.Scene.Catheters.Count;
+            string wire = _handler.Values.Instrument;
+            var names = new List<string> { wire.Length > 0 ? wire : "guidewire" };
+            for (int k = 0; k < catheters; k++)
+            {
+                names.Add((string?)_handler.Values.Catheters![k]!["instrument"]
+                    ?? (catheters > 1 ? "catheter " + (k + 1) : "catheter"));
+            }
+            return names;
+        }
+
+        /// <summary>One step. A run that is not steered takes no notice of push and turn.</summary>
         /// <param name="push">Motion of sphere 0 along the first element in it (thesis eq. 3.6), units; negative values
         /// pull.</param>
         /// <param name="turn">Turn of the first element about its axis in it, rad.</param>
-        /// <param name="hub">Whose hub the user holds: 0 the wire's, 1 that of the first catheter.</param>
+        /// <param name="hub">Whose hub the user holds: 0 the wire's, 1 that of the first catheter. The others
+        /// rest.</param>
+        /// <exception cref="ParameterException">There is no such hub; nothing has changed.</exception>
         public void Step(double push, double turn, int hub = 0)
         {
+            CheckHub(hub);
             if (_steering != null)
             {
                 _steering.Push = hub == 0 ? push : 0.0;
@@ -167,6 +188,18 @@ namespace Guidewire.Io
             }
             double time = (Stopwatch.GetTimestamp() - before) * RunFolder.ToMilliseconds;
             StepTime = StepTime == 0.0 ? time : StepTime + Smoothing * (time - StepTime);
+        }
+
+        /// <summary>Whether there is such a hub.</summary>
+        /// <exception cref="ParameterException">There is none.</exception>
+        public void CheckHub(int hub)
+        {
+            if (hub < 0 || hub >= InstrumentCount)
+            {
+                throw new ParameterException("request", "hub", hub.ToString(CultureInfo.InvariantCulture),
+                    InstrumentCount == 1 ? "0, the wire's, where there is no catheter"
+                        : "0, the wire's, or that of a catheter, from 1 to " + (InstrumentCount - 1));
+            }
         }
 
         /// <summary>The value of a parameter, as in a file.</summary>
