@@ -75,7 +75,7 @@ class Catheter:
 
 def catheters_of(instruments: Sequence[Mapping[str, Any]]) -> tuple[Catheter, ...]:
     """Those among a run's instruments, as `Session.describe` lists them."""
-    return tuple(Catheter(one["name"], max(one["radii"]), CATHETERS[k % len(CATHETERS)])
+    return tuple(Catheter(one["title"], max(one["radii"]), CATHETERS[k % len(CATHETERS)])
                  for k, one in enumerate(instruments[1:]))
 
 

@@ -320,8 +320,9 @@ class Session:
         return self._take(self._ask("restore", snapshot=base64.b64encode(saved).decode("ascii")))
 
     def describe(self) -> dict[str, Any]:
-        """What a picture needs to know: "millimetresPerUnit"; "instruments", a list of objects, the wire first, with
-        "name" and a number for each element, "radii", "innerRadii" (units) and "attenuations" (1/unit); and "target", the centreline from the inlet
+        """What a picture needs to know: "millimetresPerUnit"; "instruments", a list of objects, the wire first:
+        "title", "name" (of its file, or ""), "key" that names it, "choices" of other names, and with a number for each
+        element "radii", "innerRadii" (units) and "attenuations" (1/unit); and "target", the centreline from the inlet
         to it: "name", "points" (units), "radii", "distances"; None where the run has none."""
         answer = self._ask("describe")
         return {name: answer[name] for name in ("millimetresPerUnit", "instruments", "target")}

@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Mapping
-from pathlib import Path
+from collections.abc import Mapping, Sequence
 from typing import Any
 
-from analysis.instruments.library import FOLDER, find_files
-from experiments.prepare import ROOT
 from experiments.session import Session
 from viewer.steered import Steered, exact_push, exact_turn
 
@@ -20,44 +16,41 @@ class HeldInstruments:
     ----------
     session : the run, at its start.
     described : as of `Session.describe`.
-    scene : its parameter file.
 
     Attributes
     ----------
-    names : of the instruments, the wire first.
     held : number of the one whose hub is held.
-    choices : for each of them the names that can stand for it: those of the folder beside the scene's file, then the
-        program's; for a catheter only catheters. Empty where the run's method takes no instrument.
     """
 
-    def __init__(self, session: Session, described: Mapping[str, Any], scene: Path) -> None:
-        self.names: list[str] = [one["name"] for one in described["instruments"]]
+    def __init__(self, session: Session, described: Mapping[str, Any]) -> None:
         self.held = 0
+        self._instruments: Sequence[Mapping[str, Any]] = described["instruments"]
         self._has_hand = session.hand
         self._parameters = session.parameters
-        self.choices: list[list[str]] = []
-        if "instrument" in session.parameters:
-            files = find_files([scene.resolve().parent / FOLDER, ROOT / FOLDER])
-            catheters = [name for name, file in files.items() if _is_catheter(file)]
-            self.choices = [list(files), *(catheters for _ in self.names[1:])]
         self.begin()
 
     def begin(self) -> None:
         """The run is at its start; the same hub stays held."""
-        self._steered = [Steered(self._parameters) for _ in self.names]
+        self._steered = [Steered(self._parameters) for _ in self._instruments]
 
     def hold(self, number: int) -> None:
         """Take another one; raises ValueError where there is none of this number."""
-        if isinstance(number, bool) or not isinstance(number, int) or not 0 <= number < len(self.names):
+        if isinstance(number, bool) or not isinstance(number, int) or not 0 <= number < len(self._instruments):
             raise ValueError("no such instrument")
         self.held = number
+
+    def key_of(self, number: int, name: str) -> str:
+        """The key that names an instrument; raises ValueError where it cannot have this name."""
+        if name not in self._instruments[number]["choices"]:
+            raise ValueError("no such instrument")
+        return self._instruments[number]["key"]
 
     def in_a_step(self, push: float, turn: float) -> tuple[float, float]:
         """What is asked of the held hub in a step, units and rad, such that a table can say it."""
         if not self._has_hand:
             return 0.0, 0.0
         metres = self._parameters.get("metresPerUnit")
-        return (push, turn) if metres is None else (exact_push(push, metres), exact_turn(turn))
+        return (push, exact_turn(turn)) if metres is None else (exact_push(push, metres), exact_turn(turn))
 
     def add(self, number: int, push: float, turn: float, steps: int) -> None:
         """Note steps that were made with so much push (units) and turn (rad) of one hub in each."""
@@ -71,9 +64,9 @@ class HeldInstruments:
 
     def status(self) -> dict[str, Any]:
         """What a page is told."""
-        catheters = self._parameters.get("catheters") or []
-        chosen = [self._parameters.get("instrument") or "", *(one.get("instrument", "") for one in catheters)]
-        return {"instruments": self.names, "held": self.held, "named": self.choices, "chosen": chosen}
+        return {"held": self.held, "instruments": [one["title"] for one in self._instruments],
+                "chosen": [one["name"] for one in self._instruments],
+                "named": [one["choices"] for one in self._instruments if one["choices"]]}
 
     @property
     def problem(self) -> str:
@@ -83,15 +76,3 @@ class HeldInstruments:
     def to_csv(self, number: int) -> str:
         """What was steered of one hub since the start, as a drive table. Raises IndexError where there is none."""
         return self._steered[number].to_csv()
-
-
-def key_of(number: int) -> str:
-    """The key that names an instrument of a scene: 0 the wire, k catheter k."""
-    return f"catheters[{number - 1}].instrument" if number else "instrument"
-
-
-def _is_catheter(file: Path) -> bool:
-    try:
-        return json.loads(file.read_text(encoding="utf-8-sig")).get("kind") == "catheter"
-    except (OSError, ValueError, AttributeError):
-        return False    # the runner says what is wrong with it, once it is chosen

@@ -27,7 +27,7 @@ from experiments.session import Session, SessionError, State
 from viewer.recording import (
     Channel, Recording, facts_of, largest_shown, make_channels, name_walls, radius_of, read_off, sheath_of, units_of,
 )
-from viewer.held import HeldInstruments, key_of
+from viewer.held import HeldInstruments
 
 if TYPE_CHECKING:
     from environments.recorded import Recorder
@@ -236,11 +236,10 @@ class LiveRun:
 
     async def _do_name(self, message: Mapping[str, Any]) -> None:
         number, name = message["instrument"], message["name"]
-        if name not in self._instruments.choices[number]:
-            raise ValueError("no such instrument")
+        key = self._instruments.key_of(number, name)
         await self._stop_step()
         self._problem = ""
-        named, by_hand = {**self._named, key_of(number): name}, self._session.hand
+        named, by_hand = {**self._named, key: name}, self._session.hand
         await self._in_thread(lambda: self._open(self._scene, by_hand, named))
 
     async def _do_pause(self, message: Mapping[str, Any]) -> None:
@@ -306,7 +305,7 @@ class LiveRun:
         if self._recorder is not None:
             self._recorder.begin()
         self._described = session.describe()
-        self._instruments = HeldInstruments(session, self._described, self._scenes[scene])
+        self._instruments = HeldInstruments(session, self._described)
         self._is_paused = not session.hand  # a wire that waits for a hand is at rest
         self._warnings = list(dict.fromkeys(str(one.message) for one in said))
         self._walls = self._read_walls(self._scenes[scene], session.parameters, session.state)

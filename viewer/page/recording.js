@@ -61,13 +61,13 @@ export class Recording {
     /** Where a sheath ends, and where it is seen to begin, units. @type {[number[], number[]] | null} */
     this.sheath = header.sheath;
     /** What pictures need to know. @type {{millimetresPerUnit: number, target: import("./target.js").Route | null,
-     *     instruments: import("./pieces.js").Instrument[]} | null} */
+     *     instruments: (import("./pieces.js").Instrument & {title: string})[]} | null} */
     this.described = header.described;
     /** Of a unit. */
     this.millimetres = this.described?.millimetresPerUnit ?? 1;
     /** @type {import("./pieces.js").Instrument[]} */
     this.instruments = (this.described?.instruments ?? []).map((one, k) =>
-      ({ ...one, colour: COLOURS[k % COLOURS.length] }));
+      ({ ...one, name: one.title, colour: COLOURS[k % COLOURS.length] }));
     /** Channels of the instruments' centrelines, the wire's first. */
     this.centrelines = ["positions"];
     while (this.channels.has(`positions${this.centrelines.length}`)) {

@@ -167,10 +167,12 @@ namespace Guidewire.Cli
             SimulationSession session = Opened();
             _pictures ??= new RunPictures(session.Parameters);
             answer["millimetresPerUnit"] = _pictures.MillimetresPerUnit;
-            IReadOnlyList<string> names = session.InstrumentNames();
             answer["instruments"] = new JArray(_pictures.Instruments.Select((instrument, k) => new JObject
             {
-                ["name"] = names[k],
+                ["title"] = session.TitleOf(k),
+                ["name"] = session.NameOf(k),
+                ["key"] = SimulationSession.KeyOf(k),
+                ["choices"] = new JArray(session.ChoicesOf(k)),
                 ["radii"] = new JArray(instrument.Radii),
                 ["innerRadii"] = new JArray(instrument.InnerRadii),
                 ["attenuations"] = new JArray(instrument.Attenuations),

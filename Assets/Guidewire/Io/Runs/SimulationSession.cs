@@ -141,19 +141,37 @@ namespace Guidewire.Io
         /// <summary>Instruments, the wire among them.</summary>
         public int InstrumentCount => 1 + Parameters.Scene.Catheters.Count;
 
-        /// <summary>What the instruments are called, the wire first: by its name in the folder of instruments, or as
-        /// what it is.</summary>
-        public IReadOnlyList<string> InstrumentNames()
+        /// <summary>The name by which the parameters give an instrument; empty where they state its numbers.</summary>
+        /// <param name="instrument">0 the wire, k catheter k.</param>
+        public string NameOf(int instrument)
         {
-            int catheters = Parameters.Scene.Catheters.Count;
-            string wire = _handler.Values.Instrument;
-            var names = new List<string> { wire.Length > 0 ? wire : "guidewire" };
-            for (int k = 0; k < catheters; k++)
-            {
-                names.Add((string?)_handler.Values.Catheters![k]!["instrument"]
-                    ?? (catheters > 1 ? "catheter " + (k + 1) : "catheter"));
-            }
-            return names;
+            return instrument == 0 ? _handler.Values.Instrument
+                : (string?)_handler.Values.Catheters![instrument - 1]!["instrument"] ?? "";
+        }
+
+        /// <summary>What an instrument is called: by its name, or else as what it is.</summary>
+        /// <param name="instrument">0 the wire, k catheter k.</param>
+        public string TitleOf(int instrument)
+        {
+            string name = NameOf(instrument);
+            return name.Length > 0 ? name : instrument == 0 ? "guidewire"
+                : InstrumentCount > 2 ? "catheter " + instrument : "catheter";
+        }
+
+        /// <summary>Names that can stand for an instrument: those of the folder beside the parameter file, then the
+        /// program's; for a catheter only catheters. Empty where the run's method takes no instrument.</summary>
+        /// <param name="instrument">0 the wire, k catheter k.</param>
+        public IReadOnlyList<string> ChoicesOf(int instrument)
+        {
+            return ParameterTable.Find("instrument")!.IsTakenBy(Parameters.Method.Solver)
+                ? InstrumentLibrary.Names(_from.Name, instrument > 0) : Array.Empty<string>();
+        }
+
+        /// <summary>The key that names an instrument.</summary>
+        /// <param name="instrument">0 the wire, k catheter k.</param>
+        public static string KeyOf(int instrument)
+        {
+            return instrument == 0 ? "instrument" : "catheters[" + (instrument - 1) + "].instrument";
         }
 
         /// <summary>One step. A run that is not steered takes no notice of push and turn.</summary>
