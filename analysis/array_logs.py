@@ -6,8 +6,9 @@ says 0 rows: as many as are whole in its length count.
 
 from __future__ import annotations
 
+import re
 import zipfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -66,6 +67,11 @@ class ArrayLog:
         """Indices of the spheres that it holds."""
         return self["firstSphere"][0] + np.arange(self["positions"].shape[1])
 
+    @property
+    def catheters(self) -> list[str]:
+        """Names of the arrays of the catheters' positions, outermost first."""
+        return sorted(name for name in self._names if re.fullmatch(r"catheter\d*Positions", name))
+
     def entries(self) -> Iterator[tuple[int, dict[str, Any]]]:
         """Step and entry, as they stand in a log of format json."""
         columns = {name: self[name] for name in self._names}
@@ -86,6 +92,8 @@ class ArrayLog:
             if "hubForce" in columns:
                 entry["hub"] = {key: _vector(columns[name][k]) if name == "tipDirection" else columns[name][k].item()
                                 for name, key in _HUB.items() if name in columns}
+            if self.catheters:
+                entry["catheters"] = [_catheter(columns, name.removesuffix("Positions"), k) for name in self.catheters]
             if "contactForces" in columns:
                 entry["contact"] = {
                     "total": _vector(columns["contactTotal"][k]), "reaction": _vector(columns["reaction"][k]),
@@ -112,6 +120,12 @@ def _read_rows(source: Path) -> np.ndarray:
         start = file.tell()
     whole = (source.stat().st_size - start) // kind.itemsize
     return np.fromfile(source, dtype=kind, count=whole, offset=start)
+
+
+def _catheter(columns: Mapping[str, np.ndarray], prefix: str, k: int) -> dict[str, Any]:
+    names = {"Positions": "sphere", "Orientations": "orientation"}
+    whole = [name.removeprefix(prefix) for name in columns if name.startswith(prefix)]
+    return {names.get(name, name.lower()): columns[prefix + name][k].tolist() for name in whole}
 
 
 def _vector(values: np.ndarray) -> dict[str, float]:

@@ -56,6 +56,9 @@ class PositionLog:
         Indices of all spheres that the last whole step states, whatever ``spheres`` asked for.
     final_positions : ndarray of float64, shape (f, 3)
         Their positions, in units.
+    catheters : tuple of ndarray of float64, shape (k, m+1, 3)
+        Positions of the nodes of each catheter over the wire, outermost first, in units; none unless all spheres were
+        asked for.
     warning : str or None
         One line where the log ends before the run did; what was read then goes up to the last whole step.
     """
@@ -72,6 +75,7 @@ class PositionLog:
     final_spheres: np.ndarray
     final_positions: np.ndarray
     warning: str | None
+    catheters: tuple[np.ndarray, ...] = ()
 
     @property
     def complete(self) -> bool:
@@ -208,6 +212,7 @@ def _read_arrays(source: Path, spheres: str | Sequence[int], every: int, velocit
         velocities=np.asarray(log["velocities"][whole][:, columns], dtype=float) if velocities else None,
         final_step=int(steps[-1]), final_spheres=logged, final_positions=np.asarray(positions[-1], dtype=float),
         warning=log.warning,
+        catheters=tuple(np.asarray(log[name][whole], dtype=float) for name in log.catheters) if spheres == "all" else (),
     )
 
 
@@ -321,6 +326,7 @@ class _Columns:
         self._scalars = {name: array("d") for name in ("totalTime", "elapsedMilliseconds", "delta")}
         self._positions = array("d")
         self._velocities = array("d") if velocities else None
+        self._catheters: list[array[float]] = []
 
     def append(self, step: int, entry: dict) -> None:
         try:
@@ -334,6 +340,11 @@ class _Columns:
                 self._positions.extend((float(sphere["x"]), float(sphere["y"]), float(sphere["z"])))
                 if self._velocities is not None:
                     self._velocities.extend((float(sphere["vx"]), float(sphere["vy"]), float(sphere["vz"])))
+            catheters = entry.get("catheters", []) if self._asked == "all" else []
+            if len(self._steps) == 1:
+                self._catheters = [array("d") for _ in catheters]
+            for column, catheter in zip(self._catheters, catheters, strict=True):
+                column.extend(float(part) for node in catheter["sphere"] for part in node)
         except (KeyError, TypeError, ValueError) as error:
             raise LogError(f"{self._source}: step {step} lacks {error}") from error
 
@@ -362,4 +373,5 @@ class _Columns:
             final_spheres=np.array([int(index) for index in final]),
             final_positions=np.array([[float(entry["sphere"][i][axis]) for axis in "xyz"] for i in final]),
             warning=warning,
+            catheters=tuple(np.frombuffer(column).reshape(len(self._steps), -1, 3) for column in self._catheters),
         )

@@ -1,15 +1,16 @@
 """Pictures and short films of a run: the wire as a tube, of the vessel the far wall, so that one looks inside.
 
-No Unity takes part: the wire comes from the log, walls are triangles that the caller brings, the pixels are made by
+No Unity takes part: the wire and the catheters come from the log, walls are triangles that the caller brings, the pixels are made by
 analysis.raster. One moment is coloured by curvature; several moments in one picture have a colour each.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib import colormaps
@@ -23,10 +24,12 @@ from analysis.surfaces import Surface, curvature, refine, tube
 GREY, RED = np.array([0.82, 0.84, 0.88]), np.array([0.95, 0.1, 0.05])
 WALL = np.array([0.72, 0.6, 0.58])
 OBSTACLE = np.array([0.45, 0.6, 0.75])
+CATHETERS = (np.array([1.0, 0.62, 0.18]), np.array([0.71, 0.55, 1.0]), np.array([0.37, 0.83, 0.55]))  # as on the page
 SIZE = (960, 600)
 _FILM_SIZE = (640, 400)
 _OVERSAMPLING = 2
 _THINNEST = 1.0 / 400.0  # radius of the wire over what the picture spans: less would be no pixel wide
+_SEEN_THROUGH = 0.5  # how much a catheter tints what is in it
 _LATER_COVERS = 0.03  # share of its radius by which a wire lies over one before it in the same place
 _PIECES = 12  # triangles are cut to so small a part of what the picture spans: one behind the camera is not drawn
 _TEXT = (225, 225, 230)
@@ -59,11 +62,29 @@ class View:
 
 
 @dataclass(frozen=True)
+class Catheter:
+    """A catheter over the wire, as it is drawn.
+
+    name : what it is called; radius : its outer one, units; colour : (3,) in [0, 1].
+    """
+
+    name: str
+    radius: float
+    colour: np.ndarray
+
+
+def catheters_of(instruments: Sequence[Mapping[str, Any]]) -> tuple[Catheter, ...]:
+    """Those among a run's instruments, as `Session.describe` lists them."""
+    return tuple(Catheter(one["title"], max(one["radii"]), CATHETERS[k % len(CATHETERS)])
+                 for k, one in enumerate(instruments[1:]))
+
+
+@dataclass(frozen=True)
 class Stage:
     """What stays the same in all pictures of a run: its vessel, drawn once, and the camera.
 
     background : the far walls; obstacles : bodies in the wire's way; radius : of the wire as it is drawn, units;
-    bend : 1/unit, curvature shown as full red.
+    bend : 1/unit, curvature shown as full red; catheters : over the wire, with the radii that they are drawn with.
     """
 
     camera: Camera
@@ -71,6 +92,7 @@ class Stage:
     obstacles: tuple[Surface, ...]
     radius: float
     bend: float
+    catheters: tuple[Catheter, ...] = ()
 
 
 def bend_colours(values: np.ndarray, full: float) -> np.ndarray:
@@ -79,7 +101,8 @@ def bend_colours(values: np.ndarray, full: float) -> np.ndarray:
     return (1.0 - share) * GREY + share * RED
 
 
-def set_stage(run: Run, log: PositionLog, walls: Sequence[Surface], view: View) -> Stage:
+def set_stage(run: Run, log: PositionLog, walls: Sequence[Surface], view: View,
+              catheters: Sequence[Catheter] = ()) -> Stage:
     """Draw what does not move.
 
     Parameters
@@ -88,6 +111,7 @@ def set_stage(run: Run, log: PositionLog, walls: Sequence[Surface], view: View) 
     log : its positions, all spheres.
     walls : the vessel first, where the run has one, and the obstacles.
     view : where to look from.
+    catheters : those over the wire.
     """
     middle, diagonal = _framed(run, log, walls)
     seen = (diagonal if view.distance is None else min(diagonal, view.distance)) / view.nearer
@@ -101,10 +125,12 @@ def set_stage(run: Run, log: PositionLog, walls: Sequence[Surface], view: View) 
         draw(background, camera, surface, np.broadcast_to(WALL, surface.vertices.shape), 0.75)
     bends = [float(curvature(positions).max()) for positions in log.positions if np.isfinite(positions).all()]
     return Stage(camera, background, tuple(walls[1:] if has_vessel else walls), radius,
-                 _round_up(max([*bends, 0.1 / diagonal])))
+                 _round_up(max([*bends, 0.1 / diagonal])),
+                 tuple(replace(one, radius=one.radius * radius / _radius(run)) for one in catheters))
 
 
-def frame(stage: Stage, wires: Sequence[tuple[np.ndarray, np.ndarray | None]], lines: Sequence[str]) -> Image.Image:
+def frame(stage: Stage, wires: Sequence[tuple[np.ndarray, np.ndarray | None]], lines: Sequence[str],
+          catheters: Sequence[Sequence[np.ndarray]] = ()) -> Image.Image:
     """One picture.
 
     Parameters
@@ -112,12 +138,16 @@ def frame(stage: Stage, wires: Sequence[tuple[np.ndarray, np.ndarray | None]], l
     stage : what does not move.
     wires : from the first moment to the last, positions (n+1, 3) in units, and the wire's colour (3,) in [0, 1], or None: coloured by curvature.
     lines : text in the lower left corner; line k in the colour of wire k, where that has one.
+    catheters : positions (m+1, 3) of those of the stage at each moment, outermost first. One sees through them.
     """
     picture = stage.background.copy()
     for k, (positions, colour) in enumerate(wires):
         surface = tube(positions, (1.0 + _LATER_COVERS * k) * stage.radius)
         plain = None if colour is None else np.broadcast_to(colour, surface.vertices.shape)
         draw(picture, stage.camera, surface, bend_colours(surface.values, stage.bend) if plain is None else plain)
+    for positions, one in ((positions, one) for moment in catheters for positions, one in zip(moment, stage.catheters)):
+        surface = tube(positions, one.radius)
+        draw(picture, stage.camera, surface, np.broadcast_to(one.colour, surface.vertices.shape), _SEEN_THROUGH)
     for obstacle in stage.obstacles:  # a tint over what is behind them: a sheath must not hide the wire
         draw(picture, stage.camera, obstacle, np.broadcast_to(OBSTACLE, obstacle.vertices.shape), 0.35)
     pixels = Image.fromarray((255.0 * np.clip(picture.colour, 0.0, 1.0) + 0.5).astype(np.uint8))
@@ -127,47 +157,51 @@ def frame(stage: Stage, wires: Sequence[tuple[np.ndarray, np.ndarray | None]], l
         colour = wires[k][1] if k < len(wires) else None
         fill = _TEXT if colour is None else tuple(int(255 * part) for part in colour)
         pen.text((12, SIZE[1] - 22 - 16 * (len(lines) - 1 - k)), line, fill=fill)
+    for k, one in enumerate(stage.catheters if catheters else ()):
+        pen.text((12, 10 + 16 * k), one.name, fill=tuple(int(255 * part) for part in one.colour))
     return pixels
 
 
-def draw_picture(run: Run, log: PositionLog, walls: Sequence[Surface], view: View, times: Sequence[float]
-                 ) -> Image.Image:
+def draw_picture(run: Run, log: PositionLog, walls: Sequence[Surface], view: View, times: Sequence[float],
+                 catheters: Sequence[Catheter] = ()) -> Image.Image:
     """A picture of a run: its last moment, or several.
 
     Parameters
     ----------
-    run, log, walls, view : as of `set_stage`.
+    run, log, walls, view, catheters : as of `set_stage`.
     times : s, in-game; of each the nearest moment of the log is drawn, in a colour of its own. None: the last moment,
         coloured by curvature.
     """
     chosen = sorted({nearest(log, time) for time in times}) or [len(log.time) - 1]
     if view.follows_tip and len(chosen) > 1:
         raise LogError("the tip is followed in a film or at one moment: give one of --times")
-    stage = set_stage(run, log, walls, _at_tip(view, log, chosen[-1]))
+    stage = set_stage(run, log, walls, _at_tip(view, log, chosen[-1]), catheters)
     if not times:
-        return frame(stage, [(_finite(log, -1), None)], [_caption(log, -1, stage)])
+        return frame(stage, [(_finite(log, -1), None)], [_caption(log, -1, stage)], [_catheters_at(log, -1)])
     colours = colormaps["plasma"](np.linspace(0.4, 0.95, len(chosen)))[:, :3]
     return frame(stage, [(_finite(log, k), colour) for k, colour in zip(chosen, colours)],
-                 [f"t = {log.time[k]:.4g} s   step {log.steps[k]}" for k in chosen])
+                 [f"t = {log.time[k]:.4g} s   step {log.steps[k]}" for k in chosen],
+                 [_catheters_at(log, k) for k in chosen])
 
 
 def draw_film(run: Run, log: PositionLog, walls: Sequence[Surface], view: View, frames: int,
-              tell: Callable[[int, int], None] = lambda done, count: None) -> list[Image.Image]:
+              tell: Callable[[int, int], None] = lambda done, count: None,
+              catheters: Sequence[Catheter] = ()) -> list[Image.Image]:
     """Pictures of a run, evenly spaced in time, coloured by curvature; the first is the start, the last the end.
 
     Parameters
     ----------
-    run, log, walls, view : as of `set_stage`.
+    run, log, walls, view, catheters : as of `set_stage`.
     frames : how many at most: a log of fewer entries has no more.
     tell : called after each picture with how many are drawn, and of how many.
     """
-    stage = set_stage(run, log, walls, _at_tip(view, log, 0))
+    stage = set_stage(run, log, walls, _at_tip(view, log, 0), catheters)
     chosen = np.unique(np.linspace(0, len(log.time) - 1, frames).astype(int))
     images = []
     for k in chosen:
         if view.follows_tip and images:
-            stage = set_stage(run, log, walls, _at_tip(view, log, k))
-        images.append(frame(stage, [(_finite(log, k), None)], [_caption(log, k, stage)])
+            stage = set_stage(run, log, walls, _at_tip(view, log, k), catheters)
+        images.append(frame(stage, [(_finite(log, k), None)], [_caption(log, k, stage)], [_catheters_at(log, k)])
                       .resize(_FILM_SIZE, Image.LANCZOS).quantize(64))
         tell(len(images), len(chosen))
     return images
@@ -235,6 +269,10 @@ def _finite(log: PositionLog, k: int) -> np.ndarray:
     if not np.isfinite(log.positions[k]).all():
         raise LogError(f"{log.source}: step {log.steps[k]} has a position that is not finite; give --times before it")
     return log.positions[k]
+
+
+def _catheters_at(log: PositionLog, k: int) -> list[np.ndarray]:
+    return [positions[k] for positions in log.catheters]
 
 
 def _caption(log: PositionLog, k: int, stage: Stage) -> str:

@@ -97,7 +97,7 @@ def _steer(name: str, file: Path, opens: bool, build_runner: Callable[[], list[s
         path.write_text(json.dumps(scene), encoding="utf-8")
         serve_scene(path, build_runner, recorder, opens)
     if recorder.is_spoilt or not recorder.calls:
-        print("nothing recorded: " + ("a parameter was changed" if recorder.is_spoilt else "no step was made"))
+        print("nothing recorded: " + ("a parameter was changed, or a catheter held" if recorder.is_spoilt else "no step was made"))
         return 0
     recorder.drive(task.name, _BY_HAND, "by keys, through the page").save(file)
     print(f"recorded: {file}, {len(recorder.calls)} calls; "

@@ -74,7 +74,7 @@ class Recorder:
     Attributes
     ----------
     calls : since the scene was opened or set back.
-    is_spoilt : whether a parameter was changed, so that calls alone do not tell what happened.
+    is_spoilt : whether a parameter was changed or a catheter held, so that calls alone do not tell what happened.
     """
 
     def __init__(self) -> None:
@@ -92,7 +92,7 @@ class Recorder:
         self._state = state
 
     def spoil(self) -> None:
-        """A parameter was changed."""
+        """A parameter was changed, or a catheter held."""
         self.is_spoilt = True
 
     def drive(self, task: str, options: Mapping[str, Any], source: str) -> RecordedDrive:

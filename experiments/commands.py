@@ -187,14 +187,15 @@ def _render(arguments: argparse.Namespace) -> int:
         checking.check_out(out.parent)
         surfaces = walls.read_walls(_build_runner, run, middle, max(diagonal, 1.0))
         yaw, pitch = render.VIEWS[arguments.view] if arguments.view else (-90.0, 15.0)
+        catheters = render.catheters_of(fluoroscopy.instruments_of(run)) if log.catheters else ()
         view = render.View(tuple(arguments.target) if arguments.target else None, arguments.distance,
                            yaw if arguments.yaw is None else arguments.yaw,
                            pitch if arguments.pitch is None else arguments.pitch, arguments.radius, arguments.zoom,
                            arguments.follow == "tip")
         if out.suffix == ".gif":
-            images = render.draw_film(run, log, surfaces, view, arguments.frames, tell_frames)
+            images = render.draw_film(run, log, surfaces, view, arguments.frames, tell_frames, catheters)
         else:
-            images = [render.draw_picture(run, log, surfaces, view, arguments.times)]
+            images = [render.draw_picture(run, log, surfaces, view, arguments.times, catheters)]
     except LogError as error:
         raise PreparationError(str(error)) from error
     return _save_render(images, log, out)

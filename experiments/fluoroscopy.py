@@ -65,13 +65,28 @@ def draw(run: Run, log: PositionLog, arguments: argparse.Namespace, is_film: boo
                     raise LogError(f"{log.source}: step {log.steps[k]} has a position that is not finite")
                 centre = log.positions[k][-1].tolist() if arguments.follow else arguments.target
                 side = field or (_FOLLOWED if arguments.follow else None)
-                grey = session.picture_of(log.positions[k], centre=centre, field_of_view=side, seed=int(log.steps[k]),
+                nodes = [log.positions[k], *(positions[k] for positions in log.catheters)]
+                grey = session.picture_of(nodes, centre=centre, field_of_view=side, seed=int(log.steps[k]),
                                           **view)
                 images.append(_with_caption(grey, view, log.time[k]))
                 tell(len(images), len(chosen))
     except SessionError as error:
         raise PreparationError(str(error).removeprefix("request: ")) from error
     return [image.quantize(_FILM_COLOURS) for image in images] if is_film else images
+
+
+def instruments_of(run: Run) -> Sequence[dict[str, Any]]:
+    """The wire and the catheters over it, as `Session.describe` lists them.
+
+    Raises PreparationError, one line, where the run's parameters cannot be used any more.
+    """
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            with Session(run.folder / PARAMETERS_NAME, hand=False) as session:
+                return session.describe()["instruments"]
+    except SessionError as error:
+        raise PreparationError(str(error)) from error
 
 
 def _chosen(log: PositionLog, arguments: argparse.Namespace, is_film: bool) -> Sequence[int]:

@@ -16,7 +16,7 @@ import math
 import sys
 import warnings
 import weakref
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
@@ -29,8 +29,10 @@ from experiments.session_hosts import Ended, Library, Process, obstacle
 
 _COLUMNS = {
     "positions": 3, "velocities": 3, "orientations": 4, "angularVelocities": 3, "contactForces": 3, "reaction": 3,
-    "hub": 14, "strain": 3, "force": 3, "curvature": 3, "couple": 3, "energy": 3,
+    "hub": 14, "catheter": 12, "strain": 3, "force": 3, "curvature": 3, "couple": 3, "energy": 3,
 }
+_DIGITS = "0123456789"  # of a catheter, behind the name of an array of its own
+_MOST = 1 << 31  # from here on a number does not fit a request of the library's
 
 
 class SessionError(Exception):
@@ -65,6 +67,31 @@ class Hub:
     largest_curvature: float
     length_in_body: float | None
     spheres_in_body: int | None
+
+
+@dataclass(frozen=True)
+class CatheterState:
+    """A catheter over the wire at one moment; m rod elements. SI units but for positions and tip_position.
+
+    Attributes
+    ----------
+    positions : (m+1, 3), units.
+    orientations : (m, 4), quaternions x, y, z, w of the rod elements.
+    insertion, turn, force, torque, tip_position, tip_direction : as of `Hub`, of its own hub and tip.
+    extension : how far the tip of what is inside is beyond its own, m; negative inside.
+    overlap : length over which that is inside, m.
+    """
+
+    positions: np.ndarray
+    orientations: np.ndarray
+    insertion: float
+    turn: float
+    force: float
+    torque: float
+    tip_position: np.ndarray
+    tip_direction: np.ndarray
+    extension: float
+    overlap: float
 
 
 @dataclass(frozen=True)
@@ -103,6 +130,7 @@ class State:
     strain, force : (n, 3), of a material: shear and stretch of each element, and force in it, N; else None.
     energy : of a material, J: of its motion, stored in it, and of the loads that have a potential; else None.
     hub : of solver direct, what is read off at hub and tip; else None.
+    catheters : those over the wire, outermost first.
     """
 
     step: int
@@ -122,6 +150,7 @@ class State:
     force: np.ndarray | None
     energy: Energy | None
     hub: Hub | None
+    catheters: tuple[CatheterState, ...]
     _session: ClassVar[Callable[..., Session | None]] = _no_session
 
     def picture(self, **view: Any) -> np.ndarray:
@@ -136,7 +165,7 @@ class State:
         session = self._session()
         if session is None:
             raise SessionError("this state has no session that could take a picture")
-        return session.picture_of(self.positions, **view)
+        return session.picture_of([self.positions, *(one.positions for one in self.catheters)], **view)
 
     def __getstate__(self) -> dict[str, Any]:
         return {name: value for name, value in vars(self).items() if name != "_session"}
@@ -223,7 +252,7 @@ class Session:
         """The wire as it is now."""
         return self._state
 
-    def step(self, push: float = 0.0, turn: float = 0.0, steps: int = 1) -> State:
+    def step(self, push: float = 0.0, turn: float = 0.0, steps: int = 1, hub: int = 0) -> State:
         """Go on by some steps of `timeStep`, fewer where the run ends before.
 
         Parameters
@@ -232,6 +261,8 @@ class Session:
             displacementDirection where the drive of a wire with a material is "displace".
         turn : turn of the first element about its axis in all of them, rad.
         steps : number of steps, from 1; push and turn are made in equal parts.
+        hub : whose hub push and turn move, along and about its axis: 0 the wire's, k that of catheter k; the others
+            rest. Without a hand it says nothing.
 
         Raises
         ------
@@ -239,11 +270,10 @@ class Session:
             ended by `maxSimulationSteps`.
         """
         push, turn = (_number(name, value) for name, value in (("push", push), ("turn", turn)))
-        if isinstance(steps, (bool, np.bool_)) or not isinstance(steps, (int, np.integer)):
-            raise SessionError(f"steps = {steps!r} is not allowed: needs a whole number from 1")
-        if not isinstance(self._host, Library) or not 1 <= steps < 1 << 31:
-            return self._take(self._ask("step", push=push, turn=turn, steps=int(steps)))
-        made = self._guarded(lambda host: host.step(push, turn, int(steps), self._layout))
+        steps, hub = _whole("steps", steps, "1"), _whole("hub", hub, "0, the wire's")
+        if not isinstance(self._host, Library) or not (1 <= steps < _MOST and 0 <= hub < _MOST):
+            return self._take(self._ask("step", push=push, turn=turn, steps=steps, hub=hub))
+        made = self._guarded(lambda host: host.step(push, turn, hub, steps, self._layout))
         if isinstance(made, dict):
             return self._take(_accepted(made))
         (step, time, _, prediction_error), arrays = made
@@ -290,8 +320,9 @@ class Session:
         return self._take(self._ask("restore", snapshot=base64.b64encode(saved).decode("ascii")))
 
     def describe(self) -> dict[str, Any]:
-        """What a picture needs to know: "millimetresPerUnit"; "instruments", a list of objects with a number for each
-        element, "radii", "innerRadii" (units) and "attenuations" (1/unit); and "target", the centreline from the inlet
+        """What a picture needs to know: "millimetresPerUnit"; "instruments", a list of objects, the wire first:
+        "title", "name" (of its file, or ""), "key" that names it, "choices" of other names, and with a number for each
+        element "radii", "innerRadii" (units) and "attenuations" (1/unit); and "target", the centreline from the inlet
         to it: "name", "points" (units), "radii", "distances"; None where the run has none."""
         answer = self._ask("describe")
         return {name: answer[name] for name in ("millimetresPerUnit", "instruments", "target")}
@@ -320,21 +351,23 @@ class Session:
         """
         return self.picture_of(None, **view)
 
-    def picture_of(self, positions: np.ndarray | None, **view: Any) -> np.ndarray:
-        """As `picture`, of a wire with nodes elsewhere, (n+1, 3), units."""
+    def picture_of(self, positions: np.ndarray | Sequence[np.ndarray] | None, **view: Any) -> np.ndarray:
+        """As `picture`, of a wire with nodes elsewhere, (n+1, 3), units; with catheters of a list of the wire's and
+        each catheter's, outermost first."""
         for name, value in view.items():
             if isinstance(value, (float, np.floating)) and not math.isfinite(value):
                 raise SessionError(f"{name} = {value} is not allowed: needs a finite number")
         if "field_of_view" in view:
             view["fieldOfView"] = view.pop("field_of_view")
-        wire = None if positions is None else np.ascontiguousarray(positions, dtype="<f8")
+        several = positions if isinstance(positions, (list, tuple)) else [positions]
+        nodes = None if positions is None else np.concatenate([np.asarray(one, dtype="<f8").ravel() for one in several])
         text = json.dumps(view, default=_plain)
         if isinstance(self._host, Library):
-            made = self._guarded(lambda host: host.picture(text, wire))
+            made = self._guarded(lambda host: host.picture(text, nodes))
             if isinstance(made, np.ndarray):
                 return made
             raise SessionError(_accepted(made)["message"])
-        positions_text = "" if wire is None else base64.b64encode(wire.tobytes()).decode("ascii")
+        positions_text = "" if nodes is None else base64.b64encode(nodes.tobytes()).decode("ascii")
         answer = self._ask("picture", view=view, positions=positions_text)
         grey = np.frombuffer(base64.b64decode(answer["grey"]), dtype=np.uint8)
         return grey.reshape(answer["pixels"], answer["pixels"]).copy()
@@ -379,8 +412,9 @@ class Session:
             raise
 
     def _take(self, answer: Mapping[str, Any]) -> State:
-        arrays = {name: np.frombuffer(base64.b64decode(answer[name]), dtype="<f8").reshape(-1, columns).astype(float)
-                  for name, columns in _COLUMNS.items() if name in answer}
+        columns = {name: _COLUMNS.get(name.rstrip(_DIGITS)) for name in answer}
+        arrays = {name: np.frombuffer(base64.b64decode(answer[name]), dtype="<f8").reshape(-1, width).astype(float)
+                  for name, width in columns.items() if width is not None}
         self._layout = {name: array.shape for name, array in arrays.items()}
         self._state = _state(answer["step"], answer["time"], answer["outcome"], answer["message"],
                              answer["predictionError"], arrays, self)
@@ -423,6 +457,12 @@ def _plain(value: Any) -> Any:
     raise TypeError(f"a parameter cannot be a {type(value).__name__}")
 
 
+def _whole(name: str, value: Any, least: str) -> int:
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, np.integer)):
+        raise SessionError(f"{name} = {value!r} is not allowed: needs a whole number from {least}")
+    return int(value)
+
+
 def _number(name: str, value: Any) -> float:
     is_number = isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool)
     if not is_number or not math.isfinite(value):
@@ -439,10 +479,20 @@ def _state(step: int, time: float, outcome: str | None, reason: str, prediction_
         arrays["reaction"][0] if "reaction" in arrays else None,
         arrays.get("curvature"), arrays.get("couple"), arrays.get("strain"), arrays.get("force"),
         Energy(*arrays["energy"][0].tolist()) if "energy" in arrays else None,
-        _hub(arrays["hub"][0]) if "hub" in arrays else None,
+        _hub(arrays["hub"][0]) if "hub" in arrays else None, _catheters(arrays),
     )
     object.__setattr__(state, "_session", weakref.ref(session))    # not a part of what it says
     return state
+
+
+def _catheters(arrays: dict[str, np.ndarray]) -> tuple[CatheterState, ...]:
+    catheters = []
+    while (positions := arrays.get(f"positions{len(catheters) + 1}")) is not None:
+        number = len(catheters) + 1
+        numbers = arrays[f"catheter{number}"][0]
+        catheters.append(CatheterState(positions, arrays[f"orientations{number}"], *numbers[:4].tolist(), numbers[4:7],
+                                       numbers[7:10], *numbers[10:].tolist()))
+    return tuple(catheters)
 
 
 def _hub(numbers: np.ndarray) -> Hub:

@@ -95,13 +95,14 @@ class Library:
         """The answer to a request."""
         return self._answer(line.encode("utf-8"))
 
-    def step(self, push: float, turn: float, steps: int, layout: Mapping[str, tuple[int, ...]]
+    def step(self, push: float, turn: float, hub: int, steps: int, layout: Mapping[str, tuple[int, ...]]
              ) -> tuple[np.ndarray, dict[str, np.ndarray]] | dict[str, Any]:
         """Make steps.
 
         Parameters
         ----------
         push, turn : in all of them together, units and rad.
+        hub : whose they move: 0 the wire's, k that of catheter k.
         layout : the arrays of a state and their shapes.
 
         Returns
@@ -116,8 +117,8 @@ class Library:
             if self._is_killed.is_set():
                 raise Ended("this session was ended while it made steps")
             written = self._functions.guidewire_step(
-                self._number, push / steps, turn / steps, min(_STEPS_AT_ONCE, steps - done), self._numbers.ctypes.data,
-                count)
+                self._number, push / steps, turn / steps, hub, min(_STEPS_AT_ONCE, steps - done),
+                self._numbers.ctypes.data, count)
             if written == 0:
                 return self._answer(b"")
             if self._numbers[2]:
@@ -137,7 +138,7 @@ class Library:
         Parameters
         ----------
         view : which, as JSON.
-        positions : nodes of the wire, (n+1, 3) of doubles; None: as it is now.
+        positions : x, y, z of the wire's nodes and then of each catheter's, doubles; None: as they are now.
 
         Returns
         -------
@@ -197,7 +198,7 @@ def _load(path: str) -> ctypes.CDLL:
     number, count, real, data = ctypes.c_longlong, ctypes.c_int, ctypes.c_double, ctypes.c_void_p
     for name, result, arguments in (
         ("new", number, []), ("ask", data, [number, ctypes.c_char_p, count, data]), ("free", None, [data]),
-        ("step", count, [number, real, real, count, data, count]), ("close", None, [number]), ("lanes", count, []),
+        ("step", count, [number, real, real, count, count, data, count]), ("close", None, [number]), ("lanes", count, []),
         ("picture", count, [number, ctypes.c_char_p, count, data, count, data, count]),
         ("folder", None, [ctypes.c_char_p]),
     ):

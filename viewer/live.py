@@ -25,9 +25,9 @@ from aiohttp import WSCloseCode, WSMsgType, web
 from analysis.surfaces import Surface
 from experiments.session import Session, SessionError, State
 from viewer.recording import (
-    Channel, Recording, facts_of, largest_shown, make_channels, name_walls, radius_of, sheath_of, units_of,
+    Channel, Recording, facts_of, largest_shown, make_channels, name_walls, radius_of, read_off, sheath_of, units_of,
 )
-from viewer.steered import Steered, exact_push, exact_turn
+from viewer.held import HeldInstruments
 
 if TYPE_CHECKING:
     from environments.recorded import Recorder
@@ -81,7 +81,8 @@ class LiveRun:
         self._walls: list[Surface] = []
         self._sheath: np.ndarray | None = None
         self._largest = np.zeros(0)
-        self._steered: Steered | None = None
+        self._instruments: HeldInstruments | None = None
+        self._named: dict[str, str] = {}  # instruments by their keys that a page has chosen
         self._described: dict[str, Any] = {}
         self._warnings: list[str] = []
         self._opened = 0
@@ -127,14 +128,16 @@ class LiveRun:
             steps = 1 << (steps.bit_length() - 1)    # parts of push and turn by a power of two are exact
             self._steps_asked = max(0, self._steps_asked - steps)
             mark = self._mark
-            push, turn = self._asked_in_a_step(session, dt)
+            instruments = self._instruments
+            hub = instruments.held
+            push, turn = instruments.in_a_step(PUSH_SPEED * self._push * dt, TURN_SPEED * self._turn * dt)
             before = session.state.step
             began = time.monotonic()
             try:
                 whole = push * steps, turn * steps
-                state = await self._in_thread(lambda: session.step(*whole, steps))
+                state = await self._in_thread(lambda: session.step(*whole, steps, hub))
                 if self._session is session:
-                    self._steered.add(push, turn, state.step - before)
+                    instruments.add(hub, push, turn, state.step - before)
             except SessionError as error:
                 if self._session is session:
                     await self._fail(error)
@@ -143,6 +146,8 @@ class LiveRun:
                 continue
             if self._recorder is not None:
                 self._recorder.add(*whole, steps, state)
+                if hub:
+                    self._recorder.spoil()
             cost = (time.monotonic() - began) / steps
             self._cost = cost if self._cost == 0.0 else self._cost + _SMOOTHING * (cost - self._cost)
             await self._show(mark, session, state)
@@ -153,20 +158,15 @@ class LiveRun:
             due = min(max(due + steps * dt / self._pace, now - _BEHIND), now + _LONGEST_WAIT)
             await self._wait_until(due)
 
-    def _asked_in_a_step(self, session: Session, dt: float) -> tuple[float, float]:
-        """Push (units) and turn (rad) in a step, such that a table can say them."""
-        if not session.hand:
-            return 0.0, 0.0
-        push = PUSH_SPEED * self._push * dt
-        metres = session.parameters.get("metresPerUnit")
-        return push if metres is None else exact_push(push, metres), exact_turn(TURN_SPEED * self._turn * dt)
-
-    def steered_csv(self) -> str:
-        """What was steered since the start, as a drive table; raises HTTPConflict, with the reason, where none says
-        it."""
-        if self._steered is None or self._steered.problem:
-            raise web.HTTPConflict(text=self._steered.problem if self._steered else "no run is open")
-        return self._steered.to_csv()
+    def steered_csv(self, number: int) -> str:
+        """What was steered of an instrument since the start, as a drive table; raises HTTPConflict, with the reason,
+        where none says it, and HTTPNotFound where there is no such instrument."""
+        if self._instruments is None or self._instruments.problem:
+            raise web.HTTPConflict(text=self._instruments.problem if self._instruments else "no run is open")
+        try:
+            return self._instruments.to_csv(number)
+        except IndexError as error:
+            raise web.HTTPNotFound() from error
 
     async def _wait_until(self, due: float) -> None:
         """Until the next step is due, or a page has asked for something that need not wait for it."""
@@ -230,6 +230,18 @@ class LiveRun:
             raise ValueError("steering takes push and turn from -1 to 1")
         self._push, self._turn, self._mark = push, turn, mark
 
+    async def _do_hold(self, message: Mapping[str, Any]) -> None:
+        if self._instruments is not None:
+            self._instruments.hold(message["instrument"])
+
+    async def _do_name(self, message: Mapping[str, Any]) -> None:
+        number, name = message["instrument"], message["name"]
+        key = self._instruments.key_of(number, name)
+        await self._stop_step()
+        self._problem = ""
+        named, by_hand = {**self._named, key: name}, self._session.hand
+        await self._in_thread(lambda: self._open(self._scene, by_hand, named))
+
     async def _do_pause(self, message: Mapping[str, Any]) -> None:
         self._is_paused = bool(message["value"])
 
@@ -240,14 +252,14 @@ class LiveRun:
     async def _do_reset(self, _: Mapping[str, Any]) -> None:
         await self._stop_step()
         if self._session is None or not self._session.is_open:  # it is gone: a new one takes its place
-            await self._in_thread(lambda: self._open(self._scene))
+            await self._in_thread(lambda: self._open(self._scene, named=self._named))
         else:
             await self._in_thread(self._session.reset)
             if self._recorder is not None:
                 self._recorder.begin()
             self._is_paused = not self._session.hand
             self._opened += 1
-            self._steered = Steered(self._session.parameters)
+            self._instruments.begin()
             self._largest = largest_shown(self._channels(self._session, self._session.state))
         self._problem = ""
 
@@ -281,19 +293,19 @@ class LiveRun:
             return
         if self._recorder is not None:
             self._recorder.spoil()
-        self._steered.invalidate(f"{key} was changed within the run: start anew to record")
+        self._instruments.invalidate(f"{key} was changed within the run: start anew to record")
         self._cost = 0.0
 
-    def _open(self, scene: str, by_hand: bool = True) -> None:
-        self._close_session()
+    def _open(self, scene: str, by_hand: bool = True, named: Mapping[str, str] | None = None) -> None:
         with warnings.catch_warnings(record=True) as said:
             warnings.simplefilter("always")
-            session = _start(self._scenes[scene], by_hand)
-        self._session, self._scene = session, scene
+            session = _start(self._scenes[scene], by_hand, named or {})
+        self._close_session()
+        self._session, self._scene, self._named = session, scene, dict(named or {})
         if self._recorder is not None:
             self._recorder.begin()
-        self._steered = Steered(session.parameters)
         self._described = session.describe()
+        self._instruments = HeldInstruments(session, self._described)
         self._is_paused = not session.hand  # a wire that waits for a hand is at rest
         self._warnings = list(dict.fromkeys(str(one.message) for one in said))
         self._walls = self._read_walls(self._scenes[scene], session.parameters, session.state)
@@ -326,11 +338,12 @@ class LiveRun:
         return {
             "step": np.array([state.step]), "time": np.array([state.time]), "positions": state.positions[None],
             "orientations": state.orientations[None], "contact_forces": state.contact_forces[None] if walls else None,
+            **{f"positions{k + 1}": one.positions[None] for k, one in enumerate(state.catheters)},
             "step_time": np.array([1e3 * self._cost]), "real_time": np.array([real_time]),
             **{name: None if values is None else values[None]
                for name, values in (("curvature", state.curvature), ("force", state.force), ("couple", state.couple),
                                     ("reaction", state.reaction))},
-            **_read_off(state),
+            **read_off(state),
         }
 
     def _may_step(self) -> bool:
@@ -365,7 +378,8 @@ class LiveRun:
             "scenes": list(self._scenes), "problem": self._problem, "values": values,
             "choices": {key: words for key, words in self._choices.items() if key in values},
             "pace": self._pace, "paces": PACES,
-            "steered": "" if self._steered is None else self._steered.problem,
+            "steered": "" if self._instruments is None else self._instruments.problem,
+            **({} if self._instruments is None else self._instruments.status()),
             "outcome": "" if state is None or state.outcome is None else f"{state.outcome}: {state.reason}",
         }
 
@@ -395,18 +409,18 @@ class LiveRun:
 
 _DO: Mapping[str, Callable[[LiveRun, Mapping[str, Any]], Awaitable[None]]] = {
     "hand": LiveRun._do_hand, "pause": LiveRun._do_pause, "step": LiveRun._do_step, "reset": LiveRun._do_reset,
-    "pace": LiveRun._do_pace, "open": LiveRun._do_open, "set": LiveRun._do_set,
+    "hold": LiveRun._do_hold, "name": LiveRun._do_name, "pace": LiveRun._do_pace, "open": LiveRun._do_open, "set": LiveRun._do_set,
 }
 
 
-def _start(scene: Path, by_hand: bool) -> Session:
+def _start(scene: Path, by_hand: bool, named: Mapping[str, str]) -> Session:
     """A session that is steered without end, or where that cannot be, or is not asked for, the file's own run."""
     if by_hand:
         try:
-            return Session(scene, hand=True, native=False, **_ENDLESS)
+            return Session(scene, hand=True, native=False, **_ENDLESS, **named)
         except SessionError:
             pass  # what is wrong with the file itself is said below
-    return Session(scene, hand=False, native=False)
+    return Session(scene, hand=False, native=False, **named)
 
 
 _NOT_ALLOWED = re.compile(r"(?:.*: )?(\w+) = .* is not allowed: (needs .*)", re.DOTALL)
@@ -426,21 +440,6 @@ def _refusal(key: str, value: Any, message: str) -> str:
     named, needs = said.groups()
     asked = f"{key} = {json.dumps(value)}"
     return f"{asked} is not allowed: {needs}" if named == key else f"{asked} does not go with {named}, which {needs}"
-
-
-def _read_off(state: State) -> dict[str, np.ndarray]:
-    """What a state says of energies and of the hub, by the names of a log."""
-    numbers: dict[str, float | None] = {}
-    if state.energy is not None:
-        energy = state.energy
-        numbers |= {"kineticEnergy": energy.kinetic, "elasticEnergy": energy.elastic,
-                    "potentialEnergy": energy.potential}
-    if state.hub is not None:
-        hub = state.hub
-        read_off = {"insertion": hub.insertion, "turn": hub.turn, "force": hub.force, "torque": hub.torque,
-                    "twist": hub.twist, "largestCurvature": hub.largest_curvature, "lengthInBody": hub.length_in_body}
-        numbers |= {f"hub.{name}": value for name, value in read_off.items()} | {"inBody": hub.spheres_in_body}
-    return {name: np.array([value]) for name, value in numbers.items() if value is not None}
 
 
 async def _say_goodbye(socket: web.WebSocketResponse) -> None:

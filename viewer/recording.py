@@ -7,6 +7,7 @@ then the arrays, lowest byte first. `viewer/page/recording.js` reads it.
 from __future__ import annotations
 
 import json
+import re
 import struct
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -17,6 +18,7 @@ import numpy as np
 from analysis.logs import LogError, read_entries, read_log
 from analysis.runs import Run
 from analysis.surfaces import Surface
+from experiments.session import State
 
 _STEPS = 65535  # of a quantised number, from its lowest value to its highest
 _ALIGNED = 8
@@ -186,7 +188,8 @@ def make_channels(units: Units, numbers: Mapping[str, np.ndarray | None]) -> lis
     ----------
     units : of the run.
     numbers : "step", "time" (k,), s; "positions" (k, n+1, 3), units; and where they are known "orientations" (k, n, 4),
-        x, y, z, w; "curvature" (k, n+1, 3), rad/m; "force" (k, n, 3), N; "contact_forces" (k, n+1, 3); "reaction"
+        x, y, z, w; "positions1" (k, m+1, 3) of the first catheter, and so on, and what was read off at its hub with
+        "hub1." before its key; "curvature" (k, n+1, 3), rad/m; "force" (k, n, 3), N; "contact_forces" (k, n+1, 3); "reaction"
         (k, 3); "couple" (k, n+1, 3), N m; "kineticEnergy", "elasticEnergy" and "potentialEnergy" (k,), J; what a log
         has of the hub, (k,), with "hub." before its key; "inBody" (k,), spheres out of a sheath; "step_time" (k,), ms;
         "real_time" (k,), times faster.
@@ -200,6 +203,8 @@ def make_channels(units: Units, numbers: Mapping[str, np.ndarray | None]) -> lis
     channels = [
         Channel("time", "", "s", "frame", known["time"]), Channel("step", "", "", "frame", known["step"]),
         Channel("positions", "", "units", "vector", _flat(positions)),
+        *(Channel(name, "", "units", "vector", _flat(known[name])) for name in known
+          if re.fullmatch(r"positions\d+", name)),
     ]
     if "curvature" in known:
         bend = np.hypot(known["curvature"][..., 0], known["curvature"][..., 1])
@@ -241,6 +246,12 @@ def _at_the_hub(known: Mapping[str, np.ndarray], units: Units, along: np.ndarray
     """As it was read off; else force and couple of the support, as far as they are known."""
     channels = [Channel("hub" + key[0].upper() + key[1:], label, unit, "frame", known[f"hub.{key}"], is_signed)
                 for key, (label, unit, is_signed) in _HUB.items() if f"hub.{key}" in known]
+    for name in known:
+        of_catheter = re.fullmatch(r"hub(\d+)\.(\w+)", name)
+        if of_catheter and of_catheter[2] in _HUB:
+            label, unit, is_signed = _HUB[of_catheter[2]]
+            channels.append(Channel(f"hub{of_catheter[1]}{of_catheter[2][0].upper()}{of_catheter[2][1:]}",
+                                    f"{label}, catheter {of_catheter[1]}", unit, "frame", known[name], is_signed))
     names = [channel.name for channel in channels]
     if "hubForce" not in names and "reaction" in known:
         channels.append(Channel("hubForce", "force at the hub", units.force, "frame",
@@ -249,6 +260,23 @@ def _at_the_hub(known: Mapping[str, np.ndarray], units: Units, along: np.ndarray
         channels.append(Channel("hubTorque", "torque at the hub", "N m", "frame",
                                 np.einsum("kj,kj->k", known["couple"][:, 0], along[:, 0]), True))
     return channels
+
+
+def read_off(state: State) -> dict[str, np.ndarray]:
+    """What a state says of energies and of the hub, by the names of a log."""
+    numbers: dict[str, float | None] = {}
+    if state.energy is not None:
+        energy = state.energy
+        numbers |= {"kineticEnergy": energy.kinetic, "elasticEnergy": energy.elastic,
+                    "potentialEnergy": energy.potential}
+    if state.hub is not None:
+        hub = state.hub
+        read_off = {"insertion": hub.insertion, "turn": hub.turn, "force": hub.force, "torque": hub.torque,
+                    "twist": hub.twist, "largestCurvature": hub.largest_curvature, "lengthInBody": hub.length_in_body}
+        numbers |= {f"hub.{name}": value for name, value in read_off.items()} | {"inBody": hub.spheres_in_body}
+    for k, one in enumerate(state.catheters):
+        numbers |= {f"hub{k + 1}.{name}": getattr(one, name) for name in ("insertion", "turn", "force", "torque")}
+    return {name: np.array([value]) for name, value in numbers.items() if value is not None}
 
 
 def sheath_of(parameters: Mapping[str, Any], numbers: Mapping[str, np.ndarray | None]) -> np.ndarray | None:
@@ -325,6 +353,7 @@ def read_recording(run: Run, walls: Sequence[Surface], frames: int, described: M
     kept = finite[np.unique(np.linspace(0, len(finite) - 1, frames).round().astype(int))]
     numbers: dict[str, np.ndarray | None] = {
         "step": log.steps[kept], "time": log.time[kept], "positions": log.positions[kept],
+        **{f"positions{k + 1}": positions[kept] for k, positions in enumerate(log.catheters)},
         **_wall_times(log.steps, log.elapsed, log.time, kept),
     }
     if (any(run.parameters.get(key) for key in ("logOrientations", "logContacts", "logStrains", "logHub"))
@@ -393,6 +422,9 @@ def _read_more(run: Run, steps: np.ndarray) -> dict[str, np.ndarray | None]:
                 rows.setdefault(name, []).append(entry["stress"][name])
         for name in (name for name in _HUB if name in entry.get("hub", {})):
             rows.setdefault(f"hub.{name}", []).append(entry["hub"][name])
+        for number, catheter in enumerate(entry.get("catheters", []), 1):
+            for name in (name for name in _HUB if name in catheter):
+                rows.setdefault(f"hub{number}.{name}", []).append(catheter[name])
         if "inBody" in entry:
             rows.setdefault("inBody", []).append(entry["inBody"])
     return {name: np.asarray(values, dtype=float) for name, values in rows.items() if len(values) == len(steps)}

@@ -135,8 +135,9 @@ class Server:
         if name == "show.json":
             shown = {"isLive": self._live is not None, "recordings": len(self._recordings)}
             return web.Response(text=json.dumps(shown), content_type="application/json")
-        if name == "steered.csv" and self._live is not None:
-            return web.Response(text=self._live.steered_csv(), content_type="text/csv")
+        steered = re.fullmatch(r"steered(?:-(\d))?\.csv", name)
+        if steered is not None and self._live is not None:
+            return web.Response(text=self._live.steered_csv(int(steered.group(1) or 0)), content_type="text/csv")
         if name == "live" and self._live is not None:
             return await self._join(request, self._live)
         recordings = self._recordings if self._live is None else [await self._live.recording()]

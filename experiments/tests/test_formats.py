@@ -36,6 +36,7 @@ def test_a_run_is_read(kept):
     run, log = read_run(kept / "run"), read_log(kept / "run", "all")
     assert run.outcome == "finished" and log.complete and log.steps.tolist() == list(range(7))
     assert log.positions.shape == (7, int(run.number("numberRodElements")) + 1, 3)
+    assert len(log.catheters) == len(run.parameters.get("catheters") or [])
 
 
 @pytest.mark.parametrize("file", ["given.json", "run/parameters.json"])
@@ -43,7 +44,10 @@ def test_a_parameter_file_gives_its_run(kept, file):
     log = read_log(kept / "run", "all")
     with Session(kept / file, hand=False, native=False) as session:
         end = session.step(steps=6)
-    np.testing.assert_allclose(end.positions, log.positions[-1], atol=SAME * session.parameters["guidewireLength"])
+    near = SAME * session.parameters["guidewireLength"]
+    np.testing.assert_allclose(end.positions, log.positions[-1], atol=near)
+    for catheter, logged in zip(end.catheters, log.catheters, strict=True):
+        np.testing.assert_allclose(catheter.positions, logged[-1], atol=near)
 
 
 def test_a_saved_state_is_restored_and_goes_on(kept):
@@ -53,10 +57,15 @@ def test_a_saved_state_is_restored_and_goes_on(kept):
         assert (restored.step, restored.time) == (state["step"], state["time"])
         np.testing.assert_array_equal(restored.positions, state["positions"])
         np.testing.assert_array_equal(restored.velocities, state["velocities"])
+        for catheter, positions in zip(restored.catheters, state.get("catheters", []), strict=True):
+            np.testing.assert_array_equal(catheter.positions, positions)
         goes_on = session.step(steps=3)
         session.reset()
         made = session.step(steps=6)
-    np.testing.assert_allclose(goes_on.positions, made.positions, atol=SAME * session.parameters["guidewireLength"])
+    near = SAME * session.parameters["guidewireLength"]
+    np.testing.assert_allclose(goes_on.positions, made.positions, atol=near)
+    for catheter, other in zip(goes_on.catheters, made.catheters, strict=True):
+        np.testing.assert_allclose(catheter.positions, other.positions, atol=near)
 
 
 @pytest.mark.parametrize("stated", [0, 2, -1, 1.5, "1", True, None, 10**20])

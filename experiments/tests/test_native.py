@@ -9,7 +9,9 @@ import pytest
 from experiments import building, session_hosts
 from experiments.prepare import ROOT
 from experiments.session import Session, SessionError
-from experiments.tests.test_session import MATERIAL, TUBE, WIRE
+from experiments.tests.test_session import (
+    CATHETER, MATERIAL, TUBE, WIRE, assert_hubs_that_are_not_there_are_refused, assert_same_bits,
+)
 
 ACCURATE = ROOT / "params" / "insertion-accurate.json"
 ENDLESS = {"maxSimulationSteps": 10**9, "deltaThreshold": 0}
@@ -155,3 +157,23 @@ def test_a_library_that_was_not_built_is_said(monkeypatch):
     monkeypatch.setattr(building, "native_library", lambda: None)
     with pytest.raises(SessionError, match="'guidewire.py native' builds it"):
         Session(native=True)
+
+
+def test_the_library_gives_the_runners_bits_of_every_instrument():
+    states = []
+    for native in (False, True):
+        with Session(CATHETER, hand=True, native=native) as session:
+            session.step(push=5.0, turn=0.3, steps=5, hub=1)
+            saved = session.save()
+            session.step(push=4.0, turn=0.1, steps=3)
+            later = session.restore(saved)
+            states.append((later, session.step(push=-2.0, turn=0.2, steps=70, hub=1), session.state.picture(pixels=48)))
+    for one, other in zip(states[0][:2], states[1][:2]):
+        assert_same_bits(one, other)
+        for name in vars(one.catheters[0]):
+            np.testing.assert_array_equal(getattr(one.catheters[0], name), getattr(other.catheters[0], name), name)
+    np.testing.assert_array_equal(states[0][2], states[1][2])
+
+
+def test_the_library_refuses_a_hub_that_is_not_there():
+    assert_hubs_that_are_not_there_are_refused(native=True)

@@ -309,3 +309,67 @@ def shared():
     """A session of a wire without walls."""
     with Session(**WIRE) as session:
         yield session
+
+
+CATHETER = ROOT / "params" / "catheter.json"
+
+
+def test_the_hub_says_whose_instrument_the_hand_moves_and_a_state_has_each_of_them():
+    with Session(CATHETER, hand=True, native=False) as session:
+        start = session.state
+        by_catheter = session.step(push=6.0, turn=0.5, steps=6, hub=1)
+        (catheter,) = by_catheter.catheters
+        assert catheter.insertion == pytest.approx(6e-3, rel=1e-12) and catheter.turn == pytest.approx(0.5, rel=1e-12)
+        assert (by_catheter.hub.insertion, by_catheter.hub.turn) == (0.0, 0.0)
+        by_wire = session.step(push=9.0, turn=-0.25, steps=6)
+        assert by_wire.hub.insertion == pytest.approx(9e-3, rel=1e-12) and by_wire.hub.turn == pytest.approx(-0.25)
+        assert by_wire.catheters[0].insertion == catheter.insertion
+        described = session.describe()["instruments"]
+    assert start.catheters[0].extension == pytest.approx(0.4 - 0.2 - 0.19) and start.hub.insertion == 0.0
+    assert by_wire.catheters[0].extension == pytest.approx(0.01 + 3e-3)
+    assert by_wire.catheters[0].overlap == pytest.approx(0.19)
+    np.testing.assert_array_equal(catheter.tip_position, catheter.positions[-1])
+    assert np.linalg.norm(catheter.tip_direction) == pytest.approx(1.0)
+    assert catheter.tip_direction @ np.diff(catheter.positions[-2:], axis=0)[0] > 0.0
+    assert [one["name"] for one in described] == ["bentson-0.035", "catheter-angled-5f"]
+    assert [one["key"] for one in described] == ["instrument", "catheters[0].instrument"]
+    folder = sorted(file.stem for file in (ROOT / "instruments").glob("*.json"))
+    assert [one["choices"] for one in described] == [folder, [name for name in folder if "catheter" in name]]
+    for one, nodes in zip(described, (by_wire.positions, catheter.positions)):
+        assert len(one["radii"]) == len(one["innerRadii"]) == len(one["attenuations"]) == len(nodes) - 1
+    assert max(described[1]["radii"]) == pytest.approx(5.0 / 6.0) and min(described[1]["innerRadii"]) > 0.4445
+
+
+def assert_hubs_that_are_not_there_are_refused(native):
+    for file, least, asked in ((CATHETER, "0, the wire's, or that of a catheter, from 1 to 1", (2, 3, 2**31 - 1)),
+                               (ROOT / "params/cantilever.json", "0, the wire's, where there is no catheter", (1, 7))):
+        for hand in (True, False):
+            with Session(file, hand=hand, native=native) as session:
+                for hub in asked:
+                    with pytest.raises(SessionError) as refused:
+                        session.step(hub=hub)
+                    assert str(refused.value) == f"hub = {hub} is not allowed: needs {least}"
+                for hub in (-1, 2**40, True, 0.5, "1", None):
+                    with pytest.raises(SessionError, match="hub = .* is not allowed: needs a whole number from 0"):
+                        session.step(hub=hub)
+                assert session.state.step == 0 and session.step(hub=0).step == 1
+
+
+def test_a_hub_that_is_not_there_is_refused_in_one_line_and_nothing_has_moved():
+    assert_hubs_that_are_not_there_are_refused(native=False)
+
+
+def test_a_picture_shows_the_catheter_and_takes_the_nodes_of_all_instruments():
+    view = {"pixels": 96, "field_of_view": 60.0, "vessel": "none", "lao": 90.0}
+    with Session(CATHETER, hand=True, native=False) as session:
+        state = session.state
+        count = len(state.positions) + len(state.catheters[0].positions)
+        own = {**view, "centre": state.catheters[0].positions[20].tolist()}
+        seen = state.picture(**own).astype(int)
+        away = [state.positions, state.catheters[0].positions + [500.0, 500.0, 0.0]]
+        wire_alone = session.picture_of(away, **own).astype(int)
+        with pytest.raises(SessionError, match=f"positions needs to be of {count} nodes, three numbers each"):
+            session.picture_of(state.positions, **own)
+    darker = (wire_alone > seen).sum(axis=1)    # in each row of a picture of a catheter that goes upwards
+    assert np.all(np.abs(darker[5:-5] - 2 * (5.0 / 6.0) / 60.0 * 96) <= 2), "as wide as the catheter is"
+    assert np.array_equal(seen[:, :30], wire_alone[:, :30])

@@ -11,6 +11,7 @@ import pytest
 from analysis.logs import read_log
 from experiments.prepare import ROOT
 from experiments.session import Session
+from viewer.held import HeldInstruments
 from viewer.steered import Steered, exact_push, exact_turn
 
 SCENES = {"a mesh": "insertion-accurate.json", "a sheath": "sheath.json"}
@@ -39,6 +40,32 @@ def test_a_saved_table_gives_the_bits_that_were_steered(runner_command, tmp_path
     ends = np.cumsum([0, 1, 4, 2, 1, 8, 16, 1, 8])
     for end, positions in zip(ends, shown, strict=True):
         np.testing.assert_array_equal(log.positions[end], positions, err_msg=f"step {end}")
+
+
+def test_saved_tables_of_wire_and_catheter_give_the_bits_that_were_steered(runner_command, tmp_path):
+    file = ROOT / "params" / "catheter.json"
+    dice = random.Random(8)
+    with Session(file, hand=True, native=False, maxSimulationSteps=10**9, deltaThreshold=0) as session:
+        instruments = HeldInstruments(session, session.describe())
+        shown = [(session.state.positions, session.state.catheters[0].positions)]
+        for held, steps in ((1, 4), (0, 8), (1, 8), (1, 1), (0, 4)):
+            instruments.hold(held)
+            push, turn = instruments.in_a_step(0.8 * dice.uniform(-0.2, 1.0), 0.06 * dice.uniform(-1.0, 1.0))
+            state = session.step(push * steps, turn * steps, steps, held)
+            instruments.add(held, push, turn, steps)
+            shown.append((state.positions, state.catheters[0].positions))
+        with pytest.raises(ValueError):
+            instruments.hold(2)
+    for number in (0, 1):
+        (tmp_path / f"steered-{number}.csv").write_text(instruments.to_csv(number))
+    subprocess.run([*runner_command, "-parameters", str(file), "-out", str(tmp_path / "run"), "-driveFile",
+                    str(tmp_path / "steered-0.csv"), "-catheters[0].driveFile", str(tmp_path / "steered-1.csv"),
+                    "-maxSimulationSteps", "25", "-deltaThreshold", "0", "-logEvery", "1"], check=True,
+                   capture_output=True)
+    log = read_log(tmp_path / "run", "all")
+    for end, (wire, catheter) in zip(np.cumsum([0, 4, 8, 8, 1, 4]), shown, strict=True):
+        np.testing.assert_array_equal(log.positions[end], wire, err_msg=f"step {end}")
+        np.testing.assert_array_equal(log.catheters[0][end], catheter, err_msg=f"step {end}")
 
 
 def test_exact_pushes_are_near_what_is_wanted_and_sums_of_them_have_no_rounding():

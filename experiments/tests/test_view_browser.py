@@ -209,6 +209,46 @@ def test_a_gamepad_and_a_finger_steer_and_what_was_steered_is_saved(browse, runn
     assert seen[11] <= 390
 
 
+HUB_OF_CATHETER = HUB.replace("hubInsertion", "hub1Insertion")
+
+
+def test_a_key_puts_the_catheter_into_the_hand_and_each_instrument_has_its_colour_and_its_name(
+        browse, runner_command, tmp_path):
+    (tmp_path / "instruments").mkdir()
+    own = json.loads((ROOT / "instruments/bentson-0.035.json").read_text())
+    (tmp_path / "instruments/wire-of-mine.json").write_text(json.dumps(own))
+    scene = json.loads((ROOT / "params/catheter.json").read_text())
+    for part, table in ((scene, "catheter-wire.csv"), (scene["catheters"][0], "catheter.csv")):
+        part["driveFile"] = str(ROOT / "params" / table)
+    (tmp_path / "scene.json").write_text(json.dumps(scene))
+    status = "viewer.shown.status"
+    said = "document.getElementById('said').textContent"
+    with serving(tmp_path, str(tmp_path / "scene.json"), with_three=True) as (address, _):
+        seen = browse(
+            ["open", address], DRAWN, ["see", "document.getElementById('legend').textContent"],
+            ["see", f"{status}.named.map((names) => names.length)"], ["see", f"{status}.named[0].includes('wire-of-mine')"],
+            ["press", "i"], ["until", f"{status}.held === 1"],
+            ["see", "document.querySelector('#legend .held').textContent"],
+            ["down", "w"], ["until", f"{HUB_OF_CATHETER} > 0.01"], ["up", "w"], ["see", HUB],
+            ["press", "i"], ["until", f"{status}.held === 0"], ["down", "w"], ["until", f"{HUB} > 0.005"], ["up", "w"],
+            ["see", "viewer.shown.model.drawn.map((_, k) => viewer.shown.model.recording.radiusOf(k))"],
+            ["see", "viewer.shown.model.drawn.map((one) => [...one.tube.geometry.getAttribute('color').array.slice(-3)])"],
+            ["press", "c"], ["press", "c"], ["press", " "], ["until", f"{status}.isPaused"],
+            ["picture", str(tmp_path / "hands.png")],
+            ["see", "viewer.shown._save()"], ["until", f"{said}.includes('steered-1.csv')"], ["see", said],
+            ["see", f"viewer.shown.send({{do: 'name', instrument: 0, name: 'wire-of-mine'}})"],
+            ["until", f"{status}.chosen[0] === 'wire-of-mine' && viewer.shown.model.recording.count < 3"],
+            ["see", "document.getElementById('legend').textContent"],
+        )["seen"]
+    assert seen[0] == "bentson-0.035catheter-angled-5f" and seen[1] == [17, 4] and seen[2]
+    assert seen[3] == "catheter-angled-5f" and seen[4] == 0
+    assert seen[5] == [pytest.approx(0.4445), pytest.approx(5 / 6)]    # of 0.035 in and 5 F
+    assert seen[6][1] == pytest.approx([1.0, 0x9D / 255, 0x2E / 255])
+    assert "--set catheters[0].driveFile=steered-1.csv" in seen[8]
+    assert seen[10] == "wire-of-minecatheter-angled-5f"
+    assert is_drawn(tmp_path / "hands.png")
+
+
 def is_drawn(path):
     """Whether the picture shows more than its background where the wire is."""
     with Image.open(path) as picture:

@@ -13,6 +13,7 @@ export class Desk {
     /** @type {Recording | null} */
     this._recording = null;
     this._peaks = { hub: 0, wall: 0 };
+    this._held = 0; // instrument whose hub is read off
     this._first = 0; // z of the first node along the drive, where nothing is read off at the hub
   }
 
@@ -34,30 +35,38 @@ export class Desk {
       ...(target ? [make("div", { className: "line" }, make("span", {}, `to ${target.name}`), this._left),
         make("div", { className: "route" }, this._routeDone)]
         : [make("div", { className: "line" }, make("span", {}, "tip went"), this._left)]));
-    const legend = make("div", { className: "card" }, ...recordings.flatMap((one) =>
+    this._legend = make("div", { className: "card", id: "legend" }, ...recordings.flatMap((one) =>
       one.instruments.map((instrument) => make("div", {}, swatch(instrument.colour),
         recordings.length > 1 ? `${instrument.name}, ${one.title}` : instrument.name))));
     byId("desk").replaceChildren(this._hub.element, this._wall.element,
-      make("div", { className: "dials" }, this._insertion.element, this._turn.element), card, legend);
+      make("div", { className: "dials" }, this._insertion.element, this._turn.element), card, this._legend);
     byId("scoreReading").hidden = !target;
+  }
+
+  /** Reads off at the hub of another instrument. @param {number} instrument which the hand holds; -1: none */
+  hold(instrument) {
+    this._held = Math.max(instrument, 0);
+    [...(this._legend?.children ?? [])].forEach((line, k) =>
+      line.classList.toggle("held", k === instrument && this._legend.children.length > 1));
   }
 
   /** Shows a frame. @param {number} frame */
   show(frame) {
     const recording = this._recording;
     if (!recording || !this.score) return;
+    const hub = this._held && recording.channels.has(`hub${this._held}Force`) ? `hub${this._held}` : "hub";
     this.score.show(frame);
     const at = (/** @type {string} */ name) =>
       (recording.channels.has(name) ? recording.at(name, frame)[0] : NaN);
     const unitOf = (/** @type {string} */ name) => recording.channels.get(name)?.unit ?? "";
-    this._hub?.show(at("hubForce"), unitOf("hubForce"), recording.channels.get("hubForce")?.largest ?? 0);
+    this._hub?.show(at(`${hub}Force`), unitOf(`${hub}Force`), recording.channels.get(`${hub}Force`)?.largest ?? 0);
     this._wall?.show(largestForce(recording, frame), unitOf("contactForce"),
       recording.channels.get("contactForce")?.largest ?? 0);
     const millimetres = recording.millimetres;
-    const inserted = recording.channels.has("hubInsertion") ? 1000 * at("hubInsertion")
+    const inserted = recording.channels.has(`${hub}Insertion`) ? 1000 * at(`${hub}Insertion`)
       : millimetres * moved(recording, frame, 0);
     this._insertion?.show(inserted, `${inserted.toFixed(1)}\nmm`);
-    const turn = at("hubTurn");
+    const turn = at(`${hub}Turn`);
     this._turn?.show(turn, `${Math.round((turn * 180) / Math.PI)}°`);
     const clock = byId("clock");
     clock.textContent = `${at("time").toFixed(1)} s`;

@@ -22,6 +22,10 @@ import { Steering } from "./steering.js";
  * @property {string} steered why what was steered cannot be saved; empty where it can
  * @property {Record<string, number | string>} values the parameters that may be changed
  * @property {Record<string, string[]>} choices of those that are words
+ * @property {string[]} instruments the wire, and the catheters over it
+ * @property {number} held which of them the hand holds
+ * @property {string[][]} named for each the names that can stand for it; empty where the method takes none
+ * @property {string[]} chosen the name that each has; empty where it has none
  */
 
 /** A run that goes on in the runner. Here are only keys and pictures. */
@@ -70,9 +74,16 @@ export class Live {
     if (this.steering.key(event)) byId("keys").hidden = true;
     else if (event.key === " ") this.send({ do: "pause", value: !this.status?.isPaused });
     else if (event.key === "n") this.send({ do: "step" });
+    else if (event.key === "i") this._holdNext();
     else if (event.key === "r") this.send({ do: "reset" });
     else return false;
     return true;
+  }
+
+  /** Puts the next instrument into the hand. */
+  _holdNext() {
+    const { held, instruments } = this.status ?? { held: 0, instruments: [""] };
+    this.send({ do: "hold", instrument: (held + 1) % instruments.length });
   }
 
   /** @param {number} push @param {number} turn from -1 to 1 */
@@ -91,6 +102,7 @@ export class Live {
       if (answer.ok) this._open(new Recording(await answer.arrayBuffer()));
     }
     if (isNew || wasHand !== status.hand || status.hand) this._makeControls(status);
+    this._desk.hold(status.isSteered ? status.held : -1);
     this._panel.say([status.problem, status.outcome, ...(this.model?.recording.warnings ?? [])].filter(Boolean));
   }
 
@@ -174,21 +186,30 @@ export class Live {
     return status.problem !== "" && !Object.keys(status.values).length;
   }
 
-  /** Saves what was steered as a file of the browser. */
+  /** Saves what was steered as files of the browser, one for each instrument. */
   async _save() {
-    const answer = await fetch("steered.csv");
-    const text = await answer.text();
-    if (!answer.ok) {
-      this._panel.say([`nothing was saved: ${text}`]);
-      return;
+    if (!this.status) return;
+    const { instruments, chosen, named } = this.status;
+    const files = instruments.map((_, k) => (k === 0 ? "steered.csv" : `steered-${k}.csv`));
+    for (const file of files) {
+      const answer = await fetch(file);
+      const text = await answer.text();
+      if (!answer.ok) {
+        this._panel.say([`nothing was saved: ${text}`]);
+        return;
+      }
+      const link = make("a", { href: URL.createObjectURL(new Blob([text], { type: "text/csv" })), download: file });
+      link.click();
+      URL.revokeObjectURL(link.href);
     }
-    const link = make("a", { href: URL.createObjectURL(new Blob([text], { type: "text/csv" })),
-      download: "steered.csv" });
-    link.click();
-    URL.revokeObjectURL(link.href);
+    const keys = files.map((file, k) => {
+      const own = k === 0 ? "" : `catheters[${k - 1}].`;
+      return `--set ${own}insertionSpeed=0 --set ${own}driveFile=${file} `
+        + (named.length && chosen[k] ? `--set ${own}instrument=${chosen[k]} ` : "");
+    }).join("");
     const steps = this.model ? this.model.recording.at("step", this.model.recording.count - 1)[0] : 0;
-    this._panel.say([`steered.csv: repeat it with 'run ${this.status?.scene} --set insertionSpeed=0 --set `
-      + `driveFile=steered.csv --set maxSimulationSteps=${steps} --set deltaThreshold=0'`]);
+    this._panel.say([`steered.csv: repeat it with 'run ${this.status.scene} ${keys}--set maxSimulationSteps=${steps} `
+      + "--set deltaThreshold=0'"]);
   }
 
   _mood() {
@@ -228,11 +249,13 @@ export class Live {
         make("option", { value: pace, selected: pace === status.pace }, `${pace} x real time`)));
     scenes.setAttribute("aria-label", "scene");
     paces.setAttribute("aria-label", "speed");
+    const hold = make("button", { id: "hold", onclick: () => this._holdNext(), title: "what the hand holds" },
+      status.instruments[status.held] ?? "", " ", make("kbd", {}, "I"));
     const isOurs = status.hand;
     const isOver = status.outcome !== "" || this._isGone(status);
     byId("bar").replaceChildren(...(isOurs ? [
       ...(status.isSteered ? [pad, held("push", "w", "W"), held("pull", "s", "S"), held("turn left", "a", "A"),
-        held("turn right", "d", "D")] : []),
+        held("turn right", "d", "D"), ...(status.instruments.length > 1 ? [hold] : [])] : []),
       make("span", { className: "buttons" },
         ...(isOver ? [] : [button(status.isPaused ? "go on" : "pause", { do: "pause", value: !status.isPaused }),
           button("step", { do: "step" })]),
@@ -244,7 +267,12 @@ export class Live {
     const typed = byId("controls").contains(document.activeElement) ? document.activeElement : null;
     if (typed && !this._isSent) return; // a value that is being typed
     this._isSent = false;
-    byId("controls").replaceChildren(...(isOurs ? Object.entries(status.values).map(([key, value]) => {
+    byId("controls").replaceChildren(...(isOurs ? status.named.map((names, k) => {
+      const select = make("select", { onchange: () => this.send({ do: "name", instrument: k, name: select.value }) },
+        ...[...(status.chosen[k] ? [] : [""]), ...names].map((name) =>
+          make("option", { value: name, selected: name === status.chosen[k], disabled: name === "" }, name)));
+      return make("label", {}, k === 0 ? "instrument" : `catheter${status.named.length > 2 ? ` ${k}` : ""}`, select);
+    }) : []), ...(isOurs ? Object.entries(status.values).map(([key, value]) => {
       const set = () => {
         this._isSent = true; // the answer puts what is in force into the field, also where the value is refused
         this.send({ do: "set", key, value: key in status.choices ? input.value : Number(input.value) });
@@ -266,6 +294,6 @@ function nameOf(file) {
 
 export const LIVE_KEYS = /** @type {[string, string][]} */ ([
   ["W S, up down", "push and pull"], ["A D, left right", "turn"], ["space", "pause, go on"], ["N", "one step"],
-  ["R", "start anew"], ["gamepad", "left stick steers, A pauses, Y starts anew"],
+  ["R", "start anew"], ["I", "hold the next instrument"], ["gamepad", "left stick steers, A pauses, Y starts anew"],
   ["touch", "the round pad: up pushes, sideways turns"],
 ]);

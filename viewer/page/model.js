@@ -5,7 +5,7 @@ import {
 } from "three";
 
 import { ramp, roundUp, row } from "./colours.js";
-import { Tube } from "./tube.js";
+import { DrawnInstrument } from "./instrument.js";
 
 /** @typedef {import("./recording.js").Recording} Recording */
 
@@ -18,7 +18,7 @@ const LEAST_RADIUS = 2; // points of the screen that a wire takes so that it is 
 const SHEATH_COLOUR = 0x8fa9c4;
 const SHEATH = 2; // radius of a sheath over that of the wire in it
 
-/** One run in the picture: its wire, walls and the forces of the walls on it. */
+/** One run in the picture: its instruments, walls and the forces of the walls on it. */
 export class Model {
   /** @param {Recording} recording */
   constructor(recording) {
@@ -26,22 +26,17 @@ export class Model {
     this.group = new Group();
     this.walls = new Group();
     const spheres = recording.channel("positions").width / 3;
-    this.tube = new Tube(spheres - 1);
     /** What tints the wire: walls before it, of the pane that it is in. */
     this.tint = { before: { value: /** @type {import("three").Texture | null} */ (null) },
       origin: { value: new Vector2() } };
-    const wire = new Mesh(this.tube.geometry, this._tinted(new MeshLambertMaterial({ vertexColors: true })));
-    wire.frustumCulled = false;
-    // Where the wire is thinner than a point of the screen it is still seen.
-    this._line = new Line(new BufferGeometry(), this._tinted(new LineBasicMaterial({ vertexColors: true })));
-    this._line.geometry.setAttribute("position", new BufferAttribute(new Float32Array(3 * spheres), 3));
-    this._line.geometry.setAttribute("color", new BufferAttribute(new Float32Array(3 * spheres), 3));
-    this._line.frustumCulled = false;
+    /** The wire, and then the catheters over it. */
+    this.drawn = recording.centrelines.map((name, k) =>
+      new DrawnInstrument(recording.channel(name).width / 3, k > 0, (material) => this._tinted(material)));
     this.arrows = new LineSegments(new BufferGeometry(), this._tinted(new LineBasicMaterial({ color: ARROWS })));
     this.arrows.geometry.setAttribute("position", new BufferAttribute(new Float32Array(6 * spheres), 3));
     this.arrows.frustumCulled = false;
     for (const wall of recording.walls) this.walls.add(...surfaces(wall));
-    this.group.add(wire, this._line, this.arrows, this.walls);
+    this.group.add(...this.drawn.map((one) => one.group), this.arrows, this.walls);
     this._sheath = recording.sheath && makeSheath(recording.sheath, SHEATH * recording.radius, [
       this._tinted(new MeshLambertMaterial({ color: SHEATH_COLOUR })),
       this._tinted(new LineBasicMaterial({ color: SHEATH_COLOUR }))]);
@@ -88,11 +83,9 @@ gl_FragColor.rgb = gl_FragColor.rgb * (1.0 - tint.a) + tint.rgb;`)}`;
     const positions = this.recording.at("positions", frame);
     const first = this.recording.firstShown(frame);
     this._drawnThickness = this.shownThickness;
-    this.tube.place(positions, this.recording.radius * this._drawnThickness, first);
+    this.drawn.forEach((one, k) => one.place(this.centreline(k),
+      this.recording.radiusOf(k) * this._drawnThickness, k === 0 ? first : 0));
     this._sheath?.children[0].scale.set(this._drawnThickness, 1, this._drawnThickness);
-    this._line.geometry.setDrawRange(first, Infinity);
-    this._line.geometry.getAttribute("position").array.set(positions);
-    this._line.geometry.getAttribute("position").needsUpdate = true;
     this._paint(full);
     this._point(positions, first);
   }
@@ -113,7 +106,7 @@ gl_FragColor.rgb = gl_FragColor.rgb * (1.0 - tint.a) + tint.rgb;`)}`;
 
   /** The points of an instrument's centreline in the frame shown. @param {number} instrument its number */
   centreline(instrument) {
-    return this.recording.at(instrument === 0 ? "positions" : `positions${instrument}`, this.frame);
+    return this.recording.at(this.recording.centrelines[instrument], this.frame);
   }
 
   /** The place of the last sphere, units. */
@@ -134,33 +127,22 @@ gl_FragColor.rgb = gl_FragColor.rgb * (1.0 - tint.a) + tint.rgb;`)}`;
   /** @param {number} [shared] */
   _paint(shared) {
     const channel = this.colour ? this.recording.channels.get(this.colour) : undefined;
-    if (!channel) {
-      const { r, g, b } = new Color(this.recording.instruments[0]?.colour ?? PLAIN);
-      this._paintWith((_, colour) => colour.splice(0, 3, r, g, b));
-      return;
-    }
+    const [wire] = this.drawn;
+    this.drawn.slice(channel ? 1 : 0).forEach((one) => {
+      const { r, g, b } = new Color(this.recording.instruments[this.drawn.indexOf(one)]?.colour ?? PLAIN);
+      one.paint((_, colour) => colour.splice(0, 3, r, g, b));
+    });
+    if (!channel) return;
     const values = this.recording.at(channel.name, this.frame);
     const full = shared ?? this.full(channel.name);
     const colours = this._ramps[channel.isSigned ? 1 : 0];
     const last = values.length - 1;
-    this._paintWith((along, colour) => {
+    wire.paint((along, colour) => {
       const j = Math.min(Math.floor(along), last);
       const next = channel.place === "sphere" ? values[Math.min(j + 1, last)] : values[j];
       const k = 3 * row(values[j] + (along - j) * (next - values[j]), full, channel.isSigned);
       for (let part = 0; part < 3; part++) colour[part] = colours[k + part];
     });
-  }
-
-  /** @param {(along: number, colour: number[]) => void} colourAt as of `Tube.paint` */
-  _paintWith(colourAt) {
-    this.tube.paint(colourAt);
-    const colours = this._line.geometry.getAttribute("color");
-    const colour = [0, 0, 0];
-    for (let i = 0; i <= this.tube.elements; i++) {
-      colourAt(i, colour);
-      colours.array.set(colour, 3 * i);
-    }
-    colours.needsUpdate = true;
   }
 
   /** @param {Float64Array} positions @param {number} first sphere that is shown */

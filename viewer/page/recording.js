@@ -61,17 +61,33 @@ export class Recording {
     /** Where a sheath ends, and where it is seen to begin, units. @type {[number[], number[]] | null} */
     this.sheath = header.sheath;
     /** What pictures need to know. @type {{millimetresPerUnit: number, target: import("./target.js").Route | null,
-     *     instruments: import("./pieces.js").Instrument[]} | null} */
+     *     instruments: (import("./pieces.js").Instrument & {title: string})[]} | null} */
     this.described = header.described;
     /** Of a unit. */
     this.millimetres = this.described?.millimetresPerUnit ?? 1;
     /** @type {import("./pieces.js").Instrument[]} */
     this.instruments = (this.described?.instruments ?? []).map((one, k) =>
-      ({ ...one, name: one.name ?? (k === 0 ? "guidewire" : "catheter"), colour: COLOURS[k % COLOURS.length] }));
+      ({ ...one, name: one.title, colour: COLOURS[k % COLOURS.length] }));
+    /** Channels of the instruments' centrelines, the wire's first. */
+    this.centrelines = ["positions"];
+    while (this.channels.has(`positions${this.centrelines.length}`)) {
+      this.centrelines.push(`positions${this.centrelines.length}`);
+    }
     /** How many frames at the beginning were forgotten. */
     this.forgotten = 0;
     this._count = this.channel("time").values.length;
     this._columns = [...this.channels.values()];
+  }
+
+  /** Those that are described and whose centrelines are there. */
+  get drawnInstruments() {
+    return this.instruments.slice(0, this.centrelines.length);
+  }
+
+  /** Outer radius of an instrument, units; that of the wire where it is not known. @param {number} instrument */
+  radiusOf(instrument) {
+    const known = instrument > 0 ? this.instruments[instrument] : undefined;
+    return known ? Math.max(...known.radii) : this.radius;
   }
 
   /** Gives its instruments other colours. @param {number} first of them */

@@ -111,7 +111,7 @@ export class Xray {
       look.centre = this._kept(/** @type {Point} */ ([...tip]), look.field / recording.millimetres);
     }
     look.seed = this._frames++;
-    this.fluoroscopy.draw(this._models.flatMap((model) => model.recording.instruments.map((instrument, k) =>
+    this.fluoroscopy.draw(this._models.flatMap((model) => model.recording.drawnInstruments.map((instrument, k) =>
       /** @type {[import("./pieces.js").Instrument, Float64Array]} */ ([instrument, model.centreline(k)]))));
     this._label();
     this.drawn++;

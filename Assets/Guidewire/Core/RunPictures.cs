@@ -3,8 +3,8 @@ using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
-    /// <summary>Fluoroscopic pictures of a run: its vessel, and its wire with radii and attenuation by its material.
-    /// </summary>
+    /// <summary>Fluoroscopic pictures of a run: its vessel, and its wire and catheters with radii and attenuation by
+    /// their material.</summary>
     /// <remarks>At an effective energy of 60 keV iron has a mass attenuation coefficient of 0.1205 m^2/kg and nitinol
     /// (56 % nickel, 0.1512; 44 % titanium, 0.0766) of 0.118 (NIST, tables of Hubbell and Seltzer, 2004): both are
     /// taken as 0.12, and polymers of catheters too, which are filled with salts of barium or bismuth. The wire of pbd
@@ -18,10 +18,8 @@ namespace Guidewire.Core
         private readonly Fluoroscopy _fluoroscopy;
         private readonly Extents? _vessel;
         private readonly double _perUnit;   // mm
-        private readonly double[] _radii;
-        private readonly double[] _innerRadii;
-        private readonly double[] _attenuations;
-        private ImagedInstrument[] _instruments = Array.Empty<ImagedInstrument>();
+        private readonly ImagedInstrument[] _instruments;
+        private ImagedInstrument[] _drawn;
         private double? _attenuation;
 
         /// <param name="parameters">Those of the run.</param>
@@ -45,46 +43,29 @@ namespace Guidewire.Core
             }
             _vessel = corners.Count == 0 ? (Extents?)null : Extents.Of(corners);
             _fluoroscopy = new Fluoroscopy(vessels);
-            double[] lengths = ElementLayout.Lengths(parameters, 1.0, out double[] stations);
-            _radii = new double[lengths.Length];
-            _innerRadii = new double[lengths.Length];
-            _attenuations = new double[lengths.Length];
-            for (int j = 0; j < lengths.Length; j++)
+            _instruments = new ImagedInstrument[1 + parameters.Scene.Catheters.Count];
+            _instruments[0] = InstrumentOf(parameters, isMaterial, metres);
+            for (int k = 1; k < _instruments.Length; k++)
             {
-                if (!isMaterial)
-                {
-                    _radii[j] = parameters.Contact.SphereRadius;
-                    _attenuations[j] = 0.5 / _radii[j];
-                    continue;
-                }
-                double middle = 0.5 * (stations[j] + stations[j + 1]);
-                CrossSection here = CrossSection.At(parameters.Material, middle);
-                double inner = CrossSection.LumenAt(parameters.Material, middle);
-                double area = Math.PI * (here.Radius * here.Radius - inner * inner);
-                _radii[j] = here.Radius / metres;
-                _innerRadii[j] = inner / metres;
-                _attenuations[j] = MassAttenuation * here.LineDensity / area * metres;
+                SimulationParameters own = parameters.OfCatheter(parameters.Scene.Catheters[k - 1], Vector3d.UnitZ);
+                _instruments[k] = InstrumentOf(own, isMaterial, metres);
             }
+            _drawn = _instruments;
         }
 
         /// <summary>Length of a unit, mm.</summary>
         public double MillimetresPerUnit => _perUnit;
 
-        /// <summary>Outer radius of each element of the wire, units.</summary>
-        public IReadOnlyList<double> Radii => _radii;
-
-        /// <summary>Radius of each element's lumen, units.</summary>
-        public IReadOnlyList<double> InnerRadii => _innerRadii;
-
-        /// <summary>Attenuation coefficient of each element's material, 1/unit.</summary>
-        public IReadOnlyList<double> Attenuations => _attenuations;
+        /// <summary>The wire and then the catheters, with radii and attenuation of their elements; where they are is
+        /// said with each picture.</summary>
+        public IReadOnlyList<ImagedInstrument> Instruments => _instruments;
 
         /// <summary>Takes a picture.</summary>
-        /// <param name="positions">Of the wire's n + 1 nodes, units.</param>
+        /// <param name="centrelines">Nodes of each instrument, units.</param>
         /// <param name="view">What picture.</param>
         /// <param name="grey">Takes the grey levels, row by row from the upper left corner.</param>
         /// <exception cref="ArgumentException">A value out of its range.</exception>
-        public void Draw(Vector3d[] positions, PictureView view, Span<byte> grey)
+        public void Draw(IReadOnlyList<Vector3d[]> centrelines, PictureView view, Span<byte> grey)
         {
             FluoroscopySettings asked = view.Settings;
             string? problem = asked.FindProblem();
@@ -101,23 +82,54 @@ namespace Guidewire.Core
                 Seed = asked.Seed,
                 Blur = asked.Blur / _perUnit,
             };
-            _fluoroscopy.Draw(Instruments(positions, view.Attenuation), Arm(positions, view), settings, grey);
+            Place(centrelines, view.Attenuation);
+            _fluoroscopy.Draw(_drawn, Arm(centrelines[0], view), settings, grey);
         }
 
-        private ImagedInstrument[] Instruments(Vector3d[] positions, double? attenuation)
+        private static ImagedInstrument InstrumentOf(SimulationParameters parameters, bool isMaterial, double metres)
         {
-            if (_instruments.Length == 0 || attenuation != _attenuation)
+            double[] lengths = ElementLayout.Lengths(parameters, 1.0, out double[] stations);
+            var radii = new double[lengths.Length];
+            var innerRadii = new double[lengths.Length];
+            var attenuations = new double[lengths.Length];
+            for (int j = 0; j < lengths.Length; j++)
             {
-                var attenuations = (double[])_attenuations.Clone();
-                if (attenuation.HasValue)
+                if (!isMaterial)
                 {
-                    Array.Fill(attenuations, attenuation.Value * _perUnit);
+                    radii[j] = parameters.Contact.SphereRadius;
+                    attenuations[j] = 0.5 / radii[j];
+                    continue;
                 }
-                _attenuation = attenuation;
-                _instruments = new[] { new ImagedInstrument(positions, _radii, _innerRadii, attenuations) };
+                double middle = 0.5 * (stations[j] + stations[j + 1]);
+                CrossSection here = CrossSection.At(parameters.Material, middle);
+                double inner = CrossSection.LumenAt(parameters.Material, middle);
+                double area = Math.PI * (here.Radius * here.Radius - inner * inner);
+                radii[j] = here.Radius / metres;
+                innerRadii[j] = inner / metres;
+                attenuations[j] = MassAttenuation * here.LineDensity / area * metres;
             }
-            _instruments[0].Positions = positions;
-            return _instruments;
+            return new ImagedInstrument(new Vector3d[lengths.Length + 1], radii, innerRadii, attenuations);
+        }
+
+        private void Place(IReadOnlyList<Vector3d[]> centrelines, double? attenuation)
+        {
+            if (attenuation != _attenuation)
+            {
+                _attenuation = attenuation;
+                _drawn = attenuation is double all ? Array.ConvertAll(_instruments, one => WithAttenuation(one, all))
+                    : _instruments;
+            }
+            for (int k = 0; k < _drawn.Length; k++)
+            {
+                _drawn[k].Positions = centrelines[k];
+            }
+        }
+
+        private ImagedInstrument WithAttenuation(ImagedInstrument one, double perMillimetre)
+        {
+            var attenuations = new double[one.Radii.Length];
+            Array.Fill(attenuations, perMillimetre * _perUnit);
+            return new ImagedInstrument(one.Positions, one.Radii, one.InnerRadii, attenuations);
         }
 
         private CArm Arm(Vector3d[] positions, PictureView view)

@@ -9,7 +9,7 @@ namespace Guidewire.Core
     {
         private readonly bool _hasMaterial;
         private readonly bool _hasSheath;
-        private readonly int _catheterCount;
+        private readonly CoaxialRecord[] _catheters;
         private readonly TimeStepper _stepper;
         private readonly StopRule _stopRule;
         private readonly StepClock _clock;
@@ -25,7 +25,7 @@ namespace Guidewire.Core
             _warnings = new RunWarnings(parameters);
             _hasMaterial = MethodTable.Of(parameters.Method.Solver).TakesMaterial;
             _hasSheath = parameters.Scene.Sheath != null;
-            _catheterCount = parameters.Scene.Catheters.Count;
+            _catheters = new CoaxialRecord[parameters.Scene.Catheters.Count];
             State = start.State;
             _stepper = start.Stepper;
             _stopRule = new StopRule(
@@ -158,6 +158,27 @@ namespace Guidewire.Core
             return _stepper.Coaxial();
         }
 
+        /// <summary>What is read off of each catheter over the wire as it is now, outermost first; as
+        /// <see cref="Coaxial"/>.</summary>
+        public IReadOnlyList<CoaxialRecord> Catheters()
+        {
+            if (Coaxial() is CoaxialRecord record)
+            {
+                _catheters[0] = record;
+            }
+            return _catheters;
+        }
+
+        /// <summary>Nodes of the wire and then of each catheter, units.</summary>
+        public IEnumerable<Vector3d[]> Centrelines()
+        {
+            yield return State.Positions;
+            foreach (CoaxialRecord catheter in Catheters())
+            {
+                yield return catheter.Positions;
+            }
+        }
+
         /// <summary>One step. Does nothing once the run has ended.</summary>
         public void Step()
         {
@@ -198,7 +219,7 @@ namespace Guidewire.Core
                 throw new ArgumentException("sheath needs to be there, or not, as it was: this run goes on with the"
                     + " wire that it has");
             }
-            if (parameters.Scene.Catheters.Count != _catheterCount)
+            if (parameters.Scene.Catheters.Count != _catheters.Length)
             {
                 throw new ArgumentException("catheters need to be as many as they were: this run goes on with those"
                     + " that it has");

@@ -30,6 +30,7 @@ namespace Guidewire.Benchmarks
             }
             double step = (Processor() - before).TotalMilliseconds / Math.Max(1, run.StepCount);
             var pictures = new RunPictures(session.Parameters);
+            var centrelines = new List<Vector3d[]>(run.Centrelines());
             foreach ((int pixels, bool hasNoise) in new[] { (128, false), (256, false), (256, true), (512, true) })
             {
                 var view = new PictureView { Pixels = pixels };
@@ -41,7 +42,7 @@ namespace Guidewire.Benchmarks
                 {
                     start = k == 0 ? Processor() : start;
                     view.Settings.Seed = (uint)Math.Max(k, 0);
-                    pictures.Draw(run.State.Positions, view, grey);
+                    pictures.Draw(centrelines, view, grey);
                 }
                 double each = (Processor() - start).TotalMilliseconds / Pictures;
                 Console.WriteLine(string.Format(CultureInfo.InvariantCulture,

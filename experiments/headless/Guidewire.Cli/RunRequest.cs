@@ -7,6 +7,8 @@ namespace Guidewire.Cli
     /// <summary>One line of the request loop's input.</summary>
     internal sealed class RunRequest
     {
+        private const string HubNeeds = "a whole number from 0, the wire's";
+
         private RunRequest(JObject json)
         {
             Id = json["id"];
@@ -20,6 +22,7 @@ namespace Guidewire.Cli
             Steps = (int?)json["steps"] ?? 1;
             Push = (double?)json["push"] ?? 0.0;
             Turn = (double?)json["turn"] ?? 0.0;
+            Hub = (int?)json["hub"] ?? 0;
             Snapshot = (string?)json["snapshot"] ?? "";
             View = (JObject?)json["view"] ?? new JObject();
             Positions = (string?)json["positions"] ?? "";
@@ -62,6 +65,9 @@ namespace Guidewire.Cli
         /// <summary>Turn of the first element about its axis in all of them, rad.</summary>
         public double Turn { get; }
 
+        /// <summary>Whose hub they move: 0 the wire's, k that of catheter k.</summary>
+        public int Hub { get; }
+
         /// <summary>What is to be restored, as base64.</summary>
         public string Snapshot { get; }
 
@@ -83,6 +89,7 @@ namespace Guidewire.Cli
             Check(json, "out", "a folder's path", JTokenType.String);
             Check(json, "repeat", "a whole number from 0", JTokenType.Integer);
             Check(json, "steps", "a whole number from 1", JTokenType.Integer);
+            Check(json, "hub", HubNeeds, JTokenType.Integer);
             Check(json, "check", "true or false", JTokenType.Boolean);
             Check(json, "log", "true or false", JTokenType.Boolean);
             Check(json, "set", "an object of parameters", JTokenType.Object);
@@ -93,6 +100,7 @@ namespace Guidewire.Cli
             Check(json, "positions", "base64 of doubles", JTokenType.String);
             CheckNumber(json, "repeat", 0.0, int.MaxValue, "a whole number from 0");
             CheckNumber(json, "steps", 1.0, int.MaxValue, "a whole number from 1");
+            CheckNumber(json, "hub", 0.0, int.MaxValue, HubNeeds);
             CheckNumber(json, "push", double.MinValue, double.MaxValue, "a number (units)");
             CheckNumber(json, "turn", double.MinValue, double.MaxValue, "a number (rad)");
             return new RunRequest(json);

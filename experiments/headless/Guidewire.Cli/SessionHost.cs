@@ -1,4 +1,6 @@
 using System;
+using System.Collections.Generic;
+using System.Linq;
 using Guidewire.Core;
 using Guidewire.Io;
 using Newtonsoft.Json.Linq;
@@ -15,7 +17,7 @@ namespace Guidewire.Cli
         private readonly SessionState _state = new SessionState();
         private byte[] _bytes = Array.Empty<byte>();
         private RunPictures? _pictures;
-        private Vector3d[] _centreline = Array.Empty<Vector3d>();
+        private readonly List<Vector3d[]> _centrelines = new List<Vector3d[]>();
 
         /// <param name="stopRequested">Asked before every step.</param>
         public SessionHost(Func<bool> stopRequested)
@@ -37,7 +39,8 @@ namespace Guidewire.Cli
                     answer["effective"] = _session.EffectiveParameters;
                     break;
                 case "step":
-                    Step(request.Push / request.Steps, request.Turn / request.Steps, request.Steps);
+                    Step(request.Push / request.Steps, request.Turn / request.Steps, request.Hub,
+                        request.Steps);
                     break;
                 case "picture":
                     TakePicture(request, answer);
@@ -90,8 +93,10 @@ namespace Guidewire.Cli
         /// <summary>Makes steps, as many as the run still has.</summary>
         /// <param name="push">In each step, of a session that is steered, units.</param>
         /// <param name="turn">In each step, rad.</param>
+        /// <param name="hub">Whose hub they move: 0 the wire's, k that of catheter k.</param>
+        /// <param name="steps">How many.</param>
         /// <exception cref="ParameterException">The session cannot be stepped so; nothing has changed.</exception>
-        public Simulation Step(double push, double turn, int steps)
+        public Simulation Step(double push, double turn, int hub, int steps)
         {
             SimulationSession session = Opened();
             if (!session.IsSteered && (push != 0.0 || turn != 0.0))
@@ -99,6 +104,7 @@ namespace Guidewire.Cli
                 throw new ParameterException("request: push and turn need a steered session; here the parameters'"
                     + " drive moves the wire (open it with \"hand\": true to steer it)");
             }
+            session.CheckHub(hub);
             if (session.Simulation.Outcome != Outcome.Running)
             {
                 throw new ParameterException("request: the run has ended after step " + session.Simulation.StepCount
@@ -107,40 +113,52 @@ namespace Guidewire.Cli
             }
             for (int k = 0; k < steps && session.Simulation.Outcome == Outcome.Running && !_stopRequested(); k++)
             {
-                session.Step(push, turn);
+                session.Step(push, turn, hub);
             }
             return session.Simulation;
         }
 
         /// <summary>Takes a fluoroscopic picture.</summary>
         /// <param name="view">Which.</param>
-        /// <param name="positions">x, y and z of each node of the wire, units; none: the wire as it is now.</param>
+        /// <param name="positions">x, y and z of each node of the wire and then of each catheter, units; none: as they
+        /// are now.</param>
         /// <param name="grey">Takes the grey levels, row by row.</param>
-        /// <exception cref="ParameterException">No session is open, or a wire of another number of nodes.</exception>
+        /// <exception cref="ParameterException">No session is open, or another number of nodes.</exception>
         public void Picture(PictureView view, ReadOnlySpan<double> positions, Span<byte> grey)
         {
             SimulationSession session = Opened();
             _pictures ??= new RunPictures(session.Parameters);
-            Vector3d[] wire = session.Simulation.State.Positions;
+            _centrelines.Clear();
+            _centrelines.AddRange(session.Simulation.Centrelines());
             if (positions.Length > 0)
             {
-                if (positions.Length != 3 * wire.Length)
+                TakeCentrelines(positions);
+            }
+            _pictures.Draw(_centrelines, view, grey);
+        }
+
+        private void TakeCentrelines(ReadOnlySpan<double> positions)
+        {
+            int nodes = _centrelines.Sum(one => one.Length);
+            if (positions.Length != 3 * nodes)
+            {
+                throw new ParameterException("request: positions needs to be of " + nodes
+                    + " nodes, three numbers each");
+            }
+            int next = 0;
+            for (int k = 0; k < _centrelines.Count; k++)
+            {
+                var centreline = new Vector3d[_centrelines[k].Length];
+                for (int i = 0; i < centreline.Length; i++, next += 3)
                 {
-                    throw new ParameterException("request: positions needs to be of " + wire.Length
-                        + " nodes, three numbers each");
-                }
-                Array.Resize(ref _centreline, wire.Length);
-                for (int i = 0; i < _centreline.Length; i++)
-                {
-                    _centreline[i] = new Vector3d(positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]);
-                    if (!_centreline[i].IsFinite)
+                    centreline[i] = new Vector3d(positions[next], positions[next + 1], positions[next + 2]);
+                    if (!centreline[i].IsFinite)
                     {
                         throw new ParameterException("request: positions needs finite numbers");
                     }
                 }
-                wire = _centreline;
+                _centrelines[k] = centreline;
             }
-            _pictures.Draw(wire, view, grey);
         }
 
         // What X-rays see of the instruments, and the way to the target, for who draws pictures of his own.
@@ -149,12 +167,16 @@ namespace Guidewire.Cli
             SimulationSession session = Opened();
             _pictures ??= new RunPictures(session.Parameters);
             answer["millimetresPerUnit"] = _pictures.MillimetresPerUnit;
-            answer["instruments"] = new JArray(new JObject
+            answer["instruments"] = new JArray(_pictures.Instruments.Select((instrument, k) => new JObject
             {
-                ["radii"] = new JArray(_pictures.Radii),
-                ["innerRadii"] = new JArray(_pictures.InnerRadii),
-                ["attenuations"] = new JArray(_pictures.Attenuations),
-            });
+                ["title"] = session.TitleOf(k),
+                ["name"] = session.NameOf(k),
+                ["key"] = SimulationSession.KeyOf(k),
+                ["choices"] = new JArray(session.ChoicesOf(k)),
+                ["radii"] = new JArray(instrument.Radii),
+                ["innerRadii"] = new JArray(instrument.InnerRadii),
+                ["attenuations"] = new JArray(instrument.Attenuations),
+            }));
             answer["target"] = session.RouteToTarget();
         }
 

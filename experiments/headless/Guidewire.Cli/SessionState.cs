@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Globalization;
 using Guidewire.Core;
 
 namespace Guidewire.Cli
@@ -55,6 +56,14 @@ namespace Guidewire.Cli
             {
                 Put(hub, state.Positions[state.ElementCount]);
             }
+            IReadOnlyList<CoaxialRecord> catheters = simulation.Catheters();
+            for (int k = 0; k < catheters.Count; k++)
+            {
+                string number = (k + 1).ToString(CultureInfo.InvariantCulture);
+                Put("positions" + number, catheters[k].Positions);
+                Put("orientations" + number, catheters[k].Orientations);
+                Put("catheter" + number, catheters[k]);
+            }
             if (simulation.Stress() is StressRecord stress)
             {
                 Put("strain", stress.Strain);
@@ -82,6 +91,25 @@ namespace Guidewire.Cli
             numbers[11] = hub.LargestCurvature;
             numbers[12] = hub.LengthInBody ?? double.NaN;
             numbers[13] = hub.SpheresInBody ?? double.NaN;
+        }
+
+        private void Put(string name, CoaxialRecord catheter)
+        {
+            Span<double> numbers = Next(name, 1, 12);
+            Vector3d tip = catheter.Positions[catheter.Positions.Length - 1];
+            Vector3d direction = catheter.Orientations[catheter.Orientations.Length - 1].Director3;
+            numbers[0] = catheter.Insertion;
+            numbers[1] = catheter.Turn;
+            numbers[2] = catheter.Force;
+            numbers[3] = catheter.Torque;
+            numbers[4] = tip.X;
+            numbers[5] = tip.Y;
+            numbers[6] = tip.Z;
+            numbers[7] = direction.X;
+            numbers[8] = direction.Y;
+            numbers[9] = direction.Z;
+            numbers[10] = catheter.Extension;
+            numbers[11] = catheter.Overlap;
         }
 
         private void Put(string name, Vector3d[] values)

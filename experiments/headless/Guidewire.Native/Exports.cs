@@ -46,24 +46,26 @@ namespace Guidewire.Native
         }
 
         /// <summary>Makes steps, with so much push (units) and turn (rad) in each, and reads the state off.</summary>
+        /// <param name="hub">Whose hub they move: 0 the wire's, k that of catheter k.</param>
         /// <param name="numbers">Takes the state: step, time (s), 0 or 1 where the run has ended, prediction error
         /// (units), and then the arrays of an answer in their order.</param>
         /// <param name="capacity">How many numbers fit there, at least the first four.</param>
         /// <returns>How many numbers the state has; arrays are not written where they do not fit. 0 where the steps were
         /// refused or failed.</returns>
         [UnmanagedCallersOnly(EntryPoint = "guidewire_step")]
-        public static int Step(long number, double push, double turn, int steps, double* numbers, int capacity)
+        public static int Step(long number, double push, double turn, int hub, int steps, double* numbers,
+            int capacity)
         {
             return Sessions.TryGetValue(number, out NativeSession? session)
-                ? session.Step(push, turn, steps, new Span<double>(numbers, capacity)) : 0;
+                ? session.Step(push, turn, hub, steps, new Span<double>(numbers, capacity)) : 0;
         }
 
         /// <summary>Takes a fluoroscopic picture.</summary>
         /// <param name="number">The session's.</param>
         /// <param name="view">Which, as "view" of a request: JSON in UTF-8.</param>
         /// <param name="length">Its length in bytes.</param>
-        /// <param name="positions">x, y and z of each node of the wire, units.</param>
-        /// <param name="count">How many numbers these are; 0: the wire as it is now.</param>
+        /// <param name="positions">x, y and z of each node of the wire and then of each catheter, units.</param>
+        /// <param name="count">How many numbers these are; 0: as they are now.</param>
         /// <param name="grey">Takes the grey levels, row by row.</param>
         /// <param name="capacity">How many fit there.</param>
         /// <returns>How many the picture has; they are not written where the capacity is another. 0 where it was

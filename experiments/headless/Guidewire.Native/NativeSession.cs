@@ -40,11 +40,11 @@ namespace Guidewire.Native
         }
 
         /// <summary>As <see cref="Exports.Step"/> says.</summary>
-        public int Step(double push, double turn, int steps, Span<double> numbers)
+        public int Step(double push, double turn, int hub, int steps, Span<double> numbers)
         {
             try
             {
-                Simulation simulation = _host.Step(push, turn, steps);
+                Simulation simulation = _host.Step(push, turn, hub, steps);
                 _state.Read(simulation);
                 numbers[0] = simulation.StepCount;
                 numbers[1] = simulation.Time;

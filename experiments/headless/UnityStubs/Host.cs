@@ -58,6 +58,7 @@ namespace UnityEngine
         F = 102,
         G = 103,
         H = 104,
+        I = 105,
         M = 109,
         N = 110,
         R = 114,

@@ -49,6 +49,45 @@ namespace Guidewire.Io
                 : "did you mean \"" + nearest + "\"?"));
         }
 
+        /// <summary>Names of all instruments that a run can take, in their order: of two with one name that of the
+        /// nearer folder counts.</summary>
+        /// <param name="parameterFile">The run's parameter file, or null.</param>
+        /// <param name="areCatheters">Whether only catheters are wanted.</param>
+        /// <exception cref="ParameterException">A folder cannot be read.</exception>
+        public static IReadOnlyList<string> Names(string? parameterFile, bool areCatheters)
+        {
+            var files = new SortedDictionary<string, string>(StringComparer.Ordinal);
+            foreach (string folder in Folders(parameterFile))
+            {
+                foreach (string file in FilesOf(folder))
+                {
+                    files.TryAdd(Path.GetFileNameWithoutExtension(file), file);
+                }
+            }
+            var names = new List<string>();
+            foreach (KeyValuePair<string, string> pair in files)
+            {
+                if (!areCatheters || IsCatheter(pair.Value))
+                {
+                    names.Add(pair.Key);
+                }
+            }
+            return names;
+        }
+
+        // A file that is wrong in itself is refused where it is taken.
+        private static bool IsCatheter(string file)
+        {
+            try
+            {
+                return InstrumentReader.Read(file).InnerRadius > 0.0;
+            }
+            catch (ParameterException)
+            {
+                return false;
+            }
+        }
+
         private static string[] FilesOf(string folder)
         {
             try

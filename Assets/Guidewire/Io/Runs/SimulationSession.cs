@@ -138,13 +138,52 @@ namespace Guidewire.Io
             return session;
         }
 
-        /// <summary>One step. A run that is not steered takes no notice of what is asked.</summary>
+        /// <summary>Instruments, the wire among them.</summary>
+        public int InstrumentCount => 1 + Parameters.Scene.Catheters.Count;
+
+        /// <summary>The name by which the parameters give an instrument; empty where they state its numbers.</summary>
+        /// <param name="instrument">0 the wire, k catheter k.</param>
+        public string NameOf(int instrument)
+        {
+            return instrument == 0 ? _handler.Values.Instrument
+                : (string?)_handler.Values.Catheters![instrument - 1]!["instrument"] ?? "";
+        }
+
+        /// <summary>What an instrument is called: by its name, or else as what it is.</summary>
+        /// <param name="instrument">0 the wire, k catheter k.</param>
+        public string TitleOf(int instrument)
+        {
+            string name = NameOf(instrument);
+            return name.Length > 0 ? name : instrument == 0 ? "guidewire"
+                : InstrumentCount > 2 ? "catheter " + instrument : "catheter";
+        }
+
+        /// <summary>Names that can stand for an instrument: those of the folder beside the parameter file, then the
+        /// program's; for a catheter only catheters. Empty where the run's method takes no instrument.</summary>
+        /// <param name="instrument">0 the wire, k catheter k.</param>
+        public IReadOnlyList<string> ChoicesOf(int instrument)
+        {
+            return ParameterTable.Find("instrument")!.IsTakenBy(Parameters.Method.Solver)
+                ? InstrumentLibrary.Names(_from.Name, instrument > 0) : Array.Empty<string>();
+        }
+
+        /// <summary>The key that names an instrument.</summary>
+        /// <param name="instrument">0 the wire, k catheter k.</param>
+        public static string KeyOf(int instrument)
+        {
+            return instrument == 0 ? "instrument" : "catheters[" + (instrument - 1) + "].instrument";
+        }
+
+        /// <summary>One step. A run that is not steered takes no notice of push and turn.</summary>
         /// <param name="push">Motion of sphere 0 along the first element in it (thesis eq. 3.6), units; negative values
         /// pull.</param>
         /// <param name="turn">Turn of the first element about its axis in it, rad.</param>
-        /// <param name="hub">Whose hub the user holds: 0 the wire's, 1 that of the first catheter.</param>
+        /// <param name="hub">Whose hub the user holds: 0 the wire's, 1 that of the first catheter. The others
+        /// rest.</param>
+        /// <exception cref="ParameterException">There is no such hub; nothing has changed.</exception>
         public void Step(double push, double turn, int hub = 0)
         {
+            CheckHub(hub);
             if (_steering != null)
             {
                 _steering.Push = hub == 0 ? push : 0.0;
@@ -167,6 +206,18 @@ namespace Guidewire.Io
             }
             double time = (Stopwatch.GetTimestamp() - before) * RunFolder.ToMilliseconds;
             StepTime = StepTime == 0.0 ? time : StepTime + Smoothing * (time - StepTime);
+        }
+
+        /// <summary>Whether there is such a hub.</summary>
+        /// <exception cref="ParameterException">There is none.</exception>
+        public void CheckHub(int hub)
+        {
+            if (hub < 0 || hub >= InstrumentCount)
+            {
+                throw new ParameterException("request", "hub", hub.ToString(CultureInfo.InvariantCulture),
+                    InstrumentCount == 1 ? "0, the wire's, where there is no catheter"
+                        : "0, the wire's, or that of a catheter, from 1 to " + (InstrumentCount - 1));
+            }
         }
 
         /// <summary>The value of a parameter, as in a file.</summary>

@@ -9,6 +9,7 @@ namespace Guidewire.Runtime
         /// <summary>The keys, one a line, as the HUD shows them.</summary>
         public const string Help = "W / S  or up / down: push / pull\nA / D  or left / right: turn\n"
             + "space: pause     N: one step     R: reset     M: pbd or material\n"
+            + "I: hold the next instrument\n"
             + "C: colour     B: spheres     G: directors\nF: contact forces     H: this text\n"
             + "right mouse button: orbit     wheel: zoom     T: look at the tip";
 
@@ -48,6 +49,10 @@ namespace Guidewire.Runtime
             if (Input.GetKeyDown(KeyCode.R))
             {
                 _loop.Load();
+            }
+            if (Input.GetKeyDown(KeyCode.I))
+            {
+                _loop.HoldNext();
             }
             if (Input.GetKeyDown(KeyCode.M))
             {

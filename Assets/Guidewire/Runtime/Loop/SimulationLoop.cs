@@ -1,6 +1,8 @@
 using System;
+using System.Collections.Generic;
 using System.Diagnostics;
 using System.IO;
+using System.Linq;
 using Guidewire.Core;
 using Guidewire.Io;
 using Newtonsoft.Json.Linq;
@@ -87,6 +89,10 @@ namespace Guidewire.Runtime
         /// <summary>From -1, turn left at full speed, to 1, turn right; what is beyond counts as full.</summary>
         public float Turn { get; set; }
 
+        /// <summary>Whose hub <see cref="Push"/> and <see cref="Turn"/> move: 0 the wire's, k that of catheter
+        /// k.</summary>
+        public int Held { get; private set; }
+
         /// <summary>What sets <see cref="Push"/> and <see cref="Turn"/> each frame; null: nobody but their
         /// setters.</summary>
         public IWireInput? Input { get; set; }
@@ -169,6 +175,38 @@ namespace Guidewire.Runtime
             Load();
         }
 
+        /// <summary>Holds the next instrument: wire, catheters, wire again.</summary>
+        public void HoldNext()
+        {
+            Held = Session == null ? 0 : (Held + 1) % Session.InstrumentCount;
+        }
+
+        /// <summary>Takes the next name of the folders of instruments with which an instrument can be built, and builds
+        /// the run anew; does nothing where there is none.</summary>
+        /// <param name="instrument">0 the wire, k catheter k.</param>
+        public void TakeNextInstrument(int instrument)
+        {
+            IReadOnlyList<string>? names = Session?.ChoicesOf(instrument);
+            if (names == null || names.Count == 0)
+            {
+                return;
+            }
+            string now = Session!.NameOf(instrument);
+            int first = 0;
+            for (int k = 0; k < names.Count; k++)
+            {
+                first = names[k] == now ? k + 1 : first;
+            }
+            string key = SimulationSession.KeyOf(instrument) + "=";
+            var others = new List<string>(_overrides);
+            others.RemoveAll(one => one.StartsWith(key, StringComparison.Ordinal));
+            for (int k = 0; k == 0 || (k < names.Count && Problem.Length > 0); k++)
+            {
+                _overrides = others.Append(key + names[(first + k) % names.Count]).ToArray();
+                Load();
+            }
+        }
+
         /// <summary>Builds the wire anew from the parameter file.</summary>
         public void Load()
         {
@@ -186,6 +224,7 @@ namespace Guidewire.Runtime
                 Session = SimulationSession.Open(
                     source.With(Array.ConvertAll(_vessels, vessel => vessel.Create(transform))), _overrides, log,
                     _isSteered);
+                Held = Held < Session.InstrumentCount ? Held : 0;
                 _touched.Begin(SphereCount);
                 _live.Read(Session.Parameters);
                 foreach (string warning in Session.Warnings)
@@ -235,7 +274,7 @@ namespace Guidewire.Runtime
             {
                 double dt = Session!.Parameters.Method.TimeStep;
                 Session.Step(Mathf.Clamp(Push, -1f, 1f) * _pushSpeed * dt,
-                    Mathf.Clamp(Turn, -1f, 1f) * _turnSpeed * dt * Math.PI / 180.0);
+                    Mathf.Clamp(Turn, -1f, 1f) * _turnSpeed * dt * Math.PI / 180.0, Held);
                 _touched.Update(Session.Simulation.Contacts, ContactBegan, ContactEnded);
                 Report(Session.Simulation);
             }

@@ -27,8 +27,10 @@ namespace Guidewire.Runtime
         private readonly StringBuilder _builder = new StringBuilder(512);
         private readonly List<ParameterEntry> _switches = new List<ParameterEntry>();
         private readonly List<string> _labels = new List<string>();
+        private readonly List<string> _instruments = new List<string>();    // buttons that take the next one
         private float _age = Every;
         private int _lines;
+        private int _labelled;    // generation of the buttons of instruments
         private bool _hasInput;
 
         /// <summary>Whether the keys are listed.</summary>
@@ -47,6 +49,7 @@ namespace Guidewire.Runtime
             if (session != null)
             {
                 Write(session);
+                LabelInstruments(session);
                 for (int i = 0; i < _switches.Count; i++)
                 {
                     _labels[i] = _switches[i].Key + ": " + session.Get(_switches[i].Key);
@@ -63,6 +66,24 @@ namespace Guidewire.Runtime
                 Append("Active Input Handling to Input Manager (Old) or Both");
             }
             Text = _builder.ToString();
+        }
+
+        private void LabelInstruments(SimulationSession session)
+        {
+            if (_labelled == _loop.Generation)
+            {
+                return;
+            }
+            _labelled = _loop.Generation;
+            _instruments.Clear();
+            for (int k = 0; k < session.InstrumentCount; k++)
+            {
+                int names = session.ChoicesOf(k).Count;
+                if (names > 0)
+                {
+                    _instruments.Add((k == 0 ? "wire: " : "catheter: ") + session.TitleOf(k) + " (1 of " + names + ")");
+                }
+            }
         }
 
         private void Awake()
@@ -104,9 +125,18 @@ namespace Guidewire.Runtime
                 }
                 y += Line + 6f;
             }
+            for (int k = 0; k < _instruments.Count; k++)
+            {
+                if (GUI.Button(new Rect(8f, y, 0.8f * Width, Line + 4f), _instruments[k]))
+                {
+                    _loop.TakeNextInstrument(k);
+                    Refresh();
+                }
+                y += Line + 6f;
+            }
             if (ShowsHelp)
             {
-                GUI.Label(new Rect(16f, Screen.height - 8f * Line, 2f * Width, 8f * Line), KeyboardControl.Help);
+                GUI.Label(new Rect(16f, Screen.height - 9f * Line, 2f * Width, 9f * Line), KeyboardControl.Help);
             }
         }
 
@@ -138,10 +168,28 @@ namespace Guidewire.Runtime
                 Append("push {0:0.0} mN, torque {1:0.000} mN m", 1e3 * hub.Force, 1e3 * hub.Torque);
                 Append("largest curvature {0:0.0} 1/m", hub.LargestCurvature);
             }
+            WriteCatheters(session);
             if (_wire.Colouring != Colouring.Plain)
             {
                 Append("colour: {0}, red at {1} {2}", _wire.Colouring.ToString().ToLowerInvariant(), _wire.Range,
                     Units[(int)_wire.Colouring]);
+            }
+        }
+
+        private void WriteCatheters(SimulationSession session)
+        {
+            IReadOnlyList<CoaxialRecord> catheters = session.Simulation.Catheters();
+            for (int k = 0; k < catheters.Count; k++)
+            {
+                CoaxialRecord one = catheters[k];
+                Append("{0}: {1:0.0} mm in, turned by {2:0} degrees", session.TitleOf(k + 1), 1e3 * one.Insertion,
+                    180.0 / Math.PI * one.Turn);
+                Append("push {0:0.0} mN, torque {1:0.000} mN m, overlap {2:0.0} mm", 1e3 * one.Force,
+                    1e3 * one.Torque, 1e3 * one.Overlap);
+            }
+            if (catheters.Count > 0 && session.IsSteered)
+            {
+                Append("the hand holds {0}", session.TitleOf(_loop.Held));
             }
         }
 

@@ -69,7 +69,16 @@ namespace Guidewire.Runtime
         /// <param name="colours">A coordinate in the colour map for each sphere, in [0, 1].</param>
         public bool Write(RodState state, float radius, float[] colours)
         {
-            Vector3d[] x = state.Positions;
+            return Write(state.Positions, state.Orientations[0], radius, colours);
+        }
+
+        /// <summary>The same of spheres that are not a wire's.</summary>
+        /// <param name="x">Where they are, units.</param>
+        /// <param name="first">Orientation of the first element.</param>
+        /// <param name="radius">Units.</param>
+        /// <param name="colours">As of the other.</param>
+        public bool Write(Vector3d[] x, in Quaterniond first, float radius, float[] colours)
+        {
             for (int i = 0; i < _spheres; i++)
             {
                 if (!x[i].ToUnity().IsFinite())
@@ -78,7 +87,7 @@ namespace Guidewire.Runtime
                 }
             }
             _next = 0;
-            Vector3 normal = state.Orientations[0].Director1.ToUnity();
+            Vector3 normal = first.Director1.ToUnity();
             Vector3 tangent = Vector3.forward;
             for (int j = 0; j + 1 < _spheres; j++)
             {

@@ -43,6 +43,7 @@ namespace Guidewire.Runtime
         private Material _coloured = null!;
         private Material[] _directors = null!;
         private float[] _colours = null!;
+        private CatheterView _catheters = null!;
         private int _generation;
 
         /// <summary>Whether the spheres are drawn.</summary>
@@ -57,6 +58,9 @@ namespace Guidewire.Runtime
         /// <summary>The value of the last colour.</summary>
         public float Range => _colouring == Colouring.Stretch ? _stretchRange
             : _colouring == Colouring.Bending ? _bendingRange : _twistRange;
+
+        /// <summary>Radius that the wire is drawn with, units.</summary>
+        internal float DrawnRadius { get; private set; }
 
         /// <summary>The tube as it was last drawn, or null before the first wire.</summary>
         internal TubeMesh? Tube => _tube;
@@ -77,6 +81,7 @@ namespace Guidewire.Runtime
             }
             RodState state = session.Simulation.State;
             float radius = _thickness * (float)Radius(session.Parameters);
+            DrawnRadius = radius;
             if (_generation != _loop.Generation)
             {
                 Build(state);
@@ -101,6 +106,7 @@ namespace Guidewire.Runtime
             {
                 DrawDirectors(state, radius);
             }
+            _catheters.Draw();
         }
 
         private void Awake()
@@ -112,6 +118,8 @@ namespace Guidewire.Runtime
                 Marks.Coloured(_material, 0.3f, 0.4f, 0.9f),
             };
             _ball = Marks.CreateBall();
+            _catheters = gameObject.AddComponent<CatheterView>();
+            _catheters.Begin(_loop, this, _material);
             gameObject.AddComponent<MeshFilter>();
             gameObject.AddComponent<MeshRenderer>().sharedMaterial = _coloured;
         }

@@ -1,0 +1,78 @@
+"""The instruments of a run under the hand of a page: which of them the hand holds, and what was steered of each."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from experiments.session import Session
+from viewer.steered import Steered, exact_push, exact_turn
+
+
+class HeldInstruments:
+    """The wire and the catheters of a run; one of their hubs is held at a time.
+
+    Parameters
+    ----------
+    session : the run, at its start.
+    described : as of `Session.describe`.
+
+    Attributes
+    ----------
+    held : number of the one whose hub is held.
+    """
+
+    def __init__(self, session: Session, described: Mapping[str, Any]) -> None:
+        self.held = 0
+        self._instruments: Sequence[Mapping[str, Any]] = described["instruments"]
+        self._has_hand = session.hand
+        self._parameters = session.parameters
+        self.begin()
+
+    def begin(self) -> None:
+        """The run is at its start; the same hub stays held."""
+        self._steered = [Steered(self._parameters) for _ in self._instruments]
+
+    def hold(self, number: int) -> None:
+        """Take another one; raises ValueError where there is none of this number."""
+        if isinstance(number, bool) or not isinstance(number, int) or not 0 <= number < len(self._instruments):
+            raise ValueError("no such instrument")
+        self.held = number
+
+    def key_of(self, number: int, name: str) -> str:
+        """The key that names an instrument; raises ValueError where it cannot have this name."""
+        if name not in self._instruments[number]["choices"]:
+            raise ValueError("no such instrument")
+        return self._instruments[number]["key"]
+
+    def in_a_step(self, push: float, turn: float) -> tuple[float, float]:
+        """What is asked of the held hub in a step, units and rad, such that a table can say it."""
+        if not self._has_hand:
+            return 0.0, 0.0
+        metres = self._parameters.get("metresPerUnit")
+        return (push, exact_turn(turn)) if metres is None else (exact_push(push, metres), exact_turn(turn))
+
+    def add(self, number: int, push: float, turn: float, steps: int) -> None:
+        """Note steps that were made with so much push (units) and turn (rad) of one hub in each."""
+        for k, steered in enumerate(self._steered):
+            steered.add(push if k == number else 0.0, turn if k == number else 0.0, steps)
+
+    def invalidate(self, why: str) -> None:
+        """From here on no table says what was steered."""
+        for steered in self._steered:
+            steered.invalidate(why)
+
+    def status(self) -> dict[str, Any]:
+        """What a page is told."""
+        return {"held": self.held, "instruments": [one["title"] for one in self._instruments],
+                "chosen": [one["name"] for one in self._instruments],
+                "named": [one["choices"] for one in self._instruments if one["choices"]]}
+
+    @property
+    def problem(self) -> str:
+        """Why no table says what was steered; empty where one does."""
+        return self._steered[0].problem
+
+    def to_csv(self, number: int) -> str:
+        """What was steered of one hub since the start, as a drive table. Raises IndexError where there is none."""
+        return self._steered[number].to_csv()
