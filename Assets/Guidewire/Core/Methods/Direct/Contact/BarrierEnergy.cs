@@ -268,8 +268,8 @@ namespace Guidewire.Core
             double motion = Math.Sqrt(Math.Max((_to[j] - _x[j]).LengthSquared, (_to[j + 1] - _x[j + 1]).LengthSquared));
             gap = Math.Min(Math.Min(_nodeGap[w * (n + 1) + j], _nodeGap[w * (n + 1) + j + 1]),
                 _edgeGap[w * n + j]) * _units;
-            bool isFar = _near.ClearanceOf(w, _x, j) > motion + _units * (_elementRadius[j] + MostLeft * _barrier.Distance)
-                || motion < QuickFraction * gap;
+            double most = motion + _units * (_elementRadius[j] + MostLeft * _barrier.Distance);
+            bool isFar = _near.ClearanceOf(w, _x, j) > most || motion < QuickFraction * gap;
             gap = isFar ? 0.0 : gap;
             return !isFar;
         }
