@@ -232,8 +232,12 @@ namespace Guidewire.Core
             return nearer < 0.0 && nearer * nearer > limit;
         }
 
+        /// <summary>Whether a triangle is so thin that its normal has few digits.</summary>
+        /// <param name="areaSquared">Of the parallelogram of two of its edges.</param>
+        /// <param name="edge">One of these edges.</param>
+        /// <param name="other">The other.</param>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private static bool IsNeedle(double areaSquared, in Vector3d edge, in Vector3d other)
+        public static bool IsNeedle(double areaSquared, in Vector3d edge, in Vector3d other)
         {
             double size = edge.LengthSquared + other.LengthSquared;
             return !(areaSquared > Needle * size * size);

@@ -67,25 +67,4 @@ namespace Guidewire.Core
             return _features![index].Distance - Moved;
         }
     }
-
-    /// <summary>Features of a wall near an element and near its two ends.</summary>
-    internal readonly struct ElementFeatures
-    {
-        /// <summary>The three together.</summary>
-        public ElementFeatures(FeatureRange between, FeatureRange atA, FeatureRange atB)
-        {
-            Between = between;
-            AtA = atA;
-            AtB = atB;
-        }
-
-        /// <summary>Near the element.</summary>
-        public FeatureRange Between { get; }
-
-        /// <summary>Near its first end; those of the element where the shape has none of points.</summary>
-        public FeatureRange AtA { get; }
-
-        /// <summary>Near its second end.</summary>
-        public FeatureRange AtB { get; }
-    }
 }

@@ -251,7 +251,7 @@ namespace Guidewire.Core
 
         /// <inheritdoc/>
         internal override double ConservativeTimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1,
-            in Vector3d b1, double clearance, double resolution, int hint, in ElementFeatures features)
+            in Vector3d b1, double clearance, double resolution, int hint, FeatureRange features)
         {
             _ccd ??= new TubeCcd(_tree.Pieces, Planes);
             return _ccd.SafeFraction(a0, b0, a1, b1, clearance, hint);

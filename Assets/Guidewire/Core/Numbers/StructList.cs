@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
@@ -7,6 +8,7 @@ namespace Guidewire.Core
     internal sealed class StructList<T>
         where T : struct
     {
+        private const int MostInserted = 16;    // items that are sorted by insertion
         private T[] _items;
 
         /// <param name="capacity">Items that fit before the list grows for the first time, 1 or more.</param>
@@ -32,7 +34,22 @@ namespace Guidewire.Core
         /// which comes first.</summary>
         public void Sort(int from)
         {
-            Array.Sort(_items, from, Count - from);
+            if (Count - from > MostInserted)
+            {
+                Array.Sort(_items, from, Count - from);
+                return;
+            }
+            Comparer<T> comparer = Comparer<T>.Default;
+            for (int k = from + 1; k < Count; k++)
+            {
+                T item = _items[k];
+                int i = k;
+                for (; i > from && comparer.Compare(_items[i - 1], item) > 0; i--)
+                {
+                    _items[i] = _items[i - 1];
+                }
+                _items[i] = item;
+            }
         }
 
         /// <summary>Puts an item at the end.</summary>

@@ -1,5 +1,4 @@
 using System;
-using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
@@ -14,6 +13,7 @@ namespace Guidewire.Core
         private readonly MeshGeometry _mesh;
         private readonly Vector3d[] _centre;     // of the triangles
         private readonly double[] _radius;       // of the balls around them
+        private readonly TrianglePlanes _planes;
         private readonly int[] _convexEdge;           // half-edges of the convex edges
         private readonly Vector3d[] _edgeNormal; // between those of an edge's faces, unit vectors
         private readonly Bvh? _edgeTree;
@@ -35,6 +35,7 @@ namespace Guidewire.Core
                     _radius[i] = Math.Max(_radius[i], Vector3d.Distance(centre, mesh.Corners[k]));
                 }
             }
+            _planes = new TrianglePlanes(mesh.Corners);
             _convexEdge = edgeContacts.Edges();
             _edgeNormal = Array.ConvertAll(_convexEdge, mesh.NormalOfEdge);
             if (_convexEdge.Length > 0)
@@ -60,10 +61,9 @@ namespace Guidewire.Core
             _mesh.Tree.Within(x, x, range, _found);
             for (int k = 0; k < _found.Count; k++)
             {
-                double distance = LeastDistance(x, _found[k]);
-                if (distance <= range)
+                if (_planes.MayBeWithin(x, range, _found[k]))
                 {
-                    triangles.Add(new WallFeature(_found[k], distance));
+                    triangles.Add(new WallFeature(_found[k], LeastDistance(x, _found[k])));
                 }
             }
             triangles.Sort(from);
@@ -103,7 +103,7 @@ namespace Guidewire.Core
         {
             for (int k = among.From; k < among.To && among.LeastDistance(k) <= distance; k++)
             {
-                if (MayBeWithin(x, distance, among[k]))
+                if (_planes.MayBeWithin(x, distance, among[k]))
                 {
                     triangles.Add(among[k]);
                 }
@@ -140,7 +140,7 @@ namespace Guidewire.Core
             for (int k = among.From; k < among.To && among.LeastDistance(k) <= limit; k++)
             {
                 int i = among[k];
-                if (MayBeWithin(from, limit, i))
+                if (_planes.MayMeet(from, to, clearance, i))
                 {
                     SegmentImpact.WithTriangle(_mesh.Corners[3 * i], _mesh.Corners[3 * i + 1], _mesh.Corners[3 * i + 2],
                         from, from, to, to, clearance, resolution, motion, ref impact);
@@ -185,6 +185,10 @@ namespace Guidewire.Core
             _mesh.Tree.Within(from, to, clearance * RoundedUp, _found);
             for (int k = 0; k < _found.Count; k++)
             {
+                if (!_planes.MayMeet(from, to, clearance, _found[k]))
+                {
+                    continue;
+                }
                 int i = 3 * _found[k];
                 SegmentImpact.WithTriangle(_mesh.Corners[i], _mesh.Corners[i + 1], _mesh.Corners[i + 2],
                     from, from, to, to, clearance, resolution, motion, ref impact);
@@ -200,7 +204,7 @@ namespace Guidewire.Core
             for (int k = among.From; k < among.To && among.LeastDistance(k) <= clearance + motion; k++)
             {
                 int i = 3 * among[k];
-                if (MayBeWithin(x, clearance, among[k]) && ClosestPoints.PointTriangle(
+                if (_planes.MayBeWithin(x, clearance, among[k]) && ClosestPoints.PointTriangle(
                     x, _mesh.Corners[i], _mesh.Corners[i + 1], _mesh.Corners[i + 2], out _, out _) < limit)
                 {
                     return false;
@@ -233,13 +237,6 @@ namespace Guidewire.Core
             _mesh.EndsOf(edge, out int from, out int to);
             return Math.Sqrt(ClosestPoints.SegmentSegment(
                 a, b, _mesh.Corners[from], _mesh.Corners[to], out _, out _));
-        }
-
-        [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private bool MayBeWithin(in Vector3d x, double distance, int triangle)
-        {
-            double limit = distance + _radius[triangle];
-            return (x - _centre[triangle]).LengthSquared <= limit * limit;
         }
 
         private double LeastDistance(in Vector3d x, int triangle)

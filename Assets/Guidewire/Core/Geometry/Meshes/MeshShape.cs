@@ -133,14 +133,21 @@ namespace Guidewire.Core
             EdgeContacts.Find(a, b, range, Nearby, features, edgeContacts);
         }
 
-        /// <summary>For both ends against the triangles, and for the interior against the convex edges.</summary>
+        /// <summary>Against the convex edges.</summary>
         internal override double ConservativeTimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1,
-            in Vector3d b1, double clearance, double resolution, int hint, in ElementFeatures features)
+            in Vector3d b1, double clearance, double resolution, int hint, FeatureRange features)
         {
             double impact = NoImpact;
-            Nearby.ImpactOfPoint(a0, a1, clearance, resolution, features.AtA, ref impact);
-            Nearby.ImpactOfPoint(b0, b1, clearance, resolution, features.AtB, ref impact);
-            Nearby.ImpactOfSegment(a0, b0, a1, b1, clearance, resolution, features.Between, ref impact);
+            Nearby.ImpactOfSegment(a0, b0, a1, b1, clearance, resolution, features, ref impact);
+            return impact;
+        }
+
+        /// <summary>Against the triangles.</summary>
+        internal override double ConservativeTimeOfImpact(in Vector3d from, in Vector3d to, double clearance,
+            double resolution, FeatureRange features)
+        {
+            double impact = NoImpact;
+            Nearby.ImpactOfPoint(from, to, clearance, resolution, features, ref impact);
             return impact;
         }
 

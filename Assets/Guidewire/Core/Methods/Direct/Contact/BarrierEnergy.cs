@@ -163,7 +163,8 @@ namespace Guidewire.Core
         public override void AddGradient(RodShape shape, RodVector[] gradient, int from, int to,
             ref GradientMeasures measured)
         {
-            Update(shape);
+            // A shape is asked for piece by piece from its first node on: each piece needs to compare its own nodes.
+            Update(shape, from, Math.Min(to, _x.Length));
             _sums.AddGradient(gradient, from, to, ref measured);
         }
 
@@ -204,18 +205,9 @@ namespace Guidewire.Core
                 return 1.0;
             }
             double fraction = 1.0;
-            for (int j = 0; j < _elementRadius.Length; j++)
+            for (int w = 0; w < _walls.Length; w++)
             {
-                double motion = Math.Sqrt(Math.Max((_to[j] - _x[j]).LengthSquared,
-                    (_to[j + 1] - _x[j + 1]).LengthSquared));
-                double most = motion + _units * (_elementRadius[j] + MostLeft * _barrier.Distance);
-                for (int w = 0; w < _walls.Length; w++)
-                {
-                    if (!(_near.ClearanceOf(w, _x, j) > most))
-                    {
-                        fraction = Math.Min(fraction, MaxStepOf(w, j, motion));
-                    }
-                }
+                fraction = Math.Min(fraction, MaxStepAt(w));
             }
             return fraction;
         }
@@ -242,43 +234,102 @@ namespace Guidewire.Core
             return _edgeGap[w * _elementRadius.Length + j];
         }
 
-        private double MaxStepOf(int w, int j, double motion)
+        // Along the wire. A node has the larger clearance that its two elements need, and is tested once.
+        private double MaxStepAt(int w)
+        {
+            double fraction = 1.0;
+            double gapBefore = 0.0;       // of the element before, 0 where it is not tested
+            double radiusBefore = 0.0;
+            for (int j = 0; j <= _elementRadius.Length; j++)
+            {
+                double gap = 0.0;
+                double radius = 0.0;
+                if (j < _elementRadius.Length && IsTested(w, j, out gap))
+                {
+                    radius = _units * _elementRadius[j];
+                    fraction = Math.Min(fraction, MaxStepOf(w, j, radius, ref gap));
+                }
+                if (_walls[w].HasPointFeatures && (gap != 0.0 || gapBefore != 0.0))
+                {
+                    bool isBefore = radiusBefore + Left(gapBefore) > radius + Left(gap);
+                    fraction = Math.Min(fraction, isBefore ? MaxStepOfNode(w, j, radiusBefore, gapBefore)
+                        : MaxStepOfNode(w, j, radius, gap));
+                }
+                gapBefore = gap;
+                radiusBefore = radius;
+            }
+            return fraction;
+        }
+
+        // Whether the wall may limit the motion of element j, and the least gap between them that is known, units.
+        private bool IsTested(int w, int j, out double gap)
         {
             int n = _elementRadius.Length;
-            double radius = _units * _elementRadius[j];
-            double gap = Math.Min(Math.Min(_nodeGap[w * (n + 1) + j], _nodeGap[w * (n + 1) + j + 1]),
+            double motion = Math.Sqrt(Math.Max((_to[j] - _x[j]).LengthSquared, (_to[j + 1] - _x[j + 1]).LengthSquared));
+            gap = Math.Min(Math.Min(_nodeGap[w * (n + 1) + j], _nodeGap[w * (n + 1) + j + 1]),
                 _edgeGap[w * n + j]) * _units;
-            if (motion < QuickFraction * gap)
-            {
-                return 1.0;
-            }
+            double most = motion + _units * (_elementRadius[j] + MostLeft * _barrier.Distance);
+            bool isFar = _near.ClearanceOf(w, _x, j) > most || motion < QuickFraction * gap;
+            gap = isFar ? 0.0 : gap;
+            return !isFar;
+        }
+
+        private double MaxStepOf(int w, int j, double radius, ref double gap)
+        {
             ref int hint = ref _near.HintOf(w, j);
             double fraction = MaxStepOf(w, j, radius, gap, hint);
             if (fraction == 0.0)
             {
-                _walls[w].Nearest(
-                    _x[j], _x[j + 1], double.PositiveInfinity, ref hint, out SurfaceContact contact);
+                _walls[w].Nearest(_x[j], _x[j + 1], double.PositiveInfinity, ref hint, out SurfaceContact contact);
                 gap = contact.Distance - radius;
                 fraction = MaxStepOf(w, j, radius, gap, hint);
             }
-            return Math.Min(1.0, fraction);
+            return fraction;
         }
 
         private double MaxStepOf(int w, int j, double radius, double gap, int hint)
         {
-            double left = Math.Min(LeftOfGap * gap, MostLeft * _units * _barrier.Distance);
-            double clearance = radius + left;
-            double resolution = Math.Min(Resolved * clearance, ResolvedOfGap * (gap - left));
-            return gap > 0.0 ? _walls[w].ConservativeTimeOfImpact(_x[j], _x[j + 1], _to[j], _to[j + 1], clearance,
-                resolution, hint, _near.FeaturesAlong(w, j, _x, _to)) : 0.0;
+            return gap > 0.0 ? _walls[w].ConservativeTimeOfImpact(_x[j], _x[j + 1], _to[j], _to[j + 1],
+                radius + Left(gap), Resolution(radius, gap), hint, _near.FeaturesAlong(w, j, _x, _to)) : 0.0;
         }
 
-        // Evaluates the shape, unless it is that of the last call.
+        private double MaxStepOfNode(int w, int i, double radius, double gap)
+        {
+            // The node's own distance is known where it is small.
+            double distance = _units * (_nodeRadius[i] + _nodeGap[w * _x.Length + i]);
+            double clearance = radius + Left(gap);
+            if (Vector3d.Distance(_x[i], _to[i]) <= QuickFraction * (distance - clearance))
+            {
+                return 1.0;
+            }
+            return gap > 0.0 ? _walls[w].ConservativeTimeOfImpact(_x[i], _to[i], clearance, Resolution(radius, gap),
+                _near.FeaturesAlongNode(w, i, _x, _to)) : 0.0;
+        }
+
+        // What a step leaves of a gap.
+        private double Left(double gap)
+        {
+            return Math.Min(LeftOfGap * gap, MostLeft * _units * _barrier.Distance);
+        }
+
+        private double Resolution(double radius, double gap)
+        {
+            double left = Left(gap);
+            return Math.Min(Resolved * (radius + left), ResolvedOfGap * (gap - left));
+        }
+
         private void Update(RodShape shape)
+        {
+            Update(shape, 0, _x.Length);
+        }
+
+        // Evaluates the shape, unless it is that of the last call by its nodes from one (inclusive) to another
+        // (exclusive).
+        private void Update(RodShape shape, int from, int to)
         {
             int inside = NodesInside(shape);
             bool isSame = _isKnown && _near.IsCurrent && inside == _inside;
-            for (int i = 0; i < _x.Length && isSame; i++)
+            for (int i = from; i < to && isSame; i++)
             {
                 isSame = NodeOf(shape.X[i], i < inside) == _x[i];
             }

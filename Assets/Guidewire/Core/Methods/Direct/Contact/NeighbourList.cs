@@ -5,7 +5,8 @@ namespace Guidewire.Core
     /// <summary>Neighbour list (Verlet list): the walls near each node and element of a wire, valid while it moves no
     /// farther than the skin from where the query was made, and the walls' features there. Lengths in units.</summary>
     /// <remarks>A node or element that has moved farther than the skin is queried again, alone: its features are added
-    /// at the end of the list, which is rebuilt when it has grown too long.</remarks>
+    /// at the end of the list, which is rebuilt when it has grown too long. The query before the last one stays valid,
+    /// too: a stage goes from the shape where it begins to a predicted one and back.</remarks>
     internal sealed class NeighbourList
     {
         private const double SureOfQuick = 0.9;   // of a quick distance: the part that is certain
@@ -15,6 +16,8 @@ namespace Guidewire.Core
         private readonly double _skin;
         private readonly Neighbour[] _element;    // by wall and element
         private readonly Neighbour[] _node;       // by wall and node, where the wall has features of points
+        private readonly Neighbour[] _elementBefore;    // the queries before the last ones
+        private readonly Neighbour[] _nodeBefore;
         private readonly int[] _hint;             // by wall and element
         private readonly StructList<WallFeature> _features = new StructList<WallFeature>(1024);
         private readonly FeatureCache?[] _caches;  // of nodes, by wall
@@ -33,12 +36,16 @@ namespace Guidewire.Core
             _skin = skin;
             _element = new Neighbour[walls.Length * n];
             _node = new Neighbour[walls.Length * (n + 1)];
+            _elementBefore = new Neighbour[_element.Length];
+            _nodeBefore = new Neighbour[_node.Length];
             _caches = Array.ConvertAll(walls, wall => wall.FeatureCacheFor(skin));
             _version = new int[walls.Length];
             _hint = new int[walls.Length * n];
             Array.Fill(_hint, -1);
             Forget(_element);
+            Forget(_elementBefore);
             Forget(_node);
+            Forget(_nodeBefore);
         }
 
         /// <summary>Whether the entries are still valid where they were found: another user may have cleared a wall's
@@ -64,6 +71,7 @@ namespace Guidewire.Core
             {
                 _features.Clear();
                 Forget(_element);
+                Forget(_elementBefore);
             }
             bool isNew = _features.Count == 0;
             int n = _range.Length;
@@ -73,7 +81,7 @@ namespace Guidewire.Core
                 for (int j = 0; j < n; j++)
                 {
                     ref Neighbour element = ref _element[w * n + j];
-                    if (!element.Covers(x[j], x[j + 1]))
+                    if (!IsCovered(ref element, ref _elementBefore[w * n + j], x[j], x[j + 1]))
                     {
                         FindAtElement(w, j, x, ref element);
                     }
@@ -121,13 +129,16 @@ namespace Guidewire.Core
         }
 
         /// <summary>Features about the motion of element j, where they are known for all of it.</summary>
-        public ElementFeatures FeaturesAlong(int w, int j, Vector3d[] x, Vector3d[] to)
+        public FeatureRange FeaturesAlong(int w, int j, Vector3d[] x, Vector3d[] to)
         {
-            FeatureRange between = _element[w * _range.Length + j].Covers(to[j], to[j + 1])
-                ? FeaturesOf(w, j, x[j], x[j + 1]) : default;
-            return _caches[w] != null
-                ? new ElementFeatures(between, AlongMotion(w, j, x, to), AlongMotion(w, j + 1, x, to))
-                : new ElementFeatures(between, between, between);
+            return _element[w * _range.Length + j].Covers(to[j], to[j + 1]) ? FeaturesOf(w, j, x[j], x[j + 1])
+                : default;
+        }
+
+        /// <summary>The same of node i, where the wall has features of points.</summary>
+        public FeatureRange FeaturesAlongNode(int w, int i, Vector3d[] x, Vector3d[] to)
+        {
+            return _node[w * (_range.Length + 1) + i].Covers(to[i], to[i]) ? FeaturesOfNode(w, i, x[i]) : default;
         }
 
         /// <summary>Where element j was nearest to wall w, for <see cref="ContactShape.Nearest"/>.</summary>
@@ -158,12 +169,6 @@ namespace Guidewire.Core
                     _node[w * (n + 1) + j + 1].Clearance(x[j + 1], x[j + 1])));
         }
 
-        private FeatureRange AlongMotion(int w, int i, Vector3d[] x, Vector3d[] to)
-        {
-            ref Neighbour node = ref _node[w * (_range.Length + 1) + i];
-            return node.Covers(to[i], to[i]) ? node.Features(_caches[w]!.Features, x[i], x[i]) : default;
-        }
-
         private void FollowNodes(int w, Vector3d[] x)
         {
             FeatureCache? cells = _caches[w];
@@ -178,12 +183,30 @@ namespace Guidewire.Core
             for (int i = 0; i <= n; i++)
             {
                 ref Neighbour node = ref _node[w * (n + 1) + i];
-                if (isForgotten || !node.Covers(x[i], x[i]))
+                ref Neighbour before = ref _nodeBefore[w * (n + 1) + i];
+                if (isForgotten)
+                {
+                    node.Forget();
+                    before.Forget();
+                }
+                if (!IsCovered(ref node, ref before, x[i], x[i]))
                 {
                     double range = Math.Max(_range[Math.Max(i - 1, 0)], _range[Math.Min(i, n - 1)]);
                     cells.Find(x[i], range, ref node);
                 }
             }
+        }
+
+        // Whether one of two queries is valid between a and b: it is then the last; else the older one is, to be made
+        // again.
+        private static bool IsCovered(ref Neighbour last, ref Neighbour before, in Vector3d a, in Vector3d b)
+        {
+            if (last.Covers(a, b))
+            {
+                return true;
+            }
+            (last, before) = (before, last);
+            return last.Covers(a, b);
         }
 
         private static void Forget(Neighbour[] neighbours)

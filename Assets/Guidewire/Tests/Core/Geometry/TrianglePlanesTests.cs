@@ -1,0 +1,78 @@
+using System;
+using Guidewire.Core;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>What the four planes of a triangle leave out, against exact distances; needles are among the triangles,
+    /// and half of them lie a thousand times their size from the origin.</summary>
+    [TestFixture]
+    internal sealed class TrianglePlanesTests
+    {
+        private const double Far = 1000.0;
+
+        [Test]
+        public void MayBeWithin_LeavesOutNoTriangle_ThatIsWithinTheDistance()
+        {
+            var random = new RandomGeometry(41);
+            int kept = 0;
+            int leftOut = 0;
+            for (int i = 0; i < RandomGeometry.Cases(100_000); i++)
+            {
+                Vector3d[] t = Placed(random, random.Triangle(), out Vector3d offset);
+                Vector3d x = random.Point() + offset;
+                double distance = Math.Sqrt(ClosestPoints.PointTriangle(x, t[0], t[1], t[2], out _, out _));
+                double asked = random.Index(2) == 0 ? distance : random.Number(0.0, 1.0);
+                bool mayBe = new TrianglePlanes(t).MayBeWithin(x, asked, 0);
+                Assert.That(mayBe || distance > asked, Is.True, "case " + i + ": " + distance + " of " + asked);
+                kept += mayBe ? 1 : 0;
+                leftOut += mayBe ? 0 : 1;
+            }
+            Assert.That(leftOut, Is.GreaterThan(kept / 10));
+        }
+
+        [Test]
+        public void MayMeet_LeavesOutNoTriangle_ThatThePathComesWithinTheDistanceOf()
+        {
+            var random = new RandomGeometry(42);
+            int kept = 0;
+            int leftOut = 0;
+            for (int i = 0; i < RandomGeometry.Cases(100_000); i++)
+            {
+                Vector3d[] t = Placed(random, random.Triangle(), out Vector3d offset);
+                Vector3d from = random.Point() + offset;
+                Vector3d to = from + random.Number(0.0, 1.0) * random.Point();
+                double distance = Math.Sqrt(ClosestPoints.SegmentTriangle(
+                    from, to, t[0], t[1], t[2], double.PositiveInfinity, out _, out _, out _));
+                double asked = random.Index(2) == 0 ? distance : random.Number(0.0, 1.0);
+                bool mayMeet = new TrianglePlanes(t).MayMeet(from, to, asked, 0);
+                Assert.That(mayMeet || distance > asked, Is.True, "case " + i + ": " + distance + " of " + asked);
+                kept += mayMeet ? 1 : 0;
+                leftOut += mayMeet ? 0 : 1;
+            }
+            Assert.That(leftOut, Is.GreaterThan(kept / 10));
+        }
+
+        [Test]
+        public void PointsOverAFace_AreLeftOutFromTheirHeightOn()
+        {
+            var t = new[] { Vector3d.Zero, 2.0 * Vector3d.UnitX, 2.0 * Vector3d.UnitY };
+            var planes = new TrianglePlanes(t);
+            var over = new Vector3d(0.5, 0.5, 1.0);
+            var beside = new Vector3d(-0.6, 0.5, 0.8);    // at a distance of 1 from an edge
+            Assert.That(planes.MayBeWithin(over, 1.0, 0), Is.True);
+            Assert.That(planes.MayBeWithin(over, 0.999, 0), Is.False);
+            Assert.That(planes.MayBeWithin(beside, 1.0, 0), Is.True);
+            Assert.That(planes.MayBeWithin(beside, 0.999, 0), Is.False);
+            Assert.That(planes.MayMeet(over, over - 0.5 * Vector3d.UnitZ, 0.499, 0), Is.False);
+            Assert.That(planes.MayMeet(over, over - 2.0 * Vector3d.UnitZ, 0.499, 0), Is.True);
+        }
+
+        private static Vector3d[] Placed(RandomGeometry random, Vector3d[] triangle, out Vector3d offset)
+        {
+            Vector3d move = random.Index(2) == 0 ? Vector3d.Zero : Far * random.Point();
+            offset = move;
+            return Array.ConvertAll(triangle, corner => corner + move);
+        }
+    }
+}
