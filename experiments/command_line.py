@@ -115,7 +115,8 @@ def parse(argv: list[str]) -> argparse.Namespace:
     steer = commands.add_parser("steer", help="find a drive that brings a wire to its target in a vessel, and run it")
     steer.add_argument("file", metavar="SCENE", type=Path, help="scene.json that 'anatomy' wrote")
     steer.add_argument("--out", type=path, metavar="DIR", help="folder of the run (results/<folder of SCENE>-steered)")
-    steer.add_argument("--attempts", type=positive, default=80, metavar="N", help="at wrong branches, at most (80)")
+    steer.add_argument("--attempts", type=positive, default=200, metavar="N",
+                       help="that fail with each tip, at most (200)")
     steer.set_defaults(packages=("numpy",))
 
     view = commands.add_parser("view", help="in the browser: open a scene interactively, or replay one or two runs")
