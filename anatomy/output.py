@@ -89,6 +89,11 @@ def scene(line: Centreline, unit: Unit, inlet: End, target: End, diameter: float
     }
 
 
+def write_scene(folder: Path, parameters: Mapping[str, Any]) -> None:
+    """The parameter file beside a vessel."""
+    write_whole(folder / SCENE, json.dumps(parameters, indent=2) + "\n")
+
+
 def describe(found: Inspection, repaired: Repaired | None, line: Centreline | None, diameter: float) -> list[str]:
     """The report: one line a finding."""
     unit = found.unit

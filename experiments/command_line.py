@@ -119,10 +119,12 @@ def parse(argv: list[str]) -> argparse.Namespace:
                        help="that fail with each tip, at most (200)")
     steer.set_defaults(packages=("numpy",))
 
-    view = commands.add_parser("view", help="in the browser: open a scene interactively, or replay one or two runs")
+    view = commands.add_parser("view", help="in the browser: open a scene interactively, replay one or two runs, or "
+                                              "look at a vessel")
     view.add_argument("what", metavar="FILE|RUN", nargs="+", type=Path,
                       help="a parameter file: interactive; folder of a run: replay; two folders: side by side or "
-                           "superimposed")
+                           "superimposed; a mesh, mask or centreline: its ends and bad places, a click on an end makes "
+                           "it the inlet")
     view.add_argument("--html", type=path, metavar="FILE", help="write the replay into a self-contained file")
     view.add_argument("--frames", type=positive, metavar="K", help="most frames of a run (5000; 300 with --html)")
     view.add_argument("--open", action="store_true", help="open the page in a browser")

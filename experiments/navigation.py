@@ -34,8 +34,22 @@ _STALLED = (20.0, 80.0)  # mm pushed without progress, from which on an attempt 
 _BACK = (4.0, 250.0)  # mm behind the farthest place, where an attempt begins
 _ALIKE = 8.0  # mm of the path within which snapshots are as good a start
 _SPIN = 0.15  # rad a mm at most, while the wire is pushed
-_TIPS = (1.0, 2.3, 0.4)  # curvature of the tips tried, over the scene's: 45, 105 and 18 degrees
 _SEED = 28
+
+
+@dataclass(frozen=True)
+class Tip:
+    """A bend at rest at the end of a wire, as one shapes it by hand: angle, degrees, and length, mm, at most that of the
+    wire's last section."""
+
+    angle: float
+    length: float
+
+    def __str__(self) -> str:
+        return f"{self.angle:g} degrees over {self.length:g} mm"
+
+
+_TIPS = (None, Tip(70.0, 10.0), Tip(105.0, 30.0), Tip(120.0, 10.0))  # tried in this order; None: the scene's own
 
 
 @dataclass(frozen=True)
@@ -48,7 +62,7 @@ class Steered:
     farthest: float
     length: float
     rows: list[tuple[float, float, float]]
-    tip: float = 1.0
+    tip: Tip | None = None
 
 
 class Route:
@@ -102,11 +116,20 @@ class Route:
         return along is not None and along >= self.length - self._near_target
 
 
-def with_tip(asked: dict[str, Any], tip: float) -> dict[str, Any]:
-    """A scene's parameters with so many times the curvature of its sections at rest."""
-    sections = [section | {"restCurvature": [tip * value for value in section["restCurvature"]]}
-                if "restCurvature" in section else section for section in asked.get("wireSections", [])]
-    return asked | {"wireSections": sections}
+def with_tip(asked: dict[str, Any], tip: Tip | None) -> dict[str, Any]:
+    """A scene's parameters with the end of its last section bent so, and the rest of that section straight."""
+    if tip is None or not asked.get("wireSections"):
+        return asked
+    *others, last = asked["wireSections"]
+    length = last["to"] - last["from"]
+    bent = min(tip.length, length)
+    count = last["numberRodElements"]
+    own = min(count, max(1, round(count * bent / length)))
+    curved = last | {"from": last["to"] - bent, "numberRodElements": own, "restCurvature": [
+        -np.radians(tip.angle) / (1e-3 * bent), 0.0, 0.0]}
+    straight = {key: value for key, value in last.items() if key != "restCurvature"} | {
+        "to": last["to"] - bent, "numberRodElements": count - own}
+    return asked | {"wireSections": [*others, *([straight] if own < count else []), curved]}
 
 
 @dataclass(frozen=True)
@@ -131,7 +154,7 @@ class _Start:
         return found[::-1]
 
 
-def steer(scene: Path, most_attempts: int = 200, tell: Callable[[str], None] = lambda line: None, tip: float = 1.0
+def steer(scene: Path, most_attempts: int = 200, tell: Callable[[str], None] = lambda line: None, tip: Tip | None = None
           ) -> Steered:
     """Find a drive from a scene's inlet to its target.
 
@@ -140,7 +163,7 @@ def steer(scene: Path, most_attempts: int = 200, tell: Callable[[str], None] = l
     scene : ``scene.json`` of ``guidewire.py anatomy``.
     most_attempts : after which the search gives up.
     tell : hears one line for each attempt.
-    tip : curvature of the tip at rest over that of the scene.
+    tip : in place of the scene's own.
 
     Raises
     ------
@@ -238,16 +261,15 @@ def run(arguments: argparse.Namespace, build: Callable[[], list[str]], hand_to: 
         found = None
         for tip in _TIPS:
             if found is not None:
-                print(f"at {found.farthest:.0f} of {found.length:.0f} mm; now with a tip {tip:g} times as bent as the "
-                      "scene's")
+                print(f"at {found.farthest:.0f} of {found.length:.0f} mm; now with a tip bent by {tip}")
             more = steer(scene, arguments.attempts, print, tip)
             found = max(filter(None, (found, more)), key=lambda one: (one.is_reached, one.farthest))
             if found.is_reached:
                 break
     except SessionError as error:
         raise PreparationError(str(error)) from error
-    place = (f"{found.attempts} attempts failed; tip, {found.tip:g} times as bent as in the scene, at most at "
-             f"{found.farthest:.0f} of {found.length:.0f} mm")
+    place = (f"{found.attempts} attempts failed; tip bent {f'by {found.tip}' if found.tip else 'as in the scene'}, at "
+             f"most at {found.farthest:.0f} of {found.length:.0f} mm")
     if not found.is_reached:
         print(f"target not reached, no drive written: {place}")
         return 1
