@@ -49,7 +49,7 @@ class Tip:
         return f"{self.angle:g} degrees over {self.length:g} mm"
 
 
-_TIPS = (None, Tip(70.0, 10.0), Tip(105.0, 30.0), Tip(120.0, 10.0))  # tried in this order; None: the scene's own
+_TIPS = (None, Tip(105.0, 30.0), Tip(70.0, 10.0), Tip(120.0, 10.0))  # tried in this order; None: the scene's own
 
 
 @dataclass(frozen=True)
