@@ -263,6 +263,17 @@ class _Builder:
         count = max(1, int(round(gap / step)))
         return line[-1] + np.linspace(0.0, 1.0, count + 1)[1:, None] * (end - line[-1])
 
+    def _widest_after(self, point: int) -> int:
+        """Of the points after one, away from the root, that beyond which there is most of the vessel, its radii summed
+        along the tree; -1 at an end."""
+        after = np.flatnonzero(np.asarray(self._parents) == point)
+        if len(after) < 2:
+            return int(after[0]) if len(after) else -1
+        beyond = np.array(self._radii, dtype=float)
+        for k in range(len(beyond) - 1, 0, -1):  # parents come first
+            beyond[self._parents[k]] += beyond[k]
+        return int(after[np.argmax(beyond[after])])
+
     def _end(self, number: int, k: int, point: int) -> End:
         rim = self._rims[k]
         inner = point
@@ -270,10 +281,11 @@ class _Builder:
         path = [point]
         reach = 0.0
         radius = rim.radius if rim else 0.0
-        # The direction is that of the centreline over the first radius, or two where the sphere grows on.
-        while reach < 2.0 * max(radius, self._radii[path[-1]]):
-            after = parents[path[-1]] if point != 0 else path[-1] + 1
-            if not 0 <= after < len(points):
+        # The direction is that of the centreline over a rim's radius, where a sheath ends, or from a blind end over two
+        # radii, where the sphere grows on.
+        while reach < (rim.radius if rim else 2.0 * max(radius, self._radii[path[-1]])):
+            after = parents[path[-1]] if point != 0 else self._widest_after(path[-1])
+            if after < 0:
                 break
             reach += float(np.linalg.norm(points[after] - points[path[-1]]))
             path.append(after)

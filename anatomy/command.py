@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import json
 import os
 from pathlib import Path
 
 from anatomy import output, reading
 from anatomy.centreline import find_centreline
+from anatomy.formats import CENTRELINES, MASKS
 from anatomy.inspection import Inspection, inspect
 from anatomy.mesh import AnatomyError, Mesh
 from anatomy.repair import Repaired, repair
@@ -53,8 +53,7 @@ def _run(arguments: argparse.Namespace, folder: Path) -> int:
     made = f"{arguments.make}, type {arguments.type}, seed {arguments.seed}"
     source = arguments.file.name if arguments.file else made
     output.write_vessel(folder, repaired.mesh, line, found.unit, source)
-    write_whole(folder / output.SCENE, json.dumps(
-        output.scene(line, found.unit, inlet, target, arguments.wire), indent=2) + "\n")
+    output.write_scene(folder, output.scene(line, found.unit, inlet, target, arguments.wire))
     return _tell(folder, repaired.mesh, found, repaired, line, arguments)
 
 
@@ -64,20 +63,30 @@ def _mesh_of(arguments: argparse.Namespace) -> tuple[Mesh, str | None, list[str]
         from anatomy.shapes import make
 
         return make(arguments.make, arguments.type, arguments.seed, arguments.stenosis, arguments.aneurysm)
-    kind = reading.kind_of(arguments.file)
-    if kind in reading.MASKS:
+    return read(arguments.file, arguments.unit, arguments.label, arguments.threshold, arguments.error)
+
+
+def read(file: Path, unit: str | None = None, label: float | None = None, threshold: float | None = None,
+         error: float | None = None) -> tuple[Mesh, str | None, list[str]]:
+    """The mesh of a file, or one made of its mask or centreline; its unit where it is known, and what was done.
+
+    Raises
+    ------
+    AnatomyError : one line, for a file that holds no vessel.
+    """
+    kind = reading.kind_of(file)
+    if kind in MASKS:
         from anatomy.masks import mesh_of_image
 
-        return mesh_of_image(reading.read_image(arguments.file), arguments.label, arguments.threshold,
-                             arguments.error)
-    line = reading.line_of_poly_data(arguments.file) if kind == ".vtp" else None
-    if kind in reading.CENTRELINES or line is not None:
+        return mesh_of_image(reading.read_image(file), label, threshold, error)
+    line = reading.line_of_poly_data(file) if kind == ".vtp" else None
+    if kind in CENTRELINES or line is not None:
         from anatomy.shapes import tube_mesh
 
-        line = line or reading.read_line(arguments.file)
-        return tube_mesh(line.points, line.radii), arguments.unit or line.unit or None, [
+        line = line or reading.read_line(file)
+        return tube_mesh(line.points, line.radii), unit or line.unit or None, [
             f"a tube around a centreline of {len(line.points)} points"]
-    return reading.read_mesh(arguments.file), arguments.unit, []
+    return reading.read_mesh(file), unit, []
 
 
 def _tell(folder: Path, mesh: Mesh, found: Inspection, repaired: Repaired | None, line, arguments) -> int:

@@ -20,6 +20,10 @@ from experiments.whole_files import write_whole
 MESH, ANATOMY, SCENE, REPORT, PICTURE = "vessel.obj", "anatomy.json", "scene.json", "report.md", "picture.png"
 _SPEED, _TIME_STEP = 0.02, 0.05  # m/s, s: 1 mm a step
 _TIP, _BODY = 30.0, 5.0  # mm: length of the soft tip, with elements of 1 mm; length of the other elements
+_FLEXIBLE = 2.5  # mm: length of the elements of a longer flexible section
+_OVER, _TIGHT, _NARROW = 20.0, 75.0, 5.0  # mm, degrees, mm: a lumen of less radius that turns more over that length
+_LONGEST = 300.0  # mm of flexible wire, the tip included
+_HUB_FORCE = 5.0  # N, at which a grip slides along the wire
 _CLEARANCE = 3.0  # radius of a lumen over the wire's, from which on an end may be a target by default
 _PLACES = 10  # of a kind that a report lists
 
@@ -74,19 +78,52 @@ def scene(line: Centreline, unit: Unit, inlet: End, target: End, diameter: float
 
     diameter : of the wire, mm.
     """
-    way = 1e3 * unit.metres * line.length(line.path(inlet.point, target.point))
-    body = _BODY * math.ceil((1.15 * way + 60.0) / _BODY)
+    path = line.path(inlet.point, target.point)
+    way = 1e3 * unit.metres * line.length(path)
+    flexible = _flexible_length(1e3 * unit.metres * line.points[path], 1e3 * unit.metres * line.radii[path])
+    body = _BODY * math.ceil((1.15 * way + 60.0) / _BODY) - flexible
+    length = body + flexible + _TIP
+    soft = {"youngsModulus": 6e9, "shearModulus": 2.3e9}
+    sections: list[dict[str, Any]] = [{"from": length - _TIP, "to": length, "numberRodElements": round(_TIP), **soft,
+                                       "restCurvature": [-26.18, 0.0, 0.0]}]
+    if flexible:
+        sections.insert(0, {"from": body, "to": length - _TIP, "numberRodElements": round(flexible / _FLEXIBLE),
+                            **soft})
     return {
-        "solver": "direct", "guidewireLength": body + _TIP, "numberRodElements": round(body / _BODY),
+        "solver": "direct", "guidewireLength": length, "numberRodElements": round(body / _BODY),
         "wireRadius": 0.5e-3 * diameter, "youngsModulus": 60e9, "shearModulus": 23e9, "density": 6450.0,
-        "wireSections": [{"from": body, "to": body + _TIP, "numberRodElements": round(_TIP), "youngsModulus": 6e9,
-                          "shearModulus": 2.3e9, "restCurvature": [-26.18, 0.0, 0.0]}],
+        "wireSections": sections,
         "massDamping": 20.0, "proximalEnd": "clamped", "drive": "displace", "insertionSpeed": _SPEED,
+        "hubForceLimit": _HUB_FORCE,
         "vessel": {"shape": "mesh", "file": MESH, "metresPerUnit": unit.metres, "anatomy": ANATOMY},
         "sheath": {}, "inlet": inlet.number, "target": target.number, "contactDistance": 0.00005,
         "timeStep": _TIME_STEP, "deltaThreshold": 0.0,
         "maxSimulationSteps": math.ceil(way / (1e3 * _SPEED * _TIME_STEP)), "logEvery": 2, "logHub": True,
     }
+
+
+def _flexible_length(points: np.ndarray, radii: np.ndarray) -> float:
+    """Of the wire behind its tip that has to be as flexible as the tip, mm, a multiple of the body's elements: from the
+    first narrow and tight bend of a path on, as a carotid siphon is. Points and radii in mm, from the inlet."""
+    arc = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))]
+    at = np.arange(0.0, arc[-1], 1.0)
+    fine = np.stack([np.interp(at, arc, points[:, k]) for k in range(3)], axis=1)
+    half = round(0.5 * _OVER)
+    if len(fine) <= 2 * half + 2:
+        return 0.0
+    tangents = fine[2:] - fine[:-2]
+    tangents /= np.maximum(np.linalg.norm(tangents, axis=1), 1e-300)[:, None]
+    turned = np.degrees(np.arccos(np.clip(np.einsum("ij,ij->i", tangents[2 * half:], tangents[:-2 * half]), -1.0, 1.0)))
+    middle = at[half + 1:half + 1 + len(turned)]
+    is_tight = (turned > _TIGHT) & (np.interp(middle, arc, radii) < _NARROW) & (middle > arc[-1] - _LONGEST + _TIP)
+    if not is_tight.any():
+        return 0.0
+    return _BODY * math.ceil((arc[-1] - middle[is_tight.argmax()]) / _BODY)
+
+
+def write_scene(folder: Path, parameters: Mapping[str, Any]) -> None:
+    """The parameter file beside a vessel."""
+    write_whole(folder / SCENE, json.dumps(parameters, indent=2) + "\n")
 
 
 def describe(found: Inspection, repaired: Repaired | None, line: Centreline | None, diameter: float) -> list[str]:

@@ -11,11 +11,9 @@ from pathlib import Path
 
 import numpy as np
 
+from anatomy.formats import CENTRELINES, MASKS, MESHES
 from anatomy.mesh import AnatomyError, Mesh
 
-MESHES = (".stl", ".obj", ".ply", ".vtp")
-MASKS = (".nii", ".nii.gz", ".nrrd")
-CENTRELINES = (".csv", ".mrk.json")
 _LARGEST = 1 << 30  # bytes of a mesh file
 _MOST_VOXELS = 1 << 30
 

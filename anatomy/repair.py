@@ -13,17 +13,16 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import breadth_first_order, connected_components
 
 from anatomy.distance_grid import cut_open, remesh
-from anatomy.inspection import (cast_rays, facing, narrow_radius, sort_rims, typical_radius, weld, weld_exactly,
-                                weld_length_of, without_slivers)
+from anatomy.double_wall import inner_wall
+from anatomy.inspection import (facing, narrow_radius, sort_rims, typical_radius, weld, weld_exactly, weld_length_of,
+                                without_slivers)
 from anatomy.intersections import relaxed, self_intersections
 from anatomy.mesh import AnatomyError, Edges, Mesh, Rim, close_rims, find_bodies, find_rims, signed_volume
 from anatomy.surfaces import distances
 
-_CONE = 14  # rays out of a triangle
 _FACING = 0.3
 _ROUNDS = 3
 _MOST_MOVED = 0.25  # of the typical radius, by a lid
-_LIP = 5.0  # median thicknesses of the wall
 _STRAY = 0.05  # of the largest body's box: a body up to that is a remnant
 
 
@@ -148,28 +147,12 @@ class _Work:
         """Of a double wall joined at its ends: the side from which fewer rays escape, cut straight at its ends."""
         if facing(self.mesh).mean() <= _FACING:
             return
-        mesh = self.mesh
-        normals = _normals(mesh)
-        enclosed = _enclosure(mesh, normals)
-        thickness, behind = cast_rays(mesh, np.arange(len(normals)), -normals)
-        # 1 where more rays escape from the other side of the wall.
-        enclosed = np.where(behind >= 0, (enclosed > enclosed[behind]) + 0.5 * (enclosed == enclosed[behind]), 0.0)
-        # Behind a lip, which joins the two walls, the wall is as thick as it is long.
-        enclosed[thickness > _LIP * np.median(thickness)] = 0.0
-        pairs = Edges.of(mesh).pairs()
-        n = len(mesh.triangles)
-        joined = coo_matrix((np.ones(len(pairs)), pairs.T), shape=(n, n)).tocsr()
-        joined = joined + joined.T
-        degree = 1.0 + np.asarray(joined.sum(axis=1)).ravel()
-        for _ in range(6):
-            enclosed = (enclosed + joined @ enclosed) / degree
-        part = mesh.part(enclosed > 0.5)
-        part = part.part(find_bodies(part) == 0)
-        count = n - len(part.triangles)
+        part, thickness = inner_wall(self.mesh)
+        count = len(self.mesh.triangles) - len(part.triangles)
         ends = [rim for rim in sort_rims(part, find_rims(part, Edges.of(part))) if not rim.is_hole]
         deepest = [((part.vertices[rim.vertices] - rim.centre) @ rim.normal).max() for rim in ends]
         for rim, depth in zip(ends, deepest):
-            inside = max(depth, 0.0) + float(np.median(thickness))
+            inside = max(depth, 0.0) + thickness
             part = cut_open(part, rim.centre + inside * rim.normal, rim.normal, 1.5 * rim.radius)
         self._note("triangles of an outer wall removed, the lumen's kept", count)
         self.mesh = part
@@ -275,29 +258,6 @@ class _Work:
             mesh = mesh.turned()
             self._note("normals turned into the lumen", len(mesh.triangles))
         self.mesh = mesh
-
-
-def _normals(mesh: Mesh) -> np.ndarray:
-    """(t, 3): of length 1, out of what the surface encloses."""
-    normals = mesh.area_vectors()
-    normals /= np.maximum(np.linalg.norm(normals, axis=1), 1e-300)[:, None]
-    return normals * (1.0 if signed_volume(mesh) > 0.0 else -1.0)
-
-
-def _enclosure(mesh: Mesh, normals: np.ndarray) -> np.ndarray:
-    """(t,): of a cone of rays out of each triangle the fraction that meets the mesh."""
-    u = np.cross(normals, np.eye(3)[np.argmin(np.abs(normals), axis=1)])
-    u /= np.maximum(np.linalg.norm(u, axis=1), 1e-300)[:, None]
-    w = np.cross(normals, u)
-    everything, total = np.arange(len(normals)), np.zeros(len(normals))
-    for k in range(_CONE):
-        # A golden spiral over the hemisphere, without its rim, where rays graze the wall.
-        height = 1.0 - 0.85 * (k + 0.5) / _CONE
-        angle = k * np.pi * (3.0 - np.sqrt(5.0))
-        side = np.sqrt(1.0 - height**2)
-        rays = height * normals + side * (np.cos(angle) * u + np.sin(angle) * w)
-        total += np.isfinite(cast_rays(mesh, everything, rays)[0])
-    return total / _CONE
 
 
 def _keys(mesh: Mesh) -> np.ndarray:

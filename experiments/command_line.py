@@ -115,13 +115,16 @@ def parse(argv: list[str]) -> argparse.Namespace:
     steer = commands.add_parser("steer", help="find a drive that brings a wire to its target in a vessel, and run it")
     steer.add_argument("file", metavar="SCENE", type=Path, help="scene.json that 'anatomy' wrote")
     steer.add_argument("--out", type=path, metavar="DIR", help="folder of the run (results/<folder of SCENE>-steered)")
-    steer.add_argument("--attempts", type=positive, default=80, metavar="N", help="at wrong branches, at most (80)")
+    steer.add_argument("--attempts", type=positive, default=200, metavar="N",
+                       help="that fail with each tip, at most (200)")
     steer.set_defaults(packages=("numpy",))
 
-    view = commands.add_parser("view", help="in the browser: open a scene interactively, or replay one or two runs")
+    view = commands.add_parser("view", help="in the browser: open a scene interactively, replay one or two runs, or "
+                                              "look at a vessel")
     view.add_argument("what", metavar="FILE|RUN", nargs="+", type=Path,
                       help="a parameter file: interactive; folder of a run: replay; two folders: side by side or "
-                           "superimposed")
+                           "superimposed; a mesh, mask or centreline: its ends and bad places, a click on an end makes "
+                           "it the inlet")
     view.add_argument("--html", type=path, metavar="FILE", help="write the replay into a self-contained file")
     view.add_argument("--frames", type=positive, metavar="K", help="most frames of a run (5000; 300 with --html)")
     view.add_argument("--open", action="store_true", help="open the page in a browser")

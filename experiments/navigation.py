@@ -1,9 +1,12 @@
 """A drive that brings a wire to its target: pushes, and at a wrong branch a new attempt with the hub turned.
 
-The wire is pushed along the vessel's centreline from the inlet. Where the tip enters a branch that does not lead to the
-target, or comes no farther, the run goes back to a snapshot before that place, farther with every few attempts; the hub
-is turned by the next multiple of the golden angle, which never repeats, and the wire is pushed again. What is left at
-the end is one drive without the failed attempts: a table of time, insertion and rotation that any run can repeat.
+The wire is pushed along the vessel's centreline from the inlet, and a snapshot is kept of every few millimetres on the
+path to the target. Where the tip enters a branch that does not lead there, or comes no farther, another attempt begins
+from one of the snapshots: how far behind the farthest one is drawn, most often little, as are the turn of the hub, and
+whether the hub goes on turning while it is pushed. So nothing that was reached is lost, and a branch that can only be
+entered from a way of lying that begins far before it is found as well. What is left at the end is one drive without the
+failed attempts: a table of time, insertion and rotation that any run can repeat. The draws have a fixed seed: the same
+scene has the same drive.
 """
 
 from __future__ import annotations
@@ -25,13 +28,28 @@ from experiments.whole_files import write_whole
 
 DRIVE, SCENE = "drive.csv", "steered.json"
 _CHUNK = 4.0  # mm pushed between two looks at the tip
-_TURN = 0.2  # rad a step
-_GOLDEN = np.pi * (3.0 - np.sqrt(5.0))
+_TURN = 0.2  # rad a step, while the wire is not pushed
 _ASIDE = 2.0  # of a branch's radii that a tip is in it, from which on the branch is a wrong one
-_STALLED = 30.0  # mm pushed without progress, from which on an attempt has failed
-_BACK = (12.0, 30.0, 60.0, 110.0, 180.0)  # mm of insertion that attempts go back, four attempts each
-_ATTEMPTS_EACH = 4
-_BENT_MORE = 2.3  # curvature of the second tip, over the scene's: 105 degrees in place of 45
+_STALLED = (20.0, 80.0)  # mm pushed without progress, from which on an attempt has failed; drawn for each
+_BACK = (4.0, 250.0)  # mm behind the farthest place, where an attempt begins
+_ALIKE = 8.0  # mm of the path within which snapshots are as good a start
+_SPIN = 0.15  # rad a mm at most, while the wire is pushed
+_SEED = 28
+
+
+@dataclass(frozen=True)
+class Tip:
+    """A bend at rest at the end of a wire, as one shapes it by hand: angle, degrees, and length, mm, at most that of the
+    wire's last section."""
+
+    angle: float
+    length: float
+
+    def __str__(self) -> str:
+        return f"{self.angle:g} degrees over {self.length:g} mm"
+
+
+_TIPS = (None, Tip(105.0, 30.0), Tip(70.0, 10.0), Tip(120.0, 10.0))  # tried in this order; None: the scene's own
 
 
 @dataclass(frozen=True)
@@ -44,7 +62,7 @@ class Steered:
     farthest: float
     length: float
     rows: list[tuple[float, float, float]]
-    tip: float = 1.0
+    tip: Tip | None = None
 
 
 class Route:
@@ -98,14 +116,45 @@ class Route:
         return along is not None and along >= self.length - self._near_target
 
 
-def with_tip(asked: dict[str, Any], tip: float) -> dict[str, Any]:
-    """A scene's parameters with so many times the curvature of its sections at rest."""
-    sections = [section | {"restCurvature": [tip * value for value in section["restCurvature"]]}
-                if "restCurvature" in section else section for section in asked.get("wireSections", [])]
-    return asked | {"wireSections": sections}
+def with_tip(asked: dict[str, Any], tip: Tip | None) -> dict[str, Any]:
+    """A scene's parameters with the end of its last section bent so, and the rest of that section straight."""
+    if tip is None or not asked.get("wireSections"):
+        return asked
+    *others, last = asked["wireSections"]
+    length = last["to"] - last["from"]
+    bent = min(tip.length, length)
+    count = last["numberRodElements"]
+    own = min(count, max(1, round(count * bent / length)))
+    curved = last | {"from": last["to"] - bent, "numberRodElements": own, "restCurvature": [
+        -np.radians(tip.angle) / (1e-3 * bent), 0.0, 0.0]}
+    straight = {key: value for key, value in last.items() if key != "restCurvature"} | {
+        "to": last["to"] - bent, "numberRodElements": count - own}
+    return asked | {"wireSections": [*others, *([straight] if own < count else []), curved]}
 
 
-def steer(scene: Path, most_attempts: int = 80, tell: Callable[[str], None] = lambda line: None, tip: float = 1.0
+@dataclass(frozen=True)
+class _Start:
+    """A snapshot that attempts begin from: the tip's distance along the path and the farthest that the attempt had
+    reached, mm; the insertion where it had; rows of the drive up to it, the last first."""
+
+    snapshot: bytes
+    along: float
+    best: float
+    since: float
+    row: tuple[float, float, float]
+    before: _Start | None
+
+    def rows(self) -> list[tuple[float, float, float]]:
+        """The drive from the inlet, in time's order."""
+        found: list[tuple[float, float, float]] = []
+        start: _Start | None = self
+        while start is not None:
+            found.append(start.row)
+            start = start.before
+        return found[::-1]
+
+
+def steer(scene: Path, most_attempts: int = 200, tell: Callable[[str], None] = lambda line: None, tip: Tip | None = None
           ) -> Steered:
     """Find a drive from a scene's inlet to its target.
 
@@ -114,7 +163,7 @@ def steer(scene: Path, most_attempts: int = 80, tell: Callable[[str], None] = la
     scene : ``scene.json`` of ``guidewire.py anatomy``.
     most_attempts : after which the search gives up.
     tell : hears one line for each attempt.
-    tip : curvature of the tip at rest over that of the scene.
+    tip : in place of the scene's own.
 
     Raises
     ------
@@ -122,51 +171,52 @@ def steer(scene: Path, most_attempts: int = 80, tell: Callable[[str], None] = la
     """
     asked = with_tip(json.loads(scene.read_text()), tip)
     route = Route(scene.parent, asked["inlet"], asked["target"])
-    step = 1e3 * asked["insertionSpeed"] * asked["timeStep"]  # mm
+    dt = asked["timeStep"]
+    steps = max(1, round(_CHUNK / (1e3 * asked["insertionSpeed"] * dt)))
     longest = asked["guidewireLength"] - 40.0
+    random = np.random.default_rng(_SEED)
     with Session(scene, hand=True, wireSections=asked["wireSections"]) as session:
-        rows = [(0.0, 0.0, 0.0)]
-        kept = [(session.save(), tuple(rows[0]))]  # snapshots and the row of the drive at each
-        attempts, farthest, tried, stuck_at = 0, 0.0, 0, 0.0
-        best, since = 0.0, 0.0  # of this attempt: farthest place, mm, and the insertion at which it was reached
+        start = _Start(session.save(), 0.0, 0.0, 0.0, (0.0, 0.0, 0.0), None)
+        starts, at, attempts = [start], start, 0
+        stalled, spin = _STALLED[0], 0.0
         while True:
-            state = session.state
-            if state.outcome is None:  # a turn may have ended the run
-                steps = max(1, round(_CHUNK / step))
-                state = session.step(push=_CHUNK, steps=steps)
-                time, way, turn = rows[-1]
-                rows.append((time + steps * asked["timeStep"], way + _CHUNK, turn))
-            along, is_wrong = route.locate(state.positions[-1])
-            if along is not None and along > best:
-                best, since = along, rows[-1][1]
-                farthest = max(farthest, best)
+            along, is_wrong = None, False
+            if session.state.outcome is None:  # a turn may have ended the run
+                session.step(push=_CHUNK, turn=_CHUNK * spin, steps=steps)
+                along, is_wrong = route.locate(session.state.positions[-1])
+            time, way, turn = at.row
+            row = (time + steps * dt, way + _CHUNK, turn + _CHUNK * spin)
+            is_ahead = along is not None and along > at.best
+            best, since = (along, row[1]) if is_ahead else (at.best, at.since)
+            ended = session.state.outcome
+            at = _Start(b"" if ended else session.save(), at.along if along is None else along, best, since, row, at)
+            farthest = max(best, max(one.best for one in starts))
             if route.is_reached(along):
-                return Steered(True, attempts, farthest, route.length, rows, tip)
-            has_failed = (is_wrong or state.outcome is not None or rows[-1][1] >= longest
-                          or rows[-1][1] - since > _STALLED)
-            if not has_failed:
-                kept.append((session.save(), rows[-1]))
+                return Steered(True, attempts, farthest, route.length, at.rows(), tip)
+            if not (is_wrong or ended or row[1] >= longest or row[1] - since > stalled):
+                starts.append(at)
                 continue
             attempts += 1
-            why = "wrong branch" if is_wrong else state.outcome or "no farther"
-            tell(f"attempt {attempts}: {why} after {rows[-1][1]:.0f} mm, {farthest:.0f} of {route.length:.0f} mm")
+            why = "wrong branch" if is_wrong else ended or "no farther"
+            tell(f"attempt {attempts}: {why} after {row[1]:.0f} mm, {farthest:.0f} of {route.length:.0f} mm")
             if attempts >= most_attempts:
-                return Steered(False, attempts, farthest, route.length, rows, tip)
-            if farthest > stuck_at + 10.0:
-                stuck_at, tried = farthest, 0
-            back = _BACK[min(tried // _ATTEMPTS_EACH, len(_BACK) - 1)]
-            tried += 1
-            limit = max(0.0, since - back)
-            while len(kept) > 1 and kept[-1][1][1] > limit:
-                kept.pop()
-            saved, row = kept[-1]
-            session.restore(saved)
-            rows = [one for one in rows if one[0] <= row[0]]
-            angle = (_GOLDEN * attempts + np.pi) % (2.0 * np.pi) - np.pi
-            steps = max(1, round(abs(angle) / _TURN))
-            session.step(turn=angle, steps=steps)
-            rows.append((row[0] + steps * asked["timeStep"], row[1], row[2] + angle))
-            best, since = route.locate(session.state.positions[-1])[0] or 0.0, rows[-1][1]
+                return Steered(False, attempts, farthest, route.length, at.rows(), tip)
+            back = np.exp(random.uniform(*np.log(_BACK)))
+            place = np.array([one.along for one in starts])
+            off = np.abs(place - max(0.0, place.max() - back))
+            at = starts[int(random.choice(np.flatnonzero(off <= off.min() + _ALIKE)))]
+            stalled = random.uniform(*_STALLED)
+            spin = random.uniform(-_SPIN, _SPIN) if random.uniform() < 0.5 else 0.0
+            session.restore(at.snapshot)
+            at = _turned(session, at, random.uniform(-np.pi, np.pi), dt)
+
+
+def _turned(session: Session, at: _Start, angle: float, dt: float) -> _Start:
+    """The same place with the hub turned; the attempt's progress is counted anew."""
+    steps = max(1, round(abs(angle) / _TURN))
+    session.step(turn=angle, steps=steps)
+    time, way, turn = at.row
+    return _Start(b"", at.along, at.along, way, (time + steps * dt, way, turn + angle), at)
 
 
 def write(scene: Path, found: Steered) -> Path:
@@ -208,15 +258,18 @@ def run(arguments: argparse.Namespace, build: Callable[[], list[str]], hand_to: 
     if not all(isinstance(asked[key], int) for key in ("inlet", "target")):
         raise PreparationError(f"{scene}: inlet and target need to be numbers of ends, as 'anatomy' wrote them")
     try:
-        found = steer(scene, arguments.attempts, print)
-        if not found.is_reached:
-            print(f"with this tip at {found.farthest:.0f} of {found.length:.0f} mm; now with a tip that is bent more")
-            more = steer(scene, arguments.attempts, print, _BENT_MORE)
-            found = max(found, more, key=lambda one: (one.is_reached, one.farthest))
+        found = None
+        for tip in _TIPS:
+            if found is not None:
+                print(f"at {found.farthest:.0f} of {found.length:.0f} mm; now with a tip bent by {tip}")
+            more = steer(scene, arguments.attempts, print, tip)
+            found = max(filter(None, (found, more)), key=lambda one: (one.is_reached, one.farthest))
+            if found.is_reached:
+                break
     except SessionError as error:
         raise PreparationError(str(error)) from error
-    place = (f"{found.attempts} attempts failed; tip, {found.tip:g} times as bent as in the scene, at most at "
-             f"{found.farthest:.0f} of {found.length:.0f} mm")
+    place = (f"{found.attempts} attempts failed; tip bent {f'by {found.tip}' if found.tip else 'as in the scene'}, at "
+             f"most at {found.farthest:.0f} of {found.length:.0f} mm")
     if not found.is_reached:
         print(f"target not reached, no drive written: {place}")
         return 1

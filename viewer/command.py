@@ -13,11 +13,13 @@ from typing import TYPE_CHECKING, Any
 from analysis.logs import LogError, extent, read_log
 from analysis.runs import PARAMETERS_NAME, read_run
 from analysis.surfaces import Surface
+from anatomy.formats import is_anatomy
 from experiments import checking, walls
 from experiments.key_table import read_key_table
 from experiments.prepare import ROOT, PreparationError
 from experiments.session import Session, SessionError, State
 from experiments.whole_files import write_whole
+from viewer.anatomy import read_vessel
 from viewer.export import to_html
 from viewer.live import LiveRun
 from viewer.parts import three
@@ -34,11 +36,11 @@ FRAMES_SERVED = 5000
 
 def view(what: Sequence[Path], html: Path | None, frames: int | None, opens: bool,
          build_runner: Callable[[], list[str]]) -> int:
-    """Show runs that have ended, or a run that goes on; or write runs into one file.
+    """Show runs that have ended, a run that goes on, or a vessel; or write runs into one file.
 
     Parameters
     ----------
-    what : a parameter file, or folders of one run or two.
+    what : a parameter file, or a mesh, mask or centreline, or folders of one run or two.
     html : the file to write in place of serving.
     frames : of a run at most; None: as many as go well.
     opens : whether the page is opened in a browser.
@@ -48,6 +50,13 @@ def view(what: Sequence[Path], html: Path | None, frames: int | None, opens: boo
     ------
     PreparationError : with one line, where something cannot be shown.
     """
+    if is_anatomy(what[0]):
+        if len(what) > 1 or html is not None or frames is not None:
+            raise PreparationError("view takes one vessel alone: --html and --frames are for folders of runs")
+        vessel = read_vessel(what[0])
+        files = page_files(three(_say))
+        return _serve(Server({**files, "index.html": files["anatomy.html"]}, [vessel.to_bytes()], None, vessel.choose),
+                      opens)
     is_live = not what[0].is_dir()
     if len(what) > (1 if is_live else MOST_RUNS):
         raise PreparationError("view takes one parameter file, or the folders of one run or two")

@@ -50,10 +50,13 @@ class Server:
     files : as of `page_files`.
     recordings : blocks of bytes of runs that have ended; of a run that goes on the block as it is now.
     live : the run that goes on, or None.
+    choose : of a vessel: makes an end the inlet, by its number, and returns what to tell; None elsewhere.
     """
 
-    def __init__(self, files: Mapping[str, Path], recordings: Sequence[bytes], live: LiveRun | None) -> None:
+    def __init__(self, files: Mapping[str, Path], recordings: Sequence[bytes], live: LiveRun | None,
+                 choose: Callable[[int], str] | None = None) -> None:
         self._files = files
+        self._choose = choose
         self._recordings = recordings
         self._live = live
         self._token = secrets.token_urlsafe(16)
@@ -79,6 +82,7 @@ class Server:
     async def _serve(self, ready: Callable[[str], None]) -> None:
         application = web.Application(middlewares=[self._guard], client_max_size=LONGEST_MESSAGE)
         application.router.add_get("/{token}/{name:.*}", self._answer)
+        application.router.add_post(r"/{token}/inlet/{number:\d{1,4}}", self._answer_choice)
         runner = web.AppRunner(application, access_log=None)
         await runner.setup()
         listening = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
@@ -145,6 +149,13 @@ class Server:
         if index is None or int(index.group(1)) >= len(recordings):
             raise web.HTTPNotFound()
         return web.Response(body=recordings[int(index.group(1))], content_type="application/octet-stream")
+
+    async def _answer_choice(self, request: web.Request) -> web.StreamResponse:
+        if self._choose is None:
+            raise web.HTTPNotFound()
+        if request.headers.get("Origin") is None:
+            raise web.HTTPForbidden(text="the vessel is for this server's page only")
+        return web.Response(text=self._choose(int(request.match_info["number"])))
 
     async def _join(self, request: web.Request, live: LiveRun) -> web.StreamResponse:
         if request.headers.get("Origin") is None:

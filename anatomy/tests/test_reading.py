@@ -91,7 +91,7 @@ def test_bad_file_is_one_line(tmp_path: Path, name: str, capfd: pytest.CaptureFi
     file.write_bytes(content)
     with pytest.raises(AnatomyError) as error:
         kind = reading.kind_of(file)
-        read = (reading.read_image if kind in reading.MASKS else reading.read_line if kind in reading.CENTRELINES
+        read = (reading.read_image if kind in MASKS else reading.read_line if kind in CENTRELINES
                 else reading.read_mesh)
         read(file)
     assert expected in str(error.value) and "\n" not in str(error.value) and str(file) in str(error.value)

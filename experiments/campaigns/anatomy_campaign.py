@@ -97,17 +97,20 @@ def draw(vessel: Vessel, seed: int, folder: Path, instrument: str | None = None)
     tip = float(np.exp(random.uniform(np.log(0.05), np.log(0.5)))) * stiffness
     bend = random.uniform(0.0, 40.0)
     angle = random.uniform(0.0, 2.0 * np.pi)
-    section, = scene["wireSections"]
+    *behind, last = scene["wireSections"]
     if instrument is None:
+        soft = {"youngsModulus": tip, "shearModulus": 0.38 * tip}
         scene |= {"wireRadius": 0.5e-3 * diameter, "youngsModulus": stiffness, "shearModulus": 0.38 * stiffness,
-                  "wireSections": [section | {
-                      "youngsModulus": tip, "shearModulus": 0.38 * tip,
+                  "wireSections": [*(section | soft for section in behind), last | soft | {
                       "restCurvature": [bend * np.cos(angle), bend * np.sin(angle), 0.0]}]}
     else:
         scene = {key: value for key, value in scene.items() if key not in _WIRE} | {"instrument": instrument}
     if random.uniform() < 0.6:
         scene["vessel"]["frictionCoefficient"] = random.uniform(0.02, 0.3)
     rows = _drive(random, 0.9 * float(vessel.scene["guidewireLength"]))
+    # Of one run in five the hub never slips: what jams has to fail then, with the force in its reason.
+    scene["hubForceLimit"] = (float(np.exp(random.uniform(np.log(0.5), np.log(10.0))))
+                              if random.uniform() < 0.8 else 0.0)
     scene["maxSimulationSteps"] = min(MOST_STEPS, int(rows[-1][0] / STEP))
     path = folder / f"{vessel.folder.name}-{seed}.json"
     path.with_suffix(".csv").write_text("time,insertion,rotation\n" + "".join(
@@ -199,15 +202,26 @@ def _drive_claims(scene: dict[str, Any], summary: dict[str, Any], positions: np.
         np.sort(np.interp(times, rows[:, 0], rows[:, k])) for k in (1, 2))
     hub, claims = summary["hub"], []
     way, turn = hub["insertion"], hub["turn"]
-    if summary["outcome"] == "finished" and summary["steps"] != scene["maxSimulationSteps"]:
+    is_whole = summary["outcome"] == "finished"
+    if is_whole and summary["steps"] != scene["maxSimulationSteps"]:
         claims.append(f"finished after {summary['steps']} steps of {scene['maxSimulationSteps']}")
-    if not (least_way - 1e-9 <= way <= most_way + 1e-9 and least_turn - 1e-6 <= turn <= most_turn + 1e-6):
-        claims.append(f"the hub went {way} m and {turn} rad, asked for {least_way} to {most_way} and {least_turn} to "
-                      f"{most_turn}")
+    slips = scene["hubForceLimit"] > 0.0
+    if is_whole and slips:
+        done = np.interp(np.r_[rows[rows[:, 0] < last, 0], last], rows[:, 0], rows[:, 1])
+        asked, missing = 1e3 * np.abs(np.diff(done)).sum(), summary["driveShortfall"]
+        if abs(summary["driveAsked"] - asked) > 1e-6 * max(asked, 1.0):
+            claims.append(f"driveAsked = {summary['driveAsked']}, the drive's table asks for {asked}")
+        # Pulls count the other way, so what a shortfall is of the insertion is known for pushes alone.
+        if (np.diff(done) >= 0.0).all() and abs(1e3 * way + missing - asked) > 1e-6 * max(asked, 1.0):
+            claims.append(f"the hub went {1e3 * way} mm and {missing} are missing, of {asked}")
+    elif not slips and not least_way - 1e-9 <= way <= most_way + 1e-9:
+        claims.append(f"the hub went {way} m, asked for {least_way} to {most_way}")
+    if not least_turn - 1e-6 <= turn <= most_turn + 1e-6:
+        claims.append(f"the hub went {turn} rad, asked for {least_turn} to {most_turn}")
     _, along = positions[0, 0], positions[0, 1] - positions[0, 0]
     gone = float((positions[-1, 0] - positions[0, 0]) @ along / np.linalg.norm(along))
-    behind = _ELASTIC * scene["guidewireLength"] + abs(summary["driveShortfall"])
-    if summary["outcome"] == "finished" and abs(gone - 1e3 * way) > behind:
+    behind = _ELASTIC * scene["guidewireLength"] + (0.0 if slips else abs(summary["driveShortfall"]))
+    if is_whole and abs(gone - 1e3 * way) > behind:
         claims.append(f"node 0 went {gone} mm, the hub {1e3 * way}, driveShortfall = {summary['driveShortfall']}")
     return claims
 

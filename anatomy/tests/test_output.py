@@ -1,0 +1,35 @@
+"""The wire that a scene is written with."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from anatomy.output import _flexible_length
+
+
+def path_with_a_turn(radius: float) -> np.ndarray:
+    """200 mm straight, half a circle, 50 mm back, in steps of a millimetre."""
+    angles = np.linspace(0.0, np.pi, int(np.pi * radius) + 1)[1:]
+    turn = np.stack([radius * (1.0 - np.cos(angles)), np.zeros_like(angles), 200.0 + radius * np.sin(angles)], axis=1)
+    there = np.stack([np.zeros(201), np.zeros(201), np.arange(201.0)], axis=1)
+    return np.vstack([there, turn, turn[-1] - np.stack([np.zeros(50), np.zeros(50), np.arange(1.0, 51.0)], axis=1)])
+
+
+@pytest.mark.parametrize(("bend", "lumen", "expected"), [
+    (8.0, 3.0, 8.0 * np.pi + 50.0),  # 143 degrees over 20 mm
+    (40.0, 3.0, 0.0),  # 29 degrees
+    (8.0, 6.0, 0.0),  # a lumen in which the wire takes a wider bend
+])
+def test_a_wire_is_flexible_from_a_tight_and_narrow_bend_on(bend: float, lumen: float, expected: float) -> None:
+    points = path_with_a_turn(bend)
+    length = _flexible_length(points, np.full(len(points), lumen))
+    # It turns by 75 of the 143 degrees when 20 mm reach half-way into the bend, and lengths are multiples of 5 mm.
+    assert expected - 5.0 <= length <= expected + 10.0 if expected else length == 0.0
+
+
+def test_a_bend_at_the_inlet_of_a_long_path_leaves_the_wire_stiff() -> None:
+    points = path_with_a_turn(8.0)[::-1]
+    onward = points[-1] + np.outer(np.arange(1.0, 201.0), points[-1] - points[-2])
+    points = np.vstack([points, onward])
+    assert _flexible_length(points, np.full(len(points), 3.0)) == 0.0
