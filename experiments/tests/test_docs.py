@@ -112,11 +112,20 @@ def test_every_python_that_the_page_of_python_shows_runs(runner_command, tmp_pat
     page = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
     (tmp_path / "params").symlink_to(ROOT / "params")
     run(runner_command, tmp_path / "results" / "insertion", ROOT / "params" / "insertion.json", maxSimulationSteps=20)
-    for k, block in enumerate(blocks(page, "python")):
-        (tmp_path / "script.py").write_text(block, encoding="utf-8")
-        done = subprocess.run([sys.executable, str(ROOT / "guidewire.py"), "python", "script.py"], cwd=tmp_path,
-                              capture_output=True, text=True, check=False)
-        assert done.returncode == 0 and done.stdout and not done.stderr, f"block {k}: {done.stderr}"
+    shown = blocks(page, "python")
+    for k, block in enumerate(shown):
+        (tmp_path / f"{k}.py").write_text(block, encoding="utf-8")
+    # One process for all, each script with names of its own; a line ends what it printed.
+    (tmp_path / "all.py").write_text(f"""import runpy
+for k in range({len(shown)}):
+    runpy.run_path(f"{{k}}.py", run_name="__main__")
+    print("--- the end")
+""", encoding="utf-8")
+    done = subprocess.run([sys.executable, str(ROOT / "guidewire.py"), "python", "all.py"], cwd=tmp_path,
+                          capture_output=True, text=True, check=False)
+    assert done.returncode == 0 and not done.stderr, done.stderr
+    printed = done.stdout.split("--- the end\n")
+    assert len(printed) == len(shown) + 1 and all(printed[:-1])
 
 
 def test_every_attribute_of_a_state_is_explained_and_no_other():
