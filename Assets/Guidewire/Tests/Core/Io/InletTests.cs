@@ -3,7 +3,6 @@ using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
 using System.Linq;
-using Guidewire.Core;
 using Guidewire.Io;
 using Newtonsoft.Json.Linq;
 using NUnit.Framework;

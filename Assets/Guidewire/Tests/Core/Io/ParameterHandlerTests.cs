@@ -1,5 +1,4 @@
 using System.IO;
-using Guidewire.Core;
 using Guidewire.Io;
 using Newtonsoft.Json.Linq;
 using NUnit.Framework;

@@ -2,7 +2,6 @@ using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
 using System.Threading;
-using Guidewire.Core;
 using Guidewire.Io;
 using Newtonsoft.Json.Linq;
 using NUnit.Framework;

@@ -1,7 +1,6 @@
 using System;
 using System.Collections.Generic;
 using System.Globalization;
-using Guidewire.Core;
 using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
