@@ -1,6 +1,5 @@
 using System;
 using System.Collections.Generic;
-using System.Globalization;
 using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
@@ -12,15 +11,11 @@ namespace Guidewire.Core.Tests
     [TestFixture]
     internal sealed class RandomCoaxialPushTests
     {
-        private const string Asked = "GUIDEWIRE_COAXIAL_PUSHES";
-
         [Test]
         [Category("Long")]
         public void NeitherInstrumentIsEverOutside_AndEveryRunHasAnEnd()
         {
-            string[] asked = (Environment.GetEnvironmentVariable(Asked) ?? "0:0").Split(new[] { ':' });
-            int first = int.Parse(asked[0], CultureInfo.InvariantCulture);
-            int runs = int.Parse(asked[1], CultureInfo.InvariantCulture);
+            (int first, int runs) = RandomGeometry.Asked("GUIDEWIRE_COAXIAL_PUSHES");
             runs = runs > 0 ? runs : RandomGeometry.Cases(100, 10);
             var worst = new List<string>();
             int outside = 0;
