@@ -52,7 +52,7 @@ def test_every_case_is_named():
 
 @pytest.mark.parametrize("name", CHOSEN)
 def test_figures_are_those_of_the_log(make, name):
-    summary, positions = make(make, name)
+    summary, positions = make(name)
     scene = read_scene(name)
     walls = Walls.of(scene, triangles_of(scene, CASES))
     assert summary["outcome"] == "finished"
@@ -64,7 +64,7 @@ def test_figures_are_those_of_the_log(make, name):
 
 @pytest.mark.parametrize("name", ALONE)
 def test_spheres_alone_pass_no_wall_and_what_elements_do_is_counted(make, name):
-    summary, positions = make(make, name)
+    summary, positions = make(name)
     vertices, faces = np.unique(triangles_of(read_scene(name), CASES).reshape(-1, 3), axis=0, return_inverse=True)
     wall = Wall.of(vertices, faces.reshape(-1, 3))
     assert inside(wall, positions)[:, ::10].all()

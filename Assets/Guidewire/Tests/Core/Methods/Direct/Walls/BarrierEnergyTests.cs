@@ -199,7 +199,7 @@ namespace Guidewire.Core.Tests
             string name)
         {
             int cut = 0;
-            for (int seed = 0; seed < RandomGeometry.Cases(400, 2); seed++)
+            for (int seed = 0; seed < 400; seed++)
             {
                 BarrierEnergy energy = Create(name, seed, out RodShape shape);
                 if (double.IsPositiveInfinity(energy.Value(shape)) || GapOf(energy.Walls[0], shape) <= 0.0)
