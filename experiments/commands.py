@@ -230,12 +230,7 @@ def _plot(arguments: argparse.Namespace) -> int:
     if picture.suffix != ".png":
         raise PreparationError(f"--out {picture}: a picture's name ends with .png")
     checking.check_out(picture.parent)
-    picture.parent.mkdir(parents=True, exist_ok=True)
-    figure = draw_curves(curves, label_of(curves.x, checking.unit_of(curves.x)), arguments.log)
-    with whole_file(picture) as partial:
-        figure.savefig(partial)
-    print(f"picture: {os.path.relpath(picture)}")
-    return 0
+    return _save(draw_curves(curves, label_of(curves.x, checking.unit_of(curves.x)), arguments.log), picture)
 
 
 def _keys(arguments: argparse.Namespace) -> int:
@@ -311,7 +306,12 @@ def _draw_log(folder: Path, draw: Callable[[Path], Figure], name: str) -> int:
         figure = draw(folder)
     except LogError as error:
         raise PreparationError(str(error)) from error
-    picture = folder / name
+    return _save(figure, folder / name)
+
+
+def _save(figure: Figure, picture: Path) -> int:
+    """Write a figure, whole or not at all, and say where it is."""
+    picture.parent.mkdir(parents=True, exist_ok=True)
     with whole_file(picture) as partial:
         figure.savefig(partial)
     print(f"picture: {os.path.relpath(picture)}")
@@ -332,13 +332,8 @@ def _modes(arguments: argparse.Namespace) -> int:
     modes = json.loads(done.stdout)
     for number, frequency in enumerate(modes["frequencies"], 1):
         print(f"mode {number}: {frequency:.6g} Hz")
-    arguments.out.mkdir(parents=True, exist_ok=True)
-    picture = arguments.out / f"{arguments.file.stem}-modes.png"
     figure = draw_modes(modes["frequencies"], np.asarray(modes["positions"]), np.asarray(modes["shapes"]))
-    with whole_file(picture) as partial:
-        figure.savefig(partial)
-    print(f"picture: {os.path.relpath(picture)}")
-    return 0
+    return _save(figure, arguments.out / f"{arguments.file.stem}-modes.png")
 
 
 def _instrument(arguments: argparse.Namespace) -> int:

@@ -29,8 +29,8 @@ BY_TARGET = ("Guidewire.Core.Tests, netstandard2.1",)
 # Tests of the solution by the folder that they and their libraries were built into.
 _DOTNET = {
     "Guidewire.Core.Tests": "Guidewire.Core.Tests/bin/Release/net10.0/Guidewire.Core.Tests.dll",
-    BY_TARGET[0]: "Guidewire.Core.Tests/bin/Release/netstandard2.1/Guidewire.Core.Tests.dll",
     "Guidewire.Unity.Tests": "Guidewire.Unity.Tests/bin/Release/net10.0/Guidewire.Unity.Tests.dll",
+    BY_TARGET[0]: "Guidewire.Core.Tests/bin/Release/netstandard2.1/Guidewire.Core.Tests.dll",
 }
 # Files of experiments/tests that are suites of their own, so that the rest runs beside them: those of random and checked
 # runs, and those that mostly wait for processes, pages and workers.
@@ -109,15 +109,19 @@ def suites(program: str, full: bool) -> list[Suite]:
     tests = "experiments/tests"
     runs, waiting = ([f"{tests}/{name}" for name in group] for group in (RUNS, WAITING))
     not_timed = ["-m", "not timed"]
+    timed = [str(path.relative_to(ROOT)) for path in sorted((ROOT / tests).glob("test_*.py"))
+             if "pytest.mark.timed" in path.read_text(encoding="utf-8")]
+    core, *shorter = (_dotnet_suite(program, name, full) for name in _DOTNET)
     return [
         _pytest_suite("analysis/tests", ["analysis/tests"], needs=""),
-        _pytest_suite(f"{tests}, waiting", [*not_timed, *waiting]),
         _pytest_suite("anatomy/tests", ["anatomy/tests"], needs=""),
         _pytest_suite(f"{tests}, the rest", [*not_timed, tests, *(f"--ignore={path}" for path in runs + waiting)]),
+        _pytest_suite(f"{tests}, waiting", [*not_timed, *waiting]),
+        core,
         _pytest_suite(f"{tests}, runs", [*not_timed, *runs]),
         _pytest_suite("unitycheck/tests", ["unitycheck/tests"], needs="Runner"),
-        *(_dotnet_suite(program, name, full) for name in _DOTNET),
-        _pytest_suite(f"{tests}, timed", ["-m", "timed", tests], alone=True),
+        *shorter,
+        _pytest_suite(f"{tests}, timed", ["-m", "timed", *timed], alone=True),
     ]
 
 

@@ -65,18 +65,11 @@ class Wave:
     def write(self, folder: Path, milliseconds_per_step: float = 2.0) -> Path:
         """Writes a run folder."""
         folder.mkdir(parents=True)
-        entries = (
-            f'"{k}": ' + json.dumps({
-                "totalTime": k * self.time_step, "elapsedMilliseconds": k * milliseconds_per_step, "delta": 0.5,
-                "sphere": {
-                    str(i): dict(zip(("x", "y", "z", "vx", "vy", "vz"), (*sphere, 0.0, 0.0, 0.0)))
-                    for i, sphere in enumerate(wire)
-                },
-                **({"orientation": self._orientations(k)} if self.turning else {}),
-            })
-            for k, wire in enumerate(self.positions.tolist())
-        )
-        (folder / "positions.json").write_text("{\n" + ",\n".join(entries) + "\n}\n")
+        steps, positions = np.arange(self.steps + 1), self.positions
+        np.savez(folder / "positions.npz", step=steps, totalTime=steps * self.time_step,
+                 elapsedMilliseconds=steps * milliseconds_per_step, delta=np.full(len(steps), 0.5),
+                 firstSphere=np.zeros(len(steps), int), positions=positions, velocities=np.zeros_like(positions),
+                 **({"orientations": self._orientations()} if self.turning else {}))
         (folder / "parameters.json").write_text(json.dumps(self.parameters))
         summary = {"outcome": "finished", "steps": self.steps, "averageStepTime": milliseconds_per_step,
                    "medianStepTime": milliseconds_per_step, "passages": 0, "maxPenetration": 0.5, "driveShortfall": 0.0,
@@ -85,6 +78,8 @@ class Wave:
         (folder / "summary.json").write_text(json.dumps(summary))
         return folder
 
-    def _orientations(self, step: int) -> dict:
-        halves = [0.005 * (j + 1) * step for j in range(self.elements)]
-        return {str(j): {"x": 0.0, "y": 0.0, "z": np.sin(half), "w": np.cos(half)} for j, half in enumerate(halves)}
+    def _orientations(self) -> np.ndarray:
+        """Shape (steps + 1, n, 4): x, y, z, w."""
+        halves = 0.005 * np.arange(1, self.elements + 1) * np.arange(self.steps + 1)[:, None]
+        still = np.zeros_like(halves)
+        return np.stack([still, still, np.sin(halves), np.cos(halves)], axis=-1)

@@ -161,8 +161,9 @@ def test_a_wire_wider_than_a_narrow_place_on_its_way_is_refused_with_the_place(l
     assert_refused(live, tmp_path, {**scene, "vessel": tube}, "sphereRadius = 5", "3 units at (0, 0, 20)")
 
 
-def test_the_scenes_of_the_repository_are_free_of_warnings(runner_command, tmp_path):
+def test_the_scenes_of_the_repository_are_free_of_warnings(live, tmp_path):
     for name in ("insertion", "collision-vessel", "collision-wall"):
-        done = subprocess.run([*runner_command, "-parameters", str(ROOT / "params" / f"{name}.json"), "-out",
-                               str(tmp_path / name), "-maxSimulationSteps", "0"], capture_output=True, text=True)
-        assert done.returncode == 0 and done.stderr == "", done.stderr
+        scene = ROOT / "params" / f"{name}.json"
+        answer = live.run(Request(name, scene, tmp_path / name, {"maxSimulationSteps": 0}))
+        assert answer.exit_code == 0, answer.message
+        assert json.loads((tmp_path / name / "summary.json").read_text())["warnings"] == []

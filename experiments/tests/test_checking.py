@@ -1,12 +1,12 @@
 """Arguments and files are checked before anything is built, and the check refuses nothing that the runner takes."""
 
 import os
-import subprocess
 
 import pytest
 
 from experiments import building, checking, commands
 from experiments.prepare import ROOT, PreparationError
+from experiments.runner import Request
 
 SCENE = str(ROOT / "params" / "default.json")
 LONG_NAME = "x" * 300
@@ -97,12 +97,11 @@ def test_a_folder_that_can_be_is_let_pass_and_is_not_made(unbuilt, tmp_path, out
     assert list(tmp_path.iterdir()) == []
 
 
-def test_every_scene_of_the_repository_and_every_effective_value_is_let_pass(runner_command, tmp_path):
+def test_every_scene_of_the_repository_and_every_effective_value_is_let_pass(live, tmp_path):
     for scene in sorted((ROOT / "params").glob("*.json")):
         checking.check_file(scene)
-        done = subprocess.run([*runner_command, "-parameters", str(scene), "-out", str(tmp_path / scene.stem),
-                               "-maxSimulationSteps", "0"], capture_output=True, text=True, check=True)
-        assert done.returncode == 0
+        answer = live.run(Request(scene.stem, scene, tmp_path / scene.stem, {"maxSimulationSteps": 0}))
+        assert answer.exit_code == 0, answer.message
         checking.check_file(tmp_path / scene.stem / "parameters.json")
 
 

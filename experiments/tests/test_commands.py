@@ -6,23 +6,46 @@ import json
 import subprocess
 import sys
 import threading
+from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 
+import guidewire
 from experiments import building, commands
 from experiments.prepare import ROOT, PreparationError
 
 
-def guidewire(*arguments, cwd=ROOT):
-    return subprocess.run([sys.executable, str(ROOT / "guidewire.py"), *map(str, arguments)], capture_output=True,
-                          text=True, check=False, cwd=cwd)
+@dataclass(frozen=True)
+class Done:
+    """What a command left: exit code and what it and the programs that it started wrote."""
+
+    returncode: int
+    stdout: str
+    stderr: str
+
+
+@pytest.fixture
+def typed(capfd, monkeypatch):
+    """A function that executes a command as the program does, in this process: no packages are imported anew."""
+    def type_in(*words):
+        monkeypatch.setattr(sys, "argv", ["guidewire.py", *map(str, words)])
+        capfd.readouterr()
+        try:
+            code = guidewire.main()
+        except SystemExit as end:  # words that cannot be read
+            code = end.code
+        return Done(code, *capfd.readouterr())
+
+    return type_in
 
 
 @pytest.fixture(scope="module")
 def demo(tmp_path_factory):
+    """The folder of a demo, and how it ended, in a process of its own."""
     folder = tmp_path_factory.mktemp("demo")
-    return folder, guidewire("demo", "--out", folder)
+    return folder, subprocess.run([sys.executable, str(ROOT / "guidewire.py"), "demo", "--out", str(folder)],
+                                  capture_output=True, text=True, check=False, cwd=ROOT)
 
 
 def test_the_demo_prints_tau_and_period_of_the_thesis_run_and_draws_four_figures(demo):
@@ -48,9 +71,9 @@ def test_the_demo_a_second_time_runs_nothing_again(demo):
     assert [log.stat().st_mtime_ns for log in logs] == before
 
 
-def test_a_run_writes_its_three_files_and_takes_parameters_from_the_command_line(tmp_path):
-    done = guidewire("run", ROOT / "params" / "default.json", "--set", "maxSimulationSteps=5", "--set",
-                     "guidewireOffset=-3", "--set", "sweepOrder=bilateral", "--out", tmp_path / "out")
+def test_a_run_writes_its_three_files_and_takes_parameters_from_the_command_line(typed, tmp_path):
+    done = typed("run", ROOT / "params" / "default.json", "--set", "maxSimulationSteps=5", "--set",
+                 "guidewireOffset=-3", "--set", "sweepOrder=bilateral", "--out", tmp_path / "out")
     assert done.returncode == 0, done.stderr
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [
         "parameters.json", "positions.json", "summary.json",
@@ -60,18 +83,17 @@ def test_a_run_writes_its_three_files_and_takes_parameters_from_the_command_line
     assert json.loads((tmp_path / "out" / "summary.json").read_text())["steps"] == 5
 
 
-def test_a_run_of_what_is_built_starts_no_compiler_and_says_nothing_of_it(runner_command, tmp_path):
+def test_a_run_of_what_is_built_starts_no_compiler_and_says_nothing_of_it(typed, runner_command, tmp_path):
     log = ROOT / "results" / "build.log"
     before = log.stat().st_mtime_ns
     scene = ROOT / "params" / "default.json"
-    done = guidewire(
-        "run", scene, "--set", "maxSimulationSteps=2", "--set", "displacement=1", "--out", tmp_path / "out")
+    done = typed("run", scene, "--set", "maxSimulationSteps=2", "--set", "displacement=1", "--out", tmp_path / "out")
     assert (done.returncode, done.stderr) == (0, "")
     assert log.stat().st_mtime_ns == before
 
 
-def test_a_run_with_a_bad_value_passes_on_the_runners_line_and_code(tmp_path):
-    done = guidewire("run", ROOT / "params" / "default.json", "--set", "timeStep=0", "--out", tmp_path / "out")
+def test_a_run_with_a_bad_value_passes_on_the_runners_line_and_code(typed, tmp_path):
+    done = typed("run", ROOT / "params" / "default.json", "--set", "timeStep=0", "--out", tmp_path / "out")
     assert done.returncode == 2
     assert [line for line in done.stderr.splitlines() if line.startswith("guidewire: ")] == [
         line for line in done.stderr.splitlines() if "timeStep" in line
@@ -80,16 +102,17 @@ def test_a_run_with_a_bad_value_passes_on_the_runners_line_and_code(tmp_path):
 
 
 @pytest.mark.parametrize("key", ["out", "parameters", "repeat", "lines", "logFile"])
-def test_a_word_of_the_runner_is_no_parameter(tmp_path, key):
-    done = guidewire("run", ROOT / "params" / "default.json", "--set", f"{key}=x", "--out", tmp_path / "out")
+def test_a_word_of_the_runner_is_no_parameter(typed, tmp_path, key):
+    done = typed("run", ROOT / "params" / "default.json", "--set", f"{key}=x", "--out", tmp_path / "out")
     assert done.returncode == 2
     assert f"'{key}' is no parameter" in done.stderr
     assert not (tmp_path / "out").exists()
 
 
-def test_paths_are_those_of_the_folder_where_the_user_stands(tmp_path):
+def test_paths_are_those_of_the_folder_where_the_user_stands(typed, tmp_path, monkeypatch):
     (tmp_path / "mine.json").write_text(json.dumps({"maxSimulationSteps": 2}))
-    assert guidewire("run", "mine.json", cwd=tmp_path).returncode == 0
+    monkeypatch.chdir(tmp_path)
+    assert typed("run", "mine.json").returncode == 0
     assert (tmp_path / "results" / "mine" / "summary.json").exists()
 
 
@@ -106,14 +129,14 @@ def test_a_run_is_drawn_beside_a_measurement_and_what_cannot_be_compared_is_one_
     assert "\n" not in str(error.value)
 
 
-def test_an_unknown_figure_is_one_line_that_names_those_there_are():
-    done = guidewire("figures", "9.9")
+def test_an_unknown_figure_is_one_line_that_names_those_there_are(typed):
+    done = typed("figures", "9.9")
     assert done.returncode == 2
     assert "no figure 9.9" in done.stderr and "4.5" in done.stderr
 
 
-def test_a_folder_that_cannot_be_made_is_one_line():
-    done = guidewire("sweep", "default", "--out", "/proc/guidewire")
+def test_a_folder_that_cannot_be_made_is_one_line(typed):
+    done = typed("sweep", "default", "--out", "/proc/guidewire")
     assert done.returncode == 2
     assert [line for line in done.stderr.splitlines() if "/proc/guidewire" in line] == done.stderr.splitlines()[-1:]
 

@@ -1,8 +1,8 @@
 """Wires pressed on as hard as can be: none passes a wall, none freezes, and what is said of it is true."""
 
+import functools
 import json
 import os
-import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +12,7 @@ from analysis.logs import read_log
 from analysis.passages import Wall, count_passages, inside
 from experiments.campaigns.push_claims import crossings, drive_claims, penetration_claims
 from experiments.campaigns.wall_search import Walls, triangles_of
+from experiments.runner import Request
 
 CASES = Path(__file__).with_name("contact_cases")
 QUICK = (
@@ -28,15 +29,17 @@ ALONE = ("driven_sphere_alone", "spheres_at_a_sharp_edge")  # spheres without el
 FROZEN = 20  # steps in which a sphere keeps every bit while the wire moves
 
 
-def make(command, folder, name, **changes):
-    """A run of a case: (summary, positions (entries, n + 1, 3) in units)."""
-    arguments = [text for key, value in changes.items() for text in (f"-{key}", str(value))]
-    done = subprocess.run(
-        [*command, "-parameters", str(CASES / f"{name}.json"), "-out", str(folder), *arguments],
-        capture_output=True, text=True,
-    )
-    assert done.returncode == 0, done.stderr
-    return json.loads((folder / "summary.json").read_text()), read_log(folder, spheres="all").positions
+@pytest.fixture(scope="module")
+def make(live, tmp_path_factory):
+    """A function that makes a run of a case once: (summary, positions (entries, n + 1, 3) in units)."""
+    @functools.cache
+    def made(name, **changes):
+        folder = tmp_path_factory.mktemp(name)
+        answer = live.run(Request(name, CASES / f"{name}.json", folder, changes))
+        assert answer.exit_code == 0, answer.message
+        return json.loads((folder / "summary.json").read_text()), read_log(folder, spheres="all").positions
+
+    return made
 
 
 def read_scene(name):
@@ -48,8 +51,8 @@ def test_every_case_is_named():
 
 
 @pytest.mark.parametrize("name", CHOSEN)
-def test_figures_are_those_of_the_log(runner_command, tmp_path, name):
-    summary, positions = make(runner_command, tmp_path, name)
+def test_figures_are_those_of_the_log(make, name):
+    summary, positions = make(name)
     scene = read_scene(name)
     walls = Walls.of(scene, triangles_of(scene, CASES))
     assert summary["outcome"] == "finished"
@@ -60,8 +63,8 @@ def test_figures_are_those_of_the_log(runner_command, tmp_path, name):
 
 
 @pytest.mark.parametrize("name", ALONE)
-def test_spheres_alone_pass_no_wall_and_what_elements_do_is_counted(runner_command, tmp_path, name):
-    summary, positions = make(runner_command, tmp_path, name)
+def test_spheres_alone_pass_no_wall_and_what_elements_do_is_counted(make, name):
+    summary, positions = make(name)
     vertices, faces = np.unique(triangles_of(read_scene(name), CASES).reshape(-1, 3), axis=0, return_inverse=True)
     wall = Wall.of(vertices, faces.reshape(-1, 3))
     assert inside(wall, positions)[:, ::10].all()
@@ -69,14 +72,14 @@ def test_spheres_alone_pass_no_wall_and_what_elements_do_is_counted(runner_comma
 
 
 @pytest.mark.parametrize("name", ("four_elements_at_a_ridge", "long_elements_among_obstacles"))
-def test_no_sphere_freezes_while_the_wire_moves(runner_command, tmp_path, name):
-    _, positions = make(runner_command, tmp_path, name, maxSimulationSteps=3 * FROZEN)
+def test_no_sphere_freezes_while_the_wire_moves(make, name):
+    _, positions = make(name, maxSimulationSteps=3 * FROZEN)
     stays = np.all(np.diff(positions, axis=0) == 0.0, axis=-1)
     for first in range(len(stays) - FROZEN + 1):
         frozen = stays[first:first + FROZEN].all(axis=0)
         assert frozen.all() or not frozen[1:].any()
 
 
-def test_a_drive_against_a_wall_is_said_to_be_stuck(runner_command, tmp_path):
-    summary, _ = make(runner_command, tmp_path, "driven_sphere_alone")
+def test_a_drive_against_a_wall_is_said_to_be_stuck(make):
+    summary, _ = make("driven_sphere_alone")
     assert "but the drive is stuck" in summary["reason"]

@@ -2,15 +2,15 @@
 
 import json
 import os
-import subprocess
 
 import numpy as np
 import pytest
 
 import reference_step as reference
+from experiments.runner import Request
 from experiments.testing import FULL_CAMPAIGNS
 
-STEPS = 100 if FULL_CAMPAIGNS in os.environ else 20
+STEPS = 100 if FULL_CAMPAIGNS in os.environ else 12
 ELEMENT_LENGTH = 0.5
 MASS = 0.5
 DISPLACEMENT = np.array([0.1, 0.2, 0.2])  # length 0.3
@@ -33,7 +33,7 @@ def random_start(n, seed):
     )
 
 
-def run_core(command, folder, start, parameters):
+def run_core(live, folder, start, parameters):
     """The log's entries of a run from the start, as (delta, x, v, q) arrays."""
     start_file = folder / "start.json"
     start_file.write_text(json.dumps({
@@ -42,8 +42,8 @@ def run_core(command, folder, start, parameters):
     }))
     scene = folder / "scene.json"
     scene.write_text(json.dumps({**parameters, "startFile": str(start_file), "logOrientations": True}))
-    subprocess.run([*command, "-parameters", str(scene), "-out", str(folder / "run")], check=True,
-                   stdout=subprocess.DEVNULL)
+    answer = live.run(Request("core", scene, folder / "run"))
+    assert answer.exit_code == 0, answer.message
     log = json.loads((folder / "run" / "positions.json").read_text())
     n = len(start.orientations)
     entries = []
@@ -59,11 +59,11 @@ def run_core(command, folder, start, parameters):
     return entries
 
 
-def compare(command, folder, n, iterations, order="naive", integrator="verlet", loaded=True):
+def compare(live, folder, n, iterations, order="naive", integrator="verlet", loaded=True):
     """Run both for the same steps and compare every one; returns the last state and the largest motion on the way."""
     gravity, damping = ((0.3, -2.0, 0.7), 0.02) if loaded else ((0.0, 0.0, 0.0), 0.0)
     start = random_start(n, seed=20 + n + loaded)
-    entries = run_core(command, folder, start, {
+    entries = run_core(live, folder, start, {
         "stretchStiffness": 0.7, "bendStiffness": 0.05, "constraintSolverSteps": iterations, "timeStep": 0.01,
         "numberRodElements": n, "guidewireLength": n * ELEMENT_LENGTH, "totalMass": MASS, "gravity": gravity,
         "damping": damping, "integrator": integrator, "sweepOrder": order, "displacement": 0.3,
@@ -95,12 +95,12 @@ def compare(command, folder, n, iterations, order="naive", integrator="verlet", 
 @pytest.mark.parametrize("loaded", [False, True], ids=["free", "gravity and damping"])
 @pytest.mark.parametrize("integrator", ["euler", "verlet"])
 @pytest.mark.parametrize("order", ["naive", "bilateral"])
-def test_core_follows_the_equations_step_by_step(runner_command, tmp_path, order, integrator, loaded):
-    last = compare(runner_command, tmp_path, 12, 7, order, integrator, loaded)
+def test_core_follows_the_equations_step_by_step(live, tmp_path, order, integrator, loaded):
+    last = compare(live, tmp_path, 12, 7, order, integrator, loaded)
     assert np.abs(last.positions[:, :2]).max() > 0.05, "the wire ended straight, so bending was not compared"
 
 
 @pytest.mark.parametrize("n", [1, 2, 3, 5])
 @pytest.mark.parametrize("iterations", [1, 4, 6])
-def test_core_follows_the_equations_on_short_wires(runner_command, tmp_path, n, iterations):
-    compare(runner_command, tmp_path, n, iterations)
+def test_core_follows_the_equations_on_short_wires(live, tmp_path, n, iterations):
+    compare(live, tmp_path, n, iterations)

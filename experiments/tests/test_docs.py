@@ -13,6 +13,7 @@ import pytest
 
 from experiments.commands import parse
 from experiments.prepare import ROOT
+from experiments.runner import Request
 from experiments.session import State
 from experiments.sweep import Means, sweep
 from studies.study_file import KEYS
@@ -56,16 +57,14 @@ def slug(heading):
     return re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-")
 
 
-def run(runner_command, folder, parameters, **changes):
+def run(live, folder, parameters, **changes):
     """A run of a parameter file or an object of parameters; its folder."""
     if isinstance(parameters, dict):
         folder.mkdir(exist_ok=True)
         (folder / "parameters-given.json").write_text(json.dumps(parameters), encoding="utf-8")
         parameters = folder / "parameters-given.json"
-    words = [word for key, value in changes.items() for word in (f"-{key}", json.dumps(value).strip('"'))]
-    done = subprocess.run([*runner_command, "-parameters", str(parameters), "-out", str(folder), *words],
-                          capture_output=True, text=True, cwd=ROOT)
-    assert done.returncode == 0, done.stderr
+    answer = live.run(Request("shown", parameters, folder, changes))
+    assert answer.exit_code == 0, answer.message
     return folder
 
 
@@ -97,7 +96,7 @@ def test_every_command_that_a_page_shows_can_be_typed(page):
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
-def test_every_parameter_file_that_a_page_shows_can_be_run(page, runner_command, tmp_path):
+def test_every_parameter_file_that_a_page_shows_can_be_run(page, live, tmp_path):
     for k, block in enumerate(blocks(page.read_text(encoding="utf-8"), "json")):
         content = json.loads(block)
         if "kind" in content:  # an instrument, beside a parameter file that names it
@@ -105,18 +104,27 @@ def test_every_parameter_file_that_a_page_shows_can_be_run(page, runner_command,
             own.parent.mkdir(parents=True)
             own.write_text(block, encoding="utf-8")
             content = {"solver": "direct", "instrument": "own"}
-        run(runner_command, tmp_path / str(k), content, maxSimulationSteps=0)
+        run(live, tmp_path / str(k), content, maxSimulationSteps=0)
 
 
-def test_every_python_that_the_page_of_python_shows_runs(runner_command, tmp_path):
+def test_every_python_that_the_page_of_python_shows_runs(live, tmp_path):
     page = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
     (tmp_path / "params").symlink_to(ROOT / "params")
-    run(runner_command, tmp_path / "results" / "insertion", ROOT / "params" / "insertion.json", maxSimulationSteps=20)
-    for k, block in enumerate(blocks(page, "python")):
-        (tmp_path / "script.py").write_text(block, encoding="utf-8")
-        done = subprocess.run([sys.executable, str(ROOT / "guidewire.py"), "python", "script.py"], cwd=tmp_path,
-                              capture_output=True, text=True, check=False)
-        assert done.returncode == 0 and done.stdout and not done.stderr, f"block {k}: {done.stderr}"
+    run(live, tmp_path / "results" / "insertion", ROOT / "params" / "insertion.json", maxSimulationSteps=20)
+    shown = blocks(page, "python")
+    for k, block in enumerate(shown):
+        (tmp_path / f"{k}.py").write_text(block, encoding="utf-8")
+    # One process for all, each script with names of its own; a line ends what it printed.
+    (tmp_path / "all.py").write_text(f"""import runpy
+for k in range({len(shown)}):
+    runpy.run_path(f"{{k}}.py", run_name="__main__")
+    print("--- the end")
+""", encoding="utf-8")
+    done = subprocess.run([sys.executable, str(ROOT / "guidewire.py"), "python", "all.py"], cwd=tmp_path,
+                          capture_output=True, text=True, check=False)
+    assert done.returncode == 0 and not done.stderr, done.stderr
+    printed = done.stdout.split("--- the end\n")
+    assert len(printed) == len(shown) + 1 and all(printed[:-1])
 
 
 def test_every_attribute_of_a_state_is_explained_and_no_other():
@@ -148,8 +156,8 @@ def test_the_table_of_keys_is_the_runners_own(runner_command):
 @pytest.mark.parametrize("parameters, nested", [
     ("params/collision-wall.json", {"versions"}), ("params/cantilever.json", {"solver", "versions", "hub", "extremes"}),
 ])
-def test_every_key_of_a_summary_is_explained(runner_command, tmp_path, parameters, nested):
-    summary = json.loads((run(runner_command, tmp_path, ROOT / parameters, maxSimulationSteps=1)
+def test_every_key_of_a_summary_is_explained(live, tmp_path, parameters, nested):
+    summary = json.loads((run(live, tmp_path, ROOT / parameters, maxSimulationSteps=1)
                           / "summary.json").read_text())
     assert {key for key, value in summary.items() if isinstance(value, dict)} == nested
     explained = table_keys(section(RUNS, "## summary.json"))
@@ -159,10 +167,10 @@ def test_every_key_of_a_summary_is_explained(runner_command, tmp_path, parameter
     assert len(explained) == len(set(explained))
 
 
-def test_every_explained_key_of_a_summary_is_one(runner_command, tmp_path):
-    summary = json.loads((run(runner_command, tmp_path, ROOT / "params/cantilever.json", maxSimulationSteps=1)
+def test_every_explained_key_of_a_summary_is_one(live, tmp_path):
+    summary = json.loads((run(live, tmp_path, ROOT / "params/cantilever.json", maxSimulationSteps=1)
                           / "summary.json").read_text())
-    coaxial = json.loads((run(runner_command, tmp_path / "coaxial", ROOT / "params/catheter.json", maxSimulationSteps=2)
+    coaxial = json.loads((run(live, tmp_path / "coaxial", ROOT / "params/catheter.json", maxSimulationSteps=2)
                           / "summary.json").read_text())
     explained = table_keys(section(RUNS, "## summary.json"))
     assert set(explained) == {*summary, *summary["solver"], *summary["versions"], *summary["hub"], *summary["extremes"],
@@ -177,11 +185,11 @@ _SHEATHED = {
 }
 
 
-def test_every_key_of_a_log_is_explained(runner_command, tmp_path):
-    folder = run(runner_command, tmp_path, ROOT / "params/insertion.json", maxSimulationSteps=1, logOrientations=True,
+def test_every_key_of_a_log_is_explained(live, tmp_path):
+    folder = run(live, tmp_path, ROOT / "params/insertion.json", maxSimulationSteps=1, logOrientations=True,
                  logContacts=True)
     entry = json.loads((folder / "positions.json").read_text())["1"]
-    hub = run(runner_command, tmp_path / "hub", {**_SHEATHED, "logHub": True, "logContacts": True})
+    hub = run(live, tmp_path / "hub", {**_SHEATHED, "logHub": True, "logContacts": True})
     entry |= json.loads((hub / "positions.json").read_text())["0"]
     told = section(RUNS, "### positions.json")
     assert set(entry) <= set(table_keys(told))
@@ -189,12 +197,12 @@ def test_every_key_of_a_log_is_explained(runner_command, tmp_path):
         assert f"`{inner}`" in told
 
 
-def test_every_array_of_a_log_is_explained(runner_command, tmp_path):
+def test_every_array_of_a_log_is_explained(live, tmp_path):
     told = set(table_keys(section(RUNS, "### positions.npz")))
     found = set()
     scenes = (("sheath", "logContacts"), ("cantilever", "logStrains"), ("catheter", "logHub"))
     for k, (scene, key) in enumerate(scenes):
-        folder = run(runner_command, tmp_path / str(k), ROOT / f"params/{scene}.json", maxSimulationSteps=1,
+        folder = run(live, tmp_path / str(k), ROOT / f"params/{scene}.json", maxSimulationSteps=1,
                      logFormat="npz", logOrientations=True, **{key: True})
         with np.load(folder / "positions.npz") as log:
             found |= set(log.files)

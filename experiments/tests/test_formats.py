@@ -4,7 +4,6 @@ import base64
 import json
 import re
 import shutil
-import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +12,7 @@ import pytest
 from analysis.logs import LogError, read_log
 from analysis.runs import FORMAT, read_run
 from experiments.prepare import ROOT
+from experiments.runner import Request
 from experiments.session import Session, SessionError
 
 KEPT = Path(__file__).parent / "formats"
@@ -69,11 +69,11 @@ def test_a_saved_state_is_restored_and_goes_on(kept):
 
 
 @pytest.mark.parametrize("stated", [0, 2, -1, 1.5, "1", True, None, 10**20])
-def test_a_parameter_file_of_another_version_is_refused(tmp_path, stated):
+def test_a_parameter_file_of_another_version_is_refused(live, tmp_path, stated):
     file = tmp_path / "scene.json"
     file.write_text(json.dumps({"formatVersion": stated}), encoding="utf-8")
-    with pytest.raises(SessionError, match=ONE_LINE.format(re.escape(json.dumps(stated)))):
-        Session(file, native=False)
+    answer = live.run(Request("other", file, tmp_path / "out"))
+    assert answer.exit_code == 2 and re.search(ONE_LINE.format(re.escape(json.dumps(stated))), answer.message)
 
 
 @pytest.mark.parametrize("stated", [0, 2, 1.0, "1", True, None])
@@ -106,8 +106,7 @@ def test_a_saved_state_of_another_build_and_other_wire_is_refused():
         session.restore(saved)
 
 
-def test_runs_and_summaries_state_the_version(tmp_path):
-    command = ["guidewire.py", "run", KEPT / "1" / "pbd" / "given.json", "--out", tmp_path / "run"]
-    subprocess.run(["/usr/bin/env", "python3", *map(str, command)], cwd=ROOT, check=True, capture_output=True)
+def test_runs_and_summaries_state_the_version(live, tmp_path):
+    assert live.run(Request("run", KEPT / "1" / "pbd" / "given.json", tmp_path / "run")).exit_code == 0
     run = read_run(tmp_path / "run")
     assert run.value("formatVersion") == run.summary["versions"]["format"] == FORMAT

@@ -10,6 +10,7 @@ import pytest
 
 from experiments.commands import parse
 from experiments.prepare import ROOT
+from experiments.runner import Request
 
 TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
 SHOWN_FILE = ROOT / "params" / "insertion.json"
@@ -32,12 +33,12 @@ def test_the_readme_shows_every_command_and_no_other(capsys):
     assert set(re.findall(r"python3 guidewire.py ([\w-]+)", TEXT)) == set(known)
 
 
-def test_the_annotated_file_is_the_real_one(runner_command, tmp_path):
+def test_the_annotated_file_is_the_real_one(live, tmp_path):
     lines = re.findall(r'^\| `(".*)` \| \S.* \|$', TEXT, re.MULTILINE)
     shown = json.loads("{" + "".join(lines) + "}")
     assert list(shown.items()) == list(json.loads(SHOWN_FILE.read_text(encoding="utf-8")).items())
-    subprocess.run([*runner_command, "-parameters", str(SHOWN_FILE), "-out", str(tmp_path), "-maxSimulationSteps", "0"],
-                   check=True, capture_output=True)
+    answer = live.run(Request("shown", SHOWN_FILE, tmp_path, {"maxSimulationSteps": 0}))
+    assert answer.exit_code == 0, answer.message
 
 
 def test_the_lines_of_python_draw_a_run(runner_command, tmp_path):

@@ -10,6 +10,7 @@ from PIL import Image
 from analysis.runs import read_run
 from experiments import commands, walls
 from experiments.prepare import ROOT, PreparationError
+from experiments.runner import Request
 
 SCENE = {"guidewireLength": 60, "numberRodElements": 6, "guidewireOffset": -60, "displacement": 0, "sphereRadius": 2,
          "maxSimulationSteps": 2}
@@ -31,14 +32,13 @@ SHAPES = {
 
 
 @pytest.fixture
-def make_run(runner_command, tmp_path):
+def make_run(live, tmp_path):
     """A function that makes a run of `SCENE` with changes; its folder."""
     def make(**changes):
         (tmp_path / "scene.json").write_text(json.dumps({**SCENE, **changes}))
-        folder = tmp_path / "run"
-        subprocess.run([*runner_command, "-parameters", str(tmp_path / "scene.json"), "-out", str(folder)], check=True,
-                       capture_output=True)
-        return folder
+        answer = live.run(Request("run", tmp_path / "scene.json", tmp_path / "run"))
+        assert answer.exit_code == 0, answer.message
+        return tmp_path / "run"
 
     return make
 

@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -125,12 +126,16 @@ def test_the_build_that_unity_compiles_makes_tests_of_its_differences_and_every_
 
 
 def test_what_is_left_out_of_one_suite_is_in_another():
-    commands = [suite.command for suite in suites("dotnet", False) if suite.name.startswith("experiments/tests")]
+    *commands, timed = [suite.command for suite in suites("dotnet", False)
+                        if suite.name.startswith("experiments/tests")]
     left_out = [word.split("=")[1] for command in commands for word in command if word.startswith("--ignore=")]
     taken = [word for command in commands for word in command if word.startswith("experiments/tests/")]
     assert sorted(left_out) == sorted(taken) and all((testing.ROOT / path).is_file() for path in taken)
     # Whoever is not timed is in the first three, whoever is timed in the last, whatever the file.
-    assert [command[command.index("-m", 2) + 1] for command in commands] == 3 * ["not timed"] + ["timed"]
+    assert [command[command.index("-m", 2) + 1] for command in (*commands, timed)] == 3 * ["not timed"] + ["timed"]
+    marked = {path.name for path in Path(__file__).parent.glob("test_*.py")
+              if "@pytest.mark.timed" in path.read_text(encoding="utf-8")}
+    assert {Path(word).name for word in timed if word.startswith("experiments/tests/")} >= marked > set()
 
 
 def test_junit_counts_agree_with_a_real_pytest(tmp_path):

@@ -173,7 +173,7 @@ namespace Guidewire.Io
             }
             foreach ((string older, string newer) in Twins)
             {
-                CheckTwins(older, newer);
+                RequireSameValue(older, newer);
             }
             ApplyDuration();
             SimulationParameters simulation = Values.Simulation;
@@ -372,7 +372,7 @@ namespace Guidewire.Io
             Values.Duration = null;    // the number of steps says it, also in a run's own parameters
         }
 
-        private void CheckTwins(string older, string newer)
+        private void RequireSameValue(string older, string newer)
         {
             if (_given.TryGet(older, out var old) && _given.TryGet(newer, out var given)
                 && !JToken.DeepEquals(ParameterTable.Find(older)!.Write(Values), old.Value))

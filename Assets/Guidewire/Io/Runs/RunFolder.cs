@@ -44,7 +44,7 @@ namespace Guidewire.Io
         public double Elapsed => _clock.Elapsed.TotalMilliseconds;
 
         /// <summary>Outcomes that replace no result that the folder held before; none where this is not set.</summary>
-        public IReadOnlyList<Outcome> LeavesEarlierWhen { get; set; } = Array.Empty<Outcome>();
+        public IReadOnlyList<Outcome> OutcomesThatKeepEarlier { get; set; } = Array.Empty<Outcome>();
 
         /// <summary>Whether such a result is there still, after <see cref="Finish"/>.</summary>
         public bool KeptEarlier { get; private set; }
@@ -124,7 +124,7 @@ namespace Guidewire.Io
                 if (!_lost)
                 {
                     _logger?.Close();
-                    if (!LeaveEarlier(simulation))
+                    if (!MustKeepEarlierRun(simulation))
                     {
                         Publish(simulation);
                     }
@@ -135,7 +135,7 @@ namespace Guidewire.Io
             {
                 Lose(simulation, "the log could not be written: " + error.Message);
             }
-            if (LeaveEarlier(simulation))
+            if (MustKeepEarlierRun(simulation))
             {
                 return;
             }
@@ -202,9 +202,9 @@ namespace Guidewire.Io
             }
         }
 
-        private bool LeaveEarlier(Simulation simulation)
+        private bool MustKeepEarlierRun(Simulation simulation)
         {
-            foreach (Outcome outcome in LeavesEarlierWhen)
+            foreach (Outcome outcome in OutcomesThatKeepEarlier)
             {
                 KeptEarlier |= simulation.Outcome == outcome && EarlierRun.In(_folder) != null;
             }

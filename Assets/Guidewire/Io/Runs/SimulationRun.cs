@@ -64,7 +64,7 @@ namespace Guidewire.Io
             Simulation simulation = Simulation.Create(_handler.Values.Simulation);
             double setUp = (Stopwatch.GetTimestamp() - before) * RunFolder.ToMilliseconds;
             using RunFolder results = RunFolder.Open(_handler, _folder, _repeat, KeepsLog);
-            results.LeavesEarlierWhen = new[] { Outcome.Interrupted, Outcome.Failed };
+            results.OutcomesThatKeepEarlier = new[] { Outcome.Interrupted, Outcome.Failed };
             results.Begin(simulation, setUp);
             if (_handler.Values.Simulation.Method.MaxSimulationSteps == 0 && simulation.Outcome == Outcome.Running)
             {

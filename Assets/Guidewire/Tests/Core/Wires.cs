@@ -1,5 +1,5 @@
 using System;
-using Guidewire.Core;
+using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
 {
@@ -71,6 +71,34 @@ namespace Guidewire.Core.Tests
             {
                 simulation.Step();
             }
+            return simulation;
+        }
+
+        /// <summary>Runs to its end, which must be that of its last step.</summary>
+        public static Simulation Finish(SimulationParameters parameters)
+        {
+            Simulation simulation = Run(parameters);
+            Assert.That(simulation.Outcome, Is.EqualTo(Outcome.Finished), simulation.Reason);
+            return simulation;
+        }
+
+        /// <summary>Runs to its end, and beside it a run that is restored from it after so many steps.</summary>
+        public static Simulation RunAndRestore(SimulationParameters parameters, int steps, out Simulation restored)
+        {
+            Simulation simulation = Simulation.Create(parameters);
+            Simulation? other = null;
+            while (simulation.Outcome == Outcome.Running)
+            {
+                if (simulation.StepCount == steps)
+                {
+                    other = Simulation.Restore(parameters, simulation.Save());
+                }
+                simulation.Step();
+                other?.Step();
+            }
+            restored = other!;
+            Assert.That(restored.State.Positions, Is.EqualTo(simulation.State.Positions));
+            Assert.That(restored.State.Orientations, Is.EqualTo(simulation.State.Orientations));
             return simulation;
         }
 

@@ -60,7 +60,7 @@ namespace Guidewire.UnityCheck.Rules
                 }
                 if (isAttached)
                 {
-                    CheckTwins(source, type);
+                    CheckShadowedField(source, type);
                 }
             }
         }
@@ -278,7 +278,7 @@ namespace Guidewire.UnityCheck.Rules
             return type.ToString().Split('.').Last();
         }
 
-        private static void CheckTwins(Source source, INamedTypeSymbol type)
+        private static void CheckShadowedField(Source source, INamedTypeSymbol type)
         {
             foreach (IFieldSymbol field in source.Members<IFieldSymbol>(type).Where(IsStored))
             {

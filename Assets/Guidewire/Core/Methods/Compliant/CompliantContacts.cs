@@ -28,8 +28,8 @@ namespace Guidewire.Core
 
         private readonly Contact[] _contacts;
         private readonly Contact[] _held;         // of held nodes
-        private readonly Vector3d[] _kept;        // lambda n + f of each slot, while contacts are found anew
-        private readonly Vector3d[] _keptSlip;    // the same of slips that are left, m
+        private readonly Vector3d[] _storedImpulse;        // lambda n + f of each slot, while contacts are found anew
+        private readonly Vector3d[] _storedSlip;    // the same of slips that are left, m
         private readonly double[] _friction;      // mu, by wall
         private readonly double[] _radius;        // of elements, m
         private readonly double[] _nodeRadius;
@@ -60,9 +60,9 @@ namespace Guidewire.Core
             _metres = scene.Metres;
             _compliance = stiffness > 0.0 ? 1.0 / stiffness : 0.0;
             // A search finds each node and each element at most once a wall.
-            _kept = new Vector3d[scene.Walls.Length * (2 * n + 1)];
-            _keptSlip = new Vector3d[_kept.Length];
-            _contacts = new Contact[_kept.Length];
+            _storedImpulse = new Vector3d[scene.Walls.Length * (2 * n + 1)];
+            _storedSlip = new Vector3d[_storedImpulse.Length];
+            _contacts = new Contact[_storedImpulse.Length];
             _held = new Contact[2 * scene.Walls.Length];
             _old = scene.Shape;
         }
@@ -107,14 +107,14 @@ namespace Guidewire.Core
                 Vector3d turning = _inverseInertia[j];
                 to.InverseOfSlip = inverse
                     + to.Radius * to.Radius * Math.Max(turning.X, Math.Max(turning.Y, turning.Z));
-                Vector3d kept = _kept[to.Slot];
+                Vector3d kept = _storedImpulse[to.Slot];
                 to.NormalImpulse = Math.Max(0.0, Vector3d.Dot(kept, to.Normal));
                 to.FrictionImpulse = Shortened(kept - Vector3d.Dot(kept, to.Normal) * to.Normal,
                     _friction[to.Wall] * to.NormalImpulse);
-                Vector3d slip = _keptSlip[to.Slot];
+                Vector3d slip = _storedSlip[to.Slot];
                 to.Slip = slip - Vector3d.Dot(slip, to.Normal) * to.Normal;
             }
-            ClearKept();
+            ClearStoredImpulses();
         }
 
         /// <summary>A substep begins; a held node that would come nearer than its radius is kept off.</summary>
@@ -163,11 +163,11 @@ namespace Guidewire.Core
         public void Serialize(Snapshot snapshot)
         {
             StoreImpulses();
-            snapshot.Serialize(_kept);
-            snapshot.Serialize(_keptSlip);
+            snapshot.Serialize(_storedImpulse);
+            snapshot.Serialize(_storedSlip);
             if (snapshot.IsWritten)
             {
-                ClearKept();
+                ClearStoredImpulses();
             }
             else
             {
@@ -275,18 +275,18 @@ namespace Guidewire.Core
             }
         }
 
-        private void ClearKept()
+        private void ClearStoredImpulses()
         {
-            Array.Clear(_kept, 0, _kept.Length);
-            Array.Clear(_keptSlip, 0, _keptSlip.Length);
+            Array.Clear(_storedImpulse, 0, _storedImpulse.Length);
+            Array.Clear(_storedSlip, 0, _storedSlip.Length);
         }
 
         private void StoreImpulses()
         {
             for (int k = 0; k < _count; k++)
             {
-                _keptSlip[_contacts[k].Slot] = _contacts[k].Slip;
-                _kept[_contacts[k].Slot] = _contacts[k].NormalImpulse * _contacts[k].Normal
+                _storedSlip[_contacts[k].Slot] = _contacts[k].Slip;
+                _storedImpulse[_contacts[k].Slot] = _contacts[k].NormalImpulse * _contacts[k].Normal
                     + _contacts[k].FrictionImpulse;
             }
         }

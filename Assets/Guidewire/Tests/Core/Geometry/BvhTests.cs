@@ -1,5 +1,4 @@
 using System;
-using Guidewire.Core;
 using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
@@ -14,7 +13,7 @@ namespace Guidewire.Core.Tests
         [Category("Long")]
         public void Nearest_AgreesWithTheLoopOverAllTriangles()
         {
-            Compare(TestMeshes.Ball(12, 0.2).Corners, new RandomGeometry(21), 10_000);
+            Compare(TestMeshes.Ball(12, 0.2).Corners, new RandomGeometry(21), RandomGeometry.Cases(10_000));
         }
 
         [Test]
@@ -27,7 +26,7 @@ namespace Guidewire.Core.Tests
                 Vector3d[] triangle = random.Triangle();
                 Array.Copy(triangle, 0, corners, 3 * t, 3);
             }
-            Compare(corners, random, 5_000);
+            Compare(corners, random, RandomGeometry.Cases(5_000, 4));
         }
 
         [Test]
@@ -54,7 +53,7 @@ namespace Guidewire.Core.Tests
             Vector3d[] corners = TestMeshes.Ball(10, 0.0).Corners;
             var tree = new Bvh(corners);
             var random = new RandomGeometry(24);
-            for (int i = 0; i < RandomGeometry.Cases(10_000); i++)
+            for (int i = 0; i < RandomGeometry.Cases(10_000, 40); i++)
             {
                 Vector3d[] s = random.Segment(Vector3d.UnitX);
                 double distance = BruteForce.Distance(s, corners, out _);
@@ -72,7 +71,7 @@ namespace Guidewire.Core.Tests
             Vector3d[] corners = TestMeshes.Ball(12, 0.2).Corners;
             var tree = new Bvh(corners);
             var random = new RandomGeometry(25);
-            for (int i = 0; i < RandomGeometry.Cases(10_000); i++)
+            for (int i = 0; i < RandomGeometry.Cases(10_000, 40); i++)
             {
                 Vector3d[] s = random.Segment(Vector3d.UnitX);
                 tree.Nearest(s[0], s[1], 10.0, -1, out double plain, out _, out _, out _);

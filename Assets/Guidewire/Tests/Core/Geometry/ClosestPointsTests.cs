@@ -1,5 +1,4 @@
 using System;
-using Guidewire.Core;
 using NUnit.Framework;
 
 namespace Guidewire.Core.Tests

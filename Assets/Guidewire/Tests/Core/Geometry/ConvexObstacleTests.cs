@@ -1,6 +1,5 @@
 using System;
 using System.Collections.Generic;
-using Guidewire.Core;
 using NUnit.Framework;
 
 namespace Guidewire.Core.Tests

@@ -1,5 +1,5 @@
 using System;
-using Guidewire.Core;
+using System.Globalization;
 
 namespace Guidewire.Core.Tests
 {
@@ -18,6 +18,15 @@ namespace Guidewire.Core.Tests
         public static int Cases(int all, int oneOf = 10)
         {
             return string.IsNullOrEmpty(Environment.GetEnvironmentVariable("GUIDEWIRE_ALL")) ? all / oneOf : all;
+        }
+
+        /// <summary>The first seed and the number of runs that an environment variable asks for as FIRST:COUNT; no run
+        /// where it is not set.</summary>
+        public static (int First, int Count) Asked(string variable)
+        {
+            string[] asked = (Environment.GetEnvironmentVariable(variable) ?? "0:0").Split(new[] { ':' });
+            return (int.Parse(asked[0], CultureInfo.InvariantCulture),
+                int.Parse(asked[1], CultureInfo.InvariantCulture));
         }
 
         public double Number(double from, double to)

@@ -1,4 +1,3 @@
-using Guidewire.Core;
 
 namespace Guidewire.Core.Tests
 {

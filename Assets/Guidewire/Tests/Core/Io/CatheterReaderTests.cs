@@ -1,4 +1,5 @@
 using System.Collections.Generic;
+using System.Linq;
 using Guidewire.Io;
 using Newtonsoft.Json.Linq;
 using NUnit.Framework;
@@ -108,12 +109,7 @@ namespace Guidewire.Core.Tests
             {
                 keys[key] = value;
             }
-            var given = new List<KeyValuePair<string, JToken>>();
-            foreach (KeyValuePair<string, string> pair in keys)
-            {
-                given.Add(new KeyValuePair<string, JToken>(pair.Key, JToken.Parse(pair.Value)));
-            }
-            return given;
+            return GivenKeys.Of(keys.Select(pair => (pair.Key, pair.Value)), JToken.Parse);
         }
     }
 }

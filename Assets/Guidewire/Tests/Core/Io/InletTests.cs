@@ -3,7 +3,6 @@ using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
 using System.Linq;
-using Guidewire.Core;
 using Guidewire.Io;
 using Newtonsoft.Json.Linq;
 using NUnit.Framework;
@@ -92,7 +91,7 @@ namespace Guidewire.Core.Tests
             ParameterHandler first = Load(Scene(Slant, 2, 1));
             string file = Path.Combine(_folder, "parameters.json");
             File.WriteAllText(file, first.ToJson().ToString());
-            ParameterHandler again = ParameterHandler.Load(file, Array.Empty<KeyValuePair<string, JToken>>());
+            ParameterHandler again = ParameterHandler.Load(file, GivenKeys.None);
             Assert.That(again.Hash, Is.EqualTo(first.Hash));
             Assert.That(Simulation.Create(again.Values.Simulation).State.Positions,
                 Is.EqualTo(Simulation.Create(first.Values.Simulation).State.Positions));
@@ -154,7 +153,7 @@ namespace Guidewire.Core.Tests
         {
             string scene = Scene(Slant, 1, 2);
             ParameterException error = Assert.Throws<ParameterException>(() => ParameterHandler.Load(scene,
-                new[] { new KeyValuePair<string, JToken>(key, JToken.Parse(value)) }))!;
+                GivenKeys.Of((key, JToken.Parse(value)))))!;
             Assert.That(error.Message, Does.Contain(expected).And.Not.Contains("\n"));
         }
 
@@ -175,7 +174,7 @@ namespace Guidewire.Core.Tests
 
         private static ParameterHandler Load(string file)
         {
-            return ParameterHandler.Load(file, Array.Empty<KeyValuePair<string, JToken>>());
+            return ParameterHandler.Load(file, GivenKeys.None);
         }
 
         private static Vector3d Tip(JObject summary)

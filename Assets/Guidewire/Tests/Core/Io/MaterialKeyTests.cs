@@ -1,4 +1,3 @@
-using System.Collections.Generic;
 using Guidewire.Io;
 using Newtonsoft.Json.Linq;
 using NUnit.Framework;
@@ -73,8 +72,10 @@ namespace Guidewire.Core.Tests
         [TestCase("sdirk4", "esdirk4")]
         public void OlderWordOfAnIntegrator_IsReadWithAWarning_AndWrittenAsTheNewOne(string older, string newer)
         {
-            ParameterHandler old = ParameterHandler.Load(null, Pairs(("solver", "direct"), ("integrator", older)));
-            ParameterHandler today = ParameterHandler.Load(null, Pairs(("solver", "direct"), ("integrator", newer)));
+            ParameterHandler old = ParameterHandler.Load(null,
+                GivenKeys.Of(("solver", "direct"), ("integrator", older)));
+            ParameterHandler today = ParameterHandler.Load(null,
+                GivenKeys.Of(("solver", "direct"), ("integrator", newer)));
             Assert.That(old.Warnings, Has.Count.EqualTo(1));
             Assert.That(old.Warnings[0], Does.Contain(older).And.Contain(newer));
             Assert.That((string?)old.ToJson()["integrator"], Is.EqualTo(newer));
@@ -150,17 +151,7 @@ namespace Guidewire.Core.Tests
 
         private static RunParameters Load(params (string Key, JToken Value)[] given)
         {
-            return ParameterHandler.Load(null, Pairs(given)).Values;
-        }
-
-        private static List<KeyValuePair<string, JToken>> Pairs(params (string Key, JToken Value)[] given)
-        {
-            var overrides = new List<KeyValuePair<string, JToken>>();
-            foreach ((string key, JToken value) in given)
-            {
-                overrides.Add(new KeyValuePair<string, JToken>(key, value));
-            }
-            return overrides;
+            return ParameterHandler.Load(null, GivenKeys.Of(given)).Values;
         }
     }
 }

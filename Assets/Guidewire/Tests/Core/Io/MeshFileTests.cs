@@ -1,7 +1,6 @@
 using System;
 using System.IO;
 using System.Text;
-using Guidewire.Core;
 using Guidewire.Io;
 using NUnit.Framework;
 

@@ -1,6 +1,4 @@
-using System.Collections.Generic;
 using System.IO;
-using Guidewire.Core;
 using Guidewire.Io;
 using Newtonsoft.Json.Linq;
 using NUnit.Framework;
@@ -267,12 +265,7 @@ namespace Guidewire.Core.Tests
         {
             string file = Path.Combine(Folder, "wire.json");
             File.WriteAllText(file, text);
-            var list = new List<KeyValuePair<string, JToken>>();
-            foreach ((string key, string value) in overrides)
-            {
-                list.Add(new KeyValuePair<string, JToken>(key, new JValue(value)));
-            }
-            return ParameterHandler.Load(file, list);
+            return ParameterHandler.Load(file, GivenKeys.Of(overrides, value => new JValue(value)));
         }
     }
 }

@@ -1,6 +1,4 @@
-using System.Collections.Generic;
 using System.IO;
-using Guidewire.Core;
 using Guidewire.Io;
 using Newtonsoft.Json.Linq;
 using NUnit.Framework;
@@ -132,12 +130,7 @@ namespace Guidewire.Core.Tests
 
         private ParameterHandler Load(params (string Key, string Value)[] given)
         {
-            var overrides = new List<KeyValuePair<string, JToken>>();
-            foreach ((string key, string value) in given)
-            {
-                overrides.Add(new KeyValuePair<string, JToken>(key, JToken.Parse(value)));
-            }
-            return ParameterHandler.Load(_file, overrides);
+            return ParameterHandler.Load(_file, GivenKeys.Of(given, JToken.Parse));
         }
     }
 }

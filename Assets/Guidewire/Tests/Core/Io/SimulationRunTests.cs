@@ -2,7 +2,6 @@ using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
 using System.Threading;
-using Guidewire.Core;
 using Guidewire.Io;
 using Newtonsoft.Json.Linq;
 using NUnit.Framework;
@@ -227,12 +226,7 @@ namespace Guidewire.Core.Tests
 
         private static ParameterHandler Load(params (string Key, JToken Value)[] overrides)
         {
-            var list = new List<KeyValuePair<string, JToken>>();
-            foreach ((string key, JToken value) in overrides)
-            {
-                list.Add(new KeyValuePair<string, JToken>(key, value));
-            }
-            return ParameterHandler.Load(null, list);
+            return ParameterHandler.Load(null, GivenKeys.Of(overrides));
         }
     }
 }

@@ -11,8 +11,6 @@ namespace Guidewire.Core.Tests
     [TestFixture]
     public sealed class SimulationSessionTests : FolderTests
     {
-        private static readonly KeyValuePair<string, JToken>[] Nothing = Array.Empty<KeyValuePair<string, JToken>>();
-
         private string _file = "";
 
         [SetUp]
@@ -49,7 +47,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void RestoredAndResetSession_TakesTheSameStepsUnderTheSameHand()
         {
-            SimulationSession session = SimulationSession.Open(_file, Nothing, null);
+            SimulationSession session = SimulationSession.Open(_file, GivenKeys.None, null);
             Assert.That(session.IsSteered, Is.True);
             Vector3d[][] tips = new Vector3d[3][];
             byte[] saved = session.Save();
@@ -76,7 +74,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void Restore_Refuses_OtherParameters_AndWhatIsNotWhole_AndChangesNothing()
         {
-            SimulationSession session = SimulationSession.Open(_file, Nothing, true);
+            SimulationSession session = SimulationSession.Open(_file, GivenKeys.None, true);
             using SimulationSession other = Open("", true, "bendStiffness=0.3");
             using SimulationSession driven = Open("", false);
             byte[] saved = session.Save();
@@ -94,9 +92,8 @@ namespace Guidewire.Core.Tests
         [Test]
         public void SessionOfAMaterial_IsDriven_UnlessAHandIsAskedFor_AndStatesReactions()
         {
-            var material = new[] { new KeyValuePair<string, JToken>("solver", "direct"),
-                new KeyValuePair<string, JToken>("proximalEnd", "clamped"),
-                new KeyValuePair<string, JToken>("gravity", new JArray(0.0, -9.81, 0.0)) };
+            List<KeyValuePair<string, JToken>> material = GivenKeys.Of(("solver", "direct"), ("proximalEnd", "clamped"),
+                ("gravity", new JArray(0.0, -9.81, 0.0)));
             SimulationSession session = SimulationSession.Open(null, material, null);
             session.Step(0.0, 0.0);
             Assert.That(session.IsSteered, Is.False);

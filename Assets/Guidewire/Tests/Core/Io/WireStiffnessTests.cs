@@ -1,9 +1,6 @@
 using System;
-using System.Collections.Generic;
 using System.IO;
-using Guidewire.Core;
 using Guidewire.Io;
-using Newtonsoft.Json.Linq;
 using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
@@ -116,7 +113,7 @@ namespace Guidewire.Core.Tests
         {
             ParameterHandler first = Load(rest);
             File.WriteAllText(_file, first.ToJson().ToString());
-            ParameterHandler again = ParameterHandler.Load(_file, new List<KeyValuePair<string, JToken>>());
+            ParameterHandler again = ParameterHandler.Load(_file, GivenKeys.None);
             Assert.That(again.Hash, Is.EqualTo(first.Hash));
             CrossSection a = CrossSection.At(first.Values.Simulation.Material, 1.0);
             CrossSection b = CrossSection.At(again.Values.Simulation.Material, 1.0);
@@ -127,12 +124,7 @@ namespace Guidewire.Core.Tests
         private ParameterHandler Load(string rest, params (string Key, double Value)[] given)
         {
             File.WriteAllText(_file, Wire + rest);
-            var overrides = new List<KeyValuePair<string, JToken>>();
-            foreach ((string key, double value) in given)
-            {
-                overrides.Add(new KeyValuePair<string, JToken>(key, value));
-            }
-            return ParameterHandler.Load(_file, overrides);
+            return ParameterHandler.Load(_file, GivenKeys.Of(given, value => value));
         }
     }
 }

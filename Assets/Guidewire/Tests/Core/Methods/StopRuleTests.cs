@@ -12,10 +12,7 @@ namespace Guidewire.Core.Tests
         [TestCase(0.1, 11.0)]
         public void GainBeyondItsLimit_IsDiverged(double stretch, double bend)
         {
-            SimulationParameters parameters = Wires.Transversal(1000);
-            parameters.Pbd.StretchStiffness = stretch;
-            parameters.Pbd.BendStiffness = bend;
-            Simulation run = Wires.Run(parameters);
+            Simulation run = RunOf(stretch, bend);
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Diverged), run.Reason);
             Assert.That(run.Reason, Does.Contain("wrong in length"));
         }
@@ -24,10 +21,15 @@ namespace Guidewire.Core.Tests
         [TestCase(0.1, 10.0)]
         public void GainWithinItsLimit_IsNotDiverged(double stretch, double bend)
         {
+            Assert.That(RunOf(stretch, bend).Outcome, Is.EqualTo(Outcome.Finished));
+        }
+
+        private static Simulation RunOf(double stretch, double bend)
+        {
             SimulationParameters parameters = Wires.Transversal(1000);
             parameters.Pbd.StretchStiffness = stretch;
             parameters.Pbd.BendStiffness = bend;
-            Assert.That(Wires.Run(parameters).Outcome, Is.EqualTo(Outcome.Finished));
+            return Wires.Run(parameters);
         }
 
         [Test]

@@ -1,7 +1,5 @@
 using System;
 using System.Collections.Generic;
-using System.Globalization;
-using Guidewire.Core;
 using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
@@ -13,15 +11,11 @@ namespace Guidewire.Core.Tests
     [TestFixture]
     internal sealed class CompliantPushTests
     {
-        private const string Asked = "GUIDEWIRE_COMPLIANT_PUSHES";
-
         [Test]
         [Category("Long")]
         public void Wire_PassesNoWall_AndEveryRunHasAnEnd()
         {
-            string[] asked = (Environment.GetEnvironmentVariable(Asked) ?? "0:0").Split(new[] { ':' });
-            int first = int.Parse(asked[0], CultureInfo.InvariantCulture);
-            int runs = int.Parse(asked[1], CultureInfo.InvariantCulture);
+            (int first, int runs) = RandomGeometry.Asked("GUIDEWIRE_COMPLIANT_PUSHES");
             if (runs == 0)
             {
                 Rods.OnlyInFull("the random pushes of test_random_pushes.py have xpbd, too");

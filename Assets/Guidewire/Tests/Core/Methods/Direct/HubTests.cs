@@ -49,7 +49,7 @@ namespace Guidewire.Core.Tests
             SimulationParameters perStep = Pushed();
             perStep.Drive.DisplacementPerStep = 0.0625;
             perStep.Drive.TwistPerStep = 0.03125;
-            Assert.That(Run(speeds).State.Positions, Is.EqualTo(Run(perStep).State.Positions));
+            Assert.That(Wires.Finish(speeds).State.Positions, Is.EqualTo(Wires.Finish(perStep).State.Positions));
         }
 
         [Test]
@@ -67,7 +67,7 @@ namespace Guidewire.Core.Tests
             {
                 byHand.Step();
             }
-            Assert.That(byHand.State.Positions, Is.EqualTo(Run(held).State.Positions));
+            Assert.That(byHand.State.Positions, Is.EqualTo(Wires.Finish(held).State.Positions));
         }
 
         [TestCase(1.3, 0.0)]
@@ -109,7 +109,7 @@ namespace Guidewire.Core.Tests
             parameters.Drive.HubForceLimit = Limit;
             parameters.Method.MaxSimulationSteps = 200;
             parameters.Method.TimeStep = 2e-3;
-            Simulation run = Run(parameters);
+            Simulation run = Wires.Finish(parameters);
             HubRecord hub = run.Hub()!;
             Assert.That(hub.Force, Is.EqualTo(Limit).Within(1e-6));
             double asked = 1e3 * 0.02 * 0.4;
@@ -246,17 +246,6 @@ namespace Guidewire.Core.Tests
             parameters.Method.MaxSimulationSteps = Steps;
             parameters.Scene.GuidewireOffset = -290.0;
             return parameters;
-        }
-
-        private static Simulation Run(SimulationParameters parameters)
-        {
-            Simulation run = Simulation.Create(parameters);
-            while (run.Outcome == Outcome.Running)
-            {
-                run.Step();
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
-            return run;
         }
 
         private static double Sum(double[] values)

@@ -46,11 +46,8 @@ namespace Guidewire.Core.Tests
         public void ExplicitAndDirect_MoveTheSame()
         {
             // Both on lumped masses, so both discretise the same chain; 2 ms from the straight start under gravity.
-            SimulationParameters direct = Cantilever(8, Solver.Direct, Integrator.Esdirk4, 5e-5, 40);
-            direct.Material.MassRule = MassRule.Lumped;
-            direct.Method.SolverTolerance = 1e-12;
-            SimulationParameters other = Cantilever(8, Solver.Explicit, Integrator.Esdirk4, 5e-5, 40);
-            other.Material.MassRule = MassRule.Lumped;
+            SimulationParameters direct = Lumped(8, Solver.Direct, Integrator.Esdirk4, 5e-5, 40);
+            SimulationParameters other = Lumped(8, Solver.Explicit, Integrator.Esdirk4, 5e-5, 40);
             other.Method.Substeps = 400;
             double fall = 0.5 * 9810.0 * 0.002 * 0.002;
             Assert.That(Wires.Distance(Wires.Run(direct).State, Wires.Run(other).State), Is.LessThan(1e-3 * fall));
@@ -94,11 +91,8 @@ namespace Guidewire.Core.Tests
         [Test]
         public void CompliantSolver_WhereItHasConverged_IsImplicitEuler()
         {
-            SimulationParameters direct = Cantilever(6, Solver.Direct, Integrator.ImplicitEuler, 2e-6, 100);
-            direct.Material.MassRule = MassRule.Lumped;
-            direct.Method.SolverTolerance = 1e-12;
-            SimulationParameters other = Cantilever(6, Solver.Xpbd, Integrator.ImplicitEuler, 2e-6, 100);
-            other.Material.MassRule = MassRule.Lumped;
+            SimulationParameters direct = Lumped(6, Solver.Direct, Integrator.ImplicitEuler, 2e-6, 100);
+            SimulationParameters other = Lumped(6, Solver.Xpbd, Integrator.ImplicitEuler, 2e-6, 100);
             other.Method.ConstraintSolverSteps = 60;
             Simulation run = Wires.Run(other);
             Assert.That(run.Report()!.StepsNotConverged, Is.Zero);
@@ -248,6 +242,15 @@ namespace Guidewire.Core.Tests
         }
 
         /// <summary>The wire, clamped at one end, under gravity, in millimetres.</summary>
+        // On lumped masses every method has the same chain.
+        private static SimulationParameters Lumped(int n, Solver solver, Integrator scheme, double step, int steps)
+        {
+            SimulationParameters parameters = Cantilever(n, solver, scheme, step, steps);
+            parameters.Material.MassRule = MassRule.Lumped;
+            parameters.Method.SolverTolerance = 1e-12;
+            return parameters;
+        }
+
         private static SimulationParameters Cantilever(int n, Solver solver, Integrator scheme, double step, int steps)
         {
             SimulationParameters parameters = Rods.Clamped(n, solver, step, steps);

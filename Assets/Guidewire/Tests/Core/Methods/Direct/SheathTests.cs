@@ -114,19 +114,7 @@ namespace Guidewire.Core.Tests
             parameters.Drive.InsertionSpeed = Speed;
             parameters.Drive.RotationSpeed = 2.0;
             parameters.Method.MaxSimulationSteps = 160;
-            Simulation run = Simulation.Create(parameters);
-            Simulation? other = null;
-            while (run.Outcome == Outcome.Running)
-            {
-                if (run.StepCount == 70)
-                {
-                    other = Simulation.Restore(parameters, run.Save());
-                }
-                run.Step();
-                other?.Step();
-            }
-            Assert.That(other!.State.Positions, Is.EqualTo(run.State.Positions));
-            Assert.That(other.State.Orientations, Is.EqualTo(run.State.Orientations));
+            Simulation run = Wires.RunAndRestore(parameters, 70, out Simulation other);
             Assert.That(other.Hub()!.Force, Is.EqualTo(run.Hub()!.Force));
             Assert.That(other.Contacts!.DriveAsked, Is.EqualTo(run.Contacts!.DriveAsked));
             parameters.Scene.Sheath = null;
@@ -141,7 +129,7 @@ namespace Guidewire.Core.Tests
             parameters.Drive.Table = new DriveTable(new TimeTable(new[] { 0.0, 1.5 }, new[] { 0.0, 0.06 }),
                 new TimeTable(new[] { 1.5, 2.5 }, new[] { 0.0, 1.0 }));
             parameters.Method.MaxSimulationSteps = 600;
-            Simulation run = Run(parameters);
+            Simulation run = Wires.Finish(parameters);
             HubRecord hub = run.Hub()!;
             double stiffness = CrossSection.At(parameters.Material, 0.0).TwistStiffness;
             double sheathed = 0.6 - hub.LengthInBody!.Value;
@@ -230,7 +218,7 @@ namespace Guidewire.Core.Tests
             parameters.Material.MassDamping = 20.0;
             parameters.Method.TimeStep = 0.01;
             parameters.Method.MaxSimulationSteps = 20;
-            Simulation run = Run(parameters);
+            Simulation run = Wires.Finish(parameters);
             Assert.That(run.Hub()!.Insertion, Is.EqualTo(0.01).Within(1e-12));
             Assert.That(run.State.Positions[0].Z, Is.EqualTo(-285.0).Within(1e-3));
             Assert.That(run.State.Positions[100].Z, Is.EqualTo(15.0).Within(1e-3));
@@ -339,7 +327,7 @@ namespace Guidewire.Core.Tests
             parameters.Method.TimeStep = 0.02;
             parameters.Method.MaxSimulationSteps = 100;
             Assert.That(Simulation.FindProblemOfStart(parameters), Is.Null);
-            Simulation run = Run(parameters);
+            Simulation run = Wires.Finish(parameters);
             Assert.That(run.Hub()!.LengthInBody, Is.EqualTo(1e-3 * (7.0 - exit)).Within(1e-5));
             Assert.That(run.Contacts!.Passages, Is.Zero);
             Assert.That(run.Contacts.MaxPenetration, Is.Zero);
@@ -366,8 +354,8 @@ namespace Guidewire.Core.Tests
             SimulationParameters whole = Turned();
             whole.Scene.Sheath = null;
             whole.Scene.Walls = new ContactShape[] { Vessel(0.23) };
-            Simulation a = Run(sheathed);
-            Simulation b = Run(whole);
+            Simulation a = Wires.Finish(sheathed);
+            Simulation b = Wires.Finish(whole);
             HubRecord one = a.Hub()!;
             HubRecord other = b.Hub()!;
             double drag = whole.Material.MassDamping * 0.04 * (0.3 - one.LengthInBody!.Value)
@@ -400,17 +388,6 @@ namespace Guidewire.Core.Tests
             parameters.Method.TimeStep = timeStep;
             parameters.Method.MaxSimulationSteps = (int)(4.5 / timeStep);
             return parameters;
-        }
-
-        private static Simulation Run(SimulationParameters parameters)
-        {
-            Simulation run = Simulation.Create(parameters);
-            while (run.Outcome == Outcome.Running)
-            {
-                run.Step();
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
-            return run;
         }
 
         // A nitinol wire whose last 30 mm are bent by 45 degrees, its tip so far (mm) out of a sheath that ends at

@@ -1,6 +1,5 @@
 using System;
 using System.IO;
-using Guidewire.Core;
 using Guidewire.Io;
 using NUnit.Framework;
 

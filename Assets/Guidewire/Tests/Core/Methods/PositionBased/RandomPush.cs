@@ -1,5 +1,4 @@
 using System;
-using Guidewire.Core;
 
 namespace Guidewire.Core.Tests
 {

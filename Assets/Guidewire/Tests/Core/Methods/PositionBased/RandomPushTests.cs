@@ -1,6 +1,5 @@
 using System;
 using System.Collections.Generic;
-using Guidewire.Core;
 using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
@@ -83,7 +82,7 @@ namespace Guidewire.Core.Tests
         {
             long passages = 0;
             int outside = 0;
-            for (int seed = 0; seed < 10; seed++)
+            for (int seed = 0; seed < 10 && (passages == 0 || outside == 0); seed++)
             {
                 var push = new RandomPush(seed, ElementContact.Thesis);
                 passages += push.Contacts.Passages;

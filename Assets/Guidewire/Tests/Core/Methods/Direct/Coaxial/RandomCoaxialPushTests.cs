@@ -1,6 +1,5 @@
 using System;
 using System.Collections.Generic;
-using System.Globalization;
 using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
@@ -12,8 +11,6 @@ namespace Guidewire.Core.Tests
     [TestFixture]
     internal sealed class RandomCoaxialPushTests
     {
-        private const string Asked = "GUIDEWIRE_COAXIAL_PUSHES";
-
         // The wire is drawn in by as much a step as is left of its first element beyond the catheter's tip: a
         // prediction that counts that twice has the element the other way round, and its joint loses a turn.
         [TestCase(454)]
@@ -28,9 +25,7 @@ namespace Guidewire.Core.Tests
         [Category("Long")]
         public void NeitherInstrumentIsEverOutside_AndEveryRunHasAnEnd()
         {
-            string[] asked = (Environment.GetEnvironmentVariable(Asked) ?? "0:0").Split(new[] { ':' });
-            int first = int.Parse(asked[0], CultureInfo.InvariantCulture);
-            int runs = int.Parse(asked[1], CultureInfo.InvariantCulture);
+            (int first, int runs) = RandomGeometry.Asked("GUIDEWIRE_COAXIAL_PUSHES");
             runs = runs > 0 ? runs : RandomGeometry.Cases(100, 10);
             var worst = new List<string>();
             int outside = 0;

@@ -209,6 +209,10 @@ namespace Guidewire.Core.Tests
         [TestCase(0.3, 180.0, Category = "Long")]
         public void PulledThroughABend_TheForceGrowsByTheCapstansLaw(double mu, double degrees)
         {
+            if (mu == 0.05 || mu * degrees > 40.0)
+            {
+                Rods.OnlyInFull("two coefficients of friction and two angles");
+            }
             // validation.md: a wire whose rest curvature is the bend's, pulled back against a load at its tip: it lies
             // against the inner wall with the force per length of a limp one.
             double angle = degrees * Math.PI / 180.0;

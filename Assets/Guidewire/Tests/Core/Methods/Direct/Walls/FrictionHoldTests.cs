@@ -95,6 +95,10 @@ namespace Guidewire.Core.Tests
         [TestCase(0.2)]
         public void WoundUp_AndLeftForAMinute_TheTorqueIsKept(double mu)
         {
+            if (mu < 0.1)
+            {
+                Rods.OnlyInFull("ten times the coefficient of friction");
+            }
             Simulation run = InBend(mu, out Steering hand);
             Go(run, 25);
             hand.Turn = 4.0 * Math.PI / 200.0;
@@ -111,6 +115,10 @@ namespace Guidewire.Core.Tests
         [TestCase(1.0)]
         public void DraggedAndTurned_OverTenThousandFacets_TheTorqueIsKept(double turning)
         {
+            if (turning < 1.0)
+            {
+                Rods.OnlyInFull("a larger turn in proportion to the push");
+            }
             // The surface slips by an angle with tan(beta) = turning: mu r sum N sin(beta), less what drag takes.
             const double mu = 0.3;
             const double radius = 0.4;

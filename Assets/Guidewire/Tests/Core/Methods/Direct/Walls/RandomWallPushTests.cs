@@ -1,7 +1,5 @@
 using System;
 using System.Collections.Generic;
-using System.Globalization;
-using Guidewire.Core;
 using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
@@ -13,15 +11,11 @@ namespace Guidewire.Core.Tests
     [TestFixture]
     internal sealed class RandomWallPushTests
     {
-        private const string Asked = "GUIDEWIRE_WALL_PUSHES";
-
         [Test]
         [Category("Long")]
         public void Wire_IsNeverOutside_AndEveryRunHasAnEnd()
         {
-            string[] asked = (Environment.GetEnvironmentVariable(Asked) ?? "0:0").Split(new[] { ':' });
-            int first = int.Parse(asked[0], CultureInfo.InvariantCulture);
-            int runs = int.Parse(asked[1], CultureInfo.InvariantCulture);
+            (int first, int runs) = RandomGeometry.Asked("GUIDEWIRE_WALL_PUSHES");
             runs = runs > 0 ? runs : RandomGeometry.Cases(80, 20);
             var worst = new List<string>();
             var delivered = new List<double>();
