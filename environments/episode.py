@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -70,7 +71,7 @@ class Report:
         self.time += dt
         self.largest_force = max(self.largest_force, largest)
         self.impulse += float(forces.sum()) * dt
-        self.path += float(np.linalg.norm(after.positions[-1] - before.positions[-1]))
+        self.path += math.dist(after.positions[-1].tolist(), before.positions[-1].tolist())
         self.inserted += max(insertion, 0.0)
         self.retracted += max(-insertion, 0.0)
         self.turned += abs(turn)
