@@ -17,7 +17,7 @@ from collections.abc import Awaitable, Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from aiohttp import WSCloseCode, WSMsgType, web
@@ -28,9 +28,6 @@ from viewer.recording import (
     Channel, Recording, facts_of, largest_shown, make_channels, name_walls, radius_of, sheath_of, units_of,
 )
 from viewer.steered import Steered, exact_push, exact_turn
-
-if TYPE_CHECKING:
-    from environments.recorded import Recorder
 
 PUSH_SPEED = 40.0              # units a second of in-game time, as in the Unity scene
 TURN_SPEED = math.radians(180.0)  # rad a second of in-game time
@@ -64,24 +61,23 @@ class LiveRun:
     first : name of the one that is opened at first.
     walls : from a parameter file, its effective values and its start to the walls.
     choices : name to words, of the parameters that are words.
-    recorder : takes down the steps that are made; None: nobody does.
+    steered : takes down what is steered; it may be read when the run has ended.
     """
 
     def __init__(self, scenes: Mapping[str, Path], first: str,
                  walls: Callable[[Path, Mapping[str, Any], State], list[Surface]],
-                 choices: Mapping[str, list[str]], recorder: Recorder | None = None) -> None:
+                 choices: Mapping[str, list[str]], steered: Steered | None = None) -> None:
         self._scenes = scenes
         self._scene = first
         self._read_walls = walls
         self._choices = choices
-        self._recorder = recorder
+        self._steered = steered or Steered()
         self._pages: list[_Page] = []
         self._hand: _Page | None = None
         self._session: Session | None = None
         self._walls: list[Surface] = []
         self._sheath: np.ndarray | None = None
         self._largest = np.zeros(0)
-        self._steered: Steered | None = None
         self._described: dict[str, Any] = {}
         self._warnings: list[str] = []
         self._opened = 0
@@ -128,21 +124,17 @@ class LiveRun:
             self._steps_asked = max(0, self._steps_asked - steps)
             mark = self._mark
             push, turn = self._asked_in_a_step(session, dt)
-            before = session.state.step
             began = time.monotonic()
             try:
-                whole = push * steps, turn * steps
-                state = await self._in_thread(lambda: session.step(*whole, steps))
+                state = await self._in_thread(lambda: session.step(push * steps, turn * steps, steps))
                 if self._session is session:
-                    self._steered.add(push, turn, state.step - before)
+                    self._steered.add(push, turn, steps, state)
             except SessionError as error:
                 if self._session is session:
                     await self._fail(error)
                 continue
             if self._session is not session:    # another scene was opened meanwhile
                 continue
-            if self._recorder is not None:
-                self._recorder.add(*whole, steps, state)
             cost = (time.monotonic() - began) / steps
             self._cost = cost if self._cost == 0.0 else self._cost + _SMOOTHING * (cost - self._cost)
             await self._show(mark, session, state)
@@ -164,8 +156,8 @@ class LiveRun:
     def steered_csv(self) -> str:
         """What was steered since the start, as a drive table; raises HTTPConflict, with the reason, where none says
         it."""
-        if self._steered is None or self._steered.problem:
-            raise web.HTTPConflict(text=self._steered.problem if self._steered else "no run is open")
+        if self._steered.problem:
+            raise web.HTTPConflict(text=self._steered.problem)
         return self._steered.to_csv()
 
     async def _wait_until(self, due: float) -> None:
@@ -243,11 +235,9 @@ class LiveRun:
             await self._in_thread(lambda: self._open(self._scene))
         else:
             await self._in_thread(self._session.reset)
-            if self._recorder is not None:
-                self._recorder.begin()
             self._is_paused = not self._session.hand
             self._opened += 1
-            self._steered = Steered(self._session.parameters)
+            self._steered.begin(self._session.parameters)
             self._largest = largest_shown(self._channels(self._session, self._session.state))
         self._problem = ""
 
@@ -279,8 +269,6 @@ class LiveRun:
                 raise
             self._problem = _refusal(key, value, str(error))  # nothing has changed, and the wire goes on
             return
-        if self._recorder is not None:
-            self._recorder.spoil()
         self._steered.invalidate(f"{key} was changed within the run: start anew to record")
         self._cost = 0.0
 
@@ -290,9 +278,7 @@ class LiveRun:
             warnings.simplefilter("always")
             session = _start(self._scenes[scene], by_hand)
         self._session, self._scene = session, scene
-        if self._recorder is not None:
-            self._recorder.begin()
-        self._steered = Steered(session.parameters)
+        self._steered.begin(session.parameters)
         self._described = session.describe()
         self._is_paused = not session.hand  # a wire that waits for a hand is at rest
         self._warnings = list(dict.fromkeys(str(one.message) for one in said))
@@ -365,7 +351,7 @@ class LiveRun:
             "scenes": list(self._scenes), "problem": self._problem, "values": values,
             "choices": {key: words for key, words in self._choices.items() if key in values},
             "pace": self._pace, "paces": PACES,
-            "steered": "" if self._steered is None else self._steered.problem,
+            "steered": self._steered.problem,
             "outcome": "" if state is None or state.outcome is None else f"{state.outcome}: {state.reason}",
         }
 

@@ -21,14 +21,15 @@ def test_a_saved_table_gives_the_bits_that_were_steered(runner_command, tmp_path
     file = ROOT / "params" / scene
     dice = random.Random(5)
     with Session(file, hand=True, native=False, maxSimulationSteps=10**9, deltaThreshold=0) as session:
-        steered = Steered(session.parameters)
+        steered = Steered()
+        steered.begin(session.parameters)
         metres, dt = session.parameters["metresPerUnit"], session.parameters["timeStep"]
         shown = [session.state.positions]
         for steps in (1, 4, 2, 1, 8, 16, 1, 8):    # as pictures of the page are, by powers of two
             push = exact_push(40.0 * dt * dice.choice([1.0, 1.0, -0.3, 0.123456, 0.0]), metres)
             turn = exact_turn(math.pi * dt * dice.uniform(-1.0, 1.0))
             state = session.step(push * steps, turn * steps, steps)
-            steered.add(push, turn, steps)
+            steered.add(push, turn, steps, state)
             shown.append(state.positions)
     assert steered.problem == "" and steered.steps == 41
     (tmp_path / "steered.csv").write_text(steered.to_csv())
@@ -55,9 +56,12 @@ def test_exact_pushes_are_near_what_is_wanted_and_sums_of_them_have_no_rounding(
 
 
 def test_what_no_table_can_say_is_one_phrase():
-    gains = Steered({"solver": "pbd", "drive": "push", "timeStep": 0.01})
-    assert "solver direct" in gains.problem
-    steered = Steered({"solver": "direct", "drive": "displace", "timeStep": 0.01, "metresPerUnit": 1e-3})
+    steered = Steered()
+    assert steered.problem == "no run is open"
+    steered.begin({"solver": "pbd", "drive": "push", "timeStep": 0.01})
+    assert "solver direct" in steered.problem
+    steered.begin({"solver": "direct", "drive": "displace", "timeStep": 0.01, "metresPerUnit": 1e-3})
+    assert steered.problem == ""
     steered.invalidate("timeStep was changed")
-    steered.add(1.0, 0.0, 5)
-    assert steered.problem == "timeStep was changed" and json.dumps(steered.problem)
+    steered.add(1.0, 0.0, 5, None)
+    assert steered.calls == [] and steered.problem == "timeStep was changed" and json.dumps(steered.problem)

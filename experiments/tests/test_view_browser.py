@@ -1,7 +1,9 @@
 """The page in a real browser: a wire pushed by keys, replays, and the file that needs no server."""
 
 import json
+import os
 import shutil
+import signal
 import subprocess
 import sys
 
@@ -10,11 +12,13 @@ import pytest
 from PIL import Image
 
 from analysis.logs import read_log
+from environments import Environment, RecordedDrive
 from experiments.prepare import ROOT, PreparationError
 from experiments.session import Session
 from test_view import serving
 from viewer import parts
 
+FULL = bool(os.environ.get("GUIDEWIRE_ALL"))
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 DRAWN = ["until", "globalThis.viewer?.stage.drawn > 0"]
 
@@ -207,6 +211,21 @@ def test_a_gamepad_and_a_finger_steer_and_what_was_steered_is_saved(browse, runn
     assert (np.diff(times) > 0).all() and insertion[-1] == pytest.approx(seen[9], rel=1e-9)
     assert seen[10] == []    # every control has a name
     assert seen[11] <= 390
+
+
+@pytest.mark.skipif(not FULL, reason="ten seconds; what a page records is tested without a browser, too")
+def test_a_task_steered_by_keys_is_recorded_and_done_again_to_the_same_bits(browse, runner_command, tmp_path):
+    turn = HUB.replace("hubInsertion", "hubTurn")
+    with serving(tmp_path, "artery", "--record", str(tmp_path / "drive.json"), with_three=True, what="tasks"
+                 ) as (address, process):
+        browse(["open", address], DRAWN, ["down", "ArrowRight"], ["until", f"{turn} > 2.2"], ["up", "ArrowRight"],
+               ["down", "ArrowUp"], ["until", f"{HUB} > 0.16"], ["up", "ArrowUp"], ["press", " "],
+               ["until", "viewer.shown.status.isPaused"])
+        process.send_signal(signal.SIGINT)
+        assert "recorded" in process.stdout.read()
+    drive = RecordedDrive.load(tmp_path / "drive.json")
+    with Environment("artery") as own:
+        assert own.replay(drive).success
 
 
 def is_drawn(path):
