@@ -214,17 +214,20 @@ def test_a_gamepad_and_a_finger_steer_and_what_was_steered_is_saved(browse, runn
 
 
 @pytest.mark.skipif(not FULL, reason="ten seconds; what a page records is tested without a browser, too")
-def test_a_task_steered_by_keys_is_recorded_and_done_again_to_the_same_bits(browse, runner_command, tmp_path):
+@pytest.mark.parametrize("task, turned, pushed", [("artery", 2.2, 0.16), ("siphon", 0.0, 0.117), ("arch", 0.0, 0.2)])
+def test_a_task_steered_by_keys_is_recorded_and_done_again_to_the_same_bits(browse, runner_command, tmp_path, task,
+                                                                            turned, pushed):
+    """turned, pushed : rad and m, which lead to the first target."""
     turn = HUB.replace("hubInsertion", "hubTurn")
-    with serving(tmp_path, "artery", "--record", str(tmp_path / "drive.json"), with_three=True, what="tasks"
+    with serving(tmp_path, task, "--record", str(tmp_path / "drive.json"), with_three=True, what="tasks"
                  ) as (address, process):
-        browse(["open", address], DRAWN, ["down", "ArrowRight"], ["until", f"{turn} > 2.2"], ["up", "ArrowRight"],
-               ["down", "ArrowUp"], ["until", f"{HUB} > 0.16"], ["up", "ArrowUp"], ["press", " "],
+        browse(["open", address], DRAWN, ["down", "ArrowRight"], ["until", f"{turn} >= {turned}"], ["up", "ArrowRight"],
+               ["down", "ArrowUp"], ["until", f"{HUB} > {pushed}"], ["up", "ArrowUp"], ["press", " "],
                ["until", "viewer.shown.status.isPaused"])
         process.send_signal(signal.SIGINT)
         assert "recorded" in process.stdout.read()
     drive = RecordedDrive.load(tmp_path / "drive.json")
-    with Environment("artery") as own:
+    with Environment(task) as own:
         assert own.replay(drive).success
 
 
