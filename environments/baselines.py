@@ -26,7 +26,8 @@ class TurnAndRetry:
 
     def __init__(self, environment: Environment, wrong: float = 3.0, patience: int = 6, back: float = 12.0,
                  turn: float = np.pi * (3.0 - 5.0**0.5)) -> None:
-        self._environment, self._wrong, self._patience, self._back, self._turn = environment, wrong, patience, back, turn
+        self._environment, self._wrong, self._patience = environment, wrong, patience
+        self._back, self._turn = back, turn
         rate = environment.drive.rotation or environment.task.rotation
         self._turn_of_step = rate * environment.drive.step_time
 

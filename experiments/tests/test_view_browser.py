@@ -218,12 +218,12 @@ def test_a_gamepad_and_a_finger_steer_and_what_was_steered_is_saved(browse, runn
 def test_a_task_steered_by_keys_is_recorded_and_done_again_to_the_same_bits(browse, runner_command, tmp_path, task,
                                                                             turned, pushed):
     """turned, pushed : rad and m, which lead to the first target."""
-    turn = HUB.replace("hubInsertion", "hubTurn")
+    hub_turn = HUB.replace("hubInsertion", "hubTurn")
+    turn = [["down", "ArrowRight"], ["until", f"{hub_turn} > {turned}"], ["up", "ArrowRight"]]
     with serving(tmp_path, task, "--record", str(tmp_path / "drive.json"), with_three=True, what="tasks"
                  ) as (address, process):
-        browse(["open", address], DRAWN, ["down", "ArrowRight"], ["until", f"{turn} >= {turned}"], ["up", "ArrowRight"],
-               ["down", "ArrowUp"], ["until", f"{HUB} > {pushed}"], ["up", "ArrowUp"], ["press", " "],
-               ["until", "viewer.shown.status.isPaused"])
+        browse(["open", address], DRAWN, *(turn if turned else []), ["down", "ArrowUp"], ["until", f"{HUB} > {pushed}"],
+               ["up", "ArrowUp"], ["press", " "], ["until", "viewer.shown.status.isPaused"])
         process.send_signal(signal.SIGINT)
         assert "recorded" in process.stdout.read()
     drive = RecordedDrive.load(tmp_path / "drive.json")
