@@ -392,7 +392,7 @@ def test_tasks_that_ship_name_their_files_and_turn_and_retry_reaches_a_branch():
         assert played.faults == [] and played.report["success"] and 0.0 < played.report["largest_force"] < 1.5
 
 
-@pytest.mark.parametrize("task", ["artery", *(["siphon"] if FULL else [])])    # whose vessels take minutes to make
+@pytest.mark.parametrize("task", all_tasks() if FULL else ["artery"])    # the others' vessels take minutes to make
 def test_the_demonstration_recorded_by_keys_reaches_its_target_to_the_same_bits(task):
     drive = RecordedDrive.load(DATA / f"{task}-demonstration.json")
     assert drive.source.startswith("by keys") and len(drive.calls) > 15
