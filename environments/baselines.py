@@ -10,48 +10,53 @@ from environments.environment import Environment
 
 
 class TurnAndRetry:
-    """Pushes; where the way to the target gets longer, or no shorter for a while, it pulls back to before its best
-    place, turns, and pushes again.
+    """Pushes; where the way to the target has become longer, or no shorter for a while, it pulls back until the tip is
+    out of the wrong branch and before its mouth, turns, and pushes again.
 
     Parameters
     ----------
     environment : with continuous actions, and "distance" and "hub" in its observation.
-    wrong : by which the distance has grown in a wrong branch, units.
+    wrong : by which the distance has grown in a wrong branch, units, beyond what it grows by at a branch's mouth: its
+        centreline begins on that of its parent, so the place of a tip that enters it, or only passes it, jumps by
+        about the parent's radius; one and a half of the largest radius are allowed for.
     patience : steps without progress.
-    back : how far before its best place it pulls back, units.
-    turn : between two tries, rad; a third of a turn meets every side of a vessel within three tries.
+    back : from the mouth, units.
+    turn : between two tries, rad; by the golden angle no two tries have the same side.
     """
 
     def __init__(self, environment: Environment, wrong: float = 3.0, patience: int = 6, back: float = 12.0,
-                 turn: float = 2.0 * np.pi / 3.0) -> None:
-        self._wrong, self._patience, self._back, self._turn = wrong, patience, back, turn
+                 turn: float = np.pi * (3.0 - 5.0**0.5)) -> None:
+        self._environment, self._wrong, self._patience = environment, wrong, patience
+        self._back, self._turn = back, turn
         rate = environment.drive.rotation or environment.task.rotation
         self._turn_of_step = rate * environment.drive.step_time
 
     def reset(self, observation: Any) -> None:
         """Another episode."""
-        self._best, self._at_best, self._waited = float(observation["distance"][0]), float(observation["hub"][0]), 0
-        self._pull_to: float | None = None
+        self._best, self._waited = float(observation["distance"][0]), 0
+        self._limit = self._wrong + 1.5 * self._environment.widest
+        self._mouth: float | None = None    # least distance on the way back
         self._to_turn = 0.0
 
     def act(self, observation: Any) -> np.ndarray:
         """The next action."""
         distance, insertion = float(observation["distance"][0]), float(observation["hub"][0])
-        if self._pull_to is not None:
-            if insertion > max(self._pull_to, 0.5):
+        if self._mouth is not None:
+            self._mouth = min(self._mouth, distance)
+            if insertion > 0.5 and distance < self._mouth + self._back:
                 return np.array([-1.0, 0.0], dtype=np.float32)
-            self._pull_to, self._to_turn = None, self._turn
+            self._mouth, self._to_turn = None, self._turn
         if self._to_turn > 1e-9:
             part = min(1.0, self._to_turn / self._turn_of_step)
             self._to_turn -= part * self._turn_of_step
-            self._best, self._at_best, self._waited = distance, insertion, 0
+            self._best, self._waited = distance, 0
             return np.array([0.0, part], dtype=np.float32)
         if distance < self._best - 0.2:
-            self._best, self._at_best, self._waited = distance, insertion, 0
+            self._best, self._waited = distance, 0
         else:
             self._waited += 1
-        if distance > self._best + self._wrong or self._waited > self._patience:
-            self._pull_to = self._at_best - self._back
+        if distance > self._best + self._limit or self._waited > self._patience:
+            self._mouth = distance
             return np.array([-1.0, 0.0], dtype=np.float32)
         return np.array([1.0, 0.0], dtype=np.float32)
 

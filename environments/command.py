@@ -14,7 +14,7 @@ from typing import Any
 from environments import score
 from environments.baselines import Chance, TurnAndRetry
 from environments.environment import Environment
-from environments.recorded import RecordedDrive, Recorder
+from environments.recorded import RecordedDrive, digest_of
 from environments.spaces import Error
 from environments.task import all_tasks, find_task
 from experiments.prepare import PreparationError
@@ -83,6 +83,7 @@ def _replay(task: str, file: Path) -> int:
 
 def _steer(name: str, file: Path, opens: bool, build_runner: Callable[[], list[str]]) -> int:
     from viewer.command import serve_scene
+    from viewer.held import HeldInstruments
 
     task = find_task(name)
     if file.suffix != ".json" or not file.resolve().parent.is_dir():
@@ -91,15 +92,16 @@ def _steer(name: str, file: Path, opens: bool, build_runner: Callable[[], list[s
         environment.reset(options=_BY_HAND)
         # The page lets it go on without end; the file's own drive, which nobody follows, stays within the wire.
         scene: dict[str, Any] = {**environment.scene, "maxSimulationSteps": 1}
-    recorder = Recorder()
+    instruments = HeldInstruments()
     with tempfile.TemporaryDirectory(prefix="guidewire-") as folder:
         path = Path(folder) / f"{task.name}.json"
         path.write_text(json.dumps(scene), encoding="utf-8")
-        serve_scene(path, build_runner, recorder, opens)
-    if recorder.is_spoilt or not recorder.calls:
-        print("nothing recorded: " + ("a parameter was changed, or a catheter held" if recorder.is_spoilt else "no step was made"))
+        serve_scene(path, build_runner, instruments, opens)
+    steered = instruments.steered[0]
+    if steered.problem or steered.state is None:
+        print("nothing recorded: " + (steered.problem or "no step was made"))
         return 0
-    recorder.drive(task.name, _BY_HAND, "by keys, through the page").save(file)
-    print(f"recorded: {file}, {len(recorder.calls)} calls; "
+    RecordedDrive(task.name, _BY_HAND, steered.calls, digest_of(steered.state), "by keys, through the page").save(file)
+    print(f"recorded: {file}, {len(steered.calls)} calls; "
           f"'guidewire.py tasks {name} --replay {file}' does them again")
     return 0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -9,11 +10,12 @@ import numpy as np
 
 from experiments.session import State
 
-# Largest force of a wall on one sphere of the wire that counts as safe, N: the rupture threshold of 1.5 N that
-# Robertshaw et al., "Toward Safe Autonomous Robotic Endovascular Interventions using World Models" (2026,
-# arXiv:2604.20151) and their earlier work judge mean contact forces of 0.15 and 0.24 N by. Second hand: the abstracts
-# call it proposed; the measurement behind it was not looked up. No lower one with a source was found; a policy may be
-# judged by another one (`safe_force` of an environment).
+# Largest force of a wall on one sphere of the wire that counts as safe, N: the "proposed 1.5 N vessel rupture
+# threshold" of two abstracts, by which mean forces at the tip are judged: 0.24 N in Robertshaw et al., "Reinforcement
+# Learning for Safe Autonomous Two Device Navigation of Cerebral Vessels in Mechanical Thrombectomy" (2025), and 0.15 N
+# in Robertshaw et al., "Toward Safe Autonomous Robotic Endovascular Interventions using World Models" (2026,
+# arXiv:2604.20151). Read as abstracts: neither says what measurement is behind it. No lower limit with a source was
+# found; a policy may be judged by another one (`safe_force` of an environment).
 SAFE_FORCE = 1.5
 
 
@@ -70,7 +72,7 @@ class Report:
         self.time += dt
         self.largest_force = max(self.largest_force, largest)
         self.impulse += float(forces.sum()) * dt
-        self.path += float(np.linalg.norm(after.positions[-1] - before.positions[-1]))
+        self.path += math.dist(after.positions[-1].tolist(), before.positions[-1].tolist())
         self.inserted += max(insertion, 0.0)
         self.retracted += max(-insertion, 0.0)
         self.turned += abs(turn)

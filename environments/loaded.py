@@ -44,6 +44,8 @@ class LoadedScene:
     """
 
     def __init__(self, scene: Mapping[str, Any], anatomy: Mapping[str, Any], native: bool | None) -> None:
+        if scene.get("catheters"):
+            raise Error("catheters: an environment has one wire and one hub; no scene of several instruments is taken")
         self.scene, self.anatomy = {**scene, **ENDLESS}, anatomy
         self.session = Session(None, hand=True, native=native, **self.scene)
         self.unit = float(self.session.parameters["metresPerUnit"])    # m

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -88,7 +89,7 @@ class Observation:
         if part == "tip":
             return tip
         if part == "direction":
-            return np.clip(hub.tip_direction, -1.0, 1.0)
+            return _within_one(hub.tip_direction)
         if part in ("points", "screen"):
             last = len(state.positions) - 1
             points = state.positions[np.maximum(last - self.spacing * np.arange(self.points), 0)]
@@ -106,12 +107,19 @@ class Observation:
             return route.points[route.target] - tip
         if part == "ahead":
             way = _in_frame(state.orientations[-1], route.ahead(place[0], self.lookahead) - tip)
-            return np.clip(way / max(float(np.linalg.norm(way)), 1e-12), -1.0, 1.0)
+            return _within_one(way / max(math.hypot(*way.tolist()), 1e-12))
         return self.image(state)
 
 
 def _in_frame(q: np.ndarray, vector: np.ndarray) -> np.ndarray:
     """Components of a vector along the directors of an element with orientation q (x, y, z, w)."""
-    axis, w = -q[:3], q[3]
-    across = 2.0 * np.cross(axis, vector)
-    return vector + w * across + np.cross(axis, across)
+    x, y, z, w = q.tolist()
+    a, b, c = vector.tolist()
+    # With the axis -(x, y, z): v + 2 w axis x v + 2 axis x (axis x v), in numbers: np.cross takes ten times as long.
+    u, v, t = 2.0 * (z * b - y * c), 2.0 * (x * c - z * a), 2.0 * (y * a - x * b)
+    return np.array([a + w * u + z * v - y * t, b + w * v + x * t - z * u, c + w * t + y * u - x * v])
+
+
+def _within_one(direction: np.ndarray) -> np.ndarray:
+    """A unit vector (3,) whose rounding does not leave the bounds of its space."""
+    return np.minimum(np.maximum(direction, -1.0), 1.0)

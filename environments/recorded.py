@@ -66,35 +66,3 @@ def digest_of(state: State) -> str:
     """A sum over the bits of positions, velocities, orientations and spins."""
     parts = (state.positions, state.velocities, state.orientations, state.angular_velocities)
     return hashlib.sha256(b"".join(np.ascontiguousarray(part, dtype="<f8").tobytes() for part in parts)).hexdigest()
-
-
-class Recorder:
-    """Takes down what a live page asks of its session.
-
-    Attributes
-    ----------
-    calls : since the scene was opened or set back.
-    is_spoilt : whether a parameter was changed or a catheter held, so that calls alone do not tell what happened.
-    """
-
-    def __init__(self) -> None:
-        self.begin()
-
-    def begin(self) -> None:
-        """The wire is at its start."""
-        self.calls: list[tuple[float, float, int]] = []
-        self.is_spoilt = False
-        self._state: State | None = None
-
-    def add(self, push: float, turn: float, steps: int, state: State) -> None:
-        """A call, units and rad in all its steps, and the wire after it."""
-        self.calls.append((push, turn, steps))
-        self._state = state
-
-    def spoil(self) -> None:
-        """A parameter was changed, or a catheter held."""
-        self.is_spoilt = True
-
-    def drive(self, task: str, options: Mapping[str, Any], source: str) -> RecordedDrive:
-        """All calls so far."""
-        return RecordedDrive(task, options, self.calls, digest_of(self._state), source)

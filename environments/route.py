@@ -63,8 +63,8 @@ class Route:
     def place(self, point: np.ndarray) -> tuple[int, float]:
         """The centreline's point that a point (3,) belongs to, and the distance that is left from there, units."""
         index = int(np.argmin(self._power - 2.0 * (self.points @ point)))
-        along = float((point - self.points[index]) @ self._steps[index])
-        return index, float(self.left[index] - np.clip(along, -self._lengths[index], self._lengths[index]))
+        along, length = float((point - self.points[index]) @ self._steps[index]), float(self._lengths[index])
+        return index, float(self.left[index]) - min(max(along, -length), length)
 
     def ahead(self, index: int, distance: float) -> np.ndarray:
         """The centreline's point (3,) that is so much nearer to the target, units, or the target."""

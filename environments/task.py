@@ -32,7 +32,8 @@ class Task:
     scene : parameter file; "" where each anatomy has its own.
     overrides : keys laid over the scene's.
     anatomies : of each vessel an episode may have: path of its anatomy.json beside which, with no `scene`, is its
-        scene.json; or "make", "type" and "seed" of one that is generated when it is first needed.
+        scene.json; or "make", "type", "seed", "inlet" and "target" of one that is generated when it is first needed;
+        in a file, "seeds" for several of a kind.
     targets : ends by name or number, or branches with the distance from their beginning; an episode has one.
     instruments : by name; none: the scene's own wire.
     frictions : coefficients that an episode may have.
@@ -135,10 +136,25 @@ def _task(name: str, entry: Mapping[str, Any], file: Path) -> Task:
         if key in entry:
             _number(entry, key, least, 1e9, file)
     given = {{"tipTurns": "tip_turns"}.get(key, key): value for key, value in entry.items()}
+    if "anatomies" in given:
+        given["anatomies"] = [each for one in given["anatomies"] for each in _vessels(one, name, file)]
     task = Task(name, **given)
     if not task.anatomies or not task.targets:
         raise Error(f"{file}: task {name} needs anatomies and targets")
     return task
+
+
+def _vessels(anatomy: Any, task: str, file: Path) -> list[Any]:
+    """One vessel, or one for each of the "seeds" of a kind that is generated."""
+    if not isinstance(anatomy, dict):
+        return [anatomy]
+    seeds = anatomy.get("seeds", [anatomy.get("seed")])
+    is_list = isinstance(seeds, list) and seeds and all(type(seed) is int and seed >= 0 for seed in seeds)
+    if not is_list or "seeds" in anatomy and "seed" in anatomy or not {"make", "inlet", "target"} <= set(anatomy):
+        raise Error(f"{file}: task {task}: anatomies has {json.dumps(anatomy)}: a generated vessel needs make, inlet, "
+                    "target, and seed or a list of seeds, whole numbers from 0")
+    kind = {key: value for key, value in anatomy.items() if key != "seeds"}
+    return [{**kind, "seed": seed} for seed in seeds]
 
 
 def _number(entry: Mapping[str, Any], key: str, least: float, most: float, file: Path) -> float:

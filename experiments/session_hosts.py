@@ -110,7 +110,7 @@ class Library:
         The head of the state, shape (4,), and its arrays; or the answer of a session that refused. Arrays of other
         shapes than the layout's are asked for by a request: then the answer to that.
         """
-        count = HEAD + sum(int(np.prod(shape)) for shape in layout.values())
+        count = HEAD + sum(math.prod(shape) for shape in layout.values())
         if self._numbers.size != count:
             self._numbers = np.empty(count)
         for done in range(0, steps, _STEPS_AT_ONCE):
@@ -127,7 +127,7 @@ class Library:
             return self.ask('{"session": "state"}')
         arrays, start = {}, HEAD
         for name, shape in layout.items():
-            end = start + int(np.prod(shape))
+            end = start + math.prod(shape)
             arrays[name] = self._numbers[start:end].reshape(shape).copy()
             start = end
         return self._numbers[:HEAD], arrays

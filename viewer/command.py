@@ -8,7 +8,7 @@ import warnings
 import webbrowser
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from analysis.logs import LogError, extent, read_log
 from analysis.runs import PARAMETERS_NAME, read_run
@@ -21,13 +21,11 @@ from experiments.session import Session, SessionError, State
 from experiments.whole_files import write_whole
 from viewer.anatomy import read_vessel
 from viewer.export import to_html
+from viewer.held import HeldInstruments
 from viewer.live import LiveRun
 from viewer.parts import three
 from viewer.recording import read_recording
 from viewer.server import Server, page_files
-
-if TYPE_CHECKING:
-    from environments.recorded import Recorder
 
 MOST_RUNS = 2
 FRAMES_OF_A_FILE = 300
@@ -104,18 +102,18 @@ def _described(folder: Path) -> dict[str, Any]:
         return {}
 
 
-def serve_scene(file: Path, build_runner: Callable[[], list[str]], recorder: Recorder, opens: bool) -> None:
+def serve_scene(file: Path, build_runner: Callable[[], list[str]], instruments: HeldInstruments, opens: bool) -> None:
     """Show one scene, interactively, and take down how it is steered."""
-    _serve(Server(page_files(three(_say)), (), _live(file, build_runner, recorder)), opens)
+    _serve(Server(page_files(three(_say)), (), _live(file, build_runner, instruments)), opens)
 
 
-def _live(file: Path, build_runner: Callable[[], list[str]], recorder: Recorder | None = None) -> LiveRun:
+def _live(file: Path, build_runner: Callable[[], list[str]], instruments: HeldInstruments | None = None) -> LiveRun:
     command = build_runner()
     keys = read_key_table(command)
-    own = {} if recorder else {path.name: path for path in sorted((ROOT / "params").glob("*.json"))}
+    own = {} if instruments else {path.name: path for path in sorted((ROOT / "params").glob("*.json"))}
     first = file.name if own.get(file.name, file).resolve() == file.resolve() else str(file)
     run = LiveRun({first: file, **own}, first, lambda *scene: _walls_of(build_runner, *scene),
-                  {name: list(key.words) for name, key in keys.items() if key.words}, recorder)
+                  {name: list(key.words) for name, key in keys.items() if key.words}, instruments)
     try:
         run.open()
     except SessionError as error:

@@ -5,33 +5,33 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from experiments.session import Session
+from experiments.session import Session, State
 from viewer.steered import Steered, exact_push, exact_turn
 
 
 class HeldInstruments:
     """The wire and the catheters of a run; one of their hubs is held at a time.
 
-    Parameters
-    ----------
-    session : the run, at its start.
-    described : as of `Session.describe`.
-
     Attributes
     ----------
     held : number of the one whose hub is held.
+    steered : what was steered of each of them since the run's start; empty before the first run.
     """
 
-    def __init__(self, session: Session, described: Mapping[str, Any]) -> None:
+    def __init__(self) -> None:
         self.held = 0
-        self._instruments: Sequence[Mapping[str, Any]] = described["instruments"]
+        self.steered: list[Steered] = []
+        self._instruments: Sequence[Mapping[str, Any]] = ()
+        self._has_hand = False
+        self._parameters: Mapping[str, Any] = {}
+
+    def begin(self, session: Session, described: Mapping[str, Any], held: int = 0) -> None:
+        """A run, described as by `Session.describe`, is at its start, and this hub is held."""
+        self.held = held
+        self._instruments = described["instruments"]
         self._has_hand = session.hand
         self._parameters = session.parameters
-        self.begin()
-
-    def begin(self) -> None:
-        """The run is at its start; the same hub stays held."""
-        self._steered = [Steered(self._parameters) for _ in self._instruments]
+        self.steered = [Steered(self._parameters) for _ in self._instruments]
 
     def hold(self, number: int) -> None:
         """Take another one; raises ValueError where there is none of this number."""
@@ -52,14 +52,14 @@ class HeldInstruments:
         metres = self._parameters.get("metresPerUnit")
         return (push, exact_turn(turn)) if metres is None else (exact_push(push, metres), exact_turn(turn))
 
-    def add(self, number: int, push: float, turn: float, steps: int) -> None:
-        """Note steps that were made with so much push (units) and turn (rad) of one hub in each."""
-        for k, steered in enumerate(self._steered):
-            steered.add(push if k == number else 0.0, turn if k == number else 0.0, steps)
+    def add(self, number: int, push: float, turn: float, steps: int, state: State) -> None:
+        """Note a call that asked for so many steps with so much push (units) and turn (rad) of one hub in each."""
+        for k, steered in enumerate(self.steered):
+            steered.add(push if k == number else 0.0, turn if k == number else 0.0, steps, state)
 
     def invalidate(self, why: str) -> None:
         """From here on no table says what was steered."""
-        for steered in self._steered:
+        for steered in self.steered:
             steered.invalidate(why)
 
     def status(self) -> dict[str, Any]:
@@ -71,8 +71,8 @@ class HeldInstruments:
     @property
     def problem(self) -> str:
         """Why no table says what was steered; empty where one does."""
-        return self._steered[0].problem
+        return self.steered[0].problem if self.steered else "no run is open"
 
     def to_csv(self, number: int) -> str:
         """What was steered of one hub since the start, as a drive table. Raises IndexError where there is none."""
-        return self._steered[number].to_csv()
+        return self.steered[number].to_csv()

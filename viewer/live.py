@@ -17,7 +17,7 @@ from collections.abc import Awaitable, Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from aiohttp import WSCloseCode, WSMsgType, web
@@ -28,9 +28,6 @@ from viewer.recording import (
     Channel, Recording, facts_of, largest_shown, make_channels, name_walls, radius_of, read_off, sheath_of, units_of,
 )
 from viewer.held import HeldInstruments
-
-if TYPE_CHECKING:
-    from environments.recorded import Recorder
 
 PUSH_SPEED = 40.0              # units a second of in-game time, as in the Unity scene
 TURN_SPEED = math.radians(180.0)  # rad a second of in-game time
@@ -64,24 +61,23 @@ class LiveRun:
     first : name of the one that is opened at first.
     walls : from a parameter file, its effective values and its start to the walls.
     choices : name to words, of the parameters that are words.
-    recorder : takes down the steps that are made; None: nobody does.
+    instruments : takes down what is steered; it may be read when the run has ended.
     """
 
     def __init__(self, scenes: Mapping[str, Path], first: str,
                  walls: Callable[[Path, Mapping[str, Any], State], list[Surface]],
-                 choices: Mapping[str, list[str]], recorder: Recorder | None = None) -> None:
+                 choices: Mapping[str, list[str]], instruments: HeldInstruments | None = None) -> None:
         self._scenes = scenes
         self._scene = first
         self._read_walls = walls
         self._choices = choices
-        self._recorder = recorder
+        self._instruments = instruments or HeldInstruments()
         self._pages: list[_Page] = []
         self._hand: _Page | None = None
         self._session: Session | None = None
         self._walls: list[Surface] = []
         self._sheath: np.ndarray | None = None
         self._largest = np.zeros(0)
-        self._instruments: HeldInstruments | None = None
         self._named: dict[str, str] = {}  # instruments by their keys that a page has chosen
         self._described: dict[str, Any] = {}
         self._warnings: list[str] = []
@@ -131,23 +127,17 @@ class LiveRun:
             instruments = self._instruments
             hub = instruments.held
             push, turn = instruments.in_a_step(PUSH_SPEED * self._push * dt, TURN_SPEED * self._turn * dt)
-            before = session.state.step
             began = time.monotonic()
             try:
-                whole = push * steps, turn * steps
-                state = await self._in_thread(lambda: session.step(*whole, steps, hub))
+                state = await self._in_thread(lambda: session.step(push * steps, turn * steps, steps, hub))
                 if self._session is session:
-                    instruments.add(hub, push, turn, state.step - before)
+                    instruments.add(hub, push, turn, steps, state)
             except SessionError as error:
                 if self._session is session:
                     await self._fail(error)
                 continue
             if self._session is not session:    # another scene was opened meanwhile
                 continue
-            if self._recorder is not None:
-                self._recorder.add(*whole, steps, state)
-                if hub:
-                    self._recorder.spoil()
             cost = (time.monotonic() - began) / steps
             self._cost = cost if self._cost == 0.0 else self._cost + _SMOOTHING * (cost - self._cost)
             await self._show(mark, session, state)
@@ -161,8 +151,8 @@ class LiveRun:
     def steered_csv(self, number: int) -> str:
         """What was steered of an instrument since the start, as a drive table; raises HTTPConflict, with the reason,
         where none says it, and HTTPNotFound where there is no such instrument."""
-        if self._instruments is None or self._instruments.problem:
-            raise web.HTTPConflict(text=self._instruments.problem if self._instruments else "no run is open")
+        if self._instruments.problem:
+            raise web.HTTPConflict(text=self._instruments.problem)
         try:
             return self._instruments.to_csv(number)
         except IndexError as error:
@@ -231,8 +221,7 @@ class LiveRun:
         self._push, self._turn, self._mark = push, turn, mark
 
     async def _do_hold(self, message: Mapping[str, Any]) -> None:
-        if self._instruments is not None:
-            self._instruments.hold(message["instrument"])
+        self._instruments.hold(message["instrument"])
 
     async def _do_name(self, message: Mapping[str, Any]) -> None:
         number, name = message["instrument"], message["name"]
@@ -255,11 +244,9 @@ class LiveRun:
             await self._in_thread(lambda: self._open(self._scene, named=self._named))
         else:
             await self._in_thread(self._session.reset)
-            if self._recorder is not None:
-                self._recorder.begin()
             self._is_paused = not self._session.hand
             self._opened += 1
-            self._instruments.begin()
+            self._instruments.begin(self._session, self._described, self._instruments.held)
             self._largest = largest_shown(self._channels(self._session, self._session.state))
         self._problem = ""
 
@@ -291,8 +278,6 @@ class LiveRun:
                 raise
             self._problem = _refusal(key, value, str(error))  # nothing has changed, and the wire goes on
             return
-        if self._recorder is not None:
-            self._recorder.spoil()
         self._instruments.invalidate(f"{key} was changed within the run: start anew to record")
         self._cost = 0.0
 
@@ -302,10 +287,8 @@ class LiveRun:
             session = _start(self._scenes[scene], by_hand, named or {})
         self._close_session()
         self._session, self._scene, self._named = session, scene, dict(named or {})
-        if self._recorder is not None:
-            self._recorder.begin()
         self._described = session.describe()
-        self._instruments = HeldInstruments(session, self._described)
+        self._instruments.begin(session, self._described)
         self._is_paused = not session.hand  # a wire that waits for a hand is at rest
         self._warnings = list(dict.fromkeys(str(one.message) for one in said))
         self._walls = self._read_walls(self._scenes[scene], session.parameters, session.state)
@@ -378,8 +361,7 @@ class LiveRun:
             "scenes": list(self._scenes), "problem": self._problem, "values": values,
             "choices": {key: words for key, words in self._choices.items() if key in values},
             "pace": self._pace, "paces": PACES,
-            "steered": "" if self._instruments is None else self._instruments.problem,
-            **({} if self._instruments is None else self._instruments.status()),
+            "steered": self._instruments.problem, **self._instruments.status(),
             "outcome": "" if state is None or state.outcome is None else f"{state.outcome}: {state.reason}",
         }
 

@@ -11,6 +11,8 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+from experiments.session import State
+
 _GRAIN = 2.0 ** -48  # m
 _TURN_GRAIN = 2.0 ** -40  # rad
 _CONSTANT = 1e-6  # of a step: so long before and after its end the table stands still
@@ -42,31 +44,45 @@ def obstacle(parameters: Mapping[str, Any]) -> str:
 
 
 class Steered:
-    """The hub's displacement and turn of every step since a run's start.
+    """What a hand has done with a hub since a run's start: the calls of its session, and from them the table.
 
     Parameters
     ----------
     parameters : effective values of the run.
+
+    Attributes
+    ----------
+    calls : push (units) and turn (rad) in all steps of a call of `Session.step`, and their number.
+    state : of the wire after them; None before the first.
+    problem : why no table says what was steered, in one phrase; empty where one does.
     """
 
     def __init__(self, parameters: Mapping[str, Any]) -> None:
         self.problem = obstacle(parameters)
-        self.steps = 0
+        self.calls: list[tuple[float, float, int]] = []
+        self.state: State | None = None
         self._dt = float(parameters["timeStep"])
         self._metres = float(parameters.get("metresPerUnit", 1e-3))
         self._insertion = self._rotation = 0.0
         self._rows: list[tuple[int, float, float]] = [(0, 0.0, 0.0)]  # step, m, rad
 
-    def add(self, push: float, turn: float, steps: int) -> None:
-        """Note steps that were made with so much push (units) and turn (rad) in each."""
+    @property
+    def steps(self) -> int:
+        """Steps of all calls."""
+        return self._rows[-1][0]
+
+    def add(self, push: float, turn: float, steps: int, state: State) -> None:
+        """Note a call that asked for so many steps with so much push (units) and turn (rad) in each."""
         if self.problem:
             return
+        before = self.state.step if self.state is not None else 0
+        self.state = state
+        self.calls.append((push * steps, turn * steps, steps))
         displacement = self._metres * push
-        for _ in range(steps):
-            self.steps += 1
+        for step in range(before + 1, state.step + 1):
             self._insertion += displacement
             self._rotation += turn
-            self._rows.append((self.steps, self._insertion, self._rotation))
+            self._rows.append((step, self._insertion, self._rotation))
 
     def invalidate(self, why: str) -> None:
         """From here on no table says what was steered."""

@@ -219,6 +219,30 @@ def test_several_at_once_have_the_bits_of_each_alone_whatever_the_number_of_work
             vector.reset()
 
 
+def test_an_episode_has_one_of_the_vessels_of_a_list_and_says_whether_it_was_open(tube, tmp_path):
+    entry = {"anatomies": [{"make": "siphon", "seeds": [4, 7], "inlet": 1, "target": 2}], "targets": [1]}
+    (tmp_path / "task.json").write_text(json.dumps(entry))
+    assert [one["seed"] for one in find_task(tmp_path / "task.json").anatomies] == [4, 7]
+    for wrong in ({"seeds": []}, {"seeds": [1.5]}, {"seeds": 3}, {"seed": 1, "seeds": [1]}, {"seed": -1}, {}):
+        anatomy = {"make": "siphon", "inlet": 1, "target": 2, **wrong}
+        (tmp_path / "task.json").write_text(json.dumps({**entry, "anatomies": [anatomy]}))
+        with pytest.raises(Error, match="seeds"):
+            find_task(tmp_path / "task.json")
+    narrow = tmp_path / "narrow"
+    narrow.mkdir()
+    read = json.loads((ROOT / tube.scene).read_text())
+    (narrow / "scene.json").write_text(json.dumps({**read, "vessel": {**read["vessel"], "radius": 2.0}}))
+    wide = (ROOT / tube.anatomies[0]).read_text()
+    (narrow / "anatomy.json").write_text(wide.replace(", 3.0]", ", 2.0]"))
+    both = replace(tube, scene="", anatomies=(*tube.anatomies, str(narrow / "anatomy.json")), frictions=(0.0,))
+    with Environment(both) as own:
+        told = [(own.reset(seed=seed)[1], own.widest) for seed in range(8)]
+        assert {info["draw"]["anatomy"] for info, _ in told} == {0, 1}
+        assert all(widest == (3.0, 2.0)[info["draw"]["anatomy"]] for info, widest in told)
+        met = [info["draw"]["anatomy"] for info, _ in told]
+        assert [info["loaded"] for info, _ in told] == [one in met[:k] for k, one in enumerate(met)]
+
+
 def test_environment_i_of_several_has_the_seed_plus_i(tube):
     with VectorEnvironment(tube, 2) as vector:
         one, info = vector.reset(seed=7)
@@ -256,6 +280,8 @@ def test_what_is_asked_wrongly_is_refused_as_gymnasium_refuses(environment, tube
     with pytest.raises((Error, ValueError)):
         environment.reset(seed=-1)
     with pytest.raises(Error, match="multiple"), Environment(tube, drive=Drive(step_time=0.1)) as wrong:
+        wrong.reset()
+    with pytest.raises(Error, match="one hub"), Environment(replace(tube, overrides={"catheters": [{}]})) as wrong:
         wrong.reset()
     with pytest.raises(Error, match="observation part"):
         Observation(parts=("tips",))

@@ -29,7 +29,7 @@ def test_a_saved_table_gives_the_bits_that_were_steered(runner_command, tmp_path
             push = exact_push(40.0 * dt * dice.choice([1.0, 1.0, -0.3, 0.123456, 0.0]), metres)
             turn = exact_turn(math.pi * dt * dice.uniform(-1.0, 1.0))
             state = session.step(push * steps, turn * steps, steps)
-            steered.add(push, turn, steps)
+            steered.add(push, turn, steps, state)
             shown.append(state.positions)
     assert steered.problem == "" and steered.steps == 41
     (tmp_path / "steered.csv").write_text(steered.to_csv())
@@ -82,9 +82,9 @@ def test_exact_pushes_are_near_what_is_wanted_and_sums_of_them_have_no_rounding(
 
 
 def test_what_no_table_can_say_is_one_phrase():
-    gains = Steered({"solver": "pbd", "drive": "push", "timeStep": 0.01})
-    assert "solver direct" in gains.problem
+    assert "solver direct" in Steered({"solver": "pbd", "drive": "push", "timeStep": 0.01}).problem
     steered = Steered({"solver": "direct", "drive": "displace", "timeStep": 0.01, "metresPerUnit": 1e-3})
+    assert steered.problem == ""
     steered.invalidate("timeStep was changed")
-    steered.add(1.0, 0.0, 5)
-    assert steered.problem == "timeStep was changed" and json.dumps(steered.problem)
+    steered.add(1.0, 0.0, 5, None)
+    assert steered.calls == [] and steered.problem == "timeStep was changed" and json.dumps(steered.problem)

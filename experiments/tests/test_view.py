@@ -30,11 +30,11 @@ SECRET = "in no page"
 
 
 @contextmanager
-def serving(tmp_path, *words, with_three=False):
+def serving(tmp_path, *words, with_three=False, what="view"):
     """A server of the page, and its address; Ctrl-C ends it well. Without three there is nothing to install."""
     stand_in = "" if with_three else "from viewer import command; command.three = lambda tell: {}; "
     start = (f"import sys; {stand_in}from experiments import commands; "
-             f"sys.exit(commands.run(commands.parse({['view', *words]!r})))")
+             f"sys.exit(commands.run(commands.parse({[what, *words]!r})))")
     with (tmp_path / "errors").open("w") as errors:
         process = subprocess.Popen([sys.executable, "-c", start], cwd=tmp_path, stdout=subprocess.PIPE, stderr=errors,
                                    text=True, env={**os.environ, "PYTHONPATH": str(ROOT)})

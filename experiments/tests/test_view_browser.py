@@ -1,7 +1,9 @@
 """The page in a real browser: a wire pushed by keys, replays, and the file that needs no server."""
 
 import json
+import os
 import shutil
+import signal
 import subprocess
 import sys
 from base64 import b64decode
@@ -11,11 +13,13 @@ import pytest
 from PIL import Image
 
 from analysis.logs import read_log
+from environments import Environment, RecordedDrive
 from experiments.prepare import ROOT, PreparationError
 from experiments.session import Session
 from test_view import serving
 from viewer import parts
 
+FULL = bool(os.environ.get("GUIDEWIRE_ALL"))
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 DRAWN = ["until", "globalThis.viewer?.stage.drawn > 0"]
 
@@ -249,6 +253,24 @@ def test_a_key_puts_the_catheter_into_the_hand_and_each_instrument_has_its_colou
     assert "--set catheters[0].driveFile=steered-1.csv" in seen[8]
     assert seen[10] == "wire-of-minecatheter-angled-5f"
     assert is_drawn(tmp_path / "hands.png")
+
+
+@pytest.mark.skipif(not FULL, reason="ten seconds; what a page records is tested without a browser, too")
+@pytest.mark.parametrize("task, turned, pushed", [("artery", 2.2, 0.16), ("siphon", 0.0, 0.117), ("arch", 0.0, 0.2)])
+def test_a_task_steered_by_keys_is_recorded_and_done_again_to_the_same_bits(browse, runner_command, tmp_path, task,
+                                                                            turned, pushed):
+    """turned, pushed : rad and m, which lead to the first target."""
+    hub_turn = HUB.replace("hubInsertion", "hubTurn")
+    turn = [["down", "ArrowRight"], ["until", f"{hub_turn} > {turned}"], ["up", "ArrowRight"]]
+    with serving(tmp_path, task, "--record", str(tmp_path / "drive.json"), with_three=True, what="tasks"
+                 ) as (address, process):
+        browse(["open", address], DRAWN, *(turn if turned else []), ["down", "ArrowUp"], ["until", f"{HUB} > {pushed}"],
+               ["up", "ArrowUp"], ["press", " "], ["until", "viewer.shown.status.isPaused"])
+        process.send_signal(signal.SIGINT)
+        assert "recorded" in process.stdout.read()
+    drive = RecordedDrive.load(tmp_path / "drive.json")
+    with Environment(task) as own:
+        assert own.replay(drive).success
 
 
 def is_drawn(path):
