@@ -9,7 +9,7 @@ namespace Guidewire.Benchmarks
     /// sweep: blocks of every term, elimination, back substitution, the move, and what a line search adds.</summary>
     internal static class NewtonParts
     {
-        private const int Calls = 10000;   // elements that one timed call passes, at least
+        private const int Calls = 3000;   // elements that one timed call passes, at least
 
         /// <summary>Prints a table of parts against numbers of elements.</summary>
         public static void Print()
@@ -45,7 +45,7 @@ namespace Guidewire.Benchmarks
             }
         }
 
-        // Median of the ratios of neighbours: what else the machine does slows both.
+        // The shortest times of short calls: a busy machine interrupts some of them, but not all.
         private static void Ratio(Action part, int elements, out double ratio, out double each)
         {
             int calls = Math.Max(1, Calls / elements);
@@ -57,9 +57,11 @@ namespace Guidewire.Benchmarks
                     part();
                 }
             }
-            var both = new Interleaved(Repeat, sweep.Step);
+            Interleaved Time() => new Interleaved(Repeat, sweep.Step);
+            Time();    // until all of it is compiled
+            Interleaved both = Time();
             each = both.SecondBest / MotionCost.ElementIterations;
-            ratio = both.Ratio * MotionCost.ElementIterations / (calls * elements);
+            ratio = both.FirstBest / (calls * elements) / each;
         }
     }
 }
