@@ -24,7 +24,7 @@ namespace Guidewire.Io
         {
             "instrument", "wireRadius", "youngsModulus", "shearModulus", "density", "shearFactor", "bendingStiffness",
             "torsionalStiffness", "axialStiffness", "massPerLength", "restCurvature", "wireSections", "insertionSpeed",
-            "rotationSpeed", "driveFile", "hubForceLimit",
+            "rotationSpeed", "driveFile",
         };
 
         // What the wire says for all.
@@ -69,6 +69,7 @@ namespace Guidewire.Io
             }
             double start = 0.0;
             double friction = double.NaN;
+            double hubForceLimit = 0.0;
             foreach (JProperty property in item.Properties())
             {
                 int at = Array.FindIndex(Names, name => name.Own == property.Name);
@@ -81,6 +82,10 @@ namespace Guidewire.Io
                 {
                     friction = NotNegative(property, source, where, "");
                 }
+                else if (property.Name == "hubForceLimit")
+                {
+                    hubForceLimit = NotNegative(property, source, where, " (N)");
+                }
                 else if (at >= 0 || Array.IndexOf(Shared, property.Name) >= 0)
                 {
                     given.Add((at >= 0 ? Names[at].Wire : property.Name, property.Value, source));
@@ -88,8 +93,8 @@ namespace Guidewire.Io
                 else
                 {
                     throw new ParameterException(source + ": unknown key '" + where + "." + property.Name
-                        + "': allowed are start,"
-                        + " frictionCoefficient, " + string.Join(", ", Array.ConvertAll(Names, name => name.Own)) + ", "
+                        + "': allowed are start, frictionCoefficient, hubForceLimit, "
+                        + string.Join(", ", Array.ConvertAll(Names, name => name.Own)) + ", "
                         + string.Join(", ", Shared));
                 }
             }
@@ -107,6 +112,7 @@ namespace Guidewire.Io
             {
                 item["driveFile"] = handler.Values.DriveFile;
             }
+            own.Drive.HubForceLimit = hubForceLimit;
             values.CatheterHashes += handler.Hash + "\n";
             return new Catheter
             {

@@ -44,6 +44,11 @@ namespace Guidewire.Io
                     text.Append("friction=").Append(NumberText.Write(new JValue(catheter.FrictionCoefficient)))
                         .Append('\n');
                 }
+                if (catheter.Drive.HubForceLimit > 0.0)
+                {
+                    text.Append("limit=").Append(NumberText.Write(new JValue(catheter.Drive.HubForceLimit)))
+                        .Append('\n');
+                }
             }
             text.Append(values.CatheterHashes);
             using SHA256 sha = SHA256.Create();

@@ -40,6 +40,7 @@ namespace Guidewire.Core.Tests
             "catheters[0].frictionCoefficient = -0.1 is not allowed: needs a number >= 0")]
         [TestCase("\"start\": 100", "\"start\": 295", "a start of at most 290 units")]
         [TestCase("\"start\": 100", "\"begin\": 100", "unknown key 'catheters[0].begin'")]
+        [TestCase("\"rotationSpeed\": 2", "\"hubForceLimit\": 1", "where a catheter has a hubForceLimit")]
         [TestCase("\"rotationSpeed\": 2", "\"insertionSpeed\": -0.2", "hubs that do not cross")]
         [TestCase("\"rotationSpeed\": 2", "\"instrument\": \"nonesuch\"", "nonesuch")]
         [TestCase("\"rotationSpeed\": 2", "\"driveFile\": \"nowhere.csv\"", "nowhere.csv: no such file")]
