@@ -295,7 +295,6 @@ namespace Guidewire.Core
 
         private double MaxStepOfNode(int w, int i, double radius, double gap)
         {
-            // The node's own distance is known where it is small.
             double distance = _units * (_nodeRadius[i] + _nodeGap[w * _x.Length + i]);
             double clearance = radius + Left(gap);
             if (Vector3d.Distance(_x[i], _to[i]) <= QuickFraction * (distance - clearance))
@@ -323,8 +322,7 @@ namespace Guidewire.Core
             Update(shape, 0, _x.Length);
         }
 
-        // Evaluates the shape, unless it is that of the last call by its nodes from one (inclusive) to another
-        // (exclusive).
+        // Evaluates the shape, unless these of its nodes, without the last, are those of the last call.
         private void Update(RodShape shape, int from, int to)
         {
             int inside = NodesInside(shape);
