@@ -281,9 +281,9 @@ class _Builder:
         path = [point]
         reach = 0.0
         radius = rim.radius if rim else 0.0
-        # The direction is that of the centreline over a rim's radius, where a sheath ends, or from a blind end over two
-        # radii, where the sphere grows on.
-        while reach < (rim.radius if rim else 2.0 * max(radius, self._radii[path[-1]])):
+        # The direction is that of the centreline over the first radius, or two where the sphere grows on; at branchings
+        # into most of the vessel.
+        while reach < 2.0 * max(radius, self._radii[path[-1]]):
             after = parents[path[-1]] if point != 0 else self._widest_after(path[-1])
             if after < 0:
                 break

@@ -1,9 +1,9 @@
 """The lumen's side of a double wall whose two surfaces are joined at the ends of the vessel.
 
-A triangle of the inner surface looks at the wall opposite, one of the outer surface into the open: the fraction of a cone
-of rays that meet the mesh says which it is, but not everywhere (branches side by side, the lips at the ends). The border
-is that of least cost (Greig, Porteous and Seheult 1989, J. R. Stat. Soc. B 51:271): the area of triangles on the side
-that their rays speak against, and the border's length times the wall's thickness. It is a minimum cut of a graph.
+A triangle of the inner surface looks at the wall opposite, one of the outer surface into the open: the fraction of a
+cone of rays that meet the mesh says which it is, but not everywhere (branches side by side, the lips at the ends). The
+border is that of least cost (Greig, Porteous and Seheult 1989, J. R. Stat. Soc. B 51:271): the area of triangles on the
+side that their rays speak against, and the border's length times the wall's thickness. It is a minimum cut of a graph.
 """
 
 from __future__ import annotations

@@ -6,6 +6,7 @@ import argparse
 import os
 from pathlib import Path
 
+from anatomy.formats import is_anatomy
 from experiments.arguments import Parser, above_zero, assignment, error_part, finite, path, positive
 from experiments.installed import version
 from experiments.prepare import ANATOMY, DRAWING, INSTALLED, SWEEPING, TESTING, VIEWING
@@ -220,7 +221,10 @@ def parse(argv: list[str]) -> argparse.Namespace:
     check = commands.add_parser("unity-check", help="check the Unity project's files without Unity")
     check.add_argument("--write-metas", action="store_true", help="create missing .meta files")
     check.set_defaults(packages=())
-    return parser.parse_args(argv)
+    arguments = parser.parse_args(argv)
+    if arguments.command == "view" and is_anatomy(arguments.what[0]):
+        arguments.packages = (*arguments.packages, *ANATOMY)
+    return arguments
 
 
 def _add_overrides(parser: argparse.ArgumentParser) -> None:

@@ -12,10 +12,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from anatomy.formats import is_anatomy
 from experiments import building, checking, command_line, ending, installed, library
 from experiments.arguments import value_of
-from experiments.prepare import ANATOMY, INSTALLED, ROOT, PreparationError
+from experiments.prepare import INSTALLED, ROOT, PreparationError
 from experiments.process import hand_to
 from experiments.progress import bar_of, seconds_counted, tell_frames
 from experiments.sweep import FAILED, Means, SweepResult
@@ -45,8 +44,6 @@ def parse(argv: list[str]) -> argparse.Namespace:
     if arguments.command in _OF_THE_REPOSITORY:
         installed.refuse(f"'{arguments.command}'")
     arguments.action = _ACTIONS[arguments.command]
-    if arguments.command == "view" and is_anatomy(arguments.what[0]):
-        arguments.packages = (*arguments.packages, *ANATOMY)
     return arguments
 
 

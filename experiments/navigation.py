@@ -3,8 +3,8 @@
 The wire is pushed along the vessel's centreline from the inlet, and a snapshot is kept of every few millimetres on the
 path to the target. Where the tip enters a branch that does not lead there, or comes no farther, another attempt begins
 from one of the snapshots: how far behind the farthest one is drawn, most often little, as are the turn of the hub, and
-whether the hub goes on turning while it is pushed. So nothing that was reached is lost, and a branch that can only be
-entered from a way of lying that begins far before it is found as well. What is left at the end is one drive without the
+whether the hub goes on turning while it is pushed. So no progress is lost, and a branch that can be entered only after a
+turn far before it is found as well. What is left at the end is one drive without the
 failed attempts: a table of time, insertion and rotation that any run can repeat. The draws have a fixed seed: the same
 scene has the same drive.
 """
@@ -39,8 +39,8 @@ _SEED = 28
 
 @dataclass(frozen=True)
 class Tip:
-    """A bend at rest at the end of a wire, as one shapes it by hand: angle, degrees, and length, mm, at most that of the
-    wire's last section."""
+    """A bend at rest at the end of a wire, as one shapes it by hand: angle, degrees, and length, mm, at most that of
+    the wire's last section."""
 
     angle: float
     length: float
@@ -49,7 +49,7 @@ class Tip:
         return f"{self.angle:g} degrees over {self.length:g} mm"
 
 
-_TIPS = (None, Tip(105.0, 30.0), Tip(70.0, 10.0), Tip(120.0, 10.0))  # tried in this order; None: the scene's own
+_TIPS = (None, Tip(105.0, 30.0), Tip(70.0, 10.0), Tip(120.0, 10.0))  # in this order; None: the scene's own
 
 
 @dataclass(frozen=True)
@@ -118,7 +118,7 @@ class Route:
 
 def with_tip(asked: dict[str, Any], tip: Tip | None) -> dict[str, Any]:
     """A scene's parameters with the end of its last section bent so, and the rest of that section straight."""
-    if tip is None or not asked.get("wireSections"):
+    if tip is None:
         return asked
     *others, last = asked["wireSections"]
     length = last["to"] - last["from"]
@@ -175,7 +175,8 @@ def steer(scene: Path, most_attempts: int = 200, tell: Callable[[str], None] = l
     steps = max(1, round(_CHUNK / (1e3 * asked["insertionSpeed"] * dt)))
     longest = asked["guidewireLength"] - 40.0
     random = np.random.default_rng(_SEED)
-    with Session(scene, hand=True, wireSections=asked["wireSections"]) as session:
+    bent = {} if tip is None else {"wireSections": asked["wireSections"]}
+    with Session(scene, hand=True, **bent) as session:
         start = _Start(session.save(), 0.0, 0.0, 0.0, (0.0, 0.0, 0.0), None)
         starts, at, attempts = [start], start, 0
         stalled, spin = _STALLED[0], 0.0
@@ -259,7 +260,7 @@ def run(arguments: argparse.Namespace, build: Callable[[], list[str]], hand_to: 
         raise PreparationError(f"{scene}: inlet and target need to be numbers of ends, as 'anatomy' wrote them")
     try:
         found = None
-        for tip in _TIPS:
+        for tip in _TIPS if asked.get("wireSections") else (None,):  # an instrument keeps its own tip
             if found is not None:
                 print(f"at {found.farthest:.0f} of {found.length:.0f} mm; now with a tip bent by {tip}")
             more = steer(scene, arguments.attempts, print, tip)

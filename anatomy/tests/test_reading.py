@@ -12,6 +12,7 @@ import pytest
 pytest.importorskip("vtkmodules", reason="VTK is not installed: apt-get install python3-vtk9, or pip install vtk")
 
 from anatomy import reading  # noqa: E402
+from anatomy.formats import CENTRELINES, MASKS  # noqa: E402
 from anatomy.inspection import weld_exactly  # noqa: E402
 from anatomy.mesh import AnatomyError, signed_volume  # noqa: E402
 from anatomy.surfaces import to_vtk  # noqa: E402
