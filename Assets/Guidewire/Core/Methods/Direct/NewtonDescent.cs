@@ -11,6 +11,7 @@ namespace Guidewire.Core
         private const double LargestRelativeTurn = 0.7;  // rad an iteration, between neighbours
         private const double SufficientDecrease = 1e-4;
         private const double Rounding = 1e-13;           // of the energies' magnitudes
+        private const double LeastSize = 8.0 / (1L << 52);   // of a step that rounding of the shape does not hide
 
         private readonly MaterialRod _rod;
         private readonly RodSupports _supports;
@@ -114,7 +115,7 @@ namespace Guidewire.Core
             double start = isNew ? EnergySum.Value(_terms, shape, _values, out double magnitude)
                 : EnergySum.AnchoredValue(_terms, _values, out magnitude);
             double rounding = Rounding * magnitude;
-            isHidden = -slope < 1e3 * rounding && size < 1e-2;
+            isHidden = (-slope < 1e3 * rounding && size < 1e-2) || size < LeastSize;
             for (int cut = 0; cut < _mostCuts; cut++)
             {
                 Apply(shape, scale);
