@@ -207,7 +207,8 @@ def _drive_claims(scene: dict[str, Any], summary: dict[str, Any], positions: np.
         claims.append(f"finished after {summary['steps']} steps of {scene['maxSimulationSteps']}")
     slips = scene["hubForceLimit"] > 0.0
     if is_whole and slips:
-        done = np.interp(np.r_[rows[rows[:, 0] < last, 0], last], rows[:, 0], rows[:, 1])
+        steps = scene["timeStep"] * np.arange(summary["steps"] + 1)  # a step asks for the difference of its two ends
+        done = np.interp(steps, rows[:, 0], rows[:, 1])
         asked, missing = 1e3 * np.abs(np.diff(done)).sum(), summary["driveShortfall"]
         if abs(summary["driveAsked"] - asked) > 1e-6 * max(asked, 1.0):
             claims.append(f"driveAsked = {summary['driveAsked']}, the drive's table asks for {asked}")
