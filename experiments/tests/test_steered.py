@@ -46,13 +46,15 @@ def test_saved_tables_of_wire_and_catheter_give_the_bits_that_were_steered(runne
     file = ROOT / "params" / "catheter.json"
     dice = random.Random(8)
     with Session(file, hand=True, native=False, maxSimulationSteps=10**9, deltaThreshold=0) as session:
-        instruments = HeldInstruments(session, session.describe())
+        instruments = HeldInstruments()
+        assert instruments.problem == "no run is open"
+        instruments.begin(session, session.describe())
         shown = [(session.state.positions, session.state.catheters[0].positions)]
         for held, steps in ((1, 4), (0, 8), (1, 8), (1, 1), (0, 4)):
             instruments.hold(held)
             push, turn = instruments.in_a_step(0.8 * dice.uniform(-0.2, 1.0), 0.06 * dice.uniform(-1.0, 1.0))
             state = session.step(push * steps, turn * steps, steps, held)
-            instruments.add(held, push, turn, steps)
+            instruments.add(held, push, turn, steps, state)
             shown.append((state.positions, state.catheters[0].positions))
         with pytest.raises(ValueError):
             instruments.hold(2)

@@ -1,4 +1,5 @@
 using System;
+using System.Linq;
 using System.Runtime.InteropServices;
 using NUnit.Framework;
 
@@ -30,8 +31,7 @@ namespace Guidewire.Core.Tests
             {
                 plain.AddBlocks(shape, plainBlocks, plainGradient, i, i + 1);
             }
-            Assert.That(Bits(MemoryMarshal.AsBytes(blocks.AsSpan())),
-                Is.EqualTo(Bits(MemoryMarshal.AsBytes(plainBlocks.AsSpan()))));
+            Assert.That(Bits(blocks), Is.EqualTo(Bits(plainBlocks)));
             AssertSame(gradient, plainGradient);
             Assert.That(blocks[N / 2].C11, Is.Not.Zero);
         }
@@ -141,7 +141,7 @@ namespace Guidewire.Core.Tests
                 Array.Copy(shape.X, j, one.X, 0, 2);
                 one.Q[0] = shape.Q[j];
                 var plain = new RodShape(1);
-                RodStep.ApplyStraight(one, direction.AsSpan(j, 2).ToArray(), 0.7, plain);
+                RodStep.ApplyStraight(one, new[] { direction[j], direction[j + 1] }, 0.7, plain);
                 AssertSame(moved, plain, j, 1);
             }
         }
@@ -314,19 +314,29 @@ namespace Guidewire.Core.Tests
 
         private static void AssertSame(RodVector[] actual, RodVector[] expected)
         {
-            Assert.That(Bits(MemoryMarshal.AsBytes(actual.AsSpan())),
-                Is.EqualTo(Bits(MemoryMarshal.AsBytes(expected.AsSpan()))));
+            Assert.That(Bits(actual), Is.EqualTo(Bits(expected)));
         }
 
         private static void AssertSame(RodShape actual, RodShape expected, int first, int count)
         {
-            Assert.That(actual.X.AsSpan(first, count + 1).ToArray(), Is.EqualTo(expected.X));
-            Assert.That(actual.Q.AsSpan(first, count).ToArray(), Is.EqualTo(expected.Q));
+            Assert.That(actual.X.Skip(first).Take(count + 1), Is.EqualTo(expected.X));
+            Assert.That(actual.Q.Skip(first).Take(count), Is.EqualTo(expected.Q));
         }
 
-        private static long[] Bits(ReadOnlySpan<byte> bytes)
+        private static long[] Bits<T>(T[] values)
+            where T : struct
         {
-            return MemoryMarshal.Cast<byte, long>(bytes).ToArray();
+            var bits = new long[values.Length * Marshal.SizeOf<T>() / sizeof(long)];
+            GCHandle pinned = GCHandle.Alloc(values, GCHandleType.Pinned);
+            try
+            {
+                Marshal.Copy(pinned.AddrOfPinnedObject(), bits, 0, bits.Length);
+            }
+            finally
+            {
+                pinned.Free();
+            }
+            return bits;
         }
     }
 }
