@@ -26,13 +26,15 @@ if TYPE_CHECKING:  # the same names for type checkers
     from environments import VectorEnvironment as VectorEnvironment, all_tasks as all_tasks, find_task as find_task
     from experiments.library import advise as advise, sweep as sweep
     from experiments.prepare import PreparationError as PreparationError
-    from experiments.session import Session as Session, SessionError as SessionError, State as State
+    from experiments.session import Session as Session
+    from experiments.session_state import SessionError as SessionError, State as State
 
     anatomy: types.ModuleType
     env: types.ModuleType
 
 _LENT = {  # name to where it stands; looked up when it is asked for, because it needs numpy
-    "Session": "experiments.session", "SessionError": "experiments.session", "State": "experiments.session",
+    "Session": "experiments.session", "SessionError": "experiments.session_state",
+    "State": "experiments.session_state",
     "read_run": "analysis.runs", "read_runs": "analysis.runs", "Run": "analysis.runs",
     "read_log": "analysis.logs", "read_entries": "analysis.logs", "PositionLog": "analysis.logs",
     "LogError": "analysis.logs", "sweep": "experiments.library", "advise": "experiments.library",
