@@ -243,7 +243,8 @@ def test_a_key_puts_the_catheter_into_the_hand_and_each_instrument_has_its_colou
             ["picture", str(tmp_path / "hands.png")],
             ["see", "viewer.shown._save()"], ["until", f"{said}.includes('steered-1.csv')"], ["see", said],
             ["see", f"viewer.shown.send({{do: 'name', instrument: 0, name: 'wire-of-mine'}})"],
-            ["until", f"{status}.chosen[0] === 'wire-of-mine' && viewer.shown.model.recording.count < 3"],
+            ["until", f"{status}.chosen[0] === 'wire-of-mine' && viewer.shown.model.recording.count > 0"],
+            ["until", f"{HUB} === 0"],
             ["see", "document.getElementById('legend').textContent"],
         )["seen"]
     assert seen[0] == "bentson-0.035catheter-angled-5f" and seen[1] == [17, 4] and seen[2]
