@@ -339,7 +339,7 @@ class LiveRun:
     async def _show(self, mark: int, session: Session, state: State) -> None:
         channels = self._channels(session, state)
         self._largest = np.maximum(self._largest, largest_shown(channels))
-        frame = np.concatenate([[float(mark)], self._largest, *(channel.values.ravel() for channel in channels)])
+        frame = np.concatenate([[float(mark), float(self._opened)], self._largest, *(channel.values.ravel() for channel in channels)])
         block = frame.astype("<f8").tobytes()
         for page in list(self._pages):
             if page.on_the_way < _MOST_ON_THE_WAY:

@@ -115,7 +115,7 @@ async def take_hand(page):
 
 
 async def see(page, count):
-    """So many states: the mark of the hand, then the channels, without the largest of each that stand between."""
+    """So many states: the mark of the hand, then the channels. Left out: the scene's number, the largest of each."""
     async with page.session.get(page.recording) as answer:
         channels = len(unpack(await answer.read()))
     states = []
@@ -123,7 +123,7 @@ async def see(page, count):
         message = await page.receive()
         if message.type == aiohttp.WSMsgType.BINARY:
             await page.send_json({"do": "shown"})
-            states.append(np.delete(np.frombuffer(message.data), slice(1, 1 + channels)))
+            states.append(np.delete(np.frombuffer(message.data), slice(1, 2 + channels)))
     return np.array(states)
 
 

@@ -45,6 +45,10 @@ export class Live {
     this.status = null;
     /** Frames that have come. */
     this.received = 0;
+    /** Number of the scene whose recording is shown, as the server counts. */
+    this._opened = 0;
+    /** Frames that came before the recording of their scene, each after its two numbers. @type {Float64Array[]} */
+    this._early = [];
     /** Times from a key to the picture that shows what it did, ms. @type {number[]} */
     this.delays = [];
     this.steering = new Steering((push, turn) => this._tell(push, turn), (button) =>
@@ -99,15 +103,18 @@ export class Live {
     this.status = status;
     if (isNew) {
       const answer = await fetch(`recording/0?${status.opened}`);
-      if (answer.ok) this._open(new Recording(await answer.arrayBuffer()));
+      if (answer.ok) this._open(new Recording(await answer.arrayBuffer()), status.opened);
     }
     if (isNew || wasHand !== status.hand || status.hand) this._makeControls(status);
     this._desk.hold(status.isSteered ? status.held : -1);
     this._panel.say([status.problem, status.outcome, ...(this.model?.recording.warnings ?? [])].filter(Boolean));
   }
 
-  /** @param {Recording} recording */
-  _open(recording) {
+  /** @param {Recording} recording @param {number} opened number of its scene */
+  _open(recording, opened) {
+    this._opened = opened;
+    for (const frame of this._early.filter(([, of]) => of === opened)) recording.append(frame.subarray(2));
+    this._early = this._early.filter(([, of]) => of > opened);
     this.model?.dispose();
     const before = this.model?.recording.title;
     this.model = new Model(recording);
@@ -128,10 +135,11 @@ export class Live {
     this.received++;
     this._newest = numbers[0];
     this.send({ do: "shown" });
-    if (!this.model) return;
+    if (numbers[1] > this._opened) this._early.push(numbers);
+    if (!this.model || numbers[1] !== this._opened) return;
     const { recording } = this.model;
     const before = recording.forgotten;
-    recording.append(numbers.subarray(1));
+    recording.append(numbers.subarray(2));
     if (recording.forgotten > before) this._desk.score?.forget(recording.forgotten - before);
     this._back = null;
     this.model.frame = recording.count - 1;

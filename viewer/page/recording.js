@@ -77,6 +77,9 @@ export class Recording {
     this.forgotten = 0;
     this._count = this.channel("time").values.length;
     this._columns = [...this.channels.values()];
+    /** Where the step stands among the numbers of a frame. */
+    this._stepAt = this._columns.slice(0, [...this.channels.keys()].indexOf("step"))
+      .reduce((at, channel) => at + channel.width, this._columns.length);
   }
 
   /** Those that are described and whose centrelines are there. */
@@ -142,8 +145,12 @@ export class Recording {
     return this.channels.has("inBody") ? Math.max(spheres - 1 - this.at("inBody", frame)[0], 0) : 0;
   }
 
-  /** Adds a frame. @param {Float64Array} numbers the largest of each channel, then all channels one behind the other */
+  /**
+   * Adds a frame, but one that it holds already.
+   * @param {Float64Array} numbers the largest of each channel, then all channels one behind the other
+   */
   append(numbers) {
+    if (this._count > 0 && numbers[this._stepAt] <= this.at("step", this._count - 1)[0]) return;
     if (this._count >= LONGEST) this._forget(LONGEST / 2);
     let from = this._columns.length;
     for (const [k, channel] of this._columns.entries()) {
