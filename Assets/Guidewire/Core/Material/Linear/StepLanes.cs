@@ -23,20 +23,10 @@ namespace Guidewire.Core
             ref Vector3d old, ref Vector3d x)
         {
 #if NET8_0_OR_GREATER
-            if (!Rows4.IsSupported)
+            if (!TryLoad(direction, scale, j, out Vector3d4 move, out Vector3d4 turn, out Quaterniond4 rotation))
             {
                 return false;
             }
-            Vector256<double> s = Vector256.Create(scale);
-            Rows4.Load(ref direction[j].X1, Stride, out Vector256<double> x1, out Vector256<double> x2,
-                out Vector256<double> x3, out Vector256<double> t1);
-            Rows4.Load(ref direction[j].T2, Stride, out Vector256<double> t2, out Vector256<double> t3);
-            Vector3d4 turn = s * new Vector3d4(t1, t2, t3);
-            if (!RotationVector4.TryExp(turn, out Quaterniond4 rotation))
-            {
-                return false;
-            }
-            Vector3d4 move = s * new Vector3d4(x1, x2, x3);
             Vector3d4 nextMove = Next(move, scale, direction[j + 4]);
             Vector3d4 nextOld = Vector3d4.Load(ref shape.X[j + 1]);
             Vector3d4 chord = nextOld - Before(nextOld, old);
@@ -69,19 +59,11 @@ namespace Guidewire.Core
         public static bool ApplyStraight(RodShape shape, RodVector[] direction, double scale, RodShape to, int j)
         {
 #if NET8_0_OR_GREATER
-            if (!Rows4.IsSupported)
+            if (!TryLoad(direction, scale, j, out Vector3d4 move, out _, out Quaterniond4 rotation))
             {
                 return false;
             }
-            Vector256<double> s = Vector256.Create(scale);
-            Rows4.Load(ref direction[j].X1, Stride, out Vector256<double> x1, out Vector256<double> x2,
-                out Vector256<double> x3, out Vector256<double> t1);
-            Rows4.Load(ref direction[j].T2, Stride, out Vector256<double> t2, out Vector256<double> t3);
-            if (!RotationVector4.TryExp(s * new Vector3d4(t1, t2, t3), out Quaterniond4 rotation))
-            {
-                return false;
-            }
-            (Vector3d4.Load(ref shape.X[j]) + s * new Vector3d4(x1, x2, x3)).Store(ref to.X[j]);
+            (Vector3d4.Load(ref shape.X[j]) + move).Store(ref to.X[j]);
             Quaterniond4.NearlyNormalized(Quaterniond4.Load(ref shape.Q[j]) * rotation).Store(ref to.Q[j]);
             return true;
 #else
@@ -90,6 +72,27 @@ namespace Guidewire.Core
         }
 
 #if NET8_0_OR_GREATER
+        // Moves of nodes j to j+3, turns of elements j to j+3 as vectors and as rotations.
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        private static bool TryLoad(RodVector[] direction, double scale, int j, out Vector3d4 move, out Vector3d4 turn,
+            out Quaterniond4 rotation)
+        {
+            if (!Rows4.IsSupported)
+            {
+                move = default;
+                turn = default;
+                rotation = default;
+                return false;
+            }
+            Vector256<double> s = Vector256.Create(scale);
+            Rows4.Load(ref direction[j].X1, Stride, out Vector256<double> x1, out Vector256<double> x2,
+                out Vector256<double> x3, out Vector256<double> t1);
+            Rows4.Load(ref direction[j].T2, Stride, out Vector256<double> t2, out Vector256<double> t3);
+            move = s * new Vector3d4(x1, x2, x3);
+            turn = s * new Vector3d4(t1, t2, t3);
+            return RotationVector4.TryExp(turn, out rotation);
+        }
+
         // Each lane's vector in the lane after it, the entering one in lane 0.
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         private static Vector3d4 Before(Vector3d4 v, in Vector3d entering)
