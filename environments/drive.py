@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from environments.spaces import Box, Discrete, InvalidAction
+from environments.options import need_count, need_number
+from environments.spaces import Box, Discrete, Error, InvalidAction
 
 _DIRECTIONS = tuple((speed, rotation) for speed in (0.0, 1.0, -1.0) for rotation in (0.0, 1.0, -1.0))
 
@@ -25,6 +26,10 @@ class Drive:
     delay : steps by which a command comes late.
     noise : standard deviation of speed and of rotation rate, as a fraction of each.
     retraction : whether the hub may be pulled.
+
+    Raises
+    ------
+    Error : one of them is not allowed.
     """
 
     actions: str = "continuous"
@@ -37,9 +42,13 @@ class Drive:
 
     def __post_init__(self) -> None:
         if self.actions not in ("continuous", "discrete"):
-            raise ValueError(f"actions = {self.actions!r} is not allowed: needs \"continuous\" or \"discrete\"")
-        if not (np.isfinite(self.noise) and self.noise >= 0.0 and self.delay >= 0 and self.step_time > 0.0):
-            raise ValueError("a drive needs step_time above 0, delay and noise from 0")
+            raise Error(f"actions = {self.actions!r} is not allowed: needs \"continuous\" or \"discrete\"")
+        need_number("step_time", self.step_time, 0.0, above=True)
+        need_count("delay", self.delay, 0)
+        need_number("noise", self.noise, 0.0)
+        for name, value in (("speed", self.speed), ("rotation", self.rotation)):
+            if value is not None:
+                need_number(name, value, 0.0, above=True)
 
     def space(self) -> Box | Discrete:
         """Of its actions."""

@@ -14,6 +14,7 @@ from environments.drive import Drive, DriveState
 from environments.episode import SAFE_FORCE, Report
 from environments.loaded import Draw, LoadedScene, LoadedScenes
 from environments.observation import Observation
+from environments.options import need_number
 from environments.recorded import RecordedDrive, digest_of
 from environments.spaces import ClosedEnvironmentError, Env, Error, ResetNeeded
 from environments.task import Task, find_task
@@ -32,12 +33,20 @@ class Reward:
     target : once, where it is reached.
     time : a second of simulated time.
     force : each N s of the largest force of a wall.
+
+    Raises
+    ------
+    Error : one of them is not a finite number.
     """
 
     progress: float = 1.0
     target: float = 1.0
     time: float = -0.02
     force: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name, value in asdict(self).items():
+            need_number(f"reward {name}", value)
 
 
 class Environment(Env):
@@ -54,7 +63,7 @@ class Environment(Env):
 
     Raises
     ------
-    NameNotFound, Error : as find_task.
+    NameNotFound, Error : as find_task; safe_force or render_mode is not allowed.
 
     Notes
     -----
@@ -71,6 +80,7 @@ class Environment(Env):
                  render_mode: str | None = None) -> None:
         if render_mode is not None:
             raise Error(f"render_mode {render_mode!r} is not allowed: there is none")
+        need_number("safe_force", safe_force, 0.0, above=True)
         self.task = find_task(task)
         self.render_mode = None
         self.drive, self.observation, self.reward = drive, observation, reward

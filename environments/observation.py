@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from environments.options import need_count, need_number
 from environments.route import Route
 from environments.spaces import Box, Dict, Error, Space
 from experiments.session import State
@@ -55,8 +56,11 @@ class Observation:
             raise Error("the part \"image\" needs image and image_space, and they need it")
         if self.flat and "image" in self.parts:
             raise Error("an observation with an image is not flat")
-        if self.points < 1 or self.spacing < 1 or np.shape(self.screen) != (2, 3):
-            raise Error("an observation needs points and spacing from 1, and screen of shape (2, 3)")
+        need_count("points", self.points, 1)
+        need_count("spacing", self.spacing, 1)
+        need_number("lookahead", self.lookahead, 0.0, above=True)
+        if np.shape(self.screen) != (2, 3) or not np.isfinite(np.asarray(self.screen, dtype=float)).all():
+            raise Error(f"screen = {self.screen!r} is not allowed: needs finite numbers of shape (2, 3)")
 
     def space(self) -> Space:
         """Of the observations."""
