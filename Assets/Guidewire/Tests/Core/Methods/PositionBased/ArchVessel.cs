@@ -16,9 +16,8 @@ namespace Guidewire.Core.Tests
 
         private const double EntranceRadius = 8.0;
 
-        /// <summary>Its wall.</summary>
-        public static readonly MeshShape Shape = new MeshShape(MeshFile.Read(
-            Path.Combine(Root(), "params", "meshes", "arch.obj"), 1.0, new[] { new Vector3d(0.0, 0.0, Entrance) }));
+        /// <summary>Its wall, without friction; shared.</summary>
+        public static readonly MeshShape Shape = Read();
 
         /// <summary>How many of the wire's points, ten an element, lie beyond the wall. What left through the rim's
         /// disc lies outside but has passed no wall.</summary>
@@ -46,6 +45,13 @@ namespace Guidewire.Core.Tests
                 last = x;
             }
             return count;
+        }
+
+        /// <summary>Its wall, for one who changes it.</summary>
+        public static MeshShape Read()
+        {
+            return new MeshShape(MeshFile.Read(
+                Path.Combine(Root(), "params", "meshes", "arch.obj"), 1.0, new[] { new Vector3d(0.0, 0.0, Entrance) }));
         }
 
         private static bool CrossesRim(in Vector3d from, in Vector3d to)
