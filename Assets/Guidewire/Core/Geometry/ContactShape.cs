@@ -12,6 +12,7 @@ namespace Guidewire.Core
 
         private const double SlidingLoss = 1e-7;
         private const double Resolved = 1e-3;
+        private FeatureCache? _cache;         // of a surface, with the skin of the last request
 
         /// <summary>mu, Coulomb's coefficient of friction between the wire and this wall, 0 or more,
         /// dimensionless.</summary>
@@ -107,11 +108,17 @@ namespace Guidewire.Core
             return (1.0 - SlidingLoss) * Math.Min(start, clearance);
         }
 
-        /// <summary>How far a guarded wire's element is from the wall's surface, units, by its signed distance. Spheres
-        /// never get behind a wall that has no exit: an element of negative distance then lies across it.</summary>
-        internal virtual double SizeOf(double distance)
+        /// <summary>Whether the wall is a surface of faces, which may end in open rims, and not the boundary of a body
+        /// or a lumen: the sign of a distance is then known only near it, and points of the wire have features of their
+        /// own.</summary>
+        internal virtual bool IsSurface => false;
+
+        /// <summary>Distance of a guarded wire's element from the wall, 0 where it lies across it, by its signed
+        /// distance, units. Spheres never get behind a wall that has no exit: an element of negative distance lies
+        /// across it. A wire that left a surface by an open rim may lie beside it.</summary>
+        internal double UnsignedDistance(double distance)
         {
-            return Math.Max(0.0, distance);
+            return IsSurface ? Math.Abs(distance) : Math.Max(0.0, distance);
         }
 
         /// <summary>Least signed distance of a point of segment a b, units, where <see cref="Nearest"/> found the
@@ -138,69 +145,41 @@ namespace Guidewire.Core
             return isKept ? time : 0.0;
         }
 
-        /// <summary>Distance of segment a b from the wall in units; it may be infinite beyond <paramref name="range"/>,
-        /// and slightly too large where the wall's edges are uneven.</summary>
-        internal virtual double QuickDistance(in Vector3d a, in Vector3d b, double range, ref int hint)
+        /// <summary>Adds to a list the features of the wall (as the shape defines them) that queries of points and
+        /// parts of segment a b may meet while nothing of it moves farther than <paramref name="skin"/>, units; such
+        /// queries are then faster. Some shapes have none. A surface has features of points (a = b) and others of the
+        /// interiors of segments.</summary>
+        /// <returns>Distance in units, infinite beyond <paramref name="range"/>. It may be too small, and up to a tenth
+        /// too large where the wall's edges are uneven; of a surface and a segment it is that of the segment's interior
+        /// and counts only where it is less than those of its ends.</returns>
+        internal virtual double FindFeatures(in Vector3d a, in Vector3d b, double range, double skin, ref int hint,
+            StructList<WallFeature> features)
         {
             return Nearest(a, b, range, ref hint, out SurfaceContact contact) ? contact.Distance
                 : double.PositiveInfinity;
         }
 
-        /// <summary>The same, and adds to a list the features of the wall (as the shape defines them) that queries of
-        /// points and parts of the segment may meet while nothing of it moves farther than <paramref name="skin"/>,
-        /// units; such queries are then faster. Some shapes have none. The distance may be too small, and no more too
-        /// large than a quick one; where a shape <see cref="HasPointFeatures"/>, it is that of the segment's interior
-        /// and counts only where it is less than those of its ends.</summary>
-        internal virtual double FindFeatures(in Vector3d a, in Vector3d b, double range, double skin, ref int hint,
-            StructList<WallFeature> features)
+        /// <summary>The cache of a surface's features of points, shared by all queries with this skin, units; null
+        /// where there are none.</summary>
+        internal FeatureCache? FeatureCacheFor(double skin)
         {
-            return QuickDistance(a, b, range, ref hint);
+            if (IsSurface && (_cache == null || _cache.Skin != skin))
+            {
+                _cache = new FeatureCache(this, skin);
+            }
+            return _cache;
         }
 
-        /// <summary>False where no part of the wall can come within a distance, units, of a segment that moves from
-        /// (a0, b0) to (a1, b1). The hint is that of <see cref="Nearest"/>.</summary>
-        internal virtual bool MayMeet(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double distance,
-            ref int hint)
+        /// <summary>Drops the cache, where the wall was moved.</summary>
+        private protected void ClearCache()
         {
-            double motion = Math.Max(Vector3d.Distance(a0, a1), Vector3d.Distance(b0, b1));
-            return Nearest(a0, b0, motion + distance, ref hint, out _);
-        }
-
-        /// <summary>Whether points have features of their own.</summary>
-        internal virtual bool HasPointFeatures => false;
-
-        /// <summary>The cache of these features, shared by all queries with this skin, units; null where there are
-        /// none.</summary>
-        internal virtual FeatureCache? FeatureCacheFor(double skin)
-        {
-            return null;
-        }
-
-        /// <summary>Adds the features within a range of a point.</summary>
-        /// <returns>Its distance in units, infinite beyond the range.</returns>
-        internal virtual double FindFeatures(in Vector3d x, double range, StructList<WallFeature> features)
-        {
-            return double.PositiveInfinity;
-        }
-
-        /// <summary>Adds the edge contacts within a range of a segment, by the features near it.</summary>
-        internal virtual void FindEdgeContacts(in Vector3d a, in Vector3d b, double range, FeatureRange features,
-            StructList<EdgeContact> edgeContacts)
-        {
-            FindEdgeContacts(a, b, range, edgeContacts);
-        }
-
-        /// <summary>True if the whole segment certainly lies on the free side; also false where a shape cannot tell
-        /// quickly.</summary>
-        internal virtual bool Holds(in Vector3d a, in Vector3d b, ref int hint)
-        {
-            return false;
+            _cache = null;
         }
 
         /// <summary>A lower bound of the time of impact of segment a b in linear motion from (a0, b0) to (a1, b1), as a
         /// fraction during which it has at least a clearance, in units: <see cref="NoImpact"/> for all of it, 0 where
-        /// it starts nearer. Where a shape <see cref="HasPointFeatures"/>, it is that of the segment's interior, not of
-        /// its ends. Approaches below <paramref name="resolution"/>, units, are ignored. The hint is that of a query of
+        /// it starts nearer. Of a surface it is that of the segment's interior, not of its ends, or that of a point
+        /// (a = b). Approaches below <paramref name="resolution"/>, units, are ignored. The hint is that of a query of
         /// the start, or -1; the features, where they are known, those of the start, for a skin that the motion does
         /// not leave.</summary>
         internal virtual double ConservativeTimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1,
@@ -209,18 +188,11 @@ namespace Guidewire.Core
             return TimeOfImpact(a0, b0, a1, b1, clearance, resolution, hint);
         }
 
-        /// <summary>The same of a point, where a shape <see cref="HasPointFeatures"/>: those of points.</summary>
-        internal virtual double ConservativeTimeOfImpact(in Vector3d from, in Vector3d to, double clearance,
-            double resolution, FeatureRange features)
-        {
-            return TimeOfImpact(from, from, to, to, clearance, resolution, -1);
-        }
-
         /// <summary>Adds the edge contacts within <paramref name="range"/> of segment a b: where the wall is convex
         /// towards the free side, so that the interior of a segment can meet it before its ends do. None where the wall
-        /// has no convex edge.</summary>
-        internal virtual void FindEdgeContacts(
-            in Vector3d a, in Vector3d b, double range, StructList<EdgeContact> edgeContacts)
+        /// has no convex edge. The features near the segment, where they are known, speed it up.</summary>
+        internal virtual void FindEdgeContacts(in Vector3d a, in Vector3d b, double range, FeatureRange features,
+            StructList<EdgeContact> edgeContacts)
         {
         }
 

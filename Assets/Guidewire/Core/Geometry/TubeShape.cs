@@ -131,17 +131,8 @@ namespace Guidewire.Core
             return distance;
         }
 
-        /// <summary>At the ends of the segment and where it crosses creases.</summary>
-        internal override double QuickDistance(in Vector3d a, in Vector3d b, double range, ref int hint)
-        {
-            int guess = hint >= 0 && hint < _tree.Pieces.Length ? hint : 0;
-            hint = _tree.Deepest(a, guess, out double atA);
-            int last = _tree.Deepest(b, hint, out double atB);
-            return Math.Min(
-                Math.Min(atA, atB), EdgeContacts.Nearest(a, b, Math.Min(hint, last), Math.Max(hint, last) + 1));
-        }
-
-        /// <summary>Pieces that hold something within the skin of the segment, along the centreline.</summary>
+        /// <summary>Pieces that hold something within the skin of the segment, along the centreline. The distance is
+        /// the least at its ends and where it crosses creases.</summary>
         internal override double FindFeatures(in Vector3d a, in Vector3d b, double range, double skin, ref int hint,
             StructList<WallFeature> features)
         {
@@ -149,7 +140,7 @@ namespace Guidewire.Core
             _tree.Collect(a, b, skin, features);
             if (features.Count == from)
             {
-                return QuickDistance(a, b, range, ref hint);
+                return base.FindFeatures(a, b, range, skin, ref hint, features);
             }
             var found = new FeatureRange(features, from, features.Count, 0.0);
             hint = Deepest(a, found, out double atA);
@@ -178,41 +169,18 @@ namespace Guidewire.Core
                 : ContactPoint.Edge(contact, 1, Vector3d.Cross(around, normal), -radius));
         }
 
-        /// <inheritdoc/>
+        /// <summary>The creases at its knots; see <see cref="TubeCreases"/>.</summary>
         internal override void FindEdgeContacts(in Vector3d a, in Vector3d b, double range, FeatureRange features,
             StructList<EdgeContact> edgeContacts)
         {
-            if (!features.IsKnown)
+            if (features.IsKnown)
             {
-                FindEdgeContacts(a, b, range, edgeContacts);
-                return;
+                EdgeContacts.Find(a, b, range, features, edgeContacts);
             }
-            EdgeContacts.Find(a, b, range, features, edgeContacts);
-        }
-
-        /// <inheritdoc/>
-        internal override bool Holds(in Vector3d a, in Vector3d b, ref int hint)
-        {
-            hint = hint >= 0 && hint < _tree.Pieces.Length ? hint : 0;
-            ref readonly TubePiece piece = ref _tree.Pieces[hint];
-            return (piece.Distance(a) > 0.0 && piece.Distance(b) > 0.0) || HoldParts(a, b, ref hint)
-                || LeastDistance(a, b) > 0.0;
-        }
-
-        // Whether each piece from the deepest at one end to the deepest at the other holds the part of the segment
-        // between the points nearest to its knots: pieces are convex, so checking the ends of a part suffices.
-        private bool HoldParts(in Vector3d a, in Vector3d b, ref int hint)
-        {
-            int first = _tree.Deepest(a, hint, out double atA);
-            int last = _tree.Deepest(b, first, out double atB);
-            hint = first;
-            bool isHeld = atA > 0.0 && atB > 0.0;
-            for (int knot = Math.Min(first, last) + 1; knot <= Math.Max(first, last) && isHeld; knot++)
+            else
             {
-                Vector3d point = Vector3d.Lerp(a, b, ClosestPoints.PointSegment(_knots[knot], a, b));
-                isHeld = _tree.Pieces[knot - 1].Distance(point) > 0.0 && _tree.Pieces[knot].Distance(point) > 0.0;
+                EdgeContacts.Find(a, b, range, edgeContacts);
             }
-            return isHeld;
         }
 
         private int Deepest(in Vector3d x, FeatureRange features, out double distance)
@@ -229,13 +197,6 @@ namespace Guidewire.Core
                 }
             }
             return piece;
-        }
-
-        /// <summary>The creases at its knots; see <see cref="TubeCreases"/>.</summary>
-        internal override void FindEdgeContacts(
-            in Vector3d a, in Vector3d b, double range, StructList<EdgeContact> edgeContacts)
-        {
-            EdgeContacts.Find(a, b, range, edgeContacts);
         }
 
         /// <summary>That of the narrowest knot.</summary>
