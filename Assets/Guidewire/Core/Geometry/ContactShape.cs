@@ -55,8 +55,9 @@ namespace Guidewire.Core
         }
 
         /// <summary>Fraction of the linear motion of segment a b from (a0, b0) to (a1, b1) after which it stops clear
-        /// of the wall, or <see cref="NoImpact"/>. At that moment its distance is at least <see cref="Kept"/>, and
-        /// until then nowhere less than that or half the clearance, whichever is less.</summary>
+        /// of the wall, or <see cref="NoImpact"/>. At that moment its distance is at least <see
+        /// cref="FinalClearance"/>, and until then nowhere less than that or half the clearance, whichever is
+        /// less.</summary>
         /// <remarks>During the motion a segment may come nearer than at its end. Otherwise it could not turn about an
         /// edge that it touches, because every bound on the distance between two moments needs some
         /// clearance.</remarks>
@@ -74,19 +75,19 @@ namespace Guidewire.Core
             int hint = -1;
             double start = Nearest(a0, b0, 2.0 * clearance, ref hint, out SurfaceContact before)
                 ? Math.Abs(before.Distance) : 2.0 * clearance;
-            double kept = Kept(start, clearance);
-            double impact = TimeOfImpact(a0, b0, a1, b1, kept, Resolved * kept, hint);
+            double final = FinalClearance(start, clearance);
+            double impact = TimeOfImpact(a0, b0, a1, b1, final, Resolved * final, hint);
             if (impact == NoImpact)
             {
                 return NoImpact;
             }
             int near = hint;
-            double floor = Math.Min(kept, 0.5 * clearance);
-            if (floor < kept && !Nearest(a1, b1, kept, ref hint, out _))
+            double floor = Math.Min(final, 0.5 * clearance);
+            if (floor < final && !Nearest(a1, b1, final, ref hint, out _))
             {
                 // It ends clear of the wall.
                 double free = TimeOfImpact(a0, b0, a1, b1, floor, Resolved * floor, near);
-                impact = Math.Max(impact, LastKept(a0, b0, a1, b1, free, kept, ref hint));
+                impact = Math.Max(impact, TimeIfClear(a0, b0, a1, b1, free, final, ref hint));
                 if (impact == NoImpact)
                 {
                     return NoImpact;
@@ -103,7 +104,7 @@ namespace Guidewire.Core
         /// the segment can slide in spite of rounding.</summary>
         /// <remarks>Pressed against the wall in every part of every step, a wire would lose half the clearance in 7
         /// million parts; a clearance of a thousandth of the radius is some 10 digits above rounding.</remarks>
-        internal static double Kept(double start, double clearance)
+        internal static double FinalClearance(double start, double clearance)
         {
             return (1.0 - SlidingLoss) * Math.Min(start, clearance);
         }
@@ -137,12 +138,12 @@ namespace Guidewire.Core
             double clearance, double resolution, int hint);
 
         // The time itself if the segment has the clearance then, else 0.
-        private double LastKept(
-            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double time, double kept, ref int hint)
+        private double TimeIfClear(
+            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double time, double final, ref int hint)
         {
-            bool isKept = time == NoImpact || !Nearest(
-                Vector3d.Lerp(a0, a1, time), Vector3d.Lerp(b0, b1, time), kept, ref hint, out _);
-            return isKept ? time : 0.0;
+            bool isClear = time == NoImpact || !Nearest(
+                Vector3d.Lerp(a0, a1, time), Vector3d.Lerp(b0, b1, time), final, ref hint, out _);
+            return isClear ? time : 0.0;
         }
 
         /// <summary>Adds to a list the features of the wall (as the shape defines them) that queries of points and

@@ -12,10 +12,11 @@ namespace Guidewire.Core
     public sealed class TubeShape : ContactShape
     {
         private const int MostCuts = 64;
+        private const int MostAdvances = 16;
+        private const double LeastAdvance = 0.01;    // of what is proven
         private readonly Vector3d[] _knots;
         private readonly double[] _radii;
         private readonly TubeTree _tree;
-        private readonly TubeTimeOfImpact _timeOfImpact;
         private TubeCreases? _edgeContacts;
         private TubeCcd? _ccd;
         private TubePlanes? _planes;
@@ -60,7 +61,6 @@ namespace Guidewire.Core
                 _radii[count + shift] = radii[count - 1];
             }
             _tree = new TubeTree(_knots, _radii, 1e-12 * (length + widest));
-            _timeOfImpact = new TubeTimeOfImpact(this, _tree);
             FirstKnot = shift;
             LastKnot = shift + count - 1;
         }
@@ -210,22 +210,57 @@ namespace Guidewire.Core
             return narrowest;
         }
 
-        /// <inheritdoc/>
-        internal override double ConservativeTimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1,
-            in Vector3d b1, double clearance, double resolution, int hint, FeatureRange features)
-        {
-            _ccd ??= new TubeCcd(_tree.Pieces, Planes);
-            return _ccd.SafeFraction(a0, b0, a1, b1, clearance, hint);
-        }
-
         private TubeCreases EdgeContacts => _edgeContacts ??= new TubeCreases(this, _tree.Pieces, Planes);
+
+        private TubeCcd Ccd => _ccd ??= new TubeCcd(_tree.Pieces, Planes);
 
         private TubePlanes Planes => _planes ??= new TubePlanes(_knots);
 
+        /// <summary>What <see cref="TubeCcd"/> proves at once.</summary>
+        internal override double ConservativeTimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1,
+            in Vector3d b1, double clearance, double resolution, int hint, FeatureRange features)
+        {
+            return Ccd.SafeFraction(a0, b0, a1, b1, clearance, Guess(a0, hint));
+        }
+
+        /// <summary>The part of the motion that <see cref="TubeCcd"/> proves to be free, and again from where it ends:
+        /// until the segment is at the wall, or little is gained. Distances have slope 1 or less, so each advance is at
+        /// least the distance to be covered over the motion of the ends.</summary>
         private protected override double TimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
             double clearance, double resolution, int hint)
         {
-            return _timeOfImpact.TimeOfImpact(a0, b0, a1, b1, clearance);
+            Vector3d a = a0;
+            Vector3d b = b0;
+            int piece = Guess(a0, hint);
+            double time = 0.0;
+            double left = 0.0;    // of the distance, above the clearance
+            for (int k = 0; k < MostAdvances; k++)
+            {
+                double part = Ccd.SafeFraction(a, b, a1, b1, clearance, piece);
+                if (left > 0.0)
+                {
+                    part = Math.Max(part, left / Math.Max(Vector3d.Distance(a, a1), Vector3d.Distance(b, b1)));
+                }
+                if (part >= 1.0)
+                {
+                    return NoImpact;
+                }
+                time += part * (1.0 - time);
+                a = Vector3d.Lerp(a0, a1, time);
+                b = Vector3d.Lerp(b0, b1, time);
+                left = LeastDistance(a, b) - clearance;
+                if (left <= resolution || part <= LeastAdvance * time)
+                {
+                    break;
+                }
+                piece = _tree.Deepest(a, piece, out _);
+            }
+            return time;
+        }
+
+        private int Guess(in Vector3d x, int hint)
+        {
+            return hint >= 0 && hint < _tree.Pieces.Length ? hint : _tree.Deepest(x, 0, out _);
         }
 
         // Where d is least along the segment, and the piece whose term it is. A piece that is deepest at both ends of a
