@@ -77,16 +77,6 @@ namespace Guidewire.Core
         /// <summary>Radius at each knot, units.</summary>
         internal double[] Radii => _radii;
 
-        /// <summary>d(x), positive in the lumen, and the wall's normal there.</summary>
-        /// <remarks>On the centreline of a piece the normal has no direction and is 0.</remarks>
-        public double Distance(in Vector3d x, out Vector3d normal)
-        {
-            int piece = _tree.Deepest(x, 0, out _);
-            double distance = _tree.Pieces[piece].Distance(x, out Vector3d centre, out _);
-            normal = Vector3d.Normalize(centre - x);
-            return distance;
-        }
-
         /// <inheritdoc/>
         public override bool Contains(in Vector3d point)
         {

@@ -172,7 +172,7 @@ namespace Guidewire.Core.Tests
                     double y = Math.Min(length, Math.Max(0.0, z + k * h / Math.Sqrt(1.0 - k * k)));
                     deepest = Math.Max(deepest, radii[i] + k * y - Math.Sqrt(h * h + (z - y) * (z - y)));
                 }
-                Assert.That(tube.Distance(x, out _), Is.EqualTo(deepest).Within(1e-12), "at " + x);
+                Assert.That(At(tube, x).Distance, Is.EqualTo(deepest).Within(1e-12), "at " + x);
             }
         }
 
