@@ -106,7 +106,7 @@ namespace Guidewire.Core
             double motion = Math.Max(Vector3d.Distance(from[j], to[j]), Vector3d.Distance(from[j + 1], to[j + 1]));
             ContactShape wall = Walls[w];
             bool near = wall.Nearest(to[j], to[j + 1], _range, ref hint, out SurfaceContact contact);
-            double distance = near ? wall.SizeOf(contact.Distance) : _range;
+            double distance = near ? wall.UnsignedDistance(contact.Distance) : _range;
             _distance[w * _elementCount + j] = distance - motion;
             bool mayHaveMet = distance <= motion + _clearance;
             if (near && !mayHaveMet && (contact.Position == 0.0 || contact.Position == 1.0))

@@ -45,9 +45,9 @@ namespace Guidewire.Core
                 double motion = Math.Max(Vector3d.Distance(from[j], to[j]), Vector3d.Distance(from[j + 1], to[j + 1]));
                 for (int w = 0; w < _walls.Length; w++)
                 {
-                    if (motion >= _bounds.ClearanceOf(w, j) && !_walls[w].Holds(to[j], to[j + 1], ref _hint[w * n + j])
-                        && _walls[w].MayMeet(
-                            from[j], from[j + 1], to[j], to[j + 1], _clearance, ref _hint[w * n + j]))
+                    ref int hint = ref _hint[w * n + j];
+                    if (motion >= _bounds.ClearanceOf(w, j) && !IsInside(_walls[w], to[j], to[j + 1], ref hint)
+                        && _walls[w].Nearest(from[j], from[j + 1], motion + _clearance, ref hint, out _))
                     {
                         MarkElement(w, from, to, j);
                     }
@@ -143,11 +143,17 @@ namespace Guidewire.Core
             return outside;
         }
 
+        // Whether all of a segment is certainly on the free side.
+        private static bool IsInside(ContactShape wall, in Vector3d a, in Vector3d b, ref int hint)
+        {
+            return !wall.IsSurface && !wall.Nearest(a, b, 0.0, ref hint, out _);
+        }
+
         private bool IsFree(ContactShape wall, in Vector3d a, in Vector3d b)
         {
             int hint = -1;
             return !wall.Nearest(a, b, _clearance, ref hint, out SurfaceContact contact)
-                || wall.SizeOf(contact.Distance) > _clearance;
+                || wall.UnsignedDistance(contact.Distance) > _clearance;
         }
 
         private void MarkElement(int w, Vector3d[] from, Vector3d[] to, int j)

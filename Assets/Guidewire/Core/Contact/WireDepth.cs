@@ -80,7 +80,8 @@ namespace Guidewire.Core
             {
                 return known;
             }
-            double distance = _search.GuardsSpheres ? _walls[w].SizeOf(contact.Distance) : contact.Distance;
+            double distance = _search.GuardsSpheres
+                ? _walls[w].UnsignedDistance(contact.Distance) : contact.Distance;
             if (distance < 0.0 && radius - distance > known)
             {
                 distance = _walls[w].LeastAlong(a, b, distance);

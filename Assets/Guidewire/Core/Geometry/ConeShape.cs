@@ -128,8 +128,8 @@ namespace Guidewire.Core
 
         /// <summary>Where the segment is nearest, as at an edge. Its weight fades where that is not defined: along a
         /// generator of the cone, whose direction d has 1 - (d.axis)^2 = k^2.</summary>
-        internal override void FindEdgeContacts(
-            in Vector3d a, in Vector3d b, double range, StructList<EdgeContact> edgeContacts)
+        internal override void FindEdgeContacts(in Vector3d a, in Vector3d b, double range, FeatureRange features,
+            StructList<EdgeContact> edgeContacts)
         {
             int hint = -1;
             Vector3d u = b - a;

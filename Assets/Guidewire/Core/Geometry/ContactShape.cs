@@ -12,6 +12,7 @@ namespace Guidewire.Core
 
         private const double SlidingLoss = 1e-7;
         private const double Resolved = 1e-3;
+        private FeatureCache? _cache;         // of a surface, with the skin of the last request
 
         /// <summary>mu, Coulomb's coefficient of friction between the wire and this wall, 0 or more,
         /// dimensionless.</summary>
@@ -54,8 +55,9 @@ namespace Guidewire.Core
         }
 
         /// <summary>Fraction of the linear motion of segment a b from (a0, b0) to (a1, b1) after which it stops clear
-        /// of the wall, or <see cref="NoImpact"/>. At that moment its distance is at least <see cref="Kept"/>, and
-        /// until then nowhere less than that or half the clearance, whichever is less.</summary>
+        /// of the wall, or <see cref="NoImpact"/>. At that moment its distance is at least <see
+        /// cref="FinalClearance"/>, and until then nowhere less than that or half the clearance, whichever is
+        /// less.</summary>
         /// <remarks>During the motion a segment may come nearer than at its end. Otherwise it could not turn about an
         /// edge that it touches, because every bound on the distance between two moments needs some
         /// clearance.</remarks>
@@ -73,19 +75,19 @@ namespace Guidewire.Core
             int hint = -1;
             double start = Nearest(a0, b0, 2.0 * clearance, ref hint, out SurfaceContact before)
                 ? Math.Abs(before.Distance) : 2.0 * clearance;
-            double kept = Kept(start, clearance);
-            double impact = TimeOfImpact(a0, b0, a1, b1, kept, Resolved * kept, hint);
+            double final = FinalClearance(start, clearance);
+            double impact = TimeOfImpact(a0, b0, a1, b1, final, Resolved * final, hint);
             if (impact == NoImpact)
             {
                 return NoImpact;
             }
             int near = hint;
-            double floor = Math.Min(kept, 0.5 * clearance);
-            if (floor < kept && !Nearest(a1, b1, kept, ref hint, out _))
+            double floor = Math.Min(final, 0.5 * clearance);
+            if (floor < final && !Nearest(a1, b1, final, ref hint, out _))
             {
                 // It ends clear of the wall.
                 double free = TimeOfImpact(a0, b0, a1, b1, floor, Resolved * floor, near);
-                impact = Math.Max(impact, LastKept(a0, b0, a1, b1, free, kept, ref hint));
+                impact = Math.Max(impact, TimeIfClear(a0, b0, a1, b1, free, final, ref hint));
                 if (impact == NoImpact)
                 {
                     return NoImpact;
@@ -102,16 +104,22 @@ namespace Guidewire.Core
         /// the segment can slide in spite of rounding.</summary>
         /// <remarks>Pressed against the wall in every part of every step, a wire would lose half the clearance in 7
         /// million parts; a clearance of a thousandth of the radius is some 10 digits above rounding.</remarks>
-        internal static double Kept(double start, double clearance)
+        internal static double FinalClearance(double start, double clearance)
         {
             return (1.0 - SlidingLoss) * Math.Min(start, clearance);
         }
 
-        /// <summary>How far a guarded wire's element is from the wall's surface, units, by its signed distance. Spheres
-        /// never get behind a wall that has no exit: an element of negative distance then lies across it.</summary>
-        internal virtual double SizeOf(double distance)
+        /// <summary>Whether the wall is a surface of faces, which may end in open rims, and not the boundary of a body
+        /// or a lumen: the sign of a distance is then known only near it, and points of the wire have features of their
+        /// own.</summary>
+        internal virtual bool IsSurface => false;
+
+        /// <summary>Distance of a guarded wire's element from the wall, 0 where it lies across it, by its signed
+        /// distance, units. Spheres never get behind a wall that has no exit: an element of negative distance lies
+        /// across it. A wire that left a surface by an open rim may lie beside it.</summary>
+        internal double UnsignedDistance(double distance)
         {
-            return Math.Max(0.0, distance);
+            return IsSurface ? Math.Abs(distance) : Math.Max(0.0, distance);
         }
 
         /// <summary>Least signed distance of a point of segment a b, units, where <see cref="Nearest"/> found the
@@ -130,77 +138,49 @@ namespace Guidewire.Core
             double clearance, double resolution, int hint);
 
         // The time itself if the segment has the clearance then, else 0.
-        private double LastKept(
-            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double time, double kept, ref int hint)
+        private double TimeIfClear(
+            in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double time, double final, ref int hint)
         {
-            bool isKept = time == NoImpact || !Nearest(
-                Vector3d.Lerp(a0, a1, time), Vector3d.Lerp(b0, b1, time), kept, ref hint, out _);
-            return isKept ? time : 0.0;
+            bool isClear = time == NoImpact || !Nearest(
+                Vector3d.Lerp(a0, a1, time), Vector3d.Lerp(b0, b1, time), final, ref hint, out _);
+            return isClear ? time : 0.0;
         }
 
-        /// <summary>Distance of segment a b from the wall in units; it may be infinite beyond <paramref name="range"/>,
-        /// and slightly too large where the wall's edges are uneven.</summary>
-        internal virtual double QuickDistance(in Vector3d a, in Vector3d b, double range, ref int hint)
+        /// <summary>Adds to a list the features of the wall (as the shape defines them) that queries of points and
+        /// parts of segment a b may meet while nothing of it moves farther than <paramref name="skin"/>, units; such
+        /// queries are then faster. Some shapes have none. A surface has features of points (a = b) and others of the
+        /// interiors of segments.</summary>
+        /// <returns>Distance in units, infinite beyond <paramref name="range"/>. It may be too small, and up to a tenth
+        /// too large where the wall's edges are uneven; of a surface and a segment it is that of the segment's interior
+        /// and counts only where it is less than those of its ends.</returns>
+        internal virtual double FindFeatures(in Vector3d a, in Vector3d b, double range, double skin, ref int hint,
+            StructList<WallFeature> features)
         {
             return Nearest(a, b, range, ref hint, out SurfaceContact contact) ? contact.Distance
                 : double.PositiveInfinity;
         }
 
-        /// <summary>The same, and adds to a list the features of the wall (as the shape defines them) that queries of
-        /// points and parts of the segment may meet while nothing of it moves farther than <paramref name="skin"/>,
-        /// units; such queries are then faster. Some shapes have none. The distance may be too small, and no more too
-        /// large than a quick one; where a shape <see cref="HasPointFeatures"/>, it is that of the segment's interior
-        /// and counts only where it is less than those of its ends.</summary>
-        internal virtual double FindFeatures(in Vector3d a, in Vector3d b, double range, double skin, ref int hint,
-            StructList<WallFeature> features)
+        /// <summary>The cache of a surface's features of points, shared by all queries with this skin, units; null
+        /// where there are none.</summary>
+        internal FeatureCache? FeatureCacheFor(double skin)
         {
-            return QuickDistance(a, b, range, ref hint);
+            if (IsSurface && (_cache == null || _cache.Skin != skin))
+            {
+                _cache = new FeatureCache(this, skin);
+            }
+            return _cache;
         }
 
-        /// <summary>False where no part of the wall can come within a distance, units, of a segment that moves from
-        /// (a0, b0) to (a1, b1). The hint is that of <see cref="Nearest"/>.</summary>
-        internal virtual bool MayMeet(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double distance,
-            ref int hint)
+        /// <summary>Drops the cache, where the wall was moved.</summary>
+        private protected void ClearCache()
         {
-            double motion = Math.Max(Vector3d.Distance(a0, a1), Vector3d.Distance(b0, b1));
-            return Nearest(a0, b0, motion + distance, ref hint, out _);
-        }
-
-        /// <summary>Whether points have features of their own.</summary>
-        internal virtual bool HasPointFeatures => false;
-
-        /// <summary>The cache of these features, shared by all queries with this skin, units; null where there are
-        /// none.</summary>
-        internal virtual FeatureCache? FeatureCacheFor(double skin)
-        {
-            return null;
-        }
-
-        /// <summary>Adds the features within a range of a point.</summary>
-        /// <returns>Its distance in units, infinite beyond the range.</returns>
-        internal virtual double FindFeatures(in Vector3d x, double range, StructList<WallFeature> features)
-        {
-            return double.PositiveInfinity;
-        }
-
-        /// <summary>Adds the edge contacts within a range of a segment, by the features near it.</summary>
-        internal virtual void FindEdgeContacts(in Vector3d a, in Vector3d b, double range, FeatureRange features,
-            StructList<EdgeContact> edgeContacts)
-        {
-            FindEdgeContacts(a, b, range, edgeContacts);
-        }
-
-        /// <summary>True if the whole segment certainly lies on the free side; also false where a shape cannot tell
-        /// quickly.</summary>
-        internal virtual bool Holds(in Vector3d a, in Vector3d b, ref int hint)
-        {
-            return false;
+            _cache = null;
         }
 
         /// <summary>A lower bound of the time of impact of segment a b in linear motion from (a0, b0) to (a1, b1), as a
         /// fraction during which it has at least a clearance, in units: <see cref="NoImpact"/> for all of it, 0 where
-        /// it starts nearer. Where a shape <see cref="HasPointFeatures"/>, it is that of the segment's interior, not of
-        /// its ends. Approaches below <paramref name="resolution"/>, units, are ignored. The hint is that of a query of
+        /// it starts nearer. Of a surface it is that of the segment's interior, not of its ends, or that of a point
+        /// (a = b). Approaches below <paramref name="resolution"/>, units, are ignored. The hint is that of a query of
         /// the start, or -1; the features, where they are known, those of the start, for a skin that the motion does
         /// not leave.</summary>
         internal virtual double ConservativeTimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1,
@@ -209,18 +189,11 @@ namespace Guidewire.Core
             return TimeOfImpact(a0, b0, a1, b1, clearance, resolution, hint);
         }
 
-        /// <summary>The same of a point, where a shape <see cref="HasPointFeatures"/>: those of points.</summary>
-        internal virtual double ConservativeTimeOfImpact(in Vector3d from, in Vector3d to, double clearance,
-            double resolution, FeatureRange features)
-        {
-            return TimeOfImpact(from, from, to, to, clearance, resolution, -1);
-        }
-
         /// <summary>Adds the edge contacts within <paramref name="range"/> of segment a b: where the wall is convex
         /// towards the free side, so that the interior of a segment can meet it before its ends do. None where the wall
-        /// has no convex edge.</summary>
-        internal virtual void FindEdgeContacts(
-            in Vector3d a, in Vector3d b, double range, StructList<EdgeContact> edgeContacts)
+        /// has no convex edge. The features near the segment, where they are known, speed it up.</summary>
+        internal virtual void FindEdgeContacts(in Vector3d a, in Vector3d b, double range, FeatureRange features,
+            StructList<EdgeContact> edgeContacts)
         {
         }
 

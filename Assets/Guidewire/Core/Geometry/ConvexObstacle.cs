@@ -170,8 +170,8 @@ namespace Guidewire.Core
         }
 
         /// <summary>The edges of the hull: over a face a segment is nearest with an end.</summary>
-        internal override void FindEdgeContacts(
-            in Vector3d a, in Vector3d b, double range, StructList<EdgeContact> edgeContacts)
+        internal override void FindEdgeContacts(in Vector3d a, in Vector3d b, double range, FeatureRange features,
+            StructList<EdgeContact> edgeContacts)
         {
             _edges ??= HullEdges.Find(_points, _flatness);
             foreach (HullEdges.Edge edge in _edges)

@@ -22,7 +22,7 @@ namespace Guidewire.Core
         private int _before;    // features at the last trim
 
         /// <summary>For a wall that stays where it is.</summary>
-        /// <param name="wall">One that has features of points.</param>
+        /// <param name="wall">A surface.</param>
         /// <param name="skin">Entries are valid within this distance of the query point at least, units.</param>
         public FeatureCache(ContactShape wall, double skin)
         {
@@ -69,7 +69,8 @@ namespace Guidewire.Core
             if (!cell.Is(centre, radius))
             {
                 int from = Features.Count;
-                double distance = _wall.FindFeatures(centre, radius, Features);
+                int hint = -1;
+                double distance = _wall.FindFeatures(centre, centre, radius, _skin, ref hint, Features);
                 cell = new Cell(centre, radius, from, Features.Count, distance);
             }
             neighbour.Begin(centre, centre, _skin, cell.From);

@@ -40,16 +40,18 @@ namespace Guidewire.Core
             _near = new int[pieces.Length];
         }
 
-        /// <summary>See <see cref="ContactShape.ConservativeTimeOfImpact"/>.</summary>
+        /// <summary>A fraction of the motion of segment a b from (a0, b0) to (a1, b1) during which it has at least a
+        /// clearance, units; <see cref="ContactShape.NoImpact"/> for all of it, 0 where nothing is proven.</summary>
+        /// <param name="guess">A piece near the start of the first end.</param>
         public double SafeFraction(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance,
-            int hint)
+            int guess)
         {
             _a = a0;
             _b = b0;
             _moveA = a1 - a0;
             _moveB = b1 - b0;
             _clearance = clearance;
-            double fraction = BetweenPlanes(hint >= 0 && hint < _pieces.Length ? hint : _last, out bool isTold);
+            double fraction = BetweenPlanes(guess, out bool isTold);
             return isTold ? fraction : Math.Max(fraction, BySearch(a0, b0, a1, b1));
         }
 

@@ -43,20 +43,8 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Distance of segment a b from the wall where it crosses creases, from that at one knot to that at
-        /// another; infinite where it crosses none.</summary>
-        public double Nearest(in Vector3d a, in Vector3d b, int from, int to)
-        {
-            double nearest = double.PositiveInfinity;
-            double size = Vector3d.Distance(a, b);
-            for (int k = Math.Max(from, 1); k <= Math.Min(to, _knots.Length - 2); k++)
-            {
-                nearest = Math.Min(nearest, DistanceAt(k, a, b, size));
-            }
-            return nearest;
-        }
-
-        /// <summary>The same between pieces that are next to each other in a range.</summary>
+        /// <summary>Distance of segment a b from the wall where it crosses creases between pieces that are next to each
+        /// other in a range; infinite where it crosses none.</summary>
         public double Nearest(in Vector3d a, in Vector3d b, FeatureRange pieces)
         {
             double nearest = double.PositiveInfinity;

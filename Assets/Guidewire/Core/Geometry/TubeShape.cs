@@ -12,10 +12,11 @@ namespace Guidewire.Core
     public sealed class TubeShape : ContactShape
     {
         private const int MostCuts = 64;
+        private const int MostAdvances = 16;
+        private const double LeastAdvance = 0.01;    // of what is proven
         private readonly Vector3d[] _knots;
         private readonly double[] _radii;
         private readonly TubeTree _tree;
-        private readonly TubeTimeOfImpact _timeOfImpact;
         private TubeCreases? _edgeContacts;
         private TubeCcd? _ccd;
         private TubePlanes? _planes;
@@ -60,7 +61,6 @@ namespace Guidewire.Core
                 _radii[count + shift] = radii[count - 1];
             }
             _tree = new TubeTree(_knots, _radii, 1e-12 * (length + widest));
-            _timeOfImpact = new TubeTimeOfImpact(this, _tree);
             FirstKnot = shift;
             LastKnot = shift + count - 1;
         }
@@ -76,16 +76,6 @@ namespace Guidewire.Core
 
         /// <summary>Radius at each knot, units.</summary>
         internal double[] Radii => _radii;
-
-        /// <summary>d(x), positive in the lumen, and the wall's normal there.</summary>
-        /// <remarks>On the centreline of a piece the normal has no direction and is 0.</remarks>
-        public double Distance(in Vector3d x, out Vector3d normal)
-        {
-            int piece = _tree.Deepest(x, 0, out _);
-            double distance = _tree.Pieces[piece].Distance(x, out Vector3d centre, out _);
-            normal = Vector3d.Normalize(centre - x);
-            return distance;
-        }
 
         /// <inheritdoc/>
         public override bool Contains(in Vector3d point)
@@ -131,17 +121,8 @@ namespace Guidewire.Core
             return distance;
         }
 
-        /// <summary>At the ends of the segment and where it crosses creases.</summary>
-        internal override double QuickDistance(in Vector3d a, in Vector3d b, double range, ref int hint)
-        {
-            int guess = hint >= 0 && hint < _tree.Pieces.Length ? hint : 0;
-            hint = _tree.Deepest(a, guess, out double atA);
-            int last = _tree.Deepest(b, hint, out double atB);
-            return Math.Min(
-                Math.Min(atA, atB), EdgeContacts.Nearest(a, b, Math.Min(hint, last), Math.Max(hint, last) + 1));
-        }
-
-        /// <summary>Pieces that hold something within the skin of the segment, along the centreline.</summary>
+        /// <summary>Pieces that hold something within the skin of the segment, along the centreline. The distance is
+        /// the least at its ends and where it crosses creases.</summary>
         internal override double FindFeatures(in Vector3d a, in Vector3d b, double range, double skin, ref int hint,
             StructList<WallFeature> features)
         {
@@ -149,7 +130,7 @@ namespace Guidewire.Core
             _tree.Collect(a, b, skin, features);
             if (features.Count == from)
             {
-                return QuickDistance(a, b, range, ref hint);
+                return base.FindFeatures(a, b, range, skin, ref hint, features);
             }
             var found = new FeatureRange(features, from, features.Count, 0.0);
             hint = Deepest(a, found, out double atA);
@@ -178,41 +159,18 @@ namespace Guidewire.Core
                 : ContactPoint.Edge(contact, 1, Vector3d.Cross(around, normal), -radius));
         }
 
-        /// <inheritdoc/>
+        /// <summary>The creases at its knots; see <see cref="TubeCreases"/>.</summary>
         internal override void FindEdgeContacts(in Vector3d a, in Vector3d b, double range, FeatureRange features,
             StructList<EdgeContact> edgeContacts)
         {
-            if (!features.IsKnown)
+            if (features.IsKnown)
             {
-                FindEdgeContacts(a, b, range, edgeContacts);
-                return;
+                EdgeContacts.Find(a, b, range, features, edgeContacts);
             }
-            EdgeContacts.Find(a, b, range, features, edgeContacts);
-        }
-
-        /// <inheritdoc/>
-        internal override bool Holds(in Vector3d a, in Vector3d b, ref int hint)
-        {
-            hint = hint >= 0 && hint < _tree.Pieces.Length ? hint : 0;
-            ref readonly TubePiece piece = ref _tree.Pieces[hint];
-            return (piece.Distance(a) > 0.0 && piece.Distance(b) > 0.0) || HoldParts(a, b, ref hint)
-                || LeastDistance(a, b) > 0.0;
-        }
-
-        // Whether each piece from the deepest at one end to the deepest at the other holds the part of the segment
-        // between the points nearest to its knots: pieces are convex, so checking the ends of a part suffices.
-        private bool HoldParts(in Vector3d a, in Vector3d b, ref int hint)
-        {
-            int first = _tree.Deepest(a, hint, out double atA);
-            int last = _tree.Deepest(b, first, out double atB);
-            hint = first;
-            bool isHeld = atA > 0.0 && atB > 0.0;
-            for (int knot = Math.Min(first, last) + 1; knot <= Math.Max(first, last) && isHeld; knot++)
+            else
             {
-                Vector3d point = Vector3d.Lerp(a, b, ClosestPoints.PointSegment(_knots[knot], a, b));
-                isHeld = _tree.Pieces[knot - 1].Distance(point) > 0.0 && _tree.Pieces[knot].Distance(point) > 0.0;
+                EdgeContacts.Find(a, b, range, edgeContacts);
             }
-            return isHeld;
         }
 
         private int Deepest(in Vector3d x, FeatureRange features, out double distance)
@@ -231,13 +189,6 @@ namespace Guidewire.Core
             return piece;
         }
 
-        /// <summary>The creases at its knots; see <see cref="TubeCreases"/>.</summary>
-        internal override void FindEdgeContacts(
-            in Vector3d a, in Vector3d b, double range, StructList<EdgeContact> edgeContacts)
-        {
-            EdgeContacts.Find(a, b, range, edgeContacts);
-        }
-
         /// <summary>That of the narrowest knot.</summary>
         internal override double NarrowestRadius(double above, double below)
         {
@@ -249,22 +200,57 @@ namespace Guidewire.Core
             return narrowest;
         }
 
-        /// <inheritdoc/>
-        internal override double ConservativeTimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1,
-            in Vector3d b1, double clearance, double resolution, int hint, FeatureRange features)
-        {
-            _ccd ??= new TubeCcd(_tree.Pieces, Planes);
-            return _ccd.SafeFraction(a0, b0, a1, b1, clearance, hint);
-        }
-
         private TubeCreases EdgeContacts => _edgeContacts ??= new TubeCreases(this, _tree.Pieces, Planes);
+
+        private TubeCcd Ccd => _ccd ??= new TubeCcd(_tree.Pieces, Planes);
 
         private TubePlanes Planes => _planes ??= new TubePlanes(_knots);
 
+        /// <summary>What <see cref="TubeCcd"/> proves at once.</summary>
+        internal override double ConservativeTimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1,
+            in Vector3d b1, double clearance, double resolution, int hint, FeatureRange features)
+        {
+            return Ccd.SafeFraction(a0, b0, a1, b1, clearance, Guess(a0, hint));
+        }
+
+        /// <summary>The part of the motion that <see cref="TubeCcd"/> proves to be free, and again from where it ends:
+        /// until the segment is at the wall, or little is gained. Distances have slope 1 or less, so each advance is at
+        /// least the distance to be covered over the motion of the ends.</summary>
         private protected override double TimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
             double clearance, double resolution, int hint)
         {
-            return _timeOfImpact.TimeOfImpact(a0, b0, a1, b1, clearance);
+            Vector3d a = a0;
+            Vector3d b = b0;
+            int piece = Guess(a0, hint);
+            double time = 0.0;
+            double left = 0.0;    // of the distance, above the clearance
+            for (int k = 0; k < MostAdvances; k++)
+            {
+                double part = Ccd.SafeFraction(a, b, a1, b1, clearance, piece);
+                if (left > 0.0)
+                {
+                    part = Math.Max(part, left / Math.Max(Vector3d.Distance(a, a1), Vector3d.Distance(b, b1)));
+                }
+                if (part >= 1.0)
+                {
+                    return NoImpact;
+                }
+                time += part * (1.0 - time);
+                a = Vector3d.Lerp(a0, a1, time);
+                b = Vector3d.Lerp(b0, b1, time);
+                left = LeastDistance(a, b) - clearance;
+                if (left <= resolution || part <= LeastAdvance * time)
+                {
+                    break;
+                }
+                piece = _tree.Deepest(a, piece, out _);
+            }
+            return time;
+        }
+
+        private int Guess(in Vector3d x, int hint)
+        {
+            return hint >= 0 && hint < _tree.Pieces.Length ? hint : _tree.Deepest(x, 0, out _);
         }
 
         // Where d is least along the segment, and the piece whose term it is. A piece that is deepest at both ends of a

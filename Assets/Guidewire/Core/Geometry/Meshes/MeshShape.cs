@@ -17,7 +17,6 @@ namespace Guidewire.Core
         private MeshContactPoints? _contactPoints;
         private MeshEdges? _edgeContacts;
         private MeshNearby? _nearby;
-        private FeatureCache? _cache;         // with the skin of the last request
 
         /// <summary>The wall where its file has it.</summary>
         public MeshShape(TriangleMesh mesh)
@@ -39,12 +38,8 @@ namespace Guidewire.Core
         /// <summary>The wall's triangles where they are.</summary>
         internal MeshGeometry Wall => _wall;
 
-        /// <summary>The distance without its sign: what cuts a mesh is at 0, and a wire that left by an open rim may
-        /// lie beside it.</summary>
-        internal override double SizeOf(double distance)
-        {
-            return Math.Abs(distance);
-        }
+        /// <inheritdoc/>
+        internal override bool IsSurface => true;
 
         /// <summary>How many times an edge of the wall pierces one of its triangles, and where it does first, units.
         /// </summary>
@@ -58,7 +53,7 @@ namespace Guidewire.Core
         {
             _wall.Place(placement);
             _nearby = null;
-            _cache = null;
+            ClearCache();
             if (_closed != _wall)
             {
                 _closed.Place(placement);
@@ -93,69 +88,35 @@ namespace Guidewire.Core
             _contactPoints.Find(x, range, Nearby, features, contactPoints);
         }
 
-        /// <summary>Edges that bulge into the lumen, and those of open rims; see <see cref="MeshEdges"/>.</summary>
-        internal override void FindEdgeContacts(
-            in Vector3d a, in Vector3d b, double range, StructList<EdgeContact> edgeContacts)
-        {
-            FindEdgeContacts(a, b, range, default, edgeContacts);
-        }
-
-        /// <inheritdoc/>
-        internal override bool HasPointFeatures => true;
-
-        /// <inheritdoc/>
-        internal override FeatureCache? FeatureCacheFor(double skin)
-        {
-            if (_cache == null || _cache.Skin != skin)
-            {
-                _cache = new FeatureCache(this, skin);
-            }
-            return _cache;
-        }
-
-        /// <summary>The triangles within the range.</summary>
-        internal override double FindFeatures(in Vector3d x, double range, StructList<WallFeature> features)
-        {
-            return Nearby.FindTriangles(x, range, features);
-        }
-
-        /// <summary>The convex edges within the range.</summary>
+        /// <summary>The triangles within the range of a point, the convex edges within that of a segment.</summary>
         internal override double FindFeatures(in Vector3d a, in Vector3d b, double range, double skin, ref int hint,
             StructList<WallFeature> features)
         {
-            return Nearby.FindEdgeContacts(a, b, range, features);
+            return a == b ? Nearby.FindTriangles(a, range, features)
+                : Nearby.FindEdgeContacts(a, b, range, features);
         }
 
-        /// <inheritdoc/>
+        /// <summary>Edges that bulge into the lumen, and those of open rims; see <see cref="MeshEdges"/>.</summary>
         internal override void FindEdgeContacts(in Vector3d a, in Vector3d b, double range, FeatureRange features,
             StructList<EdgeContact> edgeContacts)
         {
             EdgeContacts.Find(a, b, range, Nearby, features, edgeContacts);
         }
 
-        /// <summary>Against the convex edges.</summary>
+        /// <summary>A point against the triangles, a segment against the convex edges.</summary>
         internal override double ConservativeTimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1,
             in Vector3d b1, double clearance, double resolution, int hint, FeatureRange features)
         {
             double impact = NoImpact;
-            Nearby.ImpactOfSegment(a0, b0, a1, b1, clearance, resolution, features, ref impact);
+            if (a0 == b0 && a1 == b1)
+            {
+                Nearby.ImpactOfPoint(a0, a1, clearance, resolution, features, ref impact);
+            }
+            else
+            {
+                Nearby.ImpactOfSegment(a0, b0, a1, b1, clearance, resolution, features, ref impact);
+            }
             return impact;
-        }
-
-        /// <summary>Against the triangles.</summary>
-        internal override double ConservativeTimeOfImpact(in Vector3d from, in Vector3d to, double clearance,
-            double resolution, FeatureRange features)
-        {
-            double impact = NoImpact;
-            Nearby.ImpactOfPoint(from, to, clearance, resolution, features, ref impact);
-            return impact;
-        }
-
-        /// <inheritdoc/>
-        internal override bool MayMeet(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double distance,
-            ref int hint)
-        {
-            return _wall.Tree.MayMeet(new SweptSegment(a0, b0, a1, b1, distance));
         }
 
         private MeshEdges EdgeContacts => _edgeContacts ??= new MeshEdges(_wall);

@@ -133,7 +133,7 @@ namespace Guidewire.Core
                 }
                 Failure = "the step to t = " + time + " s has no solution: "
                     + (Scene.Joints.FindTurned(Shape, Time) ?? failure)
-                    + (_jam == null ? "" : "; " + _jam.Text(Shape)) + Remedy;
+                    + (_jam == null ? "" : "; " + _jam.Text(Shape)) + FailureAdvice;
                 return false;
             }
             Ends.Count(Shape, HubTurn, _dynamics.DistalTurn, length);
@@ -142,7 +142,7 @@ namespace Guidewire.Core
                 return false;
             }
             EndStep(free);
-            Failure = Failure == null ? null : Failure + Remedy;
+            Failure = Failure == null ? null : Failure + FailureAdvice;
             if (Contacts != null)
             {
                 StageForces mean = _walls == null ? _halved.MeanForces : _walls.MeanForces;
@@ -231,7 +231,7 @@ namespace Guidewire.Core
         // A frame in a sheath is held where the wire is; a spring beyond it turns with the hub.
         private double HubTurn => _dynamics.ProximalTurn + Schedule.Hub.AheadAt(Time);
 
-        private string Remedy
+        private string FailureAdvice
         {
             get
             {

@@ -117,7 +117,7 @@ namespace Guidewire.Core.Tests
                 Vector3d b1 = b0 + random.Number(0.0, 2.0) * random.Point();
                 double impact = shape.TimeOfImpact(a0, b0, a1, b1, Clearance, out SurfaceContact contact);
                 double until = Math.Min(1.0, impact);
-                double kept = ContactShape.Kept(Smallest(shape, a0, b0), Clearance) - 1e-9;
+                double kept = ContactShape.FinalClearance(Smallest(shape, a0, b0), Clearance) - 1e-9;
                 double onTheWay = Math.Min(kept, 0.5 * Clearance - 1e-9);
                 double atTheEnd = Smallest(shape, Vector3d.Lerp(a0, a1, until), Vector3d.Lerp(b0, b1, until));
                 Assert.That(atTheEnd, Is.GreaterThanOrEqualTo(kept), "case " + i + " at its end");
@@ -172,7 +172,7 @@ namespace Guidewire.Core.Tests
                     double y = Math.Min(length, Math.Max(0.0, z + k * h / Math.Sqrt(1.0 - k * k)));
                     deepest = Math.Max(deepest, radii[i] + k * y - Math.Sqrt(h * h + (z - y) * (z - y)));
                 }
-                Assert.That(tube.Distance(x, out _), Is.EqualTo(deepest).Within(1e-12), "at " + x);
+                Assert.That(At(tube, x).Distance, Is.EqualTo(deepest).Within(1e-12), "at " + x);
             }
         }
 

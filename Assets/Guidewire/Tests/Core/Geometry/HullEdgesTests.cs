@@ -96,7 +96,7 @@ namespace Guidewire.Core.Tests
             var edgeContacts = new StructList<EdgeContact>(8);
             box.FindEdgeContacts(
                 new Vector3d(-3.0, 1.1 - 3.0 * tilt, 0.1), new Vector3d(3.0, 1.1 + 3.0 * tilt, 0.2), 0.2,
-                edgeContacts);
+                default, edgeContacts);
             double sum = 0.0;
             for (int k = 0; k < edgeContacts.Count; k++)
             {

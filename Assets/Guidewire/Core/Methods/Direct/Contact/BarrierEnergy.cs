@@ -76,7 +76,7 @@ namespace Guidewire.Core
                 range[j] = _units * (Math.Max(_nodeRadius[j], _nodeRadius[j + 1]) + barrier.Distance);
             }
             // Lists of features of points grow with the square of the skin, all others hardly grow.
-            double skin = Array.Exists(walls, wall => wall.HasPointFeatures)
+            double skin = Array.Exists(walls, wall => wall.IsSurface)
                 ? Math.Max(barrier.Distance, SkinInMesh * rod.Radius[n - 1])
                 : Math.Max(LongSkin * barrier.Distance, rod.Radius[n - 1]);
             _near = new NeighbourList(walls, range, _units * skin);
@@ -249,7 +249,7 @@ namespace Guidewire.Core
                     radius = _units * _elementRadius[j];
                     fraction = Math.Min(fraction, MaxStepOf(w, j, radius, ref gap));
                 }
-                if (_walls[w].HasPointFeatures && (gap != 0.0 || gapBefore != 0.0))
+                if (_walls[w].IsSurface && (gap != 0.0 || gapBefore != 0.0))
                 {
                     bool isBefore = radiusBefore + Left(gapBefore) > radius + Left(gap);
                     fraction = Math.Min(fraction, isBefore ? MaxStepOfNode(w, j, radiusBefore, gapBefore)
@@ -301,8 +301,8 @@ namespace Guidewire.Core
             {
                 return 1.0;
             }
-            return gap > 0.0 ? _walls[w].ConservativeTimeOfImpact(_x[i], _to[i], clearance, Resolution(radius, gap),
-                _near.FeaturesAlongNode(w, i, _x, _to)) : 0.0;
+            return gap > 0.0 ? _walls[w].ConservativeTimeOfImpact(_x[i], _x[i], _to[i], _to[i], clearance,
+                Resolution(radius, gap), -1, _near.FeaturesAlongNode(w, i, _x, _to)) : 0.0;
         }
 
         // What a step leaves of a gap.

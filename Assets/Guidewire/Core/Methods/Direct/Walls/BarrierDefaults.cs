@@ -84,7 +84,7 @@ namespace Guidewire.Core
                 distance = Math.Max(OfRadius * thinnest, move / MostMove);
                 foreach (ContactShape wall in walls)
                 {
-                    distance = wall.HasPointFeatures ? Math.Min(distance, InMesh * thinnest) : distance;
+                    distance = wall.IsSurface ? Math.Min(distance, InMesh * thinnest) : distance;
                     double narrowest = metresPerUnit * wall.NarrowestRadius(
                         thickest / metresPerUnit, (thickest + distance / OfClearance) / metresPerUnit);
                     distance = Math.Min(distance, OfClearance * (narrowest - thickest));

@@ -6,8 +6,6 @@ namespace Guidewire.Core
     /// forces.</summary>
     internal sealed class WallMonitor : IWallClearance
     {
-        private const double Near = 1.02;      // in radii, below which the exact distance is evaluated
-
         private readonly WallTerms _walls;
         private readonly BarrierEnergy _barrier;
         private readonly RodVector[] _gradient;
@@ -96,7 +94,6 @@ namespace Guidewire.Core
                 {
                     ref int hint = ref _hint[w * _radius.Length + j];
                     if (_clearance[j] < _radius[j]
-                        && Walls[w].QuickDistance(_from[j], _from[j + 1], _radius[j], ref hint) < Near * _radius[j]
                         && Walls[w].Nearest(_from[j], _from[j + 1], _radius[j], ref hint, out SurfaceContact contact))
                     {
                         deepest = Math.Max(deepest, _radius[j] - contact.Distance);

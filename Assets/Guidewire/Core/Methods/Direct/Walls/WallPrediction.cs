@@ -100,16 +100,16 @@ namespace Guidewire.Core
                 _point[i] = PointOn(_before, _at[i] + fraction * travel, ref at) + fraction * _change[i];
             }
             predicted.X[0] = _isHeld ? Vector3d.Lerp(_before[0], _start, fraction) : _point[0];
-            Lay(_point, predicted.X, last, fraction);
+            PlaceAtLengths(_point, predicted.X, last, fraction);
             _projection.Apply(shape, predicted, last);
             Array.Copy(predicted.X, _point, last + 1);
-            Lay(_point, predicted.X, last, fraction);
+            PlaceAtLengths(_point, predicted.X, last, fraction);
             for (int j = 0; j < n; j++)
             {
                 Vector3d before = shape.X[j + 1] - shape.X[j];
                 Vector3d after = predicted.X[j + 1] - predicted.X[j];
                 Vector3d spin = RotationVector.Log(shape.Q[j].Conjugate * orientations[j]);
-                predicted.Q[j] = Between(before, after) * shape.Q[j]
+                predicted.Q[j] = ShortestRotation(before, after) * shape.Q[j]
                     * RotationVector.Exp(new Vector3d(0.0, 0.0, spin.Z));
             }
         }
@@ -147,7 +147,7 @@ namespace Guidewire.Core
 
         // Nodes 1 to last one after the other, in the directions of a curve, at unchanged distances: a compressed wire
         // would be an unstable start.
-        private void Lay(Vector3d[] curve, Vector3d[] x, int last, double fraction)
+        private void PlaceAtLengths(Vector3d[] curve, Vector3d[] x, int last, double fraction)
         {
             for (int i = 1; i <= last; i++)
             {
@@ -204,7 +204,7 @@ namespace Guidewire.Core
         }
 
         // The shortest turn from one direction to another.
-        private static Quaterniond Between(in Vector3d from, in Vector3d to)
+        private static Quaterniond ShortestRotation(in Vector3d from, in Vector3d to)
         {
             Vector3d across = Vector3d.Cross(from, to);
             double along = Vector3d.Dot(from, to) + from.Length * to.Length;

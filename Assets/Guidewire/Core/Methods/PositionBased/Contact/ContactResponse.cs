@@ -4,8 +4,7 @@ using System.Runtime.CompilerServices;
 namespace Guidewire.Core
 {
     /// <summary>Contact of spheres and of rod elements by the lever rule, with hard stops where the swept test met a
-    /// wall; see <see cref="SphereContactConstraint"/> and <see cref="ElementContactConstraint"/>. With friction, see
-    /// <see cref="WallFriction"/>.</summary>
+    /// wall; see <see cref="ContactConstraint"/>. With friction, see <see cref="WallFriction"/>.</summary>
     internal sealed class ContactResponse : IContactResponse
     {
         private const int ContactsPerSphere = 8;
@@ -13,10 +12,11 @@ namespace Guidewire.Core
         private readonly double _gain;
         private readonly double _stop;    // clearance of a stop between core line and wall, units
         private readonly double[] _friction;    // mu, per wall
-        private readonly SphereContactConstraint _spheres;
-        private readonly ElementContactConstraint _elements;
-        private readonly SphereContactConstraint _sphereStops;
-        private readonly ElementContactConstraint _elementStops;
+        private readonly ContactConstraint _spheres;
+        private readonly ContactConstraint _elements;
+        private readonly ContactConstraint _sphereStops;
+        private readonly ContactConstraint _elementStops;
+        private readonly ContactConstraint[] _all;    // in the order of an iteration
 
         /// <param name="state">The wire, with its final masses.</param>
         /// <param name="walls">Walls of the scene.</param>
@@ -32,10 +32,11 @@ namespace Guidewire.Core
             _clearance = clearance;
             _gain = gain;
             _stop = 2.0 * SweptSearch.ClearanceFor(radius);
-            _spheres = new SphereContactConstraint(state, capacity, iterations);
-            _elements = new ElementContactConstraint(state, capacity, iterations);
-            _sphereStops = new SphereContactConstraint(state, capacity, iterations);
-            _elementStops = new ElementContactConstraint(state, capacity, iterations);
+            _spheres = new ContactConstraint(state, capacity, iterations);
+            _elements = new ContactConstraint(state, capacity, iterations);
+            _sphereStops = new ContactConstraint(state, capacity, iterations);
+            _elementStops = new ContactConstraint(state, capacity, iterations);
+            _all = new[] { _spheres, _elements, _elementStops, _sphereStops };
         }
 
         /// <inheritdoc/>
@@ -44,10 +45,10 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public void Start(IContactSearch found, Vector3d[] from, Vector3d[] x)
         {
-            _spheres.Clear(from);
-            _elements.Clear(from);
-            _sphereStops.Clear(from);
-            _elementStops.Clear(from);
+            foreach (ContactConstraint contacts in _all)
+            {
+                contacts.Clear(from);
+            }
             Add(found.Contacts, _spheres, _elements, _clearance, _gain);
             Stop(found.Impacts);
         }
@@ -61,10 +62,10 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public void Iterate(Vector3d[] x)
         {
-            _spheres.Iterate(x);
-            _elements.Iterate(x);
-            _elementStops.Iterate(x);
-            _sphereStops.Iterate(x);
+            foreach (ContactConstraint contacts in _all)
+            {
+                contacts.Iterate(x);
+            }
         }
 
         /// <inheritdoc/>
@@ -77,55 +78,39 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public void SpheresOf(int k, out int first, out int last)
         {
-            SphereContactConstraint? spheres = At(ref k, out ElementContactConstraint? elements);
-            first = spheres?.SphereOf(k) ?? elements!.ElementOf(k);
-            last = spheres != null ? first : first + 1;
+            At(ref k).SpheresOf(k, out first, out last);
         }
 
         /// <inheritdoc/>
         [MethodImpl(Compiled.AtOnce)]
         public bool Project(int k, Vector3d[] x)
         {
-            SphereContactConstraint? spheres = At(ref k, out ElementContactConstraint? elements);
-            return spheres != null ? spheres.Project(k, x) : elements!.Project(k, x);
+            return At(ref k).Project(k, x);
         }
 
         /// <inheritdoc/>
         public void AddImpulses(Vector3d[] impulses)
         {
-            _spheres.AddImpulses(impulses);
-            _elements.AddImpulses(impulses);
-            _elementStops.AddImpulses(impulses);
-            _sphereStops.AddImpulses(impulses);
+            foreach (ContactConstraint contacts in _all)
+            {
+                contacts.AddImpulses(impulses);
+            }
         }
 
-        // Where contact k of an iteration is stored, and which it is there: spheres, or where that is null, elements.
+        // Where contact k of an iteration is stored, and which it is there.
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private SphereContactConstraint? At(ref int k, out ElementContactConstraint? elements)
+        private ContactConstraint At(ref int k)
         {
-            elements = null;
-            if (k < _spheres.Count)
+            int list = 0;
+            while (k >= _all[list].Count)
             {
-                return _spheres;
+                k -= _all[list++].Count;
             }
-            k -= _spheres.Count;
-            if (k < _elements.Count)
-            {
-                elements = _elements;
-                return null;
-            }
-            k -= _elements.Count;
-            if (k < _elementStops.Count)
-            {
-                elements = _elementStops;
-                return null;
-            }
-            k -= _elementStops.Count;
-            return _sphereStops;
+            return _all[list];
         }
 
-        private void Add(StructList<WireContact> contacts, SphereContactConstraint spheres,
-            ElementContactConstraint elements, double clearance, double gain)
+        private void Add(StructList<WireContact> contacts, ContactConstraint spheres, ContactConstraint elements,
+            double clearance, double gain)
         {
             for (int k = 0; k < contacts.Count; k++)
             {
@@ -133,11 +118,11 @@ namespace Guidewire.Core
                 double friction = _friction[contact.Wall];
                 if (contact.IsElement)
                 {
-                    elements.Add(contact.Index, contact.Nearest, clearance, gain, friction);
+                    elements.AddElement(contact.Index, contact.Nearest, clearance, gain, friction);
                 }
                 else
                 {
-                    spheres.Add(contact.Index, contact.Nearest, clearance, gain, friction);
+                    spheres.AddSphere(contact.Index, contact.Nearest, clearance, gain, friction);
                 }
             }
         }

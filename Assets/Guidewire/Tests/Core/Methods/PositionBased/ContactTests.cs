@@ -65,10 +65,10 @@ namespace Guidewire.Core.Tests
                 Vector3d c = random.Point();
                 double reach = random.Number(0.0, 1.0);
                 double gain = random.Number(0.0, 1.0);
-                var elements = new ElementContactConstraint(state, 4);
-                var spheres = new SphereContactConstraint(state, 4);
-                elements.Add(0, new SurfaceContact(s, c, n, 0.0), reach, gain);
-                spheres.Add(0, new SurfaceContact(0.0, c, n, 0.0), reach, gain);
+                var elements = new ContactConstraint(state, 4);
+                var spheres = new ContactConstraint(state, 4);
+                elements.AddElement(0, new SurfaceContact(s, c, n, 0.0), reach, gain);
+                spheres.AddSphere(0, new SurfaceContact(0.0, c, n, 0.0), reach, gain);
                 var before = new[] { random.Point(), random.Point() };
                 double gap = reach - Vector3d.Dot(Vector3d.Lerp(before[0], before[1], s) - c, n);
                 var x = (Vector3d[])before.Clone();

@@ -100,10 +100,11 @@ namespace Guidewire.Core.Tests
                 Vector3d[] from = { random.Point(), random.Point() };
                 var x = new[] { from[0] + 0.1 * random.Point(), from[1] + 0.1 * random.Point() };
                 Vector3d start = Vector3d.Lerp(x[0], x[1], s);
-                var elements = new ElementContactConstraint(state, 4, iterations);
+                var elements = new ContactConstraint(state, 4, iterations);
                 elements.Clear(from);
                 double reach = random.Number(0.0, 0.2);
-                elements.Add(0, new SurfaceContact(s, Vector3d.Lerp(from[0], from[1], s), n, 0.0), reach, 0.3, mu);
+                elements.AddElement(
+                    0, new SurfaceContact(s, Vector3d.Lerp(from[0], from[1], s), n, 0.0), reach, 0.3, mu);
                 for (int sweep = 0; sweep < iterations; sweep++)
                 {
                     elements.Iterate(x);

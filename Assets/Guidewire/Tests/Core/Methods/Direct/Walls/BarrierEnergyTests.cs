@@ -149,9 +149,9 @@ namespace Guidewire.Core.Tests
                 int hint = -1;
                 wall.FindFeatures(a, b, range + reach, reach, ref hint, features);
                 int own = features.Count;
-                wall.FindFeatures(a, range + reach, features);
+                wall.FindFeatures(a, a, range + reach, reach, ref hint, features);
                 var all = new FeatureRange(features, 0, own, reach);
-                FeatureRange atA = wall.HasPointFeatures
+                FeatureRange atA = wall.IsSurface
                     ? new FeatureRange(features, own, features.Count, reach) : all;
                 a += reach * random.Direction();
                 b += reach * random.Direction();
@@ -190,7 +190,7 @@ namespace Guidewire.Core.Tests
         private static StructList<EdgeContact> EdgeContactsOf(ContactShape wall, in Vector3d a, in Vector3d b)
         {
             var edges = new StructList<EdgeContact>(8);
-            wall.FindEdgeContacts(a, b, 0.3, edges);
+            wall.FindEdgeContacts(a, b, 0.3, default, edges);
             return edges;
         }
 
