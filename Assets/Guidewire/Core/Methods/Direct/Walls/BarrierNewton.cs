@@ -20,6 +20,7 @@ namespace Guidewire.Core
         private const double LeastShift = 1e-4;          // of EI/L^2
         private const double MostReflected = 1e-2;       // size of a step by pivots of changed sign: radians, or of L
         private const double Far = 1e4;                  // times what may be unbalanced: not reached in one iteration
+        private const double FarFromLoose = 10.0;        // the same where many times the tolerance may be left
         private const int MostStiffened = 4;             // iterations of a stage
         private const double FreeParts = 5.0;            // L over what is free of a wire that touches walls
         private const int MostCuts = 30;
@@ -108,7 +109,8 @@ namespace Guidewire.Core
                 FindDirection(shape, k < MostStiffened);
                 left = isFar ? Unbalanced() : left;
                 bool wasFar = isFar;
-                isFar = left > Far * (MostUnbalanced + rounding) && left <= double.MaxValue;
+                isFar = left > Math.Max(Far, FarFromLoose * tolerances) * (MostUnbalanced + rounding)
+                    && left <= double.MaxValue;
                 if (!(left <= double.MaxValue))
                 {
                     return "a force is not a finite number";

@@ -5,7 +5,7 @@ namespace Guidewire.Core
     internal sealed class WallStage
     {
         private const int FrictionLagIterations = 1;       // of the normal forces in friction
-        private const double FirstTolerances = 1e3;         // that a solution which only gives normal forces may leave
+        private const double FirstTolerances = 1e5;         // of a solution that only gives normal forces: 1 % of them
         private const double Far = 1e3;     // of the error of a stage: farther moved, not converged
 
         private readonly RodTerms _terms;
