@@ -9,8 +9,8 @@ namespace Guidewire.Core
     /// the rod, and at most tolerance EI/L^2, because a force S at the tip of a cantilever moves it by S L^3/(3 EI) and
     /// turns it by S L^2/(2 EI): the balance then bounds the error of the shape too. A bound on the last step alone
     /// does not do: stretching costs EA, and a step of 1e-6 L along the rod is 1e-6 EA of force, more than the weight
-    /// of the wire. What rounding of the positions leaves in the balance, one unit in the last place times EA/l and
-    /// M/h^2, is added to S.
+    /// of the wire. What rounding of the positions leaves in the balance is added to S (<see
+    /// cref="BalanceRounding"/>).
     ///
     /// After a full step d1 the force left is of second order, and of first where the tangent leaves something out (the
     /// turning of fast spins): from the last that was measured it is expected to grow with |d1|^2 and to fall with
@@ -26,7 +26,6 @@ namespace Guidewire.Core
         private const int MostOnTrust = 16;   // stages
         private const double Caution = 10.0;  // on a force that is not measured but extrapolated
         private const double Safety = 2.0;    // on EA |d1| |d2|
-        private const double LastPlace = 1.0 / (1L << 52);
 
         private readonly MaterialRod _rod;
         private readonly RodSupports _supports;
@@ -37,11 +36,11 @@ namespace Guidewire.Core
         private readonly ViscousRelaxation? _creep;  // where a couple at the tip has no potential
         private readonly RodVector[] _gradient;
         private readonly RodVector[] _direction;
+        private readonly BalanceRounding _rounding;
         private readonly double _totalLength;
         private readonly double _mass;
         private readonly double _softestBendForce;  // EI/L^2 of the softest element, N
         private readonly double _stiffest;         // EA, N
-        private readonly double _axialSpring;      // EA/l, N/m
         private double _largestForce;              // in the rod when last measured, N
         private double _knownStep;                 // |d1| when the force that it left was last measured
         private double _knownForce = double.PositiveInfinity;
@@ -62,11 +61,11 @@ namespace Guidewire.Core
             _direction = new RodVector[_system.VectorCount];
             _totalLength = rod.TotalLength;
             _mass = terms.Mass.Total;
+            _rounding = new BalanceRounding(rod, terms.Supports, _mass, 1.0);
             _softestBendForce = rod.SoftestBendStiffness / (_totalLength * _totalLength);
             for (int j = 0; j < rod.ElementCount; j++)
             {
                 _stiffest = Math.Max(_stiffest, rod.StretchStiffness[j]);
-                _axialSpring = Math.Max(_axialSpring, rod.StretchStiffness[j] / rod.Length[j]);
             }
         }
 
@@ -98,8 +97,7 @@ namespace Guidewire.Core
         /// <returns>False where the iteration does not converge; the shape is then not to be used.</returns>
         public bool Iterate(RodShape shape, double stageLength, double loads)
         {
-            double rounding = LastPlace * (shape.X[0].Length + _totalLength)
-                * (_axialSpring + _mass / (stageLength * stageLength));
+            double rounding = _rounding.BeginStage(shape, stageLength);
             double unbalanced = double.PositiveInfinity;
             for (int f = 0; f < MostFactorisations; f++)
             {
@@ -212,6 +210,7 @@ namespace Guidewire.Core
         public RodVector[] Reactions(RodShape shape)
         {
             _system.Gradient(_terms, shape, _gradient, _direction);
+            _rounding.SumUp(_gradient);
             return _gradient;
         }
 
@@ -220,6 +219,7 @@ namespace Guidewire.Core
         {
             Array.Clear(_gradient, 0, _gradient.Length);
             _rodTerms.AddGradient(shape, _gradient);
+            _rounding.SumUp(_gradient);
             return _gradient;
         }
 
@@ -235,8 +235,9 @@ namespace Guidewire.Core
         /// writer's is measured anew.</summary>
         public void SerializeTrust(Snapshot snapshot)
         {
-            bool isSame = Agrees(snapshot, _stiffest) & Agrees(snapshot, _axialSpring) & Agrees(snapshot, _mass)
-                & Agrees(snapshot, _softestBendForce) & Agrees(snapshot, Tolerance) & Agrees(snapshot, Balance);
+            bool isSame = Agrees(snapshot, _stiffest) & Agrees(snapshot, _rounding.AxialSpring)
+                & Agrees(snapshot, _mass) & Agrees(snapshot, _softestBendForce)
+                & Agrees(snapshot, Tolerance) & Agrees(snapshot, Balance);
             snapshot.Serialize(ref _largestForce);
             snapshot.Serialize(ref _knownStep);
             snapshot.Serialize(ref _knownForce);
@@ -272,6 +273,10 @@ namespace Guidewire.Core
         private double Unbalanced(RodShape shape)
         {
             _largestForce = _system.Gradient(_terms, shape, _gradient, _direction).LargestForce;
+            if (_rounding.IsLarge)
+            {
+                return _rounding.Unbalanced(_direction);
+            }
             double force = RodVectors.LargestPartialForce(_direction, out double couples);
             return Math.Max(force, couples / _totalLength);
         }

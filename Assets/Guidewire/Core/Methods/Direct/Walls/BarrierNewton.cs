@@ -16,7 +16,7 @@ namespace Guidewire.Core
     /// energy's own rounding hides the decrease the balance decides alone.</remarks>
     internal sealed class BarrierNewton
     {
-        private const double LastPlace = 1.0 / (1L << 52);
+        private const double OfSpring = 10.0;            // EA/l: of the support
         private const double LeastShift = 1e-4;          // of EI/L^2
         private const double MostReflected = 1e-2;       // size of a step by pivots of changed sign: radians, or of L
         private const double Far = 1e4;                  // times what may be unbalanced: not reached in one iteration
@@ -31,9 +31,8 @@ namespace Guidewire.Core
         private readonly NewtonDescent _newton;
         private readonly RodVector[] _forces;
         private readonly double _totalLength;
-        private readonly double _mass;
+        private readonly BalanceRounding _rounding;
         private readonly double _bendForce;       // EI/L^2, N
-        private readonly double _axialSpring;     // EA/l and that of the support, N/m
         private readonly bool _hasFriction;
         private double _shift;
 
@@ -47,12 +46,8 @@ namespace Guidewire.Core
             _newton = new NewtonDescent(_rod, terms.Supports, _terms, true, MostCuts);
             _forces = new RodVector[_newton.Gradient.Length];
             _totalLength = _rod.TotalLength;
-            _mass = terms.Mass.Total;
+            _rounding = new BalanceRounding(_rod, terms.Supports, terms.Mass.Total, OfSpring);
             _bendForce = _rod.BendForce;
-            for (int j = 0; j < _rod.ElementCount; j++)
-            {
-                _axialSpring = Math.Max(_axialSpring, _rod.StretchStiffness[j] / _rod.Length[j]);
-            }
         }
 
         /// <summary>Error that a stage's shape may have where forces are small: radians, or displacement over
@@ -86,8 +81,7 @@ namespace Guidewire.Core
         /// <returns>Null, or why it has not converged; the shape is then not to be used.</returns>
         public string? Solve(RodShape shape, double stageLength, double loads, bool isFar, double tolerances)
         {
-            double rounding = LastPlace * (shape.X[0].Length + _totalLength)
-                * (10.0 * _axialSpring + _mass / (stageLength * stageLength));
+            double rounding = _rounding.BeginStage(shape, stageLength);
             double left = double.PositiveInfinity;
             bool hasValues = false;    // of the terms in this shape
             for (int k = 0; k < MostIterations; k++)
@@ -100,7 +94,7 @@ namespace Guidewire.Core
                     left = Unbalanced();
                     double allowed = rounding + tolerances * Math.Min(
                         Balance * Math.Max(measures.LargestForce, loads), MostUnbalanced);
-                    if (left <= allowed)
+                    if (left <= allowed && (k > 0 || !_rounding.IsLarge))
                     {
                         return null;
                     }
@@ -215,6 +209,10 @@ namespace Guidewire.Core
         {
             Array.Copy(_newton.Gradient, _forces, _forces.Length);
             _newton.System.Project(_forces);
+            if (_rounding.IsLarge)
+            {
+                return _rounding.Unbalanced(_forces);
+            }
             double force = RodVectors.LargestPartialForce(_forces, out double couples);
             return Math.Max(force, couples / _totalLength);
         }

@@ -1,0 +1,105 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>What rounding of the positions leaves in the balance of a rod's forces, N: one unit in the last place
+    /// times EA/l of an element and M/h^2.</summary>
+    /// <remarks>The largest of all elements is added to what may be unbalanced, as long as it is less than any force
+    /// that matters. In a rod so stiff that it is more (EA about a thousand times that of a wire of steel) it would
+    /// hide loads, in soft pieces of the rod too. There each element has only its own: the forces on all nodes beyond
+    /// one, summed up from the free tip, are the stress of the one element before it, whose strain alone is rounded;
+    /// and so the force on the whole rod, from which its support's is read, has none of it. Rounding of positions is no
+    /// error of the shape, since the next step of Newton's method takes it back; so at least one must have been
+    /// made.</remarks>
+    internal sealed class BalanceRounding
+    {
+        private const double LastPlace = 1.0 / (1L << 52);
+        private const double Resolution = 1e-7;   // N: forces below do not matter
+
+        private readonly MaterialRod _rod;
+        private readonly double _mass;
+        private readonly double _factor;
+        private readonly double _totalLength;
+        private double _ofMass;                   // N
+        private double _distance;                 // of one unit in the last place, m
+
+        /// <summary>Of a rod.</summary>
+        /// <param name="mass">kg.</param>
+        /// <param name="factor">On EA/l: more than 1 where a spring holds node 0 that is stiffer than the
+        /// rod.</param>
+        public BalanceRounding(MaterialRod rod, RodSupports supports, double mass, double factor)
+        {
+            _rod = rod;
+            _mass = mass;
+            _factor = factor;
+            _totalLength = rod.TotalLength;
+            for (int j = 0; j < rod.ElementCount; j++)
+            {
+                AxialSpring = Math.Max(AxialSpring, rod.StretchStiffness[j] / rod.Length[j]);
+            }
+            IsLarge = supports.Distal == DistalEnd.Free && LastPlace * _totalLength * AxialSpring > Resolution;
+        }
+
+        /// <summary>The largest EA/l, N/m.</summary>
+        public double AxialSpring { get; }
+
+        /// <summary>Whether it may hide forces that matter.</summary>
+        public bool IsLarge { get; }
+
+        /// <summary>A stage begins.</summary>
+        /// <param name="stageLength">h, s.</param>
+        /// <returns>The force that may be unbalanced besides in any element, N; 0 where it is large.</returns>
+        public double BeginStage(RodShape shape, double stageLength)
+        {
+            _distance = LastPlace * (shape.X[0].Length + _totalLength);
+            double perMass = _mass / (stageLength * stageLength);
+            _ofMass = _distance * perMass;
+            return IsLarge ? 0.0 : _distance * (_factor * AxialSpring + perMass);
+        }
+
+        /// <summary>The largest force on a piece of the rod from any node to its tip, or the sum of the couples over L,
+        /// N, each less the rounding of its element.</summary>
+        /// <param name="forces">On nodes, and couples on elements.</param>
+        public double Unbalanced(RodVector[] forces)
+        {
+            Vector3d sum = Vector3d.Zero;
+            double largest = 0.0;
+            double couples = 0.0;
+            for (int i = _rod.ElementCount; i >= 0; i--)
+            {
+                RodVector f = forces[i];
+                double rounding = Of(Math.Max(i - 1, 0));
+                sum += new Vector3d(f.X1, f.X2, f.X3);
+                largest = Math.Max(largest, sum.Length - rounding);
+                double couple = Math.Abs(f.T1) + Math.Abs(f.T2) + Math.Abs(f.T3);
+                if (i < _rod.ElementCount)
+                {
+                    couples += Math.Max(0.0, couple - Of(i) * _rod.Length[i]);
+                }
+            }
+            for (int i = _rod.ElementCount + 1; i < forces.Length; i++)
+            {
+                couples += Math.Abs(forces[i].T1) + Math.Abs(forces[i].T2) + Math.Abs(forces[i].T3);
+            }
+            return Math.Max(largest, couples / _totalLength);
+        }
+
+        /// <summary>Puts the force on the whole rod in the place of that on node 0, where rounding is large.</summary>
+        /// <param name="gradient">Of all terms: minus the forces.</param>
+        public void SumUp(RodVector[] gradient)
+        {
+            for (int i = 1; IsLarge && i <= _rod.ElementCount; i++)
+            {
+                gradient[0].X1 += gradient[i].X1;
+                gradient[0].X2 += gradient[i].X2;
+                gradient[0].X3 += gradient[i].X3;
+            }
+        }
+
+        // Of element j's force, N.
+        private double Of(int j)
+        {
+            return _ofMass + _distance * _factor * _rod.StretchStiffness[j] / _rod.Length[j];
+        }
+    }
+}
