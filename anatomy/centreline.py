@@ -170,8 +170,12 @@ class _Builder:
         """Which paths to keep: rims, the root's, and of blind ends those that are not near the paths before."""
         graph, kept = self._graph, []
         typical = float(np.median(graph.radii[np.concatenate(chains)]))
+        # Through a thin wall the graph may go on outside: such a branch is none.
+        is_inside = self._wall.inside(graph.centres[[chain[-1] for chain in chains]])
         for k, chain in enumerate(chains):
             others = [node for j in kept for node in chains[j]]
+            if self._rims[k] is None and self._targets[k] != self._start and not is_inside[k]:
+                continue
             if self._rims[k] is None and self._targets[k] != self._start and others:
                 away = np.linalg.norm(graph.centres[others] - graph.centres[chain[-1]], axis=1)
                 beside = graph.radii[others[int(np.argmin(away))]]

@@ -94,7 +94,7 @@ def _mask(path, side, ends, radius):
     for start, end in ((np.zeros(3), fork), *((fork, np.array(end)) for end in ends)):
         part = np.clip((grid - start) @ (end - start) / np.sum((end - start) ** 2), 0.0, 1.0)
         inside |= np.linalg.norm(grid - start - part[..., None] * (end - start), axis=-1) < radius
-    vectors = " ".join(f"({', '.join(str(side * (i == k)) for k in range(3))})" for i in range(3))
+    vectors = " ".join(f"({','.join(str(side * (i == k)) for k in range(3))})" for i in range(3))
     path.write_bytes(f"NRRD0004\ntype: uchar\ndimension: 3\nsizes: {shape[0]} {shape[1]} {shape[2]}\nencoding: raw\n"
                      f"space: left-posterior-superior\nspace directions: {vectors}\n"
                      f"space origin: ({low[0]},{low[1]},{low[2]})\n\n".encode()
@@ -102,7 +102,8 @@ def _mask(path, side, ends, radius):
     return path
 
 
-@pytest.mark.parametrize("target", [2, 3] if FULL else [2])
+@pytest.mark.skipif(not FULL, reason="two vessels of masks, 6 s each; the example of docs/anatomy.md makes one in any case")
+@pytest.mark.parametrize("target", [2, 3])
 def test_two_commands_bring_a_wire_from_a_mask_to_its_target(tmp_path, target):
     pytest.importorskip("vtkmodules", reason="VTK is not installed: apt-get install python3-vtk9, or pip install vtk")
     ends = np.array([[9.0, 2.0, 44.0], [-8.0, 3.0, 42.0]])

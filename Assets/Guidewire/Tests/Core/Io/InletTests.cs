@@ -50,19 +50,6 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        public void Start_IsInsideTheVessel_WhateverItsAxis()
-        {
-            // Where the tip's element begins at the exit, the element before it ends there, or beyond by rounding.
-            var random = new Random(28);
-            double Next() => 2.0 * random.NextDouble() - 1.0;
-            for (int k = 0; k < 40; k++)
-            {
-                ParameterHandler handler = Load(Scene(Vector3d.Normalize(new Vector3d(Next(), Next(), Next())), 1, 2));
-                Assert.That(Simulation.FindProblemOfStart(handler.Values.Simulation), Is.Null);
-            }
-        }
-
-        [Test]
         public void Run_DoesNotDependOnTheVesselsDirection()
         {
             JObject along = Run(Scene(Vector3d.UnitZ, 1, 2), "z");

@@ -63,11 +63,9 @@ namespace Guidewire.Core
                 return error.Message;
             }
             Vector3d axis = whole.Schedule.Hub.Frame.Director3;
-            // A node at the exit is, by rounding, before or beyond it: an element of that length has no direction.
-            double least = Rounding * units * whole.Rod.TotalLength;
             int first = 0;
             while (first < whole.Shape.ElementCount - 1
-                && Vector3d.Dot(units * whole.Shape.X[first + 1] - exit, axis) <= least)
+                && Vector3d.Dot(units * whole.Shape.X[first + 1] - exit, axis) <= 0.0)
             {
                 first++;
             }
