@@ -170,8 +170,12 @@ class _Builder:
         """Which paths to keep: rims, the root's, and of blind ends those that are not near the paths before."""
         graph, kept = self._graph, []
         typical = float(np.median(graph.radii[np.concatenate(chains)]))
+        # Through a thin wall the graph may go on outside: such a branch is none.
+        is_inside = self._wall.inside(graph.centres[[chain[-1] for chain in chains]])
         for k, chain in enumerate(chains):
             others = [node for j in kept for node in chains[j]]
+            if self._rims[k] is None and self._targets[k] != self._start and not is_inside[k]:
+                continue
             if self._rims[k] is None and self._targets[k] != self._start and others:
                 away = np.linalg.norm(graph.centres[others] - graph.centres[chain[-1]], axis=1)
                 beside = graph.radii[others[int(np.argmin(away))]]
@@ -276,7 +280,6 @@ class _Builder:
 
     def _end(self, number: int, k: int, point: int) -> End:
         rim = self._rims[k]
-        inner = point
         points, parents = self._points, self._parents
         path = [point]
         reach = 0.0
@@ -289,14 +292,27 @@ class _Builder:
                 break
             reach += float(np.linalg.norm(points[after] - points[path[-1]]))
             path.append(after)
-        inner = path[-1]
         if rim is None:
             radius = max(self._radii[i] for i in path)
-        direction = points[inner] - points[point]
-        size = float(np.linalg.norm(direction))
-        direction = direction / size if size > 0.0 else rim.normal
+        direction = self._into_lumen(path, radius)
+        if direction is None:
+            direction = rim.normal
         name = rim.name if rim else f"end {number}"
         return End(number, name, points[point], radius, direction, rim is not None, point)
+
+    def _into_lumen(self, path: list[int], radius: float) -> np.ndarray | None:
+        """Direction of a path's chord from its first point; None where it has no length. Where the place one radius
+        along the longest chord is in no inscribed sphere of the path (a bend), the chord with the most clearance
+        there."""
+        points, radii = np.array([self._points[k] for k in path]), np.array([self._radii[k] for k in path])
+        chords = points[1:] - points[0]
+        sizes = np.linalg.norm(chords, axis=1)
+        chords = chords[sizes > 0.0] / sizes[sizes > 0.0, None]
+        if not len(chords):
+            return None
+        places = points[0] + radius * chords
+        clearance = (radii - np.linalg.norm(places[:, None] - points, axis=2)).max(axis=1)
+        return chords[-1] if clearance[-1] > 0.0 else chords[int(np.argmax(clearance))]
 
 
 def resample(line: np.ndarray, step: float) -> np.ndarray:

@@ -32,6 +32,22 @@ class WallDistance:
         self._locator.FindClosestPoint(point, *self._words)
         return float(self._words[4]) ** 0.5
 
+    def inside(self, points: np.ndarray) -> np.ndarray:
+        """(k,): whether points (k, 3) are inside, of a closed mesh."""
+        from vtkmodules.vtkCommonCore import vtkPoints
+        from vtkmodules.vtkCommonDataModel import vtkPolyData
+        from vtkmodules.vtkFiltersModeling import vtkSelectEnclosedPoints
+        from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+
+        places, asked = vtkPoints(), vtkPolyData()
+        places.SetData(numpy_to_vtk(np.ascontiguousarray(points, dtype=float), deep=1))
+        asked.SetPoints(places)
+        enclosed = vtkSelectEnclosedPoints()
+        enclosed.SetInputData(asked)
+        enclosed.SetSurfaceData(self._data)
+        enclosed.Update()
+        return vtk_to_numpy(enclosed.GetOutput().GetPointData().GetArray("SelectedPoints")).astype(bool)
+
     def centre(self, point: np.ndarray, tangent: np.ndarray, radius: float, most: float) -> np.ndarray:
         """Where the distance is largest across a tangent, no farther than `most` from a point."""
         u = np.cross(tangent, np.eye(3)[np.argmin(np.abs(tangent))])

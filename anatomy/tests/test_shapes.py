@@ -12,8 +12,10 @@ pytest.importorskip("vtkmodules", reason="VTK is not installed: apt-get install 
 
 from anatomy.centreline import find_centreline  # noqa: E402
 from anatomy.inspection import inspect  # noqa: E402
-from anatomy.mesh import AnatomyError, Edges, find_rims  # noqa: E402
+from anatomy.medial_graph import WallDistance  # noqa: E402
+from anatomy.mesh import AnatomyError, Edges, close_rims, find_rims  # noqa: E402
 from anatomy.shapes import _spline, make, tube_mesh, tubes_of  # noqa: E402
+from anatomy.tests.solids import SLANT, frame, tube  # noqa: E402
 from anatomy.tubes import Tube, mesh_of_tubes  # noqa: E402
 
 
@@ -40,6 +42,15 @@ def test_the_centreline_lies_on_the_tubes_axes(fork) -> None:
     line = find_centreline(fork, find_rims(fork, Edges.of(fork)))
     assert len(line.ends) == 3 and len(np.unique(line.branches)) == 3
     _check_line(FORK, line)
+
+
+def test_points_inside_a_closed_wall_are_told_from_points_beside_it() -> None:
+    wall = tube(3.0, 40.0)
+    closed = WallDistance(close_rims(wall, find_rims(wall, Edges.of(wall))))
+    u, _, axis = frame(SLANT)
+    on_axis = np.linspace(1.0, 39.0, 20)[:, None] * axis
+    assert closed.inside(on_axis + 2.8 * u).all() and not closed.inside(on_axis + 3.1 * u).any()
+    assert not closed.inside(np.array([-0.5, 40.5])[:, None] * axis).any()
 
 
 @pytest.mark.skipif(os.environ.get("GUIDEWIRE_ALL") != "1", reason="the fork's centreline is tested in either case")

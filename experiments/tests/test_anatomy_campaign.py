@@ -13,6 +13,7 @@ from analysis.logs import read_log
 from experiments import navigation
 from experiments.campaigns import anatomy_campaign, artery_folder
 from experiments.campaigns.anatomy_campaign import Vessel, campaign, judge
+from experiments.commands import parse, run
 from experiments.instruments import files
 from experiments.prepare import ROOT
 from experiments.runner import Request, Runner
@@ -81,6 +82,44 @@ def test_a_wire_beside_the_wall_and_a_hub_that_lies_are_claimed(runner_command, 
     assert any("the hub went" in claim for claim in judge(artery, scene, summary | {"hub": hub}, positions))
     assert any("reliable" in claim for claim in judge(
         artery, scene, summary | {"reliable": not summary["reliable"]}, positions))
+
+
+def _mask(path, side, ends, radius):
+    """A trunk along z that forks at 24 mm into arms to `ends`, in voxels of a side, mm, as a .nrrd file."""
+    low = np.min([[0.0, 0.0, 0.0], *ends], axis=0) - radius - 2.0 * side
+    shape = np.ceil((np.max([[0.0, 0.0, 24.0], *ends], axis=0) + radius + 2.0 * side - low) / side).astype(int)
+    grid = side * np.indices(tuple(shape)).transpose(1, 2, 3, 0) + low
+    inside = np.zeros(grid.shape[:3], bool)
+    fork = np.array([0.0, 0.0, 24.0])
+    for start, end in ((np.zeros(3), fork), *((fork, np.array(end)) for end in ends)):
+        part = np.clip((grid - start) @ (end - start) / np.sum((end - start) ** 2), 0.0, 1.0)
+        inside |= np.linalg.norm(grid - start - part[..., None] * (end - start), axis=-1) < radius
+    vectors = " ".join(f"({','.join(str(side * (i == k)) for k in range(3))})" for i in range(3))
+    path.write_bytes(f"NRRD0004\ntype: uchar\ndimension: 3\nsizes: {shape[0]} {shape[1]} {shape[2]}\nencoding: raw\n"
+                     f"space: left-posterior-superior\nspace directions: {vectors}\n"
+                     f"space origin: ({low[0]},{low[1]},{low[2]})\n\n".encode()
+                     + inside.astype(np.uint8).ravel(order="F").tobytes())
+    return path
+
+
+@pytest.mark.skipif(not FULL, reason="6 s each; the example of docs/anatomy.md makes a vessel of a mask in any case")
+@pytest.mark.parametrize("target", [2, 3])
+def test_two_commands_bring_a_wire_from_a_mask_to_its_target(tmp_path, target):
+    pytest.importorskip("vtkmodules", reason="VTK is not installed: apt-get install python3-vtk9, or pip install vtk")
+    ends = np.array([[9.0, 2.0, 44.0], [-8.0, 3.0, 42.0]])
+    mask, folder, out = _mask(tmp_path / "fork.nrrd", 0.6, ends, 1.9), tmp_path / "fork", tmp_path / "run"
+    for words in (f"anatomy {mask} --open --inlet 1 --target {target} --out {folder}",
+                  f"steer {folder / 'scene.json'} --out {out}"):
+        assert run(parse(words.split())) == 0
+    summary = json.loads((out / "summary.json").read_text())
+    assert summary["centreline"]["reached"] and summary["passages"] == 0 and summary["reliable"]
+    found = json.loads((folder / "anatomy.json").read_text())["ends"]
+    # The tip is in the arm that was asked for, by the numbers that the mask was made from.
+    tip, asked = np.array(summary["hub"]["tipPosition"]), np.array(found[target - 1]["centre"])
+    assert np.argmin(np.linalg.norm(ends - tip, axis=1)) == np.argmin(np.linalg.norm(ends - asked, axis=1))
+    vessel, scene = Vessel(folder), json.loads((out / "parameters.json").read_text())
+    positions = read_log(out, spheres="all").positions
+    assert judge(vessel, scene | {"inlet": 1, "driveFile": str(folder / "drive.csv")}, summary, positions) == []
 
 
 @pytest.mark.parametrize("target", [2, 3] if FULL else [3])  # the other arm takes twice the attempts

@@ -43,7 +43,7 @@ namespace Guidewire.Core
         /// <summary>The wire as it is now.</summary>
         public RodState State { get; }
 
-        /// <summary>Steps done.</summary>
+        /// <summary>Steps done; one that ended the run as Failed for want of a solution is not.</summary>
         public int StepCount => _clock.StepCount;
 
         /// <summary>In-game time in s, k dt after k steps.</summary>
@@ -70,8 +70,8 @@ namespace Guidewire.Core
         public bool IsReliable => (Outcome == Outcome.Converged || Outcome == Outcome.Finished) && _warning == null
             && (StepCount == 0 || _warnings.AreNoDoubts(State, Contacts));
 
-        /// <summary>Whether the last step has a state of its own, all of it finite: one without a solution has
-        /// none.</summary>
+        /// <summary>Whether the state is that after <see cref="StepCount"/> steps, all of it finite: a step that lost
+        /// the wire may have left none.</summary>
         public bool HasStateOfStep => _isWritten
             && (Outcome != Outcome.Diverged || StopRule.FindNotFinite(State, StepCount) == null);
 
@@ -189,7 +189,15 @@ namespace Guidewire.Core
             Vector3d[] before = State.Positions;
             _stepper.Advance(State);
             _isWritten = State.Positions != before;    // a state that is written replaces the one before
-            _clock.Advance();
+            if (!_isWritten && _stepper.Failure != null)
+            {
+                // A step without a solution is not done: the state is still that of the step before.
+                _isWritten = true;
+            }
+            else
+            {
+                _clock.Advance();
+            }
             _warnings.Update(State, Contacts, Time);
             Outcome = _stopRule.Check(State, _stepper, StepCount);
             if (Outcome == Outcome.Finished || Outcome == Outcome.Converged)

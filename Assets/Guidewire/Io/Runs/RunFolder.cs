@@ -115,10 +115,7 @@ namespace Guidewire.Io
         /// <param name="simulation">The run at its end.</param>
         public void Finish(Simulation simulation)
         {
-            if (_lastLogged != simulation.StepCount)
-            {
-                Log(simulation);
-            }
+            Log(simulation);
             try
             {
                 if (!_lost)
@@ -177,7 +174,7 @@ namespace Guidewire.Io
 
         private void Log(Simulation simulation)
         {
-            if (_lost || _logger == null || !simulation.HasStateOfStep)
+            if (_lost || _logger == null || !simulation.HasStateOfStep || _lastLogged == simulation.StepCount)
             {
                 return;
             }

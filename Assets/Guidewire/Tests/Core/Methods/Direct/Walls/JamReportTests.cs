@@ -35,6 +35,31 @@ namespace Guidewire.Core.Tests
             Assert.That(Vector3d.Distance(place, Vector3d.Lerp(x[j], x[j + 1], at - j)), Is.LessThan(spacing));
         }
 
+        /// <summary>Steps and time of a run whose last step has no solution are those of its state: the time that the
+        /// reason names is in the step that was not done.</summary>
+        [Test]
+        public void StepWithoutSolution_IsNotCounted()
+        {
+            SimulationParameters parameters = WallScenes.Arch(30, 0.01, 500.0, 100.0);
+            parameters.Contact.ContactStiffness = 1e-300;
+            Simulation run = Simulation.Create(parameters);
+            int done = 0;
+            Vector3d tip = run.State.Positions[30];
+            while (run.Outcome == Outcome.Running)
+            {
+                (done, tip) = (run.StepCount, run.State.Positions[30]);
+                run.Step();
+            }
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Failed), run.Reason);
+            double dt = parameters.Method.TimeStep;
+            double time = Number(Regex.Match(run.Reason, @"the step to t = (\S+) s has no solution"), 1);
+            Assert.That(time, Is.InRange(done * dt, (done + 1) * dt * (1.0 + 1e-5)));
+            Assert.That(run.StepCount, Is.EqualTo(done));
+            Assert.That(run.Time, Is.EqualTo(done * dt).Within(1e-12));
+            Assert.That(run.State.Positions[30], Is.EqualTo(tip));
+            Assert.That(run.HasStateOfStep);
+        }
+
         private static double Number(Match match, int group)
         {
             return double.Parse(match.Groups[group].Value, CultureInfo.InvariantCulture);
