@@ -1,10 +1,5 @@
 """Checks of a wire in a catheter on one shared centreline: concentric tubes, and what slides in what.
 
-Two pieces of bending stiffness B_1, B_2 and torsional stiffness C_1, C_2 with rest curvatures k_1 and R(theta) k_2 have the
-energy per length 1/2 B_r |k_1 - R k_2|^2 + 1/2 C_r theta'^2, B_r = B_1 B_2/(B_1 + B_2) and C_r = C_1 C_2/(C_1 + C_2): a
-pendulum theta'' = c sin(theta) with c = k_1 k_2 B_r/C_r, theta given at the hub and theta' = 0 at the tip (Rucker, Jones
-and Webster 2010; Dupont et al. 2010). A length before it in which nothing is bent is a spring in series.
-
 A turn of the inner hub is written as a turn of the wire's rest curvature, so that a rest shape needs no motion.
 """
 
@@ -16,14 +11,13 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from scipy.integrate import solve_ivp
-from scipy.optimize import brentq
 
 from analysis.figures.wording import number, percent, span
 from analysis.logs import read_entries
 from analysis.runs import Run
 from analysis.validation import pictures, scenes
 from analysis.validation.check import Check, Finding, Plan, Result
+from analysis.validation.concentric import coupling, hub_slope, snap_angle, threshold
 from analysis.validation.states import last_state, solver_report, wall_time
 from studies.table import Case
 
@@ -104,38 +98,6 @@ def _even(n: int, ratio: float, nu: float, curvature: float, turn: float, lead: 
     return _Pair(n, n, [(1.0, curvature)], [*before, (1.0, curvature)], ratio, nu, lead, turn, more=more)
 
 
-def coupling(ratio: float, nu: float, curvature: float) -> float:
-    """c over 1/L^2 for B_2/B_1 = `ratio`, both with this curvature (over 1/L)."""
-    return curvature**2 * ratio / (1.0 + ratio) * (1.0 + nu) * (1.0 + 1.0 / ratio)
-
-
-def hub_slope(c: float, turn: float) -> float:
-    """theta'(0) of theta'' = c sin(theta), theta(0) = `turn`, theta'(1) = 0, on the branch from 0."""
-
-    def hub(tip: float) -> tuple[float, float]:
-        way = solve_ivp(lambda _, y: [y[1], c * math.sin(y[0])], (1.0, 0.0), [tip, 0.0], rtol=1e-11, atol=1e-12)
-        return float(way.y[0, -1]), float(way.y[1, -1])
-
-    tip = brentq(lambda angle: hub(angle)[0] - turn, 0.0, min(turn, math.pi - 1e-12), xtol=1e-13)
-    return hub(tip)[1]
-
-
-def snap_angle(c: float, lead: float = 0.0) -> float:
-    """Largest hub angle of that branch, rad: over all tips, that of the pendulum and what `lead` (over L) twists."""
-
-    def hub(tip: float) -> float:
-        way = solve_ivp(lambda _, y: [y[1], c * math.sin(y[0])], (1.0, 0.0), [tip, 0.0], rtol=1e-10, atol=1e-12)
-        return float(way.y[0, -1] - lead * way.y[1, -1])
-
-    tips = np.linspace(1e-3, math.pi - 1e-3, 200)
-    return max(hub(tip) for tip in tips)
-
-
-def threshold(lead: float) -> float:
-    """sqrt(c) L at which the twist of pi ceases to be stable: sqrt(c) L_t tan(sqrt(c) L) = 1."""
-    return 0.5 * math.pi if lead == 0.0 else brentq(lambda x: x * lead * math.tan(x) - 1.0, 1e-6, 0.5 * math.pi - 1e-9)
-
-
 def _hub(run: Run, name: str) -> float:
     """Force (N) or torque (N m) of the wire's hub, over B/L^2 or B/L."""
     return float(run.summary["hub"][name]) / (_BENDING / _LENGTH**(2 if name == "force" else 1))
@@ -175,8 +137,8 @@ def _torque() -> Plan:
              for turn in _TURNS}
     found = {key: _hub(runs[case.key], "torque") for key, case in soft.items()}
     for (n, turn), value in found.items():
-        results.append(_line(f"two tubes turned by {turn:g} rad, n = {n}: torque of the hub; reference: theta'' = c sin "
-                             "theta", value, exact[turn], abs(value / exact[turn] - 1.0), 1e-3 if n == 20 else 4e-3,
+        results.append(_line(f"two tubes turned by {turn:g} rad, n = {n}: torque of the hub; reference: theta'' = c "
+                             "sin theta", value, exact[turn], abs(value / exact[turn] - 1.0), 1e-3 if n == 20 else 4e-3,
                              "B/L", cost=wall_time(runs[soft[n, turn].key])))
 
     def draw(figure: Any) -> None:
@@ -190,8 +152,8 @@ def _torque() -> Plan:
         axes.legend()
 
     return Finding(tuple(results), draw, (
-        f"Two tubes of one curvature (k L = 1) and B_2/B_1 = {_RATIO:g}, the inner one turned at its hub: torque by the "
-        "solver and by the differential equation of concentric tubes."))
+        f"Two tubes of one curvature (k L = 1) and B_2/B_1 = {_RATIO:g}, the inner one turned at its hub: torque by "
+        "the solver and by the differential equation of concentric tubes."))
 
 
 _BELOW = (0.94, 0.96, 0.98)  # of the threshold
@@ -335,13 +297,14 @@ def _expulsion() -> Plan:
         for marker, ratio in zip(pictures.MARKERS, _RATIOS):
             axes.plot([1.1 - lead for lead in _INSIDE], 1e6 * (forces[ratio] - 1.0), marker + "-", fillstyle="none",
                       label=f"B_w/B_c = {ratio:g}")
-        axes.set(xlabel="position of the wire's tip along the catheter (L)", ylabel="force over its closed form - 1 (1e-6)")
+        axes.set(xlabel="position of the wire's tip along the catheter (L)", 
+                 ylabel="force over its closed form - 1 (1e-6)")
         axes.legend()
 
     return Finding(tuple(results), draw, (
-        "A straight wire in a catheter of curvature kappa L = 1.3 is driven out by the energy per length that the two hold "
-        f"against one another; over {len(_INSIDE)} positions of its tip, most of them within an element, the force is off "
-        f"by at most {percent(max(float(np.max(np.abs(f - 1.0))) for f in forces.values()))}."))
+        "A straight wire in a catheter of curvature kappa L = 1.3 is driven out by the energy per length that the two "
+        f"hold against one another; over {len(_INSIDE)} positions of its tip, most of them within an element, the "
+        f"force is off by at most {percent(max(float(np.max(np.abs(f - 1.0))) for f in forces.values()))}."))
 
 
 _EXTENSIONS = tuple(-0.3 + 0.1 * k for k in range(7))
@@ -352,8 +315,8 @@ _TURNED = 1.2  # rad
 def _hooked(n: int, extension: float, key: str) -> Case:
     """A wire with a hook through a catheter with a bent tip, a load on the outermost tip."""
     load = np.array([0.1, 0.2, -0.1]) * _BENDING / _LENGTH**2
-    return _Pair(n, 3 * n // 2, [(0.6, 0.0), (0.4, 1.5)], [(1.27, 0.0), (0.23, 3.0)], 0.5, 0.3, 0.5 - extension, _TURNED,
-                 more={"tipForce": load.tolist()}).case(key)
+    return _Pair(n, 3 * n // 2, [(0.6, 0.0), (0.4, 1.5)], [(1.27, 0.0), (0.23, 3.0)], 0.5, 0.3, 0.5 - extension,
+                 _TURNED, more={"tipForce": load.tolist()}).case(key)
 
 
 def _sliding() -> Plan:
@@ -416,12 +379,12 @@ def _limits() -> Plan:
         moment = float(np.linalg.norm(np.cross(arm, [_LOAD, 0.0, 0.0])))
         exact, found = 0.5 * moment**2, _hub(runs[case.key], "force")
         errors[n] = abs(abs(found) / exact - 1.0)
-        results.append(_line(f"a straight catheter 1e7 times stiffer, elements of L/{n}: force that drives the wire back; "
-                             "reference: M^2/2B at the exit", abs(found), exact, errors[n], 1e-2 if n >= 20 else None,
-                             "B/L^2"))
+        results.append(_line(f"a straight catheter 1e7 times stiffer, elements of L/{n}: force that drives the wire "
+                             "back; reference: M^2/2B at the exit", abs(found), exact, errors[n],
+                             1e-2 if n >= 20 else None, "B/L^2"))
     order = math.log2(errors[10] / errors[20])
-    results.append(_line("the same: order of that error between L/10 and L/20; reference 2", order, 2.0, 2.0 - order, 0.1,
-                         error_in="less than 2"))
+    results.append(_line("the same: order of that error between L/10 and L/20; reference 2", order, 2.0, 2.0 - order,
+                         0.1, error_in="less than 2"))
     for name in own:
         apart = float(np.max(np.linalg.norm(last_state(runs[soft[name].key]).positions
                                             - last_state(runs[alone[name].key]).positions, axis=1))) / _LENGTH
@@ -436,8 +399,8 @@ def _limits() -> Plan:
         axes.legend()
 
     return Finding(tuple(results), draw, (
-        "The two limits of the catheter's stiffness: a straight one that does not bend is a guide, out of which a loaded "
-        "wire is driven back by M^2/2B; one that resists nothing leaves the wire as it is alone."))
+        "The two limits of the catheter's stiffness: a straight one that does not bend is a guide, out of which a "
+        "loaded wire is driven back by M^2/2B; one that resists nothing leaves the wire as it is alone."))
 
 
 CHECKS = tuple(Check(name, SECTION, title, plan) for name, title, plan in (
