@@ -18,6 +18,7 @@ namespace Guidewire.Core
         private readonly double _elasticSlip;  // m
         private double _used;                  // of what may be held, 1: pushed on, -1: drawn back
 
+        /// <summary>Nothing has slid so far.</summary>
         /// <param name="coefficient">mu; 0: none.</param>
         /// <param name="elasticSlip">m.</param>
         public LumenFriction(double coefficient, double elasticSlip)
