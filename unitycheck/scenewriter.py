@@ -183,7 +183,8 @@ def scene_text(scene: Scene) -> str:
         _game_object(400, "Wire", [401, 402], "Untagged"),
         _transform(401, 400, upright, _ZERO),
         _script(402, 400, "Views/WireView", {
-            "_loop": loop, "_material": _material_reference("Wire"), "_colouring": scene.colouring}),
+            "_loop": loop, "_material": _material_reference("Wire"),
+            "_catheterMaterial": _material_reference("Vessel"), "_colouring": scene.colouring}),
         _game_object(500, "Vessel", [501, 502, 503], "Untagged"),
         _transform(501, 500, upright, _ZERO),
         _script(502, 500, "Views/ContactView", {"_loop": loop, "_material": _material_reference("Wire")}),

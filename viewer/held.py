@@ -55,7 +55,16 @@ class HeldInstruments:
     def add(self, number: int, push: float, turn: float, steps: int, state: State) -> None:
         """Note a call that asked for so many steps with so much push (units) and turn (rad) of one hub in each."""
         for k, steered in enumerate(self.steered):
-            steered.add(push if k == number else 0.0, turn if k == number else 0.0, steps, state)
+            steered.add(push if k == number else 0.0, turn if k == number else 0.0, steps, state,
+                        self._insertion_of(k, state))
+
+    def _insertion_of(self, number: int, state: State) -> float | None:
+        """Of a hub that other hubs may stop and no force limit, m."""
+        catheters = self._parameters.get("catheters") or []
+        own = self._parameters if number == 0 else catheters[number - 1]
+        if not catheters or own.get("hubForceLimit"):
+            return None
+        return state.hub.insertion if number == 0 else state.catheters[number - 1].insertion
 
     def invalidate(self, why: str) -> None:
         """From here on no table says what was steered."""

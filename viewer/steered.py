@@ -16,6 +16,7 @@ from experiments.session import State
 _GRAIN = 2.0 ** -48  # m
 _TURN_GRAIN = 2.0 ** -40  # rad
 _CONSTANT = 1e-6  # of a step: so long before and after its end the table stands still
+_STOPPED = 1e-9  # m: a hub that went less than asked by more than that came to another one
 _TRIES = 200  # displacements beside the wanted one; about every second is met
 
 
@@ -71,16 +72,24 @@ class Steered:
         """Steps of all calls."""
         return self._rows[-1][0]
 
-    def add(self, push: float, turn: float, steps: int, state: State) -> None:
-        """Note a call that asked for so many steps with so much push (units) and turn (rad) in each."""
+    def add(self, push: float, turn: float, steps: int, state: State, insertion: float | None = None) -> None:
+        """Note a call that asked for so many steps with so much push (units) and turn (rad) in each.
+
+        With the hub's insertion after it (m), of one that may stop at another hub, the table goes no farther than that: a
+        file that asks for more is refused.
+        """
         if self.problem:
             return
         before = self.state.step if self.state is not None else 0
         self.state = state
         self.calls.append((push * steps, turn * steps, steps))
         displacement = self._metres * push
+        asked = self._insertion + displacement * (state.step - before)
+        end = insertion if insertion is not None and abs(insertion - asked) > _STOPPED else None
         for step in range(before + 1, state.step + 1):
             self._insertion += displacement
+            if end is not None:
+                self._insertion = min(self._insertion, end) if displacement > 0.0 else max(self._insertion, end)
             self._rotation += turn
             self._rows.append((step, self._insertion, self._rotation))
 

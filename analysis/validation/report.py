@@ -15,8 +15,8 @@ from analysis.figures.style import add_caption, new_figure, styled
 from analysis.figures.wording import number
 from analysis.logs import LogError
 from analysis.validation import (
-    balance, clamp, coil, couples, drum, dynamics, friction, heavy_rods, helix, hub_force, independence, joint, order,
-    planes, ring, stability, statics, suite, tube_buckling, turning, twisted_tube, vessel, whip,
+    balance, clamp, coaxial, coil, couples, drum, dynamics, friction, heavy_rods, helix, hub_force, independence, joint,
+    order, planes, ring, stability, statics, suite, tube_buckling, turning, twisted_tube, vessel, whip,
 )
 from analysis.validation.check import Check, Finding, Result, replay
 from analysis.validation.pictures import SOLVER_MARKERS
@@ -25,13 +25,13 @@ ROWS: tuple[Check, ...] = (
     *clamp.CHECKS, *joint.CHECKS, *statics.CHECKS, *couples.CHECKS, *heavy_rods.CHECKS, *stability.CHECKS, *ring.CHECKS,
     *helix.CHECKS, *dynamics.CHECKS, *balance.CHECKS, *order.CHECKS, *turning.CHECKS, *vessel.CHECKS, *friction.CHECKS,
     *hub_force.CHECKS, *coil.CHECKS, *drum.CHECKS, *planes.CHECKS, *twisted_tube.CHECKS, *whip.CHECKS,
-    *tube_buckling.CHECKS, *independence.CHECKS, *suite.CHECKS,
+    *tube_buckling.CHECKS, *coaxial.CHECKS, *independence.CHECKS, *suite.CHECKS,
 )
 _QUICK = (
     "clamp-compliance", "clamp-frequencies", "plane", "end-moment", "end-moment-darboux", "localised-helix", "bar",
     "force-balance", "force-balance-default", "order-in-time", "order-in-time-axial", "large-turns", "elements",
     "tolerance", "twisted-tube",
-    *(check.name for check in joint.CHECKS),
+    *(check.name for check in (*joint.CHECKS, *coaxial.CHECKS)),
 )
 FAST = (  # what tests run
     *statics.FAST, *heavy_rods.FAST, *stability.FAST, *ring.FAST, *vessel.FAST, *whip.FAST, *tube_buckling.FAST,

@@ -267,6 +267,47 @@ def scenes(draw, table: Mapping[str, Key], solver: str, integrators: Sequence[st
     return reconcile(scene)
 
 
+@st.composite
+def round_wires(draw, length: float) -> dict:
+    """Stiffness and rest shape of a wire or catheter that bends alike in both directions."""
+    sections = [{"from": start * length, "to": (start + part) * length, "restCurvature": draw(around(30.0))}
+                for start, part in draw(st.lists(st.tuples(st.floats(0.0, 1.0), st.floats(0.05, 1.5)), max_size=2))]
+    return {"youngsModulus": draw(log_uniform(1e8, 1e11)), "shearModulus": draw(log_uniform(1e8, 1e11)),
+            "density": draw(log_uniform(500.0, 1e4)), "restCurvature": draw(around(30.0)), "wireSections": sections}
+
+
+@st.composite
+def coaxial_scenes(draw, integrators: Sequence[str]) -> dict:
+    """A wire in a catheter that fit one another, with hubs that do not cross."""
+    length, radius = draw(st.floats(50.0, 400.0)), draw(log_uniform(1e-4, 5e-4))
+    lumen = radius * draw(st.floats(1.05, 2.0))
+    outer, elements = draw(st.floats(0.2, 1.2)) * length, draw(whole(2, 20))
+    start = draw(st.floats(0.0, 0.95)) * (length - outer / elements)
+    step, steps = draw(log_uniform(1e-4, 1e-2)), draw(whole(1, 30))
+    speed = draw(st.floats(-0.05, 0.05))
+    scene = {
+        "solver": "direct", "guidewireLength": length, "guidewireOffset": -start,
+        "numberRodElements": draw(whole(2, 20)), "wireRadius": radius, **draw(round_wires(length)), "proximalEnd": "clamped", "drive": "displace",
+        "insertionSpeed": min(draw(st.floats(-0.05, 0.05)), speed + 0.9e-3 * start / (step * steps)),
+        "rotationSpeed": draw(st.floats(-5.0, 5.0)), "massDamping": draw(st.floats(0.0, 50.0)), "timeStep": step,
+        "maxSimulationSteps": steps, "deltaThreshold": 0.0, "gravity": draw(around(20.0)),
+        "logHub": draw(st.booleans()), "logOrientations": draw(st.booleans()), "integrator": draw(st.sampled_from(integrators)),
+        "catheters": [{"start": start, "length": outer, "elements": elements, "lumenRadius": lumen,
+                       "wireRadius": lumen * draw(st.floats(1.05, 2.0)), **draw(round_wires(outer)),
+                       "insertionSpeed": speed, "rotationSpeed": draw(st.floats(-5.0, 5.0)),
+                       "lumenFriction": draw(st.floats(0.0, 0.5))}],
+    }
+    if draw(st.booleans()):
+        scene |= {"integrator": "implicitEuler", "vessel": {
+            "shape": "tube", "knots": [[0.0, 0.0, -2.0 * length], [0.0, 0.0, 2.0 * length]],
+            "radius": draw(st.floats(5.0, 20.0)), "openStart": True, "openEnd": True}}
+        scene["catheters"][0] |= {"frictionCoefficient": draw(st.floats(0.0, 0.3)),
+                                  "hubForceLimit": draw(st.one_of(st.just(0.0), log_uniform(1e-2, 10.0)))}
+    elif draw(st.booleans()):
+        scene["initialState"] = "equilibrium"
+    return scene
+
+
 def _reconcile_hub(scene: dict) -> None:
     """Leaves one of the groups of keys that say how the hub of a wire with a material moves."""
     if scene.get("driveFile"):

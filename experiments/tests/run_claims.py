@@ -104,7 +104,8 @@ def assert_true_outcome(answer: Answer, out: Path, own_keys: set[str]) -> dict:
     assert answer.message.strip() and "\n" not in answer.message
     summary, parameters = read_strictly(out / "summary.json"), read_strictly(out / "parameters.json")
     has_material = parameters["solver"] != GAINS
-    assert summary.keys() == SUMMARY_KEYS | ({"solver"} if has_material else set())
+    coaxial = {"catheters", "hubs"} if parameters.get("catheters") else set()
+    assert summary.keys() == SUMMARY_KEYS | ({"solver"} if has_material else set()) | coaxial
     assert parameters.keys() == own_keys | {"formatVersion"}
     assert (summary["outcome"], summary["reason"]) == (answer.outcome, answer.message)
     assert contradictions(summary) == []
@@ -191,7 +192,7 @@ def assert_rest_shape(summary: dict, parameters: dict) -> None:
     assert solver["equilibriumIterations"] > 0 and solver["equilibriumResidual"] is not None
     assert solver["smallestEigenvalue"] is not None
     if (parameters["solver"] != "direct" or parameters["maxSimulationSteps"] > 0 or parameters["wireSections"]
-            or parameters["loadTables"] or any(parameters["tipFollowerForce"])):
+            or parameters["loadTables"] or any(parameters["tipFollowerForce"]) or parameters["catheters"]):
         return
     # The supports carry the whole wire's weight and the loads at its ends.
     metres = parameters["metresPerUnit"]

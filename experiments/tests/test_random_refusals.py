@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from experiments.key_table import foreign_keys, own_keys
-from parameter_strategies import FITTED, REFUSED_IN_FILES, SOLVERS, allowed, examples, scenes
+from parameter_strategies import FITTED, REFUSED_IN_FILES, SOLVERS, allowed, coaxial_scenes, examples, scenes
 from run_claims import assert_refused, assert_true_outcome, read_strictly, refuse_constant
 from wrong_values import wrong
 
@@ -65,6 +65,24 @@ def test_one_wrong_value_is_refused_by_name(campaign, table, integrators, data):
     name = data.draw(st.sampled_from(sorted(table)))
     scene[name] = data.draw(wrong(table[name]))
     assert_refused(*campaign.run(scene), "scene.json", name)
+
+
+WRONG_OF_CATHETERS = {
+    "lumenRadius": lambda scene: st.floats(1e-6, scene["wireRadius"]), "start": lambda scene: st.floats(-1e3, -1e-3),
+    "wireRadius": lambda scene: st.floats(1e-6, scene["wireRadius"]), "elements": lambda scene: st.integers(-5, 0),
+    "length": lambda scene: st.floats(-1e3, 0.0), "lumenFriction": lambda scene: st.floats(-1.0, -1e-6),
+    "hubForceLimit": lambda scene: st.just("slips"), "frictionCoefficient": lambda scene: st.floats(-1.0, -1e-6),
+    "radius": lambda scene: st.just(1e-3), "sheath": lambda scene: st.just({}),
+}
+
+
+@examples(10)
+@given(data=st.data())
+def test_one_wrong_value_of_a_catheter_is_refused_by_name(campaign, integrators, data):
+    scene = data.draw(coaxial_scenes(integrators["direct"]))
+    name = data.draw(st.sampled_from(sorted(WRONG_OF_CATHETERS)))
+    scene["catheters"][0][name] = data.draw(WRONG_OF_CATHETERS[name](scene))
+    assert_refused(*campaign.run(scene), "scene.json", "catheters", name)
 
 
 CONFLICTS = {

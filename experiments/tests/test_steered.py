@@ -70,6 +70,37 @@ def test_saved_tables_of_wire_and_catheter_give_the_bits_that_were_steered(runne
         np.testing.assert_array_equal(log.catheters[0][end], catheter, err_msg=f"step {end}")
 
 
+@pytest.mark.parametrize("held, push, gone", [(0, 0.8, 4.0), (1, -0.8, -4.0), (0, -7.0, -50.0)])
+def test_saved_tables_of_a_hub_that_was_stopped_are_taken_and_repeat_it(runner_command, tmp_path, held, push, gone):
+    """By the other hub, or as the wire's tip is in the catheter's first element; then it goes back."""
+    file = tmp_path / "scene.json"
+    tube = {"wireRadius": 8e-4, "lumenRadius": 6e-4, "youngsModulus": 4e9, "shearModulus": 1.5e9}
+    file.write_text(json.dumps({
+        "solver": "direct", "guidewireLength": 64.0, "numberRodElements": 8, "wireRadius": 4e-4, "massDamping": 20.0,
+        "proximalEnd": "clamped", "drive": "displace", "timeStep": 0.01, "deltaThreshold": 0.0,
+        "restCurvature": [5.0, 0.0, 0.0], "catheters": [{"start": 4.0, "length": 50.0, "elements": 5, **tube}]}))
+    with Session(file, hand=True, native=False, maxSimulationSteps=10**9) as session:
+        instruments = HeldInstruments()
+        instruments.begin(session, session.describe())
+        shown = [(session.state.positions, session.state.catheters[0].positions)]
+        for part, steps in ((1.0, 4), (1.0, 4), (0.5, 4), (-1.0, 2)):
+            one, turn = instruments.in_a_step(part * push, 0.01)
+            state = session.step(one * steps, turn * steps, steps, held)
+            instruments.add(held, one, turn, steps, state)
+            shown.append((state.positions, state.catheters[0].positions))
+    hub = state.catheters[0] if held else state.hub
+    assert hub.insertion == pytest.approx(1e-3 * (gone - 2.0 * push), abs=1e-12)
+    for number in (0, 1):
+        (tmp_path / f"steered-{number}.csv").write_text(instruments.to_csv(number))
+    subprocess.run([*runner_command, "-parameters", str(file), "-out", str(tmp_path / "run"), "-driveFile",
+                    str(tmp_path / "steered-0.csv"), "-catheters[0].driveFile", str(tmp_path / "steered-1.csv"),
+                    "-maxSimulationSteps", "14", "-logEvery", "1"], check=True, capture_output=True)
+    log = read_log(tmp_path / "run", "all")
+    for end, (wire, catheter) in zip(np.cumsum([0, 4, 4, 4, 2]), shown, strict=True):
+        np.testing.assert_allclose(log.positions[end], wire, rtol=0.0, atol=1e-6, err_msg=f"step {end}")
+        np.testing.assert_allclose(log.catheters[0][end], catheter, rtol=0.0, atol=1e-6, err_msg=f"step {end}")
+
+
 def test_exact_pushes_are_near_what_is_wanted_and_sums_of_them_have_no_rounding():
     for metres in (1e-3, 1e-2, 0.025, 1.0):
         for wanted in (0.4, -0.04, 0.0, 1.2345e-3, 7e-7):

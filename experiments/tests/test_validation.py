@@ -22,8 +22,9 @@ from studies.table import Case
 
 # The longest run only where campaigns run in full: of the rows in the vessel all but the whip, which needs all of
 # contact, and those whose claim a test of Core holds with the same closed form (TwistedWireTests, MaterialRunTests,
-# MotionTests, ClampTests); and of two checks of one claim one.
-HELD_BY_CORE = ("ring", "localised-helix", "bar", "clamp-frequencies")
+# MotionTests, ClampTests, CoaxialStaticsTests, CoaxialSlidingTests); and of two checks of one claim one.
+HELD_BY_CORE = ("ring", "localised-helix", "bar", "clamp-frequencies", "coaxial-stability", "coaxial-snap",
+                "coaxial-expulsion", "coaxial-sliding", "coaxial-limits")
 SECOND = ("end-moment-darboux", "force-balance-default")    # joint-law has both laws; force-balance is stricter
 CHECKS = FAST if FULL_CAMPAIGNS in os.environ else tuple(
     check for check in FAST

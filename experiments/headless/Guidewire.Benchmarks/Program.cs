@@ -45,6 +45,12 @@ namespace Guidewire.Benchmarks
                 PrintScenes(arguments);
                 return 0;
             }
+            if (arguments.Contains("--coaxial"))
+            {
+                CoaxialFeed.Print();
+                PrintScenes(arguments);
+                return 0;
+            }
             if (arguments.Contains("--pictures"))
             {
                 foreach (string file in arguments.Where(word => word.EndsWith(".json", StringComparison.Ordinal)))
@@ -83,6 +89,7 @@ namespace Guidewire.Benchmarks
                 PrintCantilever();
                 PrintArch();
                 SheathFeed.Print();
+                CoaxialFeed.Print();
                 PrintScenes(arguments);
             }
             return rows.All(row => row.Measured) ? 0 : 1;

@@ -65,6 +65,7 @@ namespace Guidewire.Unity.Tests
             Stage.Frames(3);
             CatheterView view = Engine.Find<CatheterView>();
             Assert.That(view.Count, Is.EqualTo(1));
+            Assert.That(Engine.Drawn.Exists(one => one.Material.color.a is > 0.2f and < 0.8f), "seen through");
             TubeMesh tube = view.TubeOf(0);
             Vector3d[] x = Catheter.Positions;
             double times = 5.0 / 6.0 / 0.4445;    // 5 F over 0.035 in

@@ -23,6 +23,7 @@ namespace Guidewire.Core
 
         private readonly double _units;
         private readonly double _lumen;   // radius, m
+        private readonly LumenFriction _friction;
         private double _play;             // where the play angle has been the largest, m
         private double _mismatch;         // 1/m
         private double _reduced;          // B_r, N m^2
@@ -34,8 +35,10 @@ namespace Guidewire.Core
         /// <param name="elements">n of the catheter.</param>
         /// <param name="metres">A unit of length.</param>
         /// <param name="lumenRadius">Of the catheter, m.</param>
-        internal CoaxialRecord(int elements, double metres, double lumenRadius)
+        /// <param name="friction">Between the two.</param>
+        internal CoaxialRecord(int elements, double metres, double lumenRadius, LumenFriction friction)
         {
+            _friction = friction;
             _units = 1.0 / metres;
             Positions = new Vector3d[elements + 1];
             Orientations = new Quaterniond[elements];
@@ -106,8 +109,19 @@ namespace Guidewire.Core
         public double LengthLost => Math.Min(LostAtTip * PlayLength, Overlap);
 
         /// <summary>The axial force, N, that friction of the lumen would have been able to hold per unit of its
-        /// coefficient: by the two lips, 2 B_r dk/a each.</summary>
-        public double FrictionHeld => _mismatch > 0.0 ? 4.0 * _reduced * _mismatch / PlayLength : 0.0;
+        /// coefficient: by both ends of the overlap, 2 B_r dk/a each, where the play angle has been the
+        /// largest.</summary>
+        public double FrictionHeld => 2.0 * EndForce(_play, _mismatch, _reduced);
+
+        /// <summary>Coefficient of friction between the two.</summary>
+        public double FrictionCoefficient => _friction.Coefficient;
+
+        /// <summary>What of the force of the wire's hub is friction in the lumen, N; negative where the wire is drawn
+        /// back.</summary>
+        public double FrictionForce { get; private set; }
+
+        /// <summary>Angle by which the centreline turns along the overlap, rad.</summary>
+        public double OverlapAngle { get; private set; }
 
         /// <summary>What is not to be trusted for the play that is left out, in one line; or null.</summary>
         public string? PlayWarning
@@ -128,24 +142,49 @@ namespace Guidewire.Core
         {
             for (int k = 1; k < joints.ActiveCount; k++)
             {
-                joints.PiecesAt(k, out CrossSection outer, out CrossSection inner);
-                double angle = 0.5 * (shape.Twist[k - 1] + shape.Twist[k]);
-                double c = Math.Cos(angle);
-                double s = Math.Sin(angle);
-                Vector3d a = outer.RestCurvature;
-                Vector3d b = inner.RestCurvature;
-                double x = a.X - c * b.X + s * b.Y;
-                double y = a.Y - s * b.X - c * b.Y;
-                double mismatch = Math.Sqrt(x * x + y * y);
-                double play = _lumen - inner.Radius;
+                PlayAt(k, joints, shape, out double play, out double mismatch, out double reduced);
                 if (play * mismatch > _play * _mismatch)
                 {
                     _play = play;
                     _mismatch = mismatch;
-                    _reduced = outer.BendStiffness1 * inner.BendStiffness1
-                        / (outer.BendStiffness1 + inner.BendStiffness1);
+                    _reduced = reduced;
                 }
             }
+        }
+
+        // Of node k: play, m; difference of the two rest curvatures, 1/m; B_r, N m^2.
+        private void PlayAt(int k, CoaxialJoints joints, RodShape shape, out double play, out double mismatch,
+            out double reduced)
+        {
+            joints.PiecesAt(k, out CrossSection outer, out CrossSection inner);
+            double angle = 0.5 * (shape.Twist[k - 1] + shape.Twist[k]);
+            double c = Math.Cos(angle);
+            double s = Math.Sin(angle);
+            Vector3d a = outer.RestCurvature;
+            Vector3d b = inner.RestCurvature;
+            double x = a.X - c * b.X + s * b.Y;
+            double y = a.Y - s * b.X - c * b.Y;
+            play = _lumen - inner.Radius;
+            mismatch = Math.Sqrt(x * x + y * y);
+            reduced = outer.BendStiffness1 * inner.BendStiffness1 / (outer.BendStiffness1 + inner.BendStiffness1);
+        }
+
+        // 2 B_r dk/a with a = sqrt(12 play/dk), N.
+        private static double EndForce(double play, double mismatch, double reduced)
+        {
+            return mismatch > 0.0 ? 2.0 * reduced * mismatch / Math.Sqrt(12.0 * play / mismatch) : 0.0;
+        }
+
+        // The largest force by which an end of the overlap lies against the lumen in a shape, N.
+        private double LargestEndForce(CoaxialJoints joints, RodShape shape)
+        {
+            double largest = 0.0;
+            for (int k = 1; k < joints.ActiveCount; k++)
+            {
+                PlayAt(k, joints, shape, out double play, out double mismatch, out double reduced);
+                largest = Math.Max(largest, EndForce(play, mismatch, reduced));
+            }
+            return largest;
         }
 
         /// <summary>Counts a step that both drives have prepared.</summary>
@@ -157,6 +196,7 @@ namespace Guidewire.Core
             _gone += drive.GoneSince(from);
             _wireAsked += wireDrive.Asked;
             _wireGone += wireDrive.GoneSince(wireFrom);
+            _friction.Slide(wireDrive.Insertion - wireFrom - (drive.Insertion - from));
         }
 
         internal void Serialize(Snapshot snapshot)
@@ -168,6 +208,7 @@ namespace Guidewire.Core
             snapshot.Serialize(ref _gone);
             snapshot.Serialize(ref _wireAsked);
             snapshot.Serialize(ref _wireGone);
+            _friction.Serialize(snapshot);
         }
 
         internal void Take(CoaxialJoints joints, RodTerms terms, RodShape shape, MaterialDrive drive,
@@ -183,9 +224,7 @@ namespace Guidewire.Core
             Turn = drive.Turn;
             Shortfall = drive.Slip;
             WireShortfall = wireDrive.Slip;
-            Force = force;
             Torque = torque;
-            WireForce = wireForce;
             WireTorque = wireTorque;
             Extension = joints.Extension;
             Overlap = joints.Stations[tip] + Math.Min(0.0, Extension);
@@ -194,14 +233,24 @@ namespace Guidewire.Core
             int last = Math.Max(joints.ActiveCount - 1, 0);
             WireTwist = shape.Twist[last] - bending.HubTwist;
             LargestCurvature = 0.0;
+            OverlapAngle = 0.0;
+            double to = 0.0;
             for (int k = 0; k < joints.ElementCount; k++)
             {
                 Vector3d turn = bending.TurnOf(shape, k);
-                LargestCurvature = Math.Max(LargestCurvature,
-                    Math.Sqrt(turn.X * turn.X + turn.Y * turn.Y) / joints.LengthOf(k));
+                double curvature = Math.Sqrt(turn.X * turn.X + turn.Y * turn.Y) / joints.LengthOf(k);
+                LargestCurvature = Math.Max(LargestCurvature, curvature);
+                // A joint has the curvature between the middles of its elements, the last one on to the end.
+                double from = to;
+                to = k + 1 < joints.ElementCount ? 0.5 * (joints.Stations[k] + joints.Stations[k + 1]) : Overlap;
+                OverlapAngle += curvature * Math.Max(0.0, Math.Min(to, Overlap) - from);
                 // The carrier's own twist is the wire's too, but for the hub's frame.
                 WireTwist += turn.Z;
             }
+            FrictionForce = _friction.Force(wireForce, OverlapAngle,
+                _friction.Coefficient > 0.0 ? LargestEndForce(joints, shape) : 0.0);
+            WireForce = wireForce + FrictionForce;
+            Force = force - FrictionForce;
         }
     }
 }

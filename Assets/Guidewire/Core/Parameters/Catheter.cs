@@ -16,6 +16,9 @@ namespace Guidewire.Core
         /// <summary>Coefficient of friction of its outside with all walls; NaN: those of the walls.</summary>
         public double FrictionCoefficient { get; set; } = double.NaN;
 
+        /// <summary>Coefficient of friction between the wire and its lumen, along the axis; 0: none.</summary>
+        public double LumenFriction { get; set; }
+
         /// <summary>What it is made of; <see cref="MaterialParameters.InnerRadius"/> is that of its lumen.</summary>
         public MaterialParameters Material { get; set; } = new MaterialParameters();
 

@@ -69,6 +69,7 @@ namespace Guidewire.Io
             }
             double start = 0.0;
             double friction = double.NaN;
+            double lumenFriction = 0.0;
             double hubForceLimit = 0.0;
             foreach (JProperty property in item.Properties())
             {
@@ -82,6 +83,10 @@ namespace Guidewire.Io
                 {
                     friction = NotNegative(property, source, where, "");
                 }
+                else if (property.Name == "lumenFriction")
+                {
+                    lumenFriction = NotNegative(property, source, where, "");
+                }
                 else if (property.Name == "hubForceLimit")
                 {
                     hubForceLimit = NotNegative(property, source, where, " (N)");
@@ -93,7 +98,7 @@ namespace Guidewire.Io
                 else
                 {
                     throw new ParameterException(source + ": unknown key '" + where + "." + property.Name
-                        + "': allowed are start, frictionCoefficient, hubForceLimit, "
+                        + "': allowed are start, frictionCoefficient, lumenFriction, hubForceLimit, "
                         + string.Join(", ", Array.ConvertAll(Names, name => name.Own)) + ", "
                         + string.Join(", ", Shared));
                 }
@@ -120,6 +125,7 @@ namespace Guidewire.Io
                 Elements = own.Scene.NumberRodElements,
                 Start = start,
                 FrictionCoefficient = friction,
+                LumenFriction = lumenFriction,
                 Material = own.Material,
                 Drive = own.Drive,
             };

@@ -44,6 +44,10 @@ namespace Guidewire.Io
                     text.Append("friction=").Append(NumberText.Write(new JValue(catheter.FrictionCoefficient)))
                         .Append('\n');
                 }
+                if (catheter.LumenFriction > 0.0)
+                {
+                    text.Append("lumen=").Append(NumberText.Write(new JValue(catheter.LumenFriction))).Append('\n');
+                }
                 if (catheter.Drive.HubForceLimit > 0.0)
                 {
                     text.Append("limit=").Append(NumberText.Write(new JValue(catheter.Drive.HubForceLimit)))

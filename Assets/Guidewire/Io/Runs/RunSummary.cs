@@ -188,7 +188,9 @@ namespace Guidewire.Io
                 ["playAngle"] = Finite(catheter.PlayAngle),
                 ["playLength"] = Finite(catheter.PlayLength),
                 ["lengthNotCoupled"] = Finite(catheter.LengthLost),
-                ["lumenFriction"] = 0.0,
+                ["overlapAngle"] = Finite(catheter.OverlapAngle),
+                ["lumenFriction"] = Finite(catheter.FrictionCoefficient),
+                ["frictionForce"] = Finite(catheter.FrictionForce),
                 ["frictionHeldPerCoefficient"] = Finite(catheter.FrictionHeld),
             };
         }

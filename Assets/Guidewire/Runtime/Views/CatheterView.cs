@@ -6,17 +6,19 @@ using UnityEngine.Rendering;
 
 namespace Guidewire.Runtime
 {
-    /// <summary>Shows the catheters over the wire as a tube each, in a colour of its own. Meshes are made when a run is
-    /// built, and rewritten. All is drawn at this object's transform, as <see cref="WireView"/> does, whose
-    /// object it stands on.</summary>
+    /// <summary>Shows the catheters over the wire as a tube each, in a colour of its own through which the wire is
+    /// seen. Meshes are made when a run is built, and rewritten. All is drawn at this object's transform, as
+    /// <see cref="WireView"/> does, whose object it stands on.</summary>
     public sealed class CatheterView : MonoBehaviour
     {
         private const int RingsPerElement = 4;
         private const int Sides = 12;
+        private const float SeenThrough = 0.5f;   // as in rendered pictures
 
         private static readonly Color[] Colours =
         {
-            new Color(1f, 0.62f, 0.18f), new Color(0.71f, 0.55f, 1f), new Color(0.37f, 0.83f, 0.55f),
+            new Color(1f, 0.62f, 0.18f, SeenThrough), new Color(0.71f, 0.55f, 1f, SeenThrough),
+            new Color(0.37f, 0.83f, 0.55f, SeenThrough),
         };
 
         private readonly List<Drawn> _drawn = new List<Drawn>();
@@ -111,8 +113,7 @@ namespace Guidewire.Runtime
                 mesh.MarkDynamic();
                 mesh.SetVertices(tube.Vertices);
                 mesh.SetTriangles(tube.Triangles, 0);
-                Color colour = Colours[k % Colours.Length];
-                Material material = Marks.Coloured(_material, colour.r, colour.g, colour.b);
+                var material = new Material(_material) { mainTexture = null, color = Colours[k % Colours.Length] };
                 _drawn.Add(new Drawn(catheters[k].Positions.Length, tube, mesh, material,
                     (float)(parameters.Scene.Catheters[k].Material.WireRadius / parameters.Material.WireRadius)));
             }

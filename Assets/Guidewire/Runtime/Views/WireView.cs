@@ -15,6 +15,9 @@ namespace Guidewire.Runtime
         [Tooltip("Material of the tube; its texture becomes the colour map.")]
         [SerializeField] private Material _material = null!;
 
+        [Tooltip("Transparent material of catheters, so that the wire in them is seen.")]
+        [SerializeField] private Material _catheterMaterial = null!;
+
         [Tooltip("Rings an element.")]
         [SerializeField, Range(1, 16)] private int _ringsPerElement = 4;
 
@@ -119,7 +122,7 @@ namespace Guidewire.Runtime
             };
             _ball = Marks.CreateBall();
             _catheters = gameObject.AddComponent<CatheterView>();
-            _catheters.Begin(_loop, this, _material);
+            _catheters.Begin(_loop, this, _catheterMaterial);
             gameObject.AddComponent<MeshFilter>();
             gameObject.AddComponent<MeshRenderer>().sharedMaterial = _coloured;
         }

@@ -150,11 +150,11 @@ namespace Guidewire.Io
                 + " \"wireRadius\", \"lumenRadius\", ...}",
                 "a catheter over the wire, on one shared centreline: start is how far its hub is ahead of the wire's"
                 + " (units, 0), length (units), elements (30), wireRadius and lumenRadius its outer and inner radius"
-                + " (m), frictionCoefficient that of its outside with all walls (by default as the walls have it); the"
-                + " other keys are those of the wire: instrument, youngsModulus, shearModulus, density,"
-                + " shearFactor, bendingStiffness, torsionalStiffness, axialStiffness, massPerLength, restCurvature,"
-                + " wireSections, insertionSpeed, rotationSpeed, driveFile, hubForceLimit; needs"
-                + " proximalEnd \"clamped\"")
+                + " (m), frictionCoefficient that of its outside with all walls (by default as the walls have it),"
+                + " lumenFriction that between the wire and its lumen along the axis (0); the other keys are those of"
+                + " the wire: instrument, youngsModulus, shearModulus, density, shearFactor, bendingStiffness,"
+                + " torsionalStiffness, axialStiffness, massPerLength, restCurvature, wireSections, insertionSpeed,"
+                + " rotationSpeed, driveFile, hubForceLimit; needs proximalEnd \"clamped\"")
             {
                 Methods = Takers.Only(Solver.Direct),
                 IsRefusedElsewhere = true,

@@ -55,7 +55,9 @@ namespace Guidewire.Core
             _velocities = new Vector3d[n + 1];
             _spins = new Vector3d[n];
             _hub = new HubRecord(_setup.Wire.Rod, _setup.Wire.Supports);
-            _record = new CoaxialRecord(_setup.Catheter.Rod.ElementCount, _setup.Wire.Metres, _setup.LumenRadius);
+            _record = new CoaxialRecord(_setup.Catheter.Rod.ElementCount, _setup.Wire.Metres, _setup.LumenRadius,
+                new LumenFriction(parameters.Scene.Catheters[0].LumenFriction, parameters.Contact.ElasticSlip > 0.0
+                    ? parameters.Contact.ElasticSlip : FrictionEnergy.ElasticSlipOf(_setup.Wire.Rod)));
             if (_setup.Wire.Walls.Length > 0)
             {
                 string? outside = _setup.FindProblemOfStart();

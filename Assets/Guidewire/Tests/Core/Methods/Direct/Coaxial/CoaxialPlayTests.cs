@@ -23,7 +23,7 @@ namespace Guidewire.Core.Tests
         public void TwoRodsWithPlay_AreWithinWhatTheSummaryStates(double mismatch, double play)
         {
             CoaxialPair pair = Pair(mismatch, 1.0);
-            var record = new CoaxialRecord(10, 1.0, 1e-3 + play);
+            var record = new CoaxialRecord(10, 1.0, 1e-3 + play, new LumenFriction(0.0, 1.0));
             record.TakePlay(pair.Coaxial.Joints, pair.Shape);
             double energy = TwoRods(mismatch, play, 1.0, out double tip, out double slope);
             double shared = pair.Terms.Potential(pair.Shape);

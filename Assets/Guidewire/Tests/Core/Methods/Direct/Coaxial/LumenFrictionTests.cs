@@ -1,0 +1,111 @@
+using System;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>Friction between a wire and the lumen of a bent catheter: the capstan's law, and what it holds at
+    /// rest.</summary>
+    public sealed class LumenFrictionTests
+    {
+        private const double Load = 0.1;    // N, at the wire's tip along the catheter's end
+        private const double Length = 200.0;  // of the catheter, mm
+
+        // Where the angle ends and the limp wire's own bending: 1 % of the pull, far below what is looked for.
+        private const double Tolerance = 0.01;
+
+        [Test]
+        public void PulledWire_HasTheCapstansForce([Values(0.05, 0.2, 0.5)] double coefficient,
+            [Values(30.0, 90.0, 180.0)] double degrees)
+        {
+            double grows = Math.Exp(coefficient * Math.PI / 180.0 * degrees);
+            Simulation run = Start(coefficient, degrees, out Steering hub);
+            hub.Push = -0.05;
+            Step(run, 12);
+            Assert.That(run.Coaxial()!.WireForce, Is.EqualTo(-Load * grows).Within(Tolerance * Load * grows), "drawn");
+            double drawn = run.Coaxial()!.WireForce;
+            double both = run.Coaxial()!.Force + drawn;
+            hub.Push = 0.0;
+            Step(run, 12);
+            Assert.That(run.Coaxial()!.WireForce, Is.EqualTo(drawn).Within(Tolerance * Load), "at rest");
+            hub.Push = 0.05;
+            Step(run, 12);
+            Assert.That(run.Coaxial()!.WireForce, Is.EqualTo(-Load / grows).Within(Tolerance * Load), "let out");
+            // What friction takes from one hub it gives the other.
+            Assert.That(run.Coaxial()!.Force + run.Coaxial()!.WireForce, Is.EqualTo(both).Within(Tolerance * Load));
+        }
+
+        [Test]
+        public void WithoutACoefficient_ThereIsNone()
+        {
+            Simulation run = Start(0.0, 90.0, out Steering hub);
+            hub.Push = -0.05;
+            Step(run, 12);
+            Assert.That(run.Coaxial()!.FrictionForce, Is.Zero);
+            Assert.That(run.Coaxial()!.WireForce, Is.EqualTo(-Load).Within(Tolerance * Load));
+            Assert.That(run.Coaxial()!.OverlapAngle, Is.EqualTo(0.5 * Math.PI).Within(Tolerance));
+        }
+
+        [TestCase(0.3, 1.2, 0.0)]
+        [TestCase(0.3, 1.2, 0.4)]
+        [TestCase(-0.3, 1.2, 0.4)]
+        [TestCase(-0.02, 2.0, 0.4)]
+        public void Bounds_AreTheSolutionOfTheCapstansEquation(double force, double angle, double end)
+        {
+            // dT/ds = mu |T| kappa along the lumen as the wire is pushed on, in 200,000 pieces, and mu P at each end.
+            const double mu = 0.3;
+            const int pieces = 200000;
+            double t = force + mu * end;
+            for (int k = 0; k < pieces; k++)
+            {
+                t += mu * Math.Abs(t) * angle / pieces;
+            }
+            var friction = new LumenFriction(mu, 1e-6);
+            friction.Slide(1e-3);
+            Assert.That(friction.Force(force, angle, end), Is.EqualTo(t + mu * end - force).Within(1e-5));
+            // Drawn back, all signs the other way round; in between after half of the way.
+            friction.Slide(-1e-3);
+            Assert.That(friction.Force(-force, angle, end), Is.EqualTo(-(t + mu * end - force)).Within(1e-5));
+            friction.Slide(1e-6);
+            Assert.That(friction.Force(force, angle, end), Is.Zero.Within(1e-12));
+        }
+
+        // A limp wire through a catheter that is bent by an angle and does not give, its tip pulled along.
+        private static Simulation Start(double coefficient, double degrees, out Steering hub)
+        {
+            SimulationParameters parameters = CoaxialScenes.Pair(Integrator.ImplicitEuler);
+            double angle = Math.PI / 180.0 * degrees;
+            parameters.Method.TimeStep = 0.01;
+            parameters.Scene.InitialState = InitialState.Equilibrium;
+            parameters.Scene.GuidewireLength = 275.0;
+            parameters.Scene.NumberRodElements = 50;
+            parameters.Scene.TipForce = Load * new Vector3d(0.0, -Math.Sin(angle), Math.Cos(angle));
+            parameters.Material.Sections = Array.Empty<WireSection>();
+            parameters.Material.WireRadius = 0.1e-3;
+            parameters.Material.YoungsModulus = 2e9;
+            parameters.Material.ShearModulus = 1e9;
+            hub = new Steering();
+            parameters.Drive.Steering = hub;
+            Catheter catheter = parameters.Scene.Catheters[0];
+            catheter.Length = Length;
+            catheter.Elements = 40;
+            catheter.Start = 50.0;
+            catheter.LumenFriction = coefficient;
+            catheter.Material.YoungsModulus = 1e13;
+            catheter.Material.ShearModulus = 4e12;
+            catheter.Material.Sections = Array.Empty<WireSection>();
+            catheter.Material.RestCurvature = new Vector3d(angle / (1e-3 * Length), 0.0, 0.0);
+            Simulation run = Simulation.Create(parameters);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Running), run.Reason);
+            return run;
+        }
+
+        private static void Step(Simulation run, int steps)
+        {
+            for (int k = 0; k < steps && run.Outcome == Outcome.Running; k++)
+            {
+                run.Step();
+            }
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Running), run.Reason);
+        }
+    }
+}
