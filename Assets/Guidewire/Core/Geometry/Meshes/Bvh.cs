@@ -176,7 +176,7 @@ namespace Guidewire.Core
 #if NET8_0_OR_GREATER
             if (WideBvh.IsSupported)
             {
-                Wide.Collect(new SegmentBoundsTest(search), _found);
+                Wide.Collect(new SegmentBoundsTest(search, Wide), _found);
                 return;
             }
 #endif
@@ -201,7 +201,7 @@ namespace Guidewire.Core
 #if NET8_0_OR_GREATER
             if (WideBvh.IsSupported)
             {
-                Wide.Collect(new SweptBoundsTest(swept, search), _found);
+                Wide.Collect(new SweptBoundsTest(swept, search, Wide), _found);
                 return;
             }
 #endif
