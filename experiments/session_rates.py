@@ -1,5 +1,5 @@
-"""Calls a second of sessions that step the accurate vessel scene by 140 ms a call, as those do who train navigation: a
-hand pushes in and pulls out, and turns as chance has it.
+"""Calls a second of sessions that step the accurate vessel scene by 140 ms a call, as those do who train navigation,
+and by 10 ms, as those do who close a loop of control: a hand pushes in and pulls out, and turns as chance has it.
 
     python3 guidewire.py python experiments/session_rates.py
 
@@ -8,6 +8,7 @@ and then the same of an environment, with its observations, rewards and resets.
 
 from __future__ import annotations
 
+import itertools
 import multiprocessing
 import time
 from collections.abc import Mapping
@@ -24,10 +25,10 @@ from experiments.campaigns.vessel import main_lumen
 from guidewire import Session
 
 SCENE = Path(__file__).resolve().parent.parent / "params" / "insertion-accurate.json"
-STEP = 0.14  # s of simulated time a call
-PUSH = 5.0  # units a call
-CALLS = 40  # in, and as many out
-TURN = 0.5  # rad a call at most
+STEPS = (0.14, 0.01)  # s of simulated time a call
+SPEED = 5.0 / 0.14  # of the hand, units a second
+MOTION = 5.6  # s in, and as many out
+TURN = 0.5 / 0.14  # rad a second at most
 WARM_UP = 2
 ROUNDS = 5
 
@@ -38,18 +39,20 @@ def tube() -> dict[str, Any]:
     return {"shape": "tube", "knots": lumen.centres.tolist(), "radius": lumen.radii.tolist(), "openStart": True}
 
 
-def rate(overrides: Mapping[str, Any], native: bool, seed: int = 0) -> tuple[float, float]:
+def rate(overrides: Mapping[str, Any], native: bool, step: float, seed: int = 0) -> tuple[float, float]:
     """Calls a second of one session: the median of its rounds, and the best, which a busy machine disturbs least."""
     rates = []
     with Session(SCENE, hand=True, native=native, maxSimulationSteps=1_000_000_000, deltaThreshold=0, **overrides) as session:
-        steps = round(STEP / session.parameters["timeStep"])
+        steps = round(step / session.parameters["timeStep"])
+        calls = round(MOTION / step)
         random = np.random.default_rng(seed)
         for _ in range(WARM_UP + ROUNDS):
             session.reset()
             began = time.perf_counter()
-            for call in range(2 * CALLS):
-                session.step(push=PUSH if call < CALLS else -PUSH, turn=random.uniform(-TURN, TURN), steps=steps)
-            rates.append(2 * CALLS / (time.perf_counter() - began))
+            for call in range(2 * calls):
+                push = SPEED * step if call < calls else -SPEED * step
+                session.step(push=push, turn=step * random.uniform(-TURN, TURN), steps=steps)
+            rates.append(2 * calls / (time.perf_counter() - began))
             if session.state.outcome is not None:
                 raise RuntimeError(session.state.reason)
     return float(np.median(rates[WARM_UP:])), max(rates)
@@ -79,13 +82,14 @@ def environment_rate(native: bool, seed: int = 0) -> tuple[float, float]:
 def main() -> None:
     natives = (False, True) if building.native_library() else (False,)
     for name, overrides in (("a tube", {"vessel": tube()}), ("a mesh", {})):
-        for native in natives:
-            one, best = rate(overrides, native)
+        for native, step in itertools.product(natives, STEPS):
+            one, best = rate(overrides, native, step)
             with multiprocessing.get_context("spawn").Pool(2) as pool:
-                two = sum(calls for calls, _ in pool.starmap(rate, [(overrides, native, 1), (overrides, native, 2)]))
+                sessions = [(overrides, native, step, seed) for seed in (1, 2)]
+                two = sum(calls for calls, _ in pool.starmap(rate, sessions))
             with ThreadPoolExecutor(2) as pool:
-                threads = sum(calls for calls, _ in pool.map(lambda seed: rate(overrides, native, seed), (1, 2)))
-            print(f"{name}, {'native library' if native else 'runner'}: {one:.0f} calls of {1e3 * STEP:.0f} ms a second"
+                threads = sum(calls for calls, _ in pool.map(lambda seed: rate(overrides, native, step, seed), (1, 2)))
+            print(f"{name}, {'native library' if native else 'runner'}: {one:.0f} calls of {1e3 * step:.0f} ms a second"
                   f" in one session (at best {best:.0f}), {two:.0f} in two processes ({two / one:.2f} times),"
                   f" {threads:.0f} in two threads ({threads / one:.2f} times)", flush=True)
     for native in natives:

@@ -157,7 +157,7 @@ namespace Guidewire.Core
 #if NET8_0_OR_GREATER
             if (WideBvh.IsSupported)
             {
-                Wide.Collect(new SegmentBoundsTest(search), _found);
+                Wide.Collect(new SegmentBoundsTest(search, Wide), _found);
                 return;
             }
 #endif
@@ -182,7 +182,7 @@ namespace Guidewire.Core
 #if NET8_0_OR_GREATER
             if (WideBvh.IsSupported)
             {
-                Wide.Collect(new SweptBoundsTest(swept, search), _found);
+                Wide.Collect(new SweptBoundsTest(swept, search, Wide), _found);
                 return;
             }
 #endif

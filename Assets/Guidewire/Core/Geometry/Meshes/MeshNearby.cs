@@ -61,9 +61,10 @@ namespace Guidewire.Core
             _mesh.Tree.Within(x, x, range, _found);
             for (int k = 0; k < _found.Count; k++)
             {
-                if (_planes.MayBeWithin(x, range, _found[k]))
+                double least = LeastDistance(x, _found[k]);
+                if (least <= range)
                 {
-                    triangles.Add(new WallFeature(_found[k], LeastDistance(x, _found[k])));
+                    triangles.Add(new WallFeature(_found[k], least));
                 }
             }
             triangles.Sort(from);
@@ -241,7 +242,8 @@ namespace Guidewire.Core
 
         private double LeastDistance(in Vector3d x, int triangle)
         {
-            return Vector3d.Distance(x, _centre[triangle]) - _radius[triangle];
+            double fromBall = Vector3d.Distance(x, _centre[triangle]) - _radius[triangle];
+            return Math.Max(fromBall, _planes.LeastDistance(x, triangle));
         }
     }
 }

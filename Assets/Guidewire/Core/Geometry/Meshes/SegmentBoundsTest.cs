@@ -1,69 +1,65 @@
 #if NET8_0_OR_GREATER
+using System;
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
 
 namespace Guidewire.Core
 {
-    /// <summary><see cref="SegmentSearch.MayHold"/> for four children of a node at once.</summary>
+    /// <summary><see cref="SegmentSearch.MayHold"/> for eight children of a node at once, with a range that makes up
+    /// for rounding.</summary>
     internal readonly struct SegmentBoundsTest : IBoundsTest
     {
-        private readonly Vector256<double> _middleX;
-        private readonly Vector256<double> _middleY;
-        private readonly Vector256<double> _middleZ;
-        private readonly Vector256<double> _halfX;
-        private readonly Vector256<double> _halfY;
-        private readonly Vector256<double> _halfZ;
-        private readonly Vector256<double> _alongX;
-        private readonly Vector256<double> _alongY;
-        private readonly Vector256<double> _alongZ;
-        private readonly Vector256<double> _squared;
+        private const double OfSquare = 1.0 + 1e-6;    // the rounding of a sum of three squares
+        private readonly Vector256<float> _middleX;
+        private readonly Vector256<float> _middleY;
+        private readonly Vector256<float> _middleZ;
+        private readonly Vector256<float> _halfX;
+        private readonly Vector256<float> _halfY;
+        private readonly Vector256<float> _halfZ;
+        private readonly Vector256<float> _squared;
 
         /// <summary>For what is within the search's range of its segment.</summary>
-        public SegmentBoundsTest(in SegmentSearch search)
+        public SegmentBoundsTest(in SegmentSearch search, WideBvh tree)
         {
-            Vector3d along = search.B - search.A;
-            Vector3d middle = 0.5 * (search.A + search.B);
-            _middleX = Vector256.Create(middle.X);
-            _middleY = Vector256.Create(middle.Y);
-            _middleZ = Vector256.Create(middle.Z);
-            _alongX = Vector256.Create(along.X);
-            _alongY = Vector256.Create(along.Y);
-            _alongZ = Vector256.Create(along.Z);
-            Vector256<double> half = Vector256.Create(0.5);
-            _halfX = half * Vector256.Abs(_alongX);
-            _halfY = half * Vector256.Abs(_alongY);
-            _halfZ = half * Vector256.Abs(_alongZ);
-            _squared = Vector256.Create(search.Squared);
+            Vector3d half = 0.5 * (search.B - search.A);
+            Vector3d middle = 0.5 * (search.A + search.B) - tree.Origin;
+            double range = Math.Sqrt(search.Squared) + tree.Slack(middle.Length + half.Length);
+            _middleX = Vector256.Create((float)middle.X);
+            _middleY = Vector256.Create((float)middle.Y);
+            _middleZ = Vector256.Create((float)middle.Z);
+            _halfX = Vector256.Create((float)half.X);
+            _halfY = Vector256.Create((float)half.Y);
+            _halfZ = Vector256.Create((float)half.Z);
+            _squared = Vector256.Create((float)(OfSquare * range * range));
         }
 
         /// <inheritdoc/>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public uint MayHold(ref double bounds)
+        public uint MayHold(ref float bounds)
         {
-            Vector256<double> zero = Vector256<double>.Zero;
-            Vector256<double> gapX = Vector256.MaxNative(zero, Vector256.Abs(_middleX - Bounds(ref bounds, 0))
-                - (Bounds(ref bounds, 3) + _halfX));
-            Vector256<double> gapY = Vector256.MaxNative(zero, Vector256.Abs(_middleY - Bounds(ref bounds, 1))
-                - (Bounds(ref bounds, 4) + _halfY));
-            Vector256<double> gapZ = Vector256.MaxNative(zero, Vector256.Abs(_middleZ - Bounds(ref bounds, 2))
-                - (Bounds(ref bounds, 5) + _halfZ));
-            Vector256<double> normalX = Bounds(ref bounds, 6);
-            Vector256<double> normalY = Bounds(ref bounds, 7);
-            Vector256<double> normalZ = Bounds(ref bounds, 8);
-            Vector256<double> middle = normalX * _middleX + normalY * _middleY + normalZ * _middleZ;
-            Vector256<double> half = Vector256.Create(0.5)
-                * Vector256.Abs(normalX * _alongX + normalY * _alongY + normalZ * _alongZ);
-            Vector256<double> slab = Vector256.MaxNative(zero, Vector256.MaxNative(
+            Vector256<float> zero = Vector256<float>.Zero;
+            Vector256<float> gapX = Vector256.MaxNative(zero, Vector256.Abs(_middleX - Bounds(ref bounds, 0))
+                - (Bounds(ref bounds, 3) + Vector256.Abs(_halfX)));
+            Vector256<float> gapY = Vector256.MaxNative(zero, Vector256.Abs(_middleY - Bounds(ref bounds, 1))
+                - (Bounds(ref bounds, 4) + Vector256.Abs(_halfY)));
+            Vector256<float> gapZ = Vector256.MaxNative(zero, Vector256.Abs(_middleZ - Bounds(ref bounds, 2))
+                - (Bounds(ref bounds, 5) + Vector256.Abs(_halfZ)));
+            Vector256<float> normalX = Bounds(ref bounds, 6);
+            Vector256<float> normalY = Bounds(ref bounds, 7);
+            Vector256<float> normalZ = Bounds(ref bounds, 8);
+            Vector256<float> middle = normalX * _middleX + normalY * _middleY + normalZ * _middleZ;
+            Vector256<float> half = Vector256.Abs(normalX * _halfX + normalY * _halfY + normalZ * _halfZ);
+            Vector256<float> slab = Vector256.MaxNative(zero, Vector256.MaxNative(
                 middle - Bounds(ref bounds, 10), Bounds(ref bounds, 9) - middle) - half);
-            Vector256<double> least = Vector256.MaxNative(gapX * gapX + gapY * gapY + gapZ * gapZ, slab * slab);
+            Vector256<float> least = Vector256.MaxNative(gapX * gapX + gapY * gapY + gapZ * gapZ, slab * slab);
             return Vector256.LessThan(least, _squared).ExtractMostSignificantBits();
         }
 
-        /// <summary>A field of four children.</summary>
+        /// <summary>A field of eight children.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static Vector256<double> Bounds(ref double bounds, int field)
+        public static Vector256<float> Bounds(ref float bounds, int field)
         {
-            return Vector256.LoadUnsafe(ref Unsafe.Add(ref bounds, 4 * field));
+            return Vector256.LoadUnsafe(ref Unsafe.Add(ref bounds, 8 * field));
         }
     }
 }

@@ -4,62 +4,73 @@ using System.Runtime.Intrinsics;
 
 namespace Guidewire.Core
 {
-    /// <summary><see cref="SweptSegment.MayMeet"/> for four children of a node at once, and by the segment where it
-    /// starts <see cref="SegmentSearch.MayHold"/>.</summary>
+    /// <summary><see cref="SweptSegment.MayMeet"/> for eight children of a node at once, and by the segment where it
+    /// starts <see cref="SegmentSearch.MayHold"/>, with distances that make up for rounding.</summary>
     internal readonly struct SweptBoundsTest : IBoundsTest
     {
-        private readonly SweptSegment _swept;
         private readonly SegmentBoundsTest _start;
+        private readonly Vector3d _a0;
+        private readonly Vector3d _b0;
+        private readonly Vector3d _a1;
+        private readonly Vector3d _b1;
+        private readonly Vector3d _centre;
+        private readonly Vector3d _extent;
+        private readonly float _border;
 
         /// <summary>For what a moving segment may come near to.</summary>
-        public SweptBoundsTest(in SweptSegment swept, in SegmentSearch search)
+        public SweptBoundsTest(in SweptSegment swept, in SegmentSearch search, WideBvh tree)
         {
-            _swept = swept;
-            _start = new SegmentBoundsTest(search);
+            _start = new SegmentBoundsTest(search, tree);
+            _a0 = swept.A0 - tree.Origin;
+            _b0 = swept.B0 - tree.Origin;
+            _a1 = swept.A1 - tree.Origin;
+            _b1 = swept.B1 - tree.Origin;
+            _centre = swept.Centre - tree.Origin;
+            double slack = tree.Slack(_centre.Length + swept.Extent.Length);
+            _extent = swept.Extent + new Vector3d(slack, slack, slack);
+            _border = (float)(swept.Border + slack);
         }
 
         /// <inheritdoc/>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public uint MayHold(ref double bounds)
+        public uint MayHold(ref float bounds)
         {
-            Vector3d centre = _swept.Centre;
-            Vector3d extent = _swept.Extent;
-            Vector256<double> overlaps =
-                Overlaps(ref bounds, 0, centre.X, extent.X) & Overlaps(ref bounds, 1, centre.Y, extent.Y)
-                & Overlaps(ref bounds, 2, centre.Z, extent.Z);
+            Vector256<float> overlaps =
+                Overlaps(ref bounds, 0, _centre.X, _extent.X) & Overlaps(ref bounds, 1, _centre.Y, _extent.Y)
+                & Overlaps(ref bounds, 2, _centre.Z, _extent.Z);
             uint hits = overlaps.ExtractMostSignificantBits();
             return hits == 0 ? 0 : hits & _start.MayHold(ref bounds) & ~IsBeside(ref bounds);
         }
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private uint IsBeside(ref double bounds)
+        private uint IsBeside(ref float bounds)
         {
-            Vector256<double> w = Height(ref bounds, _swept.A0);
-            Vector256<double> x = Height(ref bounds, _swept.B0);
-            Vector256<double> y = Height(ref bounds, _swept.A1);
-            Vector256<double> z = Height(ref bounds, _swept.B1);
-            Vector256<double> border = Vector256.Create(_swept.Border);
-            Vector256<double> least = Vector256.MinNative(Vector256.MinNative(w, x), Vector256.MinNative(y, z));
-            Vector256<double> most = Vector256.MaxNative(Vector256.MaxNative(w, x), Vector256.MaxNative(y, z));
+            Vector256<float> w = Height(ref bounds, _a0);
+            Vector256<float> x = Height(ref bounds, _b0);
+            Vector256<float> y = Height(ref bounds, _a1);
+            Vector256<float> z = Height(ref bounds, _b1);
+            Vector256<float> border = Vector256.Create(_border);
+            Vector256<float> least = Vector256.MinNative(Vector256.MinNative(w, x), Vector256.MinNative(y, z));
+            Vector256<float> most = Vector256.MaxNative(Vector256.MaxNative(w, x), Vector256.MaxNative(y, z));
             return (Vector256.GreaterThan(least, SegmentBoundsTest.Bounds(ref bounds, 10) + border)
                 | Vector256.LessThan(most, SegmentBoundsTest.Bounds(ref bounds, 9) - border))
                 .ExtractMostSignificantBits();
         }
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private static Vector256<double> Overlaps(ref double bounds, int axis, double centre, double extent)
+        private static Vector256<float> Overlaps(ref float bounds, int axis, double centre, double extent)
         {
             return Vector256.LessThanOrEqual(
-                Vector256.Abs(Vector256.Create(centre) - SegmentBoundsTest.Bounds(ref bounds, axis)),
-                Vector256.Create(extent) + SegmentBoundsTest.Bounds(ref bounds, axis + 3));
+                Vector256.Abs(Vector256.Create((float)centre) - SegmentBoundsTest.Bounds(ref bounds, axis)),
+                Vector256.Create((float)extent) + SegmentBoundsTest.Bounds(ref bounds, axis + 3));
         }
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private static Vector256<double> Height(ref double bounds, in Vector3d x)
+        private static Vector256<float> Height(ref float bounds, in Vector3d x)
         {
-            return SegmentBoundsTest.Bounds(ref bounds, 6) * Vector256.Create(x.X)
-                + SegmentBoundsTest.Bounds(ref bounds, 7) * Vector256.Create(x.Y)
-                + SegmentBoundsTest.Bounds(ref bounds, 8) * Vector256.Create(x.Z);
+            return SegmentBoundsTest.Bounds(ref bounds, 6) * Vector256.Create((float)x.X)
+                + SegmentBoundsTest.Bounds(ref bounds, 7) * Vector256.Create((float)x.Y)
+                + SegmentBoundsTest.Bounds(ref bounds, 8) * Vector256.Create((float)x.Z);
         }
     }
 }

@@ -53,16 +53,14 @@ namespace Guidewire.Core
         public bool MayBeWithin(in Vector3d x, double distance, int triangle)
         {
             double limit = RoundedUp * distance + _rounding;
-#if NET8_0_OR_GREATER
-            Vector256<double> heights = Heights(x, triangle);
-            double height = heights[0];
-            double outside = Math.Min(Math.Min(0.0, heights[1]), Math.Min(heights[2], heights[3]));
-#else
-            double height = Height(x, triangle, 0);
-            double outside = Math.Min(Math.Min(0.0, Height(x, triangle, 1)),
-                Math.Min(Height(x, triangle, 2), Height(x, triangle, 3)));
-#endif
-            return height * height + outside * outside <= limit * limit;
+            return SquaredBound(x, triangle) <= limit * limit;
+        }
+
+        /// <summary>Lower bound of a triangle's distance from a point, units; negative where none is known.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public double LeastDistance(in Vector3d x, int triangle)
+        {
+            return (Math.Sqrt(SquaredBound(x, triangle)) - _rounding) / RoundedUp;
         }
 
         /// <summary>False where a point that moves in a straight line stays beyond one of a triangle's planes by more
@@ -88,6 +86,22 @@ namespace Guidewire.Core
             }
             return true;
 #endif
+        }
+
+        // Square of a lower bound of the distance, but for rounding.
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        private double SquaredBound(in Vector3d x, int triangle)
+        {
+#if NET8_0_OR_GREATER
+            Vector256<double> heights = Heights(x, triangle);
+            double height = heights[0];
+            double outside = Math.Min(Math.Min(0.0, heights[1]), Math.Min(heights[2], heights[3]));
+#else
+            double height = Height(x, triangle, 0);
+            double outside = Math.Min(Math.Min(0.0, Height(x, triangle, 1)),
+                Math.Min(Height(x, triangle, 2), Height(x, triangle, 3)));
+#endif
+            return height * height + outside * outside;
         }
 
 #if NET8_0_OR_GREATER

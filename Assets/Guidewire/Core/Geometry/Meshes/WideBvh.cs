@@ -8,20 +8,28 @@ using System.Runtime.Intrinsics.X86;
 
 namespace Guidewire.Core
 {
-    /// <summary>The hierarchy of a <see cref="Bvh"/> with four children a node, whose boxes and slabs are tested at
-    /// once: every other level of the binary tree is left out.</summary>
+    /// <summary>The hierarchy of a <see cref="Bvh"/> with eight children a node, whose boxes and slabs are tested at
+    /// once, in single precision: of three levels of the binary tree two are left out.</summary>
     /// <remarks>Leaves are met in the order of the binary tree. Of two slabs, one within the other's triangles, neither
-    /// lies in the other: so a search may also meet leaves that the levels left out would have excluded, never
-    /// fewer.</remarks>
+    /// lies in the other: so a search may also meet leaves that the levels left out would have excluded, and those that
+    /// are farther by what is rounded, never fewer. Coordinates count from the middle of all, which keeps their
+    /// digits.</remarks>
     internal sealed class WideBvh
     {
-        private const int Lanes = 4;
+        private const int Lanes = 8;
+        private const int Levels = 3;               // of the binary tree, from a node to its children
         private const int Fields = 11;              // centre, extent, normal, low, high
         private const int Stride = Lanes * Fields;
-        private const int StackSize = 192;
-        private readonly double[] _bounds;          // by node, field and child
+        private const int StackSize = 256;
+
+        // A gap or a height is a sum of less than 30 terms and roundings, each of half a unit in the last place, 2^-24
+        // of the largest length in it.
+        private const double Rounding = 4e-6;
+        private const double OfOrigin = 1e-14;
+        private readonly float[] _bounds;           // by node, field and child
         private readonly int[] _child;              // by node and child: a node, or -1 - the binary leaf
         private readonly int[] _source;             // by node and child: the binary node, -1 where there is none
+        private double _size;                       // of all, from the origin, units
 
         /// <summary>The same tree as that of binary nodes, children side by side behind their parent.</summary>
         public WideBvh(BvhNode[] nodes)
@@ -30,14 +38,14 @@ namespace Guidewire.Core
             var source = new int[Lanes * most];
             var child = new int[Lanes * most];
             var root = new int[most];    // the binary node of a node
-            Span<int> four = stackalloc int[Lanes];
+            Span<int> children = stackalloc int[Lanes];
             int count = 1;
             for (int node = 0; node < count; node++)
             {
-                int filled = Children(nodes, root[node], four);
+                int filled = Children(nodes, root[node], children);
                 for (int k = 0; k < Lanes; k++)
                 {
-                    int binary = k < filled ? four[k] : -1;
+                    int binary = k < filled ? children[k] : -1;
                     source[Lanes * node + k] = binary;
                     if (binary >= 0 && nodes[binary].Count == 0)
                     {
@@ -52,26 +60,39 @@ namespace Guidewire.Core
             }
             _source = source.AsSpan(0, Lanes * count).ToArray();
             _child = child.AsSpan(0, Lanes * count).ToArray();
-            _bounds = new double[Stride * count];
+            _bounds = new float[Stride * count];
             Refit(nodes);
         }
 
         /// <summary>Whether the processor computes with such registers.</summary>
         public static bool IsSupported => Avx2.IsSupported;
 
+        /// <summary>From where coordinates count: the middle of all, units.</summary>
+        public Vector3d Origin { get; private set; }
+
+        /// <summary>What sums of lengths may be off by, units.</summary>
+        /// <param name="distance">The largest of what is compared with nodes, from the origin, units.</param>
+        public double Slack(double distance)
+        {
+            return Rounding * (_size + distance) + OfOrigin * Origin.Length;
+        }
+
         /// <summary>Takes over the boxes and slabs of the binary nodes.</summary>
         public void Refit(BvhNode[] nodes)
         {
+            Origin = nodes[0].Centre;
+            _size = nodes[0].Extent.Length;
             for (int k = 0; k < _source.Length; k++)
             {
-                Span<double> lane = _bounds.AsSpan(Stride * (k / Lanes) + k % Lanes);
+                Span<float> lane = _bounds.AsSpan(Stride * (k / Lanes) + k % Lanes);
                 BvhNode node = _source[k] >= 0 ? nodes[_source[k]]
-                    : new BvhNode { Low = double.PositiveInfinity, High = double.NegativeInfinity };
-                Put(lane, 0, node.Centre);
+                    : new BvhNode { Centre = Origin, Low = double.PositiveInfinity, High = double.NegativeInfinity };
+                double middle = Vector3d.Dot(node.Normal, Origin);
+                Put(lane, 0, node.Centre - Origin);
                 Put(lane, 3, node.Extent);
                 Put(lane, 6, node.Normal);
-                lane[9 * Lanes] = node.Low;
-                lane[10 * Lanes] = node.High;
+                lane[9 * Lanes] = (float)(node.Low - middle);
+                lane[10 * Lanes] = (float)(node.High - middle);
             }
         }
 
@@ -82,7 +103,7 @@ namespace Guidewire.Core
             Span<int> stack = stackalloc int[StackSize];
             int depth = 0;
             stack[depth++] = 0;
-            ref double bounds = ref MemoryMarshal.GetArrayDataReference(_bounds);
+            ref float bounds = ref MemoryMarshal.GetArrayDataReference(_bounds);
             while (depth > 0)
             {
                 int node = stack[--depth];
@@ -99,31 +120,35 @@ namespace Guidewire.Core
             }
         }
 
-        // Up to four descendants of a binary node that together hold all its triangles, in the order of the tree.
-        private static int Children(BvhNode[] nodes, int binary, Span<int> four)
+        // Up to eight descendants of a binary node that together hold all its triangles, in the order of the tree.
+        private static int Children(BvhNode[] nodes, int binary, Span<int> children)
         {
-            if (nodes[binary].Count > 0)
+            Span<int> above = stackalloc int[Lanes];
+            children[0] = binary;
+            int filled = 1;
+            for (int level = 0; level < Levels; level++)
             {
-                four[0] = binary;
-                return 1;
-            }
-            int filled = 0;
-            for (int child = nodes[binary].First; child < nodes[binary].First + 2; child++)
-            {
-                four[filled++] = nodes[child].Count > 0 ? child : nodes[child].First;
-                if (nodes[child].Count == 0)
+                children.Slice(0, filled).CopyTo(above);
+                int count = filled;
+                filled = 0;
+                for (int k = 0; k < count; k++)
                 {
-                    four[filled++] = nodes[child].First + 1;
+                    BvhNode node = nodes[above[k]];
+                    children[filled++] = node.Count > 0 ? above[k] : node.First;
+                    if (node.Count == 0)
+                    {
+                        children[filled++] = node.First + 1;
+                    }
                 }
             }
             return filled;
         }
 
-        private static void Put(Span<double> lane, int field, in Vector3d value)
+        private static void Put(Span<float> lane, int field, in Vector3d value)
         {
-            lane[field * Lanes] = value.X;
-            lane[(field + 1) * Lanes] = value.Y;
-            lane[(field + 2) * Lanes] = value.Z;
+            lane[field * Lanes] = (float)value.X;
+            lane[(field + 1) * Lanes] = (float)value.Y;
+            lane[(field + 2) * Lanes] = (float)value.Z;
         }
     }
 }

@@ -140,6 +140,75 @@ namespace Guidewire.Core.Tests
             Assert.That(wanted, Is.GreaterThan(all / 6));
         }
 
+        // Scales of vessels in metres and micrometres, and far from the origin; a range that is just the distance.
+        [TestCase(1.0, 0.0)]
+        [TestCase(1e-3, 0.0)]
+        [TestCase(1e3, 3.0)]
+        [TestCase(1.0, 1e3)]
+        [TestCase(1.0, 1e6)]
+        public void Within_LeavesOutNothing_AtAnyScaleAndPlace(double scale, double offset)
+        {
+            const int Count = 300;
+            var random = new RandomGeometry(28);
+            Vector3d move = offset * random.Direction();
+            var corners = new Vector3d[3 * Count];
+            for (int t = 0; t < Count; t++)
+            {
+                Vector3d[] triangle = Array.ConvertAll(random.Triangle(), corner => 0.1 * corner);
+                Vector3d at = random.Point() + move;
+                bool isEdge = random.Index(3) == 0;
+                bool isPoint = random.Index(10) == 0;
+                corners[3 * t] = scale * (at + triangle[0]);
+                corners[3 * t + 1] = isPoint ? corners[3 * t] : scale * (at + triangle[1]);
+                corners[3 * t + 2] = isEdge || isPoint ? corners[3 * t + 1] : scale * (at + triangle[2]);
+            }
+            var tree = new Bvh(corners);
+            var found = new StructList<int>(Count);
+            double rounding = 1e-14 * scale * (1.0 + offset);
+            int cases = RandomGeometry.Cases(20_000);
+            int few = 0;
+            for (int i = 0; i < cases; i++)
+            {
+                int t = 3 * random.Index(Count);
+                Vector3d[] s = random.Segment(corners[t + 1] - corners[t]);
+                Vector3d step = random.Index(4) == 0 ? Vector3d.Zero : random.Number(0.0, 0.3) * random.Point();
+                double turn = random.Number(0.0, 0.2);
+                Vector3d a = scale * (0.2 * s[0] + move);
+                Vector3d b = scale * (0.2 * s[1] + move);
+                Vector3d toA = a + scale * step;
+                Vector3d toB = b + scale * (step + turn * random.Point());
+                double time = 0.5 * random.Index(3);
+                double start = Distance(a, b, corners, t);
+                double distance = Distance(Vector3d.Lerp(a, toA, time), Vector3d.Lerp(b, toB, time), corners, t);
+                found.Clear();
+                tree.Within(a, b, start + rounding, found);
+                Assert.That(Holds(found, t / 3), Is.True, "case " + i + " at " + start);
+                found.Clear();
+                tree.Within(new SweptSegment(a, b, toA, toB, distance + rounding), found);
+                Assert.That(Holds(found, t / 3), Is.True, "moving case " + i + " at " + distance);
+                found.Clear();
+                tree.Within(a, a, 0.01 * scale, found);
+                few += found.Count;
+            }
+            Assert.That(few, Is.LessThan(cases * Count / 20));
+        }
+
+        private static bool Holds(StructList<int> found, int triangle)
+        {
+            bool holds = false;
+            for (int k = 0; k < found.Count; k++)
+            {
+                holds |= found[k] == triangle;
+            }
+            return holds;
+        }
+
+        private static double Distance(in Vector3d a, in Vector3d b, Vector3d[] corners, int t)
+        {
+            return Math.Sqrt(ClosestPoints.SegmentTriangle(
+                a, b, corners[t], corners[t + 1], corners[t + 2], double.PositiveInfinity, out _, out _, out _));
+        }
+
         [Test]
         public void Tree_OfManyEqualTriangles_IsBuiltAndSearched()
         {

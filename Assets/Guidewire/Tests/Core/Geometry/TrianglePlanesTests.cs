@@ -31,6 +31,31 @@ namespace Guidewire.Core.Tests
             Assert.That(leftOut, Is.GreaterThan(kept / 10));
         }
 
+        [TestCase(1.0)]
+        [TestCase(1e-3)]    // a vessel in metres, given in units of a metre
+        [TestCase(1e3)]
+        public void LeastDistance_IsALowerBound_ThatIsTheDistanceOverFacesAndEdges(double scale)
+        {
+            var random = new RandomGeometry(43);
+            int cases = RandomGeometry.Cases(35_000);
+            int tight = 0;
+            for (int i = 0; i < cases; i++)
+            {
+                Vector3d[] unit = Placed(random, random.Triangle(), out Vector3d offset);
+                Vector3d[] t = Array.ConvertAll(unit, corner => scale * corner);
+                Vector3d x = random.Index(8) == 0 ? Vector3d.Lerp(t[0], t[1], random.Number(0.0, 1.0))
+                    : scale * (random.Point() + offset);
+                double distance = Math.Sqrt(ClosestPoints.PointTriangle(x, t[0], t[1], t[2], out _, out int feature));
+                double least = new TrianglePlanes(t).LeastDistance(x, 0);
+                Assert.That(least, Is.LessThanOrEqualTo(distance), "case " + i);
+                if (feature < ClosestPoints.Corner)
+                {
+                    tight += least > distance - 1e-8 * scale ? 1 : 0;
+                }
+            }
+            Assert.That(tight, Is.GreaterThan(cases / 4));
+        }
+
         [Test]
         public void MayMeet_LeavesOutNoTriangle_ThatThePathComesWithinTheDistanceOf()
         {
