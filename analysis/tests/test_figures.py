@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
+import os
 import re
+from functools import partial
 from pathlib import Path
 
 import matplotlib
@@ -56,12 +58,25 @@ def test_axes_are_labelled_with_units(drawn: dict[str, tuple[Figure, str]], name
             assert label.endswith(")") or label.startswith(("number of", "constraint solver", "sphere index")), label
 
 
-@pytest.mark.parametrize("name", FIGURES)
+def drawn_by(name: str) -> object:
+    """What draws a figure: those of one make have panels of one kind."""
+    draw = FIGURES[name].draw
+    if not isinstance(draw, partial):
+        return draw
+    return draw.args[0] if callable(draw.args[0]) else draw.func
+
+
+# Where campaigns do not run in full, the first of each make.
+LAID_OUT = list(FIGURES) if os.environ.get("GUIDEWIRE_ALL") else list(
+    {drawn_by(name): name for name in reversed(FIGURES)}.values())
+
+
+@pytest.mark.parametrize("name", LAID_OUT)
 def test_caption_stands_under_the_panels_and_inside_the_picture(
     drawn: dict[str, tuple[Figure, str]], name: str
 ) -> None:
     figure, caption = drawn[name]
-    figure.draw_without_rendering()
+    figure.get_layout_engine().execute(figure)    # where everything stands, without drawing what the panels show
     renderer = figure.canvas.get_renderer()
     text = next(text for text in figure.texts if text.get_gid() == CAPTION_ID)
     assert " ".join(text.get_text().split()) == caption and caption.startswith(f"Figure {name}. ")

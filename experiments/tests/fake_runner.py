@@ -2,7 +2,8 @@
 
 `set` of a request steers it: {"die": code} ends the process before the answer, {"signal": number} kills it,
 {"dieLater": 1} ends it after the answer,
-{"babble": text} answers something that is no JSON, {"sleep": seconds} works for that long, {"exitCode": code}
+{"babble": text} answers something that is no JSON, {"sleep": seconds} works for that long, {"until": file} works until
+that file is there, a minute at most, {"exitCode": code}
 fails in the ordinary way, {"lost": 1} leaves a summary that says that the log was lost; {"refused": text} is refused
 where it is checked. {"once": 1} lets all that happen the first time only. Everything it was asked stands in the file
 named by its first argument, one line each: process id, start and end of the run, request.
@@ -49,13 +50,15 @@ def main(journal):
         if "once" in wish and (out / "begun").exists():
             wish = {}
         out.mkdir(parents=True, exist_ok=True)
-        (out / "begun").touch()
         try:
+            (out / "begun").touch()
             if "die" in wish:
                 os._exit(wish["die"])
             if "signal" in wish:
                 os.kill(os.getpid(), wish["signal"])
             time.sleep(wish.get("sleep", 0))
+            while "until" in wish and not Path(wish["until"]).exists() and time.monotonic() < started + 60.0:
+                time.sleep(0.02)
             if "exitCode" in wish:
                 answer.update(exitCode=wish["exitCode"], outcome=None, message="guidewire: bad key")
             else:

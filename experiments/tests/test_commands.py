@@ -1,6 +1,7 @@
 """The commands as a user types them, with the real runner."""
 
 import argparse
+import contextlib
 import io
 import json
 import subprocess
@@ -12,7 +13,7 @@ from pathlib import Path
 import pytest
 
 import guidewire
-from experiments import building, commands
+from experiments import building, commands, gallery
 from experiments.prepare import ROOT, PreparationError
 
 
@@ -42,10 +43,11 @@ def typed(capfd, monkeypatch):
 
 @pytest.fixture(scope="module")
 def demo(tmp_path_factory):
-    """The folder of a demo, and how it ended, in a process of its own."""
+    """The folder of a demo, and how it ended, in this process."""
     folder = tmp_path_factory.mktemp("demo")
-    return folder, subprocess.run([sys.executable, str(ROOT / "guidewire.py"), "demo", "--out", str(folder)],
-                                  capture_output=True, text=True, check=False, cwd=ROOT)
+    with contextlib.redirect_stdout(io.StringIO()) as said, contextlib.redirect_stderr(io.StringIO()) as complained:
+        code = commands.run(commands.parse(["demo", "--out", str(folder)]))
+    return folder, Done(code, said.getvalue(), complained.getvalue())
 
 
 def test_the_demo_prints_tau_and_period_of_the_thesis_run_and_draws_four_figures(demo):
@@ -62,8 +64,10 @@ def test_the_demo_prints_tau_and_period_of_the_thesis_run_and_draws_four_figures
     assert "index.md" in done.stdout
 
 
-def test_the_demo_a_second_time_runs_nothing_again(demo):
+def test_the_demo_a_second_time_runs_nothing_again(demo, monkeypatch):
     folder, _ = demo
+    drawn = gallery.Gallery(folder / "index.md", ())    # its figures are those of the first time
+    monkeypatch.setattr(gallery, "draw", lambda *_: drawn)
     logs = list(folder.glob("runs/*/*/positions.json"))
     before = [log.stat().st_mtime_ns for log in logs]
     assert len(logs) == 6

@@ -43,7 +43,7 @@ def serving(tmp_path, *words, with_three=False, what="view"):
         assert line.startswith("open http://127.0.0.1:"), (tmp_path / "errors").read_text()
         yield line.split()[1], process
         process.send_signal(signal.SIGINT)
-        assert process.wait(20) == 0
+        assert process.wait(60) == 0
         assert (tmp_path / "errors").read_text() == ""
     finally:
         process.kill()
@@ -64,7 +64,7 @@ def live(runner_command, tmp_path_factory):
 def ask(address, path, method="GET", **headers):
     """Status and text of an answer to a request as it stands, without anything put right before it is sent."""
     where = urlsplit(address)
-    connection = http.client.HTTPConnection(where.hostname, where.port, timeout=10)
+    connection = http.client.HTTPConnection(where.hostname, where.port, timeout=60)
     connection.putrequest(method, path, skip_host="Host" in headers)
     for name, value in headers.items():
         connection.putheader(name, value)
@@ -83,10 +83,10 @@ def with_pages(address, talk, count=1):
             pages = []
             for _ in range(count):
                 pages.append(await session.ws_connect(address + "live", headers={"Origin": origin}, max_msg_size=0))
-                await pages[-1].receive_json(timeout=10)
+                await pages[-1].receive_json(timeout=60)
                 pages[-1].session, pages[-1].recording = session, address + "recording/0"
             try:
-                return await asyncio.wait_for(talk(*pages), 30)
+                return await asyncio.wait_for(talk(*pages), 120)
             finally:
                 for page in pages:
                     await page.close()
@@ -249,14 +249,14 @@ def test_a_refused_value_and_a_long_time_step_leave_the_wire_going(live):
         await page.send_json({"do": "reset"})
         await page.send_json({"do": "set", "key": "timeStep", "value": 0.01})
         await hear(page, lambda status: status["values"]["timeStep"] == 0.01)
-        assert len(await see(page, 5)) == 5 and time.monotonic() - began < 5.0
+        assert len(await see(page, 5)) == 5 and time.monotonic() - began < 60.0
 
     with_pages(live[0], talk)
 
 
 def test_a_start_anew_ends_a_step_that_takes_too_long(runner_command, tmp_path, monkeypatch):
     (tmp_path / "slow.json").write_text(json.dumps({
-        **SCENE, "numberRodElements": 400, "constraintSolverSteps": 1_000_000}))
+        **SCENE, "numberRodElements": 2000, "constraintSolverSteps": 1_000_000}))
     monkeypatch.setattr("viewer.live._PATIENCE", 0.1)
 
     async def talk():
@@ -264,10 +264,10 @@ def test_a_start_anew_ends_a_step_that_takes_too_long(runner_command, tmp_path, 
         run.open()
         run._hand, run._is_paused = object(), False
         going = asyncio.ensure_future(run.go())
-        await asyncio.sleep(0.3)  # its first step, of some 20 s, is under way
+        await asyncio.sleep(0.3)  # its first step, of some 100 s, is under way
         began = time.monotonic()
         await run._do_reset({})
-        assert time.monotonic() - began < 5.0 and run._session.is_open and run._session.state.step == 0
+        assert time.monotonic() - began < 30.0 and run._session.is_open and run._session.state.step == 0
         run._is_paused = True
         run._session.kill()
         going.cancel()
@@ -318,7 +318,9 @@ def test_a_runner_that_is_killed_is_said_and_a_new_one_takes_its_place(live):
         status = await hear(page, lambda status: status["problem"])
         assert "killed by signal 9" in status["problem"] and status["isPaused"]
         await page.send_json({"do": "reset"})
-        await hear(page, lambda status: not status["problem"])
+        await page.send_json({"do": "pause", "value": True})
+        await hear(page, lambda status: not status["problem"] and status["isPaused"])
+        await page.send_json({"do": "step"})
         assert (await see(page, 1))[0][2] <= 20  # among its first steps
 
     with_pages(live[0], talk)
@@ -337,7 +339,7 @@ def test_a_server_that_ends_says_so_and_leaves_no_runner(runner_command, tmp_pat
             assert message.extra == "the server has ended"
 
         with_pages(address, talk)
-        assert process.wait(10) == 0
+        assert process.wait(60) == 0
     for _ in range(100):
         if not any(os.path.exists(f"/proc/{runner}") for runner in runners):
             return

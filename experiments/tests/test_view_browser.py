@@ -44,7 +44,7 @@ def browse():
     process = subprocess.Popen([node, str(script), str(modules.parent), browser], stdin=subprocess.PIPE,
                                stdout=subprocess.PIPE, text=True)
 
-    def follow(*steps, offline=False, size=(1000, 640)):
+    def follow(*steps, offline=False, size=(720, 460)):
         process.stdin.write(json.dumps({"steps": steps, "offline": offline, "size": size}) + "\n")
         process.stdin.flush()
         answer = json.loads(process.stdout.readline())
@@ -278,5 +278,7 @@ def test_a_task_steered_by_keys_is_recorded_and_done_again_to_the_same_bits(brow
 def is_drawn(path):
     """Whether the picture shows more than its background where the wire is."""
     with Image.open(path) as picture:
-        pixels = np.asarray(picture.convert("RGB"))[70:540, 360:680].astype(int)
+        width, height = picture.size
+        middle = (0.36 * width, 0.11 * height, 0.68 * width, 0.84 * height)
+        pixels = np.asarray(picture.convert("RGB").crop(middle)).astype(int)
     return (np.abs(pixels - (20, 23, 31)).max(axis=2) > 20).mean() > 0.01

@@ -45,7 +45,7 @@ namespace Guidewire.Unity.Tests
             double before = Along();
             double time = Stage.Loop.Session!.Simulation.Time;
             Engine.Press(key);
-            Stage.Frames(30);
+            Stage.Frames(8);
             double moved = Along() - before;
             Assert.That(moved, Is.EqualTo(sign * 40.0 * (Stage.Loop.Session!.Simulation.Time - time)).Within(0.2),
                 "40 units a second of in-game time");
@@ -53,7 +53,7 @@ namespace Guidewire.Unity.Tests
             Engine.Release(key);
             Stage.Frames(1);
             double after = Along();
-            Stage.Frames(10);
+            Stage.Frames(3);
             Assert.That(Along(), Is.EqualTo(after), "it is held where it was left");
         }
 
@@ -65,7 +65,7 @@ namespace Guidewire.Unity.Tests
         {
             double time = Stage.Loop.Session!.Simulation.Time;
             Engine.Press(key);
-            Stage.Frames(20);
+            Stage.Frames(8);
             double asked = sign * Math.PI * (Stage.Loop.Session!.Simulation.Time - time);
             Assert.That(Turned(), Is.EqualTo(asked).Within(0.05 * Math.Abs(asked)), "180 degrees a second");
         }
@@ -76,11 +76,11 @@ namespace Guidewire.Unity.Tests
             Stage.Tap(KeyCode.Space);
             int steps = Stage.Loop.Session!.Simulation.StepCount;
             double real = Stage.Loop.RealTime;
-            Stage.Frames(10);
+            Stage.Frames(4);
             Assert.That(Stage.Loop.Session.Simulation.StepCount, Is.EqualTo(steps));
             Assert.That(Stage.Loop.RealTime, Is.EqualTo(real), "a pause is not counted");
             Stage.Tap(KeyCode.Space);
-            Stage.Frames(10);
+            Stage.Frames(4);
             Assert.That(Stage.Loop.Session.Simulation.StepCount, Is.GreaterThan(steps));
         }
 
@@ -99,7 +99,7 @@ namespace Guidewire.Unity.Tests
         public void R_StartsAnew()
         {
             Engine.Press(KeyCode.W);
-            Stage.Frames(30);
+            Stage.Frames(8);
             Engine.Release(KeyCode.W);
             Stage.Tap(KeyCode.Space);
             Stage.Tap(KeyCode.R);
@@ -208,7 +208,7 @@ namespace Guidewire.Unity.Tests
             Engine.Reset(Stage.Root);
             Engine.RefuseInput();
             Stage.Enter("Assets/Guidewire/Scenes/Insertion.unity");
-            Stage.Frames(20);
+            Stage.Frames(5);
             Transform camera = Engine.Find<OrbitCamera>().transform;
             var middle = new Vector3(0f, 45f, -20f);    // the scene's target and distance
             Vector3 towards = (middle - camera.position).normalized;
@@ -217,7 +217,7 @@ namespace Guidewire.Unity.Tests
             Assert.That(Stage.Loop.Session!.Simulation.StepCount, Is.GreaterThan(0));
             Assert.That(string.Join("\n", Engine.Labels), Does.Contain("Active Input Handling"));
             Stage.Open("Assets/Guidewire/Scenes/Insertion.unity");
-            Stage.Frames(20);
+            Stage.Frames(5);
             Assert.That(string.Join("\n", Engine.Labels), Does.Not.Contain("Active Input Handling"));
         }
 
@@ -255,7 +255,7 @@ namespace Guidewire.Unity.Tests
         [TestCase("sweepOrder", "bilateral")]
         public void Button_SwitchesInFlight(string key, string expected)
         {
-            Stage.Frames(10);
+            Stage.Frames(4);
             Vector3d tip = Stage.State.Positions[30];
             Stage.Tap(KeyCode.Space);
             int steps = Stage.Loop.Session!.Simulation.StepCount;

@@ -134,5 +134,24 @@ namespace Guidewire.Core.Tests
             }
             return finite;
         }
+
+        /// <summary>A wire of radius 1 along z that just touches a plane, under its weight.</summary>
+        public static SimulationParameters LyingOnAPlane(Drive drive, double collisionStiffness)
+        {
+            return new SimulationParameters
+            {
+                Scene =
+                {
+                    NumberRodElements = 10,
+                    GuidewireLength = 100.0,
+                    GuidewireOffset = 0.0,
+                    Gravity = new Vector3d(0.0, -10.0, 0.0),
+                    Walls = new ContactShape[] { new PlaneShape(-1.0 * Vector3d.UnitY, Vector3d.UnitY) },
+                },
+                Contact = { SphereRadius = 1.0, CollisionStiffness = collisionStiffness },
+                Method = { ConstraintSolverSteps = 50, DeltaThreshold = 0.0, MaxSimulationSteps = 100_000 },
+                Drive = { Kind = drive, Displacement = 0.0 },
+            };
+        }
     }
 }

@@ -13,7 +13,7 @@ namespace Guidewire.Core.Tests
         [Category("Long")]
         public void Nearest_AgreesWithTheLoopOverAllTriangles()
         {
-            Compare(TestMeshes.Ball(12, 0.2).Corners, new RandomGeometry(21), RandomGeometry.Cases(10_000));
+            Compare(TestMeshes.Ball(12, 0.2).Corners, new RandomGeometry(21), RandomGeometry.Cases(10_000, 40));
         }
 
         [Test]
@@ -26,7 +26,7 @@ namespace Guidewire.Core.Tests
                 Vector3d[] triangle = random.Triangle();
                 Array.Copy(triangle, 0, corners, 3 * t, 3);
             }
-            Compare(corners, random, RandomGeometry.Cases(5_000, 4));
+            Compare(corners, random, RandomGeometry.Cases(5_000, 16));
         }
 
         [Test]
@@ -42,7 +42,7 @@ namespace Guidewire.Core.Tests
                     new Vector3d(random.Number(0.5, 1.5), random.Number(0.5, 1.5), -random.Number(0.5, 1.5)));
                 Vector3d[] moved = Array.ConvertAll(corners, corner => placement.Apply(corner));
                 tree.Refit(moved);
-                Compare(tree, moved, random, RandomGeometry.Cases(1_000));
+                Compare(tree, moved, random, RandomGeometry.Cases(1_000, 25));
             }
         }
 
@@ -53,7 +53,7 @@ namespace Guidewire.Core.Tests
             Vector3d[] corners = TestMeshes.Ball(10, 0.0).Corners;
             var tree = new Bvh(corners);
             var random = new RandomGeometry(24);
-            for (int i = 0; i < RandomGeometry.Cases(10_000, 40); i++)
+            for (int i = 0; i < RandomGeometry.Cases(10_000, 100); i++)
             {
                 Vector3d[] s = random.Segment(Vector3d.UnitX);
                 double distance = BruteForce.Distance(s, corners, out _);
@@ -92,7 +92,7 @@ namespace Guidewire.Core.Tests
             var found = new StructList<int>(16);
             int wanted = 0;
             int all = 0;
-            for (int i = 0; i < RandomGeometry.Cases(2_000); i++)
+            for (int i = 0; i < RandomGeometry.Cases(2_000, 40); i++)
             {
                 Vector3d[] s = random.Segment(Vector3d.UnitX);
                 double range = random.Number(0.0, 0.3);
@@ -114,7 +114,7 @@ namespace Guidewire.Core.Tests
             var found = new StructList<int>(16);
             int wanted = 0;
             int all = 0;
-            for (int i = 0; i < RandomGeometry.Cases(300); i++)
+            for (int i = 0; i < RandomGeometry.Cases(300, 30); i++)
             {
                 Vector3d[] s = random.Segment(Vector3d.UnitX);
                 Vector3d[] to = { s[0] + 0.2 * random.Point(), s[1] + 0.2 * random.Point() };

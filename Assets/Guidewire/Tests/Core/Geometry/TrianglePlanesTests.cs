@@ -14,21 +14,12 @@ namespace Guidewire.Core.Tests
         [Test]
         public void MayBeWithin_LeavesOutNoTriangle_ThatIsWithinTheDistance()
         {
-            var random = new RandomGeometry(41);
-            int kept = 0;
-            int leftOut = 0;
-            for (int i = 0; i < RandomGeometry.Cases(100_000); i++)
+            AssertLeavesOutNone(41, (random, t, offset) =>
             {
-                Vector3d[] t = Placed(random, random.Triangle(), out Vector3d offset);
                 Vector3d x = random.Point() + offset;
                 double distance = Math.Sqrt(ClosestPoints.PointTriangle(x, t[0], t[1], t[2], out _, out _));
-                double asked = random.Index(2) == 0 ? distance : random.Number(0.0, 1.0);
-                bool mayBe = new TrianglePlanes(t).MayBeWithin(x, asked, 0);
-                Assert.That(mayBe || distance > asked, Is.True, "case " + i + ": " + distance + " of " + asked);
-                kept += mayBe ? 1 : 0;
-                leftOut += mayBe ? 0 : 1;
-            }
-            Assert.That(leftOut, Is.GreaterThan(kept / 10));
+                return (distance, asked => new TrianglePlanes(t).MayBeWithin(x, asked, 0));
+            });
         }
 
         [TestCase(1.0)]
@@ -59,23 +50,14 @@ namespace Guidewire.Core.Tests
         [Test]
         public void MayMeet_LeavesOutNoTriangle_ThatThePathComesWithinTheDistanceOf()
         {
-            var random = new RandomGeometry(42);
-            int kept = 0;
-            int leftOut = 0;
-            for (int i = 0; i < RandomGeometry.Cases(100_000); i++)
+            AssertLeavesOutNone(42, (random, t, offset) =>
             {
-                Vector3d[] t = Placed(random, random.Triangle(), out Vector3d offset);
                 Vector3d from = random.Point() + offset;
                 Vector3d to = from + random.Number(0.0, 1.0) * random.Point();
                 double distance = Math.Sqrt(ClosestPoints.SegmentTriangle(
                     from, to, t[0], t[1], t[2], double.PositiveInfinity, out _, out _, out _));
-                double asked = random.Index(2) == 0 ? distance : random.Number(0.0, 1.0);
-                bool mayMeet = new TrianglePlanes(t).MayMeet(from, to, asked, 0);
-                Assert.That(mayMeet || distance > asked, Is.True, "case " + i + ": " + distance + " of " + asked);
-                kept += mayMeet ? 1 : 0;
-                leftOut += mayMeet ? 0 : 1;
-            }
-            Assert.That(leftOut, Is.GreaterThan(kept / 10));
+                return (distance, asked => new TrianglePlanes(t).MayMeet(from, to, asked, 0));
+            });
         }
 
         [Test]
@@ -91,6 +73,26 @@ namespace Guidewire.Core.Tests
             Assert.That(planes.MayBeWithin(beside, 0.999, 0), Is.False);
             Assert.That(planes.MayMeet(over, over - 0.5 * Vector3d.UnitZ, 0.499, 0), Is.False);
             Assert.That(planes.MayMeet(over, over - 2.0 * Vector3d.UnitZ, 0.499, 0), Is.True);
+        }
+
+        // Of a triangle and where it is placed: the exact distance, and whether one asked for may be within reach.
+        private static void AssertLeavesOutNone(int seed,
+            Func<RandomGeometry, Vector3d[], Vector3d, (double Distance, Func<double, bool> MayBe)> draw)
+        {
+            var random = new RandomGeometry(seed);
+            int kept = 0;
+            int leftOut = 0;
+            for (int i = 0; i < RandomGeometry.Cases(100_000); i++)
+            {
+                Vector3d[] t = Placed(random, random.Triangle(), out Vector3d offset);
+                (double distance, Func<double, bool> mayBe) = draw(random, t, offset);
+                double asked = random.Index(2) == 0 ? distance : random.Number(0.0, 1.0);
+                bool isKept = mayBe(asked);
+                Assert.That(isKept || distance > asked, Is.True, "case " + i + ": " + distance + " of " + asked);
+                kept += isKept ? 1 : 0;
+                leftOut += isKept ? 0 : 1;
+            }
+            Assert.That(leftOut, Is.GreaterThan(kept / 10));
         }
 
         private static Vector3d[] Placed(RandomGeometry random, Vector3d[] triangle, out Vector3d offset)

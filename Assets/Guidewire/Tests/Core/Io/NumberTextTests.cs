@@ -14,7 +14,7 @@ namespace Guidewire.Core.Tests
     [TestFixture]
     public sealed class NumberTextTests
     {
-        private static readonly int Count = RandomGeometry.Cases(200_000, 4);
+        private static readonly int Count = RandomGeometry.Cases(200_000, 20);
 
         // .NET writes the shortest text since Core 3.0; a runtime that writes otherwise is what the rule is for.
         private static readonly bool HasShortest = (5e-324).ToString("R", CultureInfo.InvariantCulture) == "5E-324"

@@ -92,7 +92,7 @@ namespace Guidewire.Core.Tests
             // The last steps' mean: one-sided contacts let go and catch again, a jitter of some 1e-6 units, and the
             // mean differs from the weight by the change of momentum over that time only.
             const int Steps = 2000;
-            SimulationParameters p = LyingWire(Drive.Force);
+            SimulationParameters p = Wires.LyingOnAPlane(Drive.Force, 0.01);
             p.Method.Damping = 0.1;
             Simulation simulation = Simulation.Create(p);
             Vector3d sum = Vector3d.Zero;
@@ -112,7 +112,7 @@ namespace Guidewire.Core.Tests
         public void ContactForces_AndTheReactionOfAHeldSphere_AddUpToTheWeight()
         {
             // Held above the plane: the wire hangs from sphere 0 and rests with its far part.
-            SimulationParameters p = LyingWire(Drive.Hold);
+            SimulationParameters p = Wires.LyingOnAPlane(Drive.Hold, 0.01);
             p.Drive.Displacement = 3.0;
             p.Drive.DisplacementDirection = Vector3d.UnitY;
             p.Method.Damping = 0.05;
@@ -133,7 +133,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void ForceBalance_HoldsInEveryStep()
         {
-            SimulationParameters p = LyingWire(Drive.Hold);
+            SimulationParameters p = Wires.LyingOnAPlane(Drive.Hold, 0.01);
             p.Drive.Displacement = 3.0;
             p.Drive.DisplacementDirection = Vector3d.UnitY;
             Simulation simulation = Simulation.Create(p);
@@ -188,7 +188,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void Displacement_AtTheStart_EndsAtTheWall()
         {
-            SimulationParameters p = LyingWire(Drive.Hold);
+            SimulationParameters p = Wires.LyingOnAPlane(Drive.Hold, 0.01);
             p.Drive.Displacement = -50.0;
             p.Drive.DisplacementDirection = Vector3d.UnitY;
             Simulation simulation = Simulation.Create(p);
@@ -200,7 +200,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void Wire_ThatStartsOutside_IsRefused()
         {
-            SimulationParameters p = LyingWire(Drive.Hold);
+            SimulationParameters p = Wires.LyingOnAPlane(Drive.Hold, 0.01);
             p.Scene.Walls = new ContactShape[] { new PlaneShape(10.0 * Vector3d.UnitY, Vector3d.UnitY) };
             Assert.That(() => Simulation.Create(p), Throws.ArgumentException.With.Message.Contains("starts outside"));
         }
@@ -256,7 +256,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void Step_WithContacts_AllocatesNothing()
         {
-            SimulationParameters p = LyingWire(Drive.Push);
+            SimulationParameters p = Wires.LyingOnAPlane(Drive.Push, 0.01);
             p.Drive.DisplacementPerStep = 3.0;
             p.Scene.Walls = new ContactShape[]
             {
@@ -308,25 +308,6 @@ namespace Guidewire.Core.Tests
                 Drive = { Kind = Drive.Force },
                 Pbd = { TotalMass = 1.0 },
             });
-        }
-
-        // A wire of radius 1 along z that just touches a plane.
-        private static SimulationParameters LyingWire(Drive drive)
-        {
-            return new SimulationParameters
-            {
-                Scene =
-                {
-                    NumberRodElements = 10,
-                    GuidewireLength = 100.0,
-                    GuidewireOffset = 0.0,
-                    Gravity = new Vector3d(0.0, -10.0, 0.0),
-                    Walls = new ContactShape[] { new PlaneShape(-1.0 * Vector3d.UnitY, Vector3d.UnitY) },
-                },
-                Contact = { SphereRadius = 1.0, CollisionStiffness = 0.01 },
-                Method = { ConstraintSolverSteps = 50, DeltaThreshold = 0.0, MaxSimulationSteps = 100_000 },
-                Drive = { Kind = drive, Displacement = 0.0 },
-            };
         }
 
         private static void AssertAlong(in Vector3d moved, in Vector3d n)

@@ -192,25 +192,12 @@ namespace Guidewire.Core.Tests
 
         private static SimulationParameters LyingWire(ElementContact rule, double gain)
         {
-            var plane = new PlaneShape(-1.0 * Vector3d.UnitY, Vector3d.UnitY) { FrictionCoefficient = Coefficient };
-            return new SimulationParameters
-            {
-                Scene =
-                {
-                    NumberRodElements = 10,
-                    GuidewireLength = 100.0,
-                    GuidewireOffset = 0.0,
-                    Gravity = new Vector3d(0.0, -10.0, 0.0),
-                    Walls = new ContactShape[] { plane },
-                },
-                Contact = { SphereRadius = 1.0, CollisionStiffness = gain, ElementContact = rule },
-                Pbd = { StretchStiffness = 1.0 },
-                Method =
-                {
-                    ConstraintSolverSteps = 50, DeltaThreshold = 0.0, MaxSimulationSteps = 100_000, Damping = 0.1,
-                },
-                Drive = { Kind = Drive.Hold, Displacement = 0.0 },
-            };
+            SimulationParameters p = Wires.LyingOnAPlane(Drive.Hold, gain);
+            p.Scene.Walls[0].FrictionCoefficient = Coefficient;
+            p.Contact.ElementContact = rule;
+            p.Pbd.StretchStiffness = 1.0;
+            p.Method.Damping = 0.1;
+            return p;
         }
     }
 }

@@ -11,26 +11,18 @@ namespace Guidewire.Core.Tests
         public void HubForcesAndTorques_AreTheDifferencesOfTheEnergy()
         {
             CoaxialStep run = Swinging(Integrator.ImplicitEuler, 0.31, out _, out RodState state);
-            double worst = 0.0;
-            double peak = 0.0;
-            double worstTorque = 0.0;
-            double peakTorque = 0.0;
+            var forces = new LargestError();
+            var torques = new LargestError();
             for (int k = 0; k < 60; k++)
             {
                 run.Advance(state);
                 Assert.That(run.Failure, Is.Null);
                 CoaxialRecord record = run.Coaxial()!;
-                double force = Slope(1e-6, d => EnergyAt(run, d, 0.0));
-                double torque = Slope(1e-5, d => EnergyAt(run, 0.0, d));
-                peak = Math.Max(peak, Math.Abs(record.WireForce));
-                peakTorque = Math.Max(peakTorque, Math.Abs(record.WireTorque));
-                worst = Math.Max(worst, Math.Abs(force - record.WireForce));
-                worstTorque = Math.Max(worstTorque, Math.Abs(torque - record.WireTorque));
+                forces.Add(EnergySlopes.Difference(1e-6, d => EnergyAt(run, d, 0.0)), record.WireForce);
+                torques.Add(EnergySlopes.Difference(1e-5, d => EnergyAt(run, 0.0, d)), record.WireTorque);
             }
-            Assert.That(peak, Is.GreaterThan(0.02));
-            Assert.That(peakTorque, Is.GreaterThan(1e-4));
-            Assert.That(worst, Is.LessThan(1e-6 * peak));
-            Assert.That(worstTorque, Is.LessThan(1e-6 * peakTorque));
+            forces.AssertBelow(1e-6, 0.02);
+            torques.AssertBelow(1e-6, 1e-4);
         }
 
         [Test]
@@ -80,7 +72,7 @@ namespace Guidewire.Core.Tests
                     drag += j >= run.Rod.LumenDrag.Length ? 0.0
                         : h * run.Rod.LumenDrag[j] * motion.TwistRates[j] * motion.TwistRates[j];
                 }
-                double slope = SlopeAlong(motion, before) - OnHubsByEnergy(run, now, old);
+                double slope = EnergySlopes.Along(motion, before) - OnHubsByEnergy(run, now, old);
                 double scheme = mass.KineticEnergy(v, w) + InnerSpin.KineticEnergy(run.Rod, w, rates) + energy
                     - energyNow - slope;
                 double left = onHubs - (energyNow - energy) - (kineticNow - kinetic) - drag - scheme;
@@ -135,11 +127,6 @@ namespace Guidewire.Core.Tests
             Assert.That(Math.Abs(one), Is.LessThan(0.35 * Math.Abs(two)));
         }
 
-        private static double Slope(double step, Func<double, double> value)
-        {
-            return (value(step) - value(-step)) / (2.0 * step);
-        }
-
         // All energy with the wire's hub this much on, m, and turned on, radians.
         private static double EnergyAt(CoaxialStep run, double on, double turn)
         {
@@ -152,29 +139,6 @@ namespace Guidewire.Core.Tests
             run.Rod.SetLead(lead);
             bending.HubTwist = twist;
             return energy;
-        }
-
-        // E'(z1)(z0 - z1) of the coordinates, all nodes and frames among them.
-        private static double SlopeAlong(RodDynamics motion, RodShape before)
-        {
-            RodShape shape = motion.Shape;
-            var gradient = new RodVector[motion.Terms.VectorCount];
-            motion.Terms.AddGradient(shape, gradient);
-            double sum = 0.0;
-            int n = shape.ElementCount;
-            for (int i = 0; i <= n; i++)
-            {
-                Vector3d move = before.X[i] - shape.X[i];
-                RodVector g = gradient[i];
-                sum += g.X1 * move.X + g.X2 * move.Y + g.X3 * move.Z;
-                if (i < n)
-                {
-                    Vector3d turn = RotationVector.Log(shape.Q[i].Conjugate * before.Q[i]);
-                    sum += g.T1 * turn.X + g.T2 * turn.Y + g.T3 * turn.Z;
-                    sum += gradient[n + 2 + i].T3 * (before.Twist[i] - shape.Twist[i]);
-                }
-            }
-            return sum;
         }
 
         // E'(z1) (z1 - z0) of the hubs but for the first node, which is among the coordinates.

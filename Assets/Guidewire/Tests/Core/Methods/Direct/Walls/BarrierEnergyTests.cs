@@ -39,7 +39,7 @@ namespace Guidewire.Core.Tests
             string name)
         {
             int tried = 0;
-            for (int seed = 0; seed < 400 && tried < 20; seed++)
+            for (int seed = 0; seed < 400 && tried < RandomGeometry.Cases(20, 2); seed++)
             {
                 BarrierEnergy energy = Create(name, seed, out RodShape shape);
                 double value = energy.Value(shape);
@@ -199,7 +199,7 @@ namespace Guidewire.Core.Tests
             string name)
         {
             int cut = 0;
-            for (int seed = 0; seed < 400; seed++)
+            for (int seed = 0; seed < 400 && cut < RandomGeometry.Cases(400, 25); seed++)
             {
                 BarrierEnergy energy = Create(name, seed, out RodShape shape);
                 if (double.IsPositiveInfinity(energy.Value(shape)) || GapOf(energy.Walls[0], shape) <= 0.0)
