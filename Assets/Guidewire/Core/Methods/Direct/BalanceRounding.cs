@@ -9,8 +9,8 @@ namespace Guidewire.Core
     /// hide loads, in soft pieces of the rod too. There each element has only its own: the forces on all nodes beyond
     /// one, summed up from the free tip, are the stress of the one element before it, whose strain alone is rounded;
     /// and so the force on the whole rod, from which its support's is read, has none of it. Rounding of positions is no
-    /// error of the shape, since the next step of Newton's method takes it back; so at least one must have been
-    /// made.</remarks>
+    /// error of the shape, since the next step of Newton's method takes it back; so at least one must have been made.
+    /// Of a rod held at both ends the supports' forces remain uncertain by it.</remarks>
     internal sealed class BalanceRounding
     {
         private const double LastPlace = 1.0 / (1L << 52);
@@ -20,6 +20,7 @@ namespace Guidewire.Core
         private readonly double _mass;
         private readonly double _factor;
         private readonly double _totalLength;
+        private readonly bool _holdsEnd;
         private double _ofMass;                   // N
         private double _distance;                 // of one unit in the last place, m
 
@@ -37,7 +38,8 @@ namespace Guidewire.Core
             {
                 AxialSpring = Math.Max(AxialSpring, rod.StretchStiffness[j] / rod.Length[j]);
             }
-            IsLarge = supports.Distal == DistalEnd.Free && LastPlace * _totalLength * AxialSpring > Resolution;
+            _holdsEnd = supports.Distal != DistalEnd.Free;
+            IsLarge = LastPlace * _totalLength * AxialSpring > Resolution;
         }
 
         /// <summary>The largest EA/l, N/m.</summary>
@@ -45,6 +47,10 @@ namespace Guidewire.Core
 
         /// <summary>Whether it may hide forces that matter.</summary>
         public bool IsLarge { get; }
+
+        /// <summary>By how much the forces of two supports may be wrong, N; 0 of one, or where it does not
+        /// matter.</summary>
+        public double OfSupports => IsLarge && _holdsEnd ? LastPlace * _totalLength * AxialSpring : 0.0;
 
         /// <summary>A stage begins.</summary>
         /// <param name="stageLength">h, s.</param>
@@ -65,10 +71,11 @@ namespace Guidewire.Core
             Vector3d sum = Vector3d.Zero;
             double largest = 0.0;
             double couples = 0.0;
+            double ofEnd = _holdsEnd ? Of(_rod.ElementCount - 1) : 0.0;
             for (int i = _rod.ElementCount; i >= 0; i--)
             {
                 RodVector f = forces[i];
-                double rounding = Of(Math.Max(i - 1, 0));
+                double rounding = Of(Math.Max(i - 1, 0)) + ofEnd;
                 sum += new Vector3d(f.X1, f.X2, f.X3);
                 largest = Math.Max(largest, sum.Length - rounding);
                 double couple = Math.Abs(f.T1) + Math.Abs(f.T2) + Math.Abs(f.T3);
@@ -84,11 +91,12 @@ namespace Guidewire.Core
             return Math.Max(largest, couples / _totalLength);
         }
 
-        /// <summary>Puts the force on the whole rod in the place of that on node 0, where rounding is large.</summary>
+        /// <summary>Puts the force on the whole rod in the place of that on node 0, where rounding is large and
+        /// nothing else holds it.</summary>
         /// <param name="gradient">Of all terms: minus the forces.</param>
         public void SumUp(RodVector[] gradient)
         {
-            for (int i = 1; IsLarge && i <= _rod.ElementCount; i++)
+            for (int i = 1; IsLarge && !_holdsEnd && i <= _rod.ElementCount; i++)
             {
                 gradient[0].X1 += gradient[i].X1;
                 gradient[0].X2 += gradient[i].X2;

@@ -271,6 +271,9 @@ namespace Guidewire.Core
             CultureInfo.InvariantCulture,
             "the hub fell short by {0:G3} m: it slipped at hubForceLimit, or the wire reached an end of its"
             + " sheath", Drive.Slip)
+            : _dynamics.Solver.RoundingOfSupports > 0.0 ? string.Format(CultureInfo.InvariantCulture,
+            "rounding of positions makes the forces at both ends uncertain by {0:G2} N: the wire is too stiff"
+            + " (youngsModulus, wireRadius) for elements so short", _dynamics.Solver.RoundingOfSupports)
             : _spinLoss == null || _spinLoss.Expected <= MostSpinLoss ? null : string.Format(
             CultureInfo.InvariantCulture, "the free wire turned by up to {0:G2} rad a step, which changes its"
             + " angular momentum by some {1:G2} % (docs/verification.md); a shorter timeStep keeps it, or another"

@@ -107,8 +107,9 @@ namespace Guidewire.Core
                     : _catheterDrive.Slip;
                 return slip != 0.0 ? string.Format(System.Globalization.CultureInfo.InvariantCulture,
                     "a hub fell short by {0:G3} m: {1}the wire's came to the catheter's, or its tip to the first"
-                    + " element of the catheter", slip, _catheterSlip.IsLimited || _wireSlip.IsLimited
-                        ? "it slipped at its hubForceLimit, or " : "") : null;
+                    + " element of the catheter{2}", slip, _catheterSlip.IsLimited || _wireSlip.IsLimited
+                        ? "it slipped at its hubForceLimit, or " : "",
+                    _wireSlip.TextOfExcess + _catheterSlip.TextOfExcess) : null;
             }
         }
 
@@ -130,8 +131,7 @@ namespace Guidewire.Core
             }
         }
 
-        // The step is taken again until neither hub has more than its force: the wire's in each trial of the
-        // catheter's.
+        // Taken again until neither hub has more than its force: the wire's in each trial of the catheter's.
         private bool StepWithSlip()
         {
             _start.Save();
@@ -159,6 +159,8 @@ namespace Guidewire.Core
                 isDone ? Coaxial()!.Force : double.NaN));
             _catheterDrive.Give(null);
             _wireDrive.Give(null);
+            _catheterSlip.EndStep(isDone ? Coaxial()!.Force : 0.0);
+            _wireSlip.EndStep(isDone ? Coaxial()!.WireForce : 0.0);
             return isDone;
         }
 

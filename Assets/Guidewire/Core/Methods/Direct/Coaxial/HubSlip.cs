@@ -1,4 +1,5 @@
 using System;
+using System.Globalization;
 
 namespace Guidewire.Core
 {
@@ -6,11 +7,14 @@ namespace Guidewire.Core
     /// <remarks>The displacement is found by repeated steps: F(u) is the hub's force after a step with its displacement
     /// u. Between one with too much force and one with no more than the limit the interval is halved, or cut where a
     /// straight line has the limit, until the force is within 2 % below it. A hub that may not even rest gives
-    /// way.</remarks>
+    /// way, farther and farther; where that went from too much of one sense to too much of the other, the displacement
+    /// without force lies between. An instrument is stiff along its axis: what it may be displaced between both limits
+    /// is some micrometres.</remarks>
     internal sealed class HubSlip
     {
         private const double Close = 0.02;      // of the limit
         private const int MostTrials = 24;
+        private const double Exact = 1e-3;      // of the limit
 
         private readonly MaterialDrive _drive;
         private readonly double _limit;         // N
@@ -19,8 +23,13 @@ namespace Guidewire.Core
         private double _allowedForce;           // N
         private double _tooFar;                 // m
         private double _tooMuch;                // N
+        private Trial _first;
+        private Trial _thrust;                  // the last with too much of either sense
+        private Trial _tension;
         private bool _hasAllowed;
         private int _trials;
+        private int _stepsBeyond;
+        private double _mostBeyond;             // N
 
         /// <summary>For a hub.</summary>
         /// <param name="limit">N; 0: it never slips.</param>
@@ -40,6 +49,8 @@ namespace Guidewire.Core
         {
             _trials = 0;
             _hasAllowed = false;
+            _thrust = default;
+            _tension = default;
             Displacement = null;
         }
 
@@ -66,18 +77,67 @@ namespace Guidewire.Core
             }
             if (isTooMuch)
             {
-                // Where both senses are too much, the last one counts.
-                _tooFar = moved;
-                _tooMuch = double.IsNaN(force) ? double.NaN : force;
+                Take(new Trial(moved, force));
             }
             else
             {
-                _hasAllowed = true;
-                _allowed = moved;
-                _allowedForce = force;
+                TakeAllowed(moved, force);
             }
-            Displacement = _hasAllowed ? Between() : Back(moved, force);
+            Displacement = _hasAllowed ? Between() : _thrust.IsMade && _tension.IsMade ? BetweenSenses()
+                : Back(moved, force);
             return Displacement != moved;
+        }
+
+        /// <summary>A step has ended, with more than the limit where no trial had less.</summary>
+        /// <param name="force">N.</param>
+        public void EndStep(double force)
+        {
+            if (Math.Abs(force) > (1.0 + Exact) * _limit)
+            {
+                _stepsBeyond++;
+                _mostBeyond = Math.Max(_mostBeyond, Math.Abs(force));
+            }
+        }
+
+        /// <summary>That it had more than its limit, in one phrase, or nothing.</summary>
+        public string TextOfExcess => _stepsBeyond == 0 ? "" : string.Format(CultureInfo.InvariantCulture,
+            "; with no displacement less than its hubForceLimit of {0:G3} N, one had up to {1:G3} N in {2} steps",
+            _limit, _mostBeyond, _stepsBeyond);
+
+        private void Take(in Trial trial)
+        {
+            _first = _trials == 1 ? trial : _first;
+            _tooFar = trial.Moved;
+            _tooMuch = trial.Force;
+            if (trial.Force > 0.0)
+            {
+                _thrust = trial;
+            }
+            else if (trial.Force < 0.0)
+            {
+                _tension = trial;
+            }
+        }
+
+        private void TakeAllowed(double moved, double force)
+        {
+            if (!_hasAllowed && _thrust.IsMade && _tension.IsMade && !double.IsNaN(_first.Force))
+            {
+                // What was asked lies on its side.
+                Trial beyond = _first.Force > 0.0 ? _thrust : _tension;
+                _tooFar = beyond.Moved;
+                _tooMuch = beyond.Force;
+            }
+            _hasAllowed = true;
+            _allowed = moved;
+            _allowedForce = force;
+        }
+
+        private double BetweenSenses()
+        {
+            double fraction = _trials % 3 == 0 ? 0.5
+                : Math.Min(0.95, Math.Max(0.05, _tension.Force / (_tension.Force - _thrust.Force)));
+            return _tension.Moved + fraction * (_thrust.Moved - _tension.Moved);
         }
 
         // Rest first, then farther and farther back.
@@ -96,6 +156,20 @@ namespace Guidewire.Core
                 fraction = Math.Min(0.95, Math.Max(0.05, (target - _allowedForce) / (_tooMuch - _allowedForce)));
             }
             return _allowed + fraction * (_tooFar - _allowed);
+        }
+
+        private readonly struct Trial
+        {
+            public readonly double Moved;   // m
+            public readonly double Force;   // N; NaN where the step has no solution
+            public readonly bool IsMade;
+
+            public Trial(double moved, double force)
+            {
+                Moved = moved;
+                Force = force;
+                IsMade = true;
+            }
         }
     }
 }

@@ -75,6 +75,10 @@ namespace Guidewire.Core
         /// <summary>Fraction of the largest force that a stage may leave unbalanced.</summary>
         public double Balance { get; set; } = 1e-7;
 
+        /// <summary>By how much rounding makes the forces of two supports uncertain, N; 0 where it does not
+        /// matter.</summary>
+        public double RoundingOfSupports => _rounding.OfSupports;
+
         /// <summary>Newton iterations of the slower search.</summary>
         public int MostIterations { get; set; } = 50;
 
