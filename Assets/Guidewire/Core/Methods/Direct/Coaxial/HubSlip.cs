@@ -101,8 +101,8 @@ namespace Guidewire.Core
 
         /// <summary>That it had more than its limit, in one phrase, or nothing.</summary>
         public string TextOfExcess => _stepsBeyond == 0 ? "" : string.Format(CultureInfo.InvariantCulture,
-            "; with no displacement less than its hubForceLimit of {0:G3} N, one had up to {1:G3} N in {2} steps",
-            _limit, _mostBeyond, _stepsBeyond);
+            "; a hub had up to {0:G3} N, above its hubForceLimit of {1:G3} N, in {2} of the steps: no displacement"
+            + " that was tried took less", _mostBeyond, _limit, _stepsBeyond);
 
         private void Take(in Trial trial)
         {
