@@ -55,7 +55,7 @@ namespace Guidewire.Core.Tests
                 slip.EndStep(moved > 1e-4 ? 0.2 : -0.1);
             }
             Assert.That(slip.TextOfExcess, Does.Contain("hubForceLimit of 0.05 N"));
-            Assert.That(slip.TextOfExcess, Does.Contain("in 2 steps"));
+            Assert.That(slip.TextOfExcess, Does.Contain("in 2 of the steps"));
         }
     }
 }
