@@ -23,7 +23,7 @@ FULL = os.environ.get("GUIDEWIRE_ALL") == "1"
 SOLVERS = ("pbd", "xpbd", "direct", "explicit")
 # What a run without them would answer another question than the file asks.
 REFUSED_IN_FILES = ("tipMoment", "tipFollowerForce", "damping", "materialDamping", "vessel", "obstacles", "pointLoads",
-                    "proximalMotionFile", "distalMotionFile", "instrument")
+                    "proximalMotionFile", "distalMotionFile", "instrument", "loadTables")
 LOAD_TABLE = Path(__file__).with_name("load_table.csv")
 DRIVE_TABLE = Path(__file__).with_name("drive_table.csv")
 ARCH = Path(__file__).resolve().parents[2] / "params" / "meshes" / "arch.obj"
@@ -41,7 +41,9 @@ def examples(count: int) -> settings:
 
 
 def log_uniform(low: float, high: float) -> st.SearchStrategy[float]:
-    return st.floats(math.log10(low), math.log10(high)).map(lambda exponent: 10.0**exponent)
+    """Within what a double holds."""
+    least, most = (math.log10(min(max(bound, 1e-300), 1e300)) for bound in (low, high))
+    return st.floats(least, most).map(lambda exponent: 10.0**exponent)
 
 
 def vectors(component: st.SearchStrategy) -> st.SearchStrategy:
@@ -89,8 +91,8 @@ def stiffness_of(key: str) -> Callable[[Mapping[str, Any]], st.SearchStrategy]:
     """Stiffness or mass of the whole wire, as moduli and densities make them, or none."""
     def fitted(scene: Mapping[str, Any]) -> st.SearchStrategy:
         radius, inner = scene.get("wireRadius", 5e-4), scene.get("innerRadius", 0.0)
-        area = math.pi * (radius**2 - inner**2)
-        second = 0.25 * area * (radius**2 + inner**2)
+        area = math.pi * (radius * radius - inner * inner)    # without end where ** would overflow
+        second = 0.25 * area * (radius * radius + inner * inner)
         shape, least, most = {"massPerLength": (area, 100.0, 3e4), "axialStiffness": (area, 1e6, 1e12)}.get(
             key, (second, 1e6, 1e12))
         return st.one_of(st.none(), log_uniform(least * shape, most * shape))

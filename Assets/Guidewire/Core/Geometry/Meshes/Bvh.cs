@@ -87,6 +87,14 @@ namespace Guidewire.Core
 #endif
         }
 
+        /// <summary>Whether a point lies in the box around all triangles.</summary>
+        public bool Encloses(in Vector3d point)
+        {
+            ref readonly BvhNode all = ref _nodes[0];
+            return Math.Abs(point.X - all.Centre.X) <= all.Extent.X && Math.Abs(point.Y - all.Centre.Y) <= all.Extent.Y
+                && Math.Abs(point.Z - all.Centre.Z) <= all.Extent.Z;
+        }
+
         /// <summary>Triangle nearest to segment a b among those within <paramref name="range"/>, -1 if there is none,
         /// with the closest points and the squared distance. <paramref name="hint"/>: a triangle that may be near,
         /// -1 for none.</summary>

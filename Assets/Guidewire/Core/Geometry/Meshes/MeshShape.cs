@@ -132,6 +132,10 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override bool Contains(in Vector3d point)
         {
+            if (!_closed.Tree.Encloses(point))
+            {
+                return false;
+            }
             int triangle = _closed.Tree.Nearest(
                 point, point, double.PositiveInfinity, -1, out double squared, out _, out Vector3d c, out int feature);
             return _closed.ContactAt(point, 0.0, c, Math.Sqrt(squared), triangle, feature).Distance > 0.0;

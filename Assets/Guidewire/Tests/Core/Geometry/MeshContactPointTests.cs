@@ -152,6 +152,17 @@ namespace Guidewire.Core.Tests
                 ? new[] { Vector3d.Zero, new Vector3d(0.0, 0.0, 1.5) } : Array.Empty<Vector3d>();
         }
 
+        [Test]
+        public void PointIsOutside_HoweverFarItIs()
+        {
+            var shape = new MeshShape(TestMeshes.Tube(8, 4, 5.0).Build(Vector3d.Zero, new Vector3d(0.0, 0.0, 5.0)));
+            Assert.That(shape.Contains(new Vector3d(0.0, 0.0, 2.5)), Is.True);
+            foreach (double far in new[] { 1e3, 1e100, 1.4e154, 1e300 })
+            {
+                Assert.That(shape.Contains(new Vector3d(0.0, far, 2.5)), Is.False, far.ToString());
+            }
+        }
+
         private sealed class Expected
         {
             public Vector3d[] Feature = Array.Empty<Vector3d>();
