@@ -102,7 +102,7 @@ def _mask(path, side, ends, radius):
     return path
 
 
-@pytest.mark.skipif(not FULL, reason="6 s each; the example of docs/anatomy.md makes a vessel of a mask in any case")
+@pytest.mark.skipif(not FULL, reason="14 s; the example of docs/anatomy.md makes a vessel of a mask in any case")
 @pytest.mark.parametrize("target", [2, 3])
 def test_two_commands_bring_a_wire_from_a_mask_to_its_target(tmp_path, target):
     pytest.importorskip("vtkmodules", reason="VTK is not installed: apt-get install python3-vtk9, or pip install vtk")

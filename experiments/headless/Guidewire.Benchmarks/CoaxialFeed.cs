@@ -29,7 +29,7 @@ namespace Guidewire.Benchmarks
                 {
                     NumberRodElements = Elements,
                     GuidewireLength = Length,
-                    GuidewireOffset = 20.0,
+                    GuidewireOffset = -Length,
                     ProximalEnd = ProximalEnd.Clamped,
                     Walls = new ContactShape[] { ArchWalls.Tube() },
                 },

@@ -46,8 +46,8 @@ namespace Guidewire.Core
                 for (int w = 0; w < _walls.Length; w++)
                 {
                     ref int hint = ref _hint[w * n + j];
-                    if (motion >= _bounds.ClearanceOf(w, j) && !IsInside(_walls[w], to[j], to[j + 1], ref hint)
-                        && _walls[w].Nearest(from[j], from[j + 1], motion + _clearance, ref hint, out _))
+                    if (motion >= _bounds.ClearanceOf(w, j) && !_walls[w].Holds(to[j], to[j + 1], ref hint)
+                        && _walls[w].MayMeet(from[j], from[j + 1], to[j], to[j + 1], _clearance, ref hint))
                     {
                         MarkElement(w, from, to, j);
                     }
@@ -141,12 +141,6 @@ namespace Guidewire.Core
                 }
             }
             return outside;
-        }
-
-        // Whether all of a segment is certainly on the free side.
-        private static bool IsInside(ContactShape wall, in Vector3d a, in Vector3d b, ref int hint)
-        {
-            return !wall.IsSurface && !wall.Nearest(a, b, 0.0, ref hint, out _);
         }
 
         private bool IsFree(ContactShape wall, in Vector3d a, in Vector3d b)

@@ -146,6 +146,22 @@ namespace Guidewire.Core
             return isClear ? time : 0.0;
         }
 
+        /// <summary>False where no part of the wall can come within a distance, units, of a segment that moves from
+        /// (a0, b0) to (a1, b1). The hint is that of <see cref="Nearest"/>.</summary>
+        internal virtual bool MayMeet(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double distance,
+            ref int hint)
+        {
+            double motion = Math.Max(Vector3d.Distance(a0, a1), Vector3d.Distance(b0, b1));
+            return Nearest(a0, b0, motion + distance, ref hint, out _);
+        }
+
+        /// <summary>True if the whole segment certainly lies on the free side; also false where a shape cannot tell
+        /// quickly.</summary>
+        internal virtual bool Holds(in Vector3d a, in Vector3d b, ref int hint)
+        {
+            return false;
+        }
+
         /// <summary>Adds to a list the features of the wall (as the shape defines them) that queries of points and
         /// parts of segment a b may meet while nothing of it moves farther than <paramref name="skin"/>, units; such
         /// queries are then faster. Some shapes have none. A surface has features of points (a = b) and others of the

@@ -121,6 +121,31 @@ namespace Guidewire.Core
             return distance;
         }
 
+        /// <inheritdoc/>
+        internal override bool Holds(in Vector3d a, in Vector3d b, ref int hint)
+        {
+            hint = hint >= 0 && hint < _tree.Pieces.Length ? hint : 0;
+            ref readonly TubePiece piece = ref _tree.Pieces[hint];
+            return (piece.Distance(a) > 0.0 && piece.Distance(b) > 0.0) || HoldParts(a, b, ref hint)
+                || LeastDistance(a, b) > 0.0;
+        }
+
+        // Whether each piece from the deepest at one end to the deepest at the other holds the part of the segment
+        // between the points nearest to its knots: pieces are convex, so checking the ends of a part suffices.
+        private bool HoldParts(in Vector3d a, in Vector3d b, ref int hint)
+        {
+            int first = _tree.Deepest(a, hint, out double atA);
+            int last = _tree.Deepest(b, first, out double atB);
+            hint = first;
+            bool isHeld = atA > 0.0 && atB > 0.0;
+            for (int knot = Math.Min(first, last) + 1; knot <= Math.Max(first, last) && isHeld; knot++)
+            {
+                Vector3d point = Vector3d.Lerp(a, b, ClosestPoints.PointSegment(_knots[knot], a, b));
+                isHeld = _tree.Pieces[knot - 1].Distance(point) > 0.0 && _tree.Pieces[knot].Distance(point) > 0.0;
+            }
+            return isHeld;
+        }
+
         /// <summary>Pieces that hold something within the skin of the segment, along the centreline. The distance is
         /// the least at its ends and where it crosses creases.</summary>
         internal override double FindFeatures(in Vector3d a, in Vector3d b, double range, double skin, ref int hint,

@@ -146,6 +146,25 @@ namespace Guidewire.Core
             AddTriangles(triangles);
         }
 
+        /// <summary>False where surely no triangle comes within the distance of a moving segment.</summary>
+        public bool MayMeet(in SweptSegment swept)
+        {
+            var search = new SegmentSearch(swept.A0, swept.B0, swept.Range);
+            FindLeaves(swept, search);
+            for (int i = 0; i < _found.Count; i++)
+            {
+                ref readonly BvhNode leaf = ref _nodes[_found[i]];
+                for (int k = leaf.First; k < leaf.First + leaf.Count; k++)
+                {
+                    if (MayMeet(swept, k, search.Squared))
+                    {
+                        return true;
+                    }
+                }
+            }
+            return false;
+        }
+
         private void AddTriangles(StructList<int> triangles)
         {
             for (int i = 0; i < _found.Count; i++)
@@ -222,6 +241,17 @@ namespace Guidewire.Core
 #if NET8_0_OR_GREATER
         private WideBvh Wide => _wide ??= new WideBvh(_nodes);
 #endif
+
+        private bool MayMeet(in SweptSegment swept, int slot, double squaredRange)
+        {
+            ref readonly Vector3d v0 = ref _corners[3 * slot];
+            ref readonly Vector3d v1 = ref _corners[3 * slot + 1];
+            ref readonly Vector3d v2 = ref _corners[3 * slot + 2];
+            return !SegmentImpact.StaysOnOneSide(
+                    swept.A0, swept.B0, swept.A1, swept.B1, v0, v1, v2, swept.Border)
+                && ClosestPoints.SegmentTriangle(swept.A0, swept.B0, v0, v1, v2, squaredRange, out _, out _, out _)
+                    <= squaredRange;
+        }
 
         // The call goes to the nearer child, the loop to the other: no list of what is left to do has to be cleared
         // for a search that mostly ends after a few nodes.

@@ -119,6 +119,13 @@ namespace Guidewire.Core
             return impact;
         }
 
+        /// <inheritdoc/>
+        internal override bool MayMeet(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double distance,
+            ref int hint)
+        {
+            return _wall.Tree.MayMeet(new SweptSegment(a0, b0, a1, b1, distance));
+        }
+
         private MeshEdges EdgeContacts => _edgeContacts ??= new MeshEdges(_wall);
 
         private MeshNearby Nearby => _nearby ??= new MeshNearby(_wall, EdgeContacts);
