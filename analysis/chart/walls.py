@@ -1,9 +1,9 @@
-"""Problems of a wire that meets walls, for the methods that do: pbd, xpbd, and direct with implicitEuler."""
+"""Problems of a wire that meets walls, for the methods that do: pbd, xpbd and direct."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -39,11 +39,11 @@ def _gain() -> scenes.Asking[float]:
 
 
 def _thin(wall: Mapping[str, Any], duration: float) -> tuple[Any, Any, list[Setting]]:
-    """What makes keys of the thin wire that falls on a wall: of direct from n, dt and more, of pbd from what changes
-    and its gain; and the settings of xpbd."""
+    """What makes keys of the thin wire that falls on a wall: of direct from scheme, n, dt and contactDistance, of pbd
+    from what changes and its gain; and the settings of xpbd."""
 
-    def direct(n: int, step: float, more: Mapping[str, Any]) -> dict[str, Any]:
-        method = {"integrator": "implicitEuler", "numberRodElements": n, **more}
+    def direct(scheme: str, n: int, step: float, gap: float | None) -> dict[str, Any]:
+        method = {"integrator": scheme, "numberRodElements": n, **_contact(gap)}
         return {**scenes.wire_parameters(PLANE_WIRE), **settings.settled(method, step, _RATE, duration), **wall}
 
     def pbd(changed: Mapping[str, Any], gain: float) -> dict[str, Any]:
@@ -65,12 +65,9 @@ def _plane() -> scenes.Asking[Asked]:
     height = -(PLANE_DROP + PLANE_WIRE.radius) / scenes.UNIT  # the axis comes to rest a radius above it
     wall = {"vessel": {"shape": "plane", "point": [0.0, height, 0.0], "normal": [0.0, 1.0, 0.0]}}
     direct, pbd, compliant = _thin(wall, _REST_TIME)
-    made = [
-        Setting("direct", *_near(n, dt, gap), case(
-            f"direct-{n}-{dt}-{gap}", "direct", direct(n, dt, {} if gap is None else {"contactDistance": gap})))
-        for n, dt, gap in ((8, 2e-2, None), (8, 5e-3, None), (15, 2e-2, None), (15, 5e-3, None), (15, 5e-3, 3e-6),
-                           (30, 2e-2, None), (30, 5e-3, 3e-6), (30, 2e-3, 3e-6))
-    ]
+    made = _direct(direct, [("implicitEuler", *values) for values in (
+        (8, 2e-2, None), (8, 5e-3, None), (15, 2e-2, None), (15, 5e-3, None), (15, 5e-3, 3e-6), (30, 2e-2, None),
+        (30, 5e-3, 3e-6), (30, 2e-3, 3e-6))])
     made += compliant
     made += [Setting("pbd", *settings.pbd(changed), case(f"pbd-{k}", "pbd", pbd(changed, gain)))
              for k, changed in enumerate(_PBD_CHANGES)]
@@ -85,11 +82,22 @@ def _plane() -> scenes.Asking[Asked]:
     return Asked(made, lambda _: (error, "the elastica with its tip on the plane"), gain=gain)
 
 
-def _near(n: int, step: float, gap: float | None) -> tuple[str, str]:
-    words, label = settings.direct("implicitEuler", n, step)
-    if gap is None:
-        return words, label
-    return f"{words}, contactDistance {1e6 * gap:g} µm", f"{label} {1e6 * gap:g} µm"
+def _contact(gap: float | None) -> dict[str, float]:
+    """contactDistance (m) where it is not left to the program."""
+    return {} if gap is None else {"contactDistance": gap}
+
+
+def _direct(keys: Callable[[str, int, float, float | None], dict[str, Any]],
+            values: Iterable[tuple[str, int, float, float | None]]) -> list[Setting]:
+    """The settings of direct by scheme, n, dt and contactDistance, from what makes the keys of each."""
+    made = []
+    for scheme, n, step, gap in values:
+        words, label = settings.direct(scheme, n, step)
+        if gap is not None:
+            words, label = f"{words}, contactDistance {1e6 * gap:g} µm", f"{label} {1e6 * gap:g} µm"
+        key = f"direct-{scheme}-{n}-{step}-{gap}"
+        made.append(Setting("direct", words, label, case(key, "direct", keys(scheme, n, step, gap))))
+    return made
 
 
 _FALL_TIME = 0.3  # s
@@ -105,17 +113,18 @@ def _fall() -> scenes.Asking[Asked]:
     wall = {"obstacles": [{"shape": "capsule", "from": [-50.0, height, middle], "to": [50.0, height, middle],
                            "radius": _BAR_RADIUS}], "logSpheres": "last", "logEvery": 1}
     direct, pbd, compliant = _thin(wall, _FALL_TIME)
-    made = [
-        Setting("direct", *_near(n, dt, gap), case(
-            f"direct-{n}-{dt}-{gap}", "direct", direct(n, dt, {} if gap is None else {"contactDistance": gap})))
-        for n, dt, gap in ((8, 1e-2, None), (8, 2e-3, None), (16, 1e-2, None), (16, 2e-3, None), (16, 1e-3, None),
-                           (16, 5e-4, 3e-6), (30, 1e-3, 3e-6))
-    ]
+    made = _direct(direct, (
+        ("implicitEuler", 8, 1e-2, None), ("implicitEuler", 8, 2e-3, None), ("implicitEuler", 16, 1e-2, None),
+        ("implicitEuler", 16, 2e-3, None), ("implicitEuler", 16, 1e-3, None), ("implicitEuler", 16, 5e-4, 3e-6),
+        ("implicitEuler", 30, 1e-3, 3e-6), ("implicitEuler", 30, 2e-4, 3e-6), ("bdf2", 16, 1e-2, None),
+        ("bdf2", 16, 5e-3, None), ("bdf2", 16, 2e-3, None), ("bdf2", 30, 1e-3, 3e-6), ("bdf2", 30, 2e-4, 3e-6),
+        ("trbdf2", 16, 5e-3, None), ("trbdf2", 30, 1e-3, 3e-6), ("esdirk3", 16, 5e-3, None),
+        ("esdirk3", 30, 1e-3, 3e-6)))
     made += compliant
     made += [Setting("pbd", *settings.pbd(changed), case(f"pbd-{k}", "pbd", pbd(changed, gain)))
              for k, changed in enumerate(_PBD_CHANGES)]
-    fine = Case("fine", direct(40, 1e-4, {"contactDistance": 3e-6}))
-    coarse = Case("coarse", direct(20, 2e-4, {"contactDistance": 3e-6}))
+    fine = Case("fine", direct("trbdf2", 80, 5e-6, 3e-6))  # a bounce lasts some 10 µs: steps that resolve it
+    coarse = Case("coarse", direct("trbdf2", 40, 1e-5, 3e-6))
 
     def measure(runs: Mapping[str, Run]) -> tuple[Measure, str]:
         exact = tip_at(runs[fine.key], _FALL_SAMPLES)
@@ -124,7 +133,7 @@ def _fall() -> scenes.Asking[Asked]:
         def error(run: Run) -> float:
             return rms_error(tip_at(run, _FALL_SAMPLES) - start, exact - start)
 
-        return error, (f"direct with n = 40, dt = 100 µs; twice as coarse in both it is "
+        return error, (f"direct with trbdf2, n = 80, dt = 5 µs; twice as coarse in both it is "
                        f"{percent(error(runs[coarse.key]), 1)} off")
 
     return Asked(made, measure, (fine, coarse), gain)
@@ -147,7 +156,7 @@ _ARCH = {
 def _insertion() -> scenes.Asking[Asked]:
     yield []
     clearance = scenes.UNIT * _LUMEN - _ARCH_WIRE.radius  # m
-    material = {**scenes.wire_parameters(_ARCH_WIRE), "integrator": "implicitEuler", "massDamping": _ARCH_DAMPING}
+    material = {**scenes.wire_parameters(_ARCH_WIRE), "massDamping": _ARCH_DAMPING}
     compliant = {**scenes.wire_parameters(_ARCH_WIRE), "solver": "xpbd", "massDamping": _ARCH_DAMPING}
 
     def pushed(n: int, step: float, more: Mapping[str, Any]) -> dict[str, Any]:
@@ -158,12 +167,14 @@ def _insertion() -> scenes.Asking[Asked]:
             "maxSimulationSteps": round(_WAY / _SPEED / step), "logEvery": 1_000_000, **more,
         }
 
-    made = [
-        Setting("direct", *_near(n, dt, gap), case(f"direct-{n}-{dt}-{gap}", "direct", pushed(
-            n, dt, {**material, **({} if gap is None else {"contactDistance": gap})})))
-        for n, dt, gap in ((20, 2e-2, None), (30, 2e-2, None), (30, 1e-2, None), (60, 2e-2, None), (60, 1e-2, None),
-                           (60, 1e-2, 1e-5), (90, 1e-2, 1e-5))
-    ]
+    def direct(scheme: str, n: int, step: float, gap: float | None) -> dict[str, Any]:
+        return pushed(n, step, {**material, "integrator": scheme, **_contact(gap)})
+
+    made = _direct(direct, (
+        ("implicitEuler", 20, 2e-2, None), ("implicitEuler", 30, 2e-2, None), ("implicitEuler", 30, 1e-2, None),
+        ("implicitEuler", 60, 2e-2, None), ("implicitEuler", 60, 1e-2, None), ("implicitEuler", 60, 1e-2, 1e-5),
+        ("implicitEuler", 90, 1e-2, 1e-5), ("implicitEuler", 120, 2e-2, 5e-6), ("implicitEuler", 150, 2e-2, 5e-6),
+        ("implicitEuler", 200, 2e-2, 2.5e-6), ("bdf2", 60, 1e-2, None), ("bdf2", 150, 2e-2, 5e-6)))
     for n, substeps, m in ((20, 5000, 1), (20, 2000, 3), (30, 7500, 1), (60, 15000, 1)):
         changed = {"substeps": substeps, "constraintSolverSteps": m}
         made.append(Setting("xpbd", *settings.small_steps(n, 1e-2 / substeps, m), case(
@@ -179,8 +190,8 @@ def _insertion() -> scenes.Asking[Asked]:
         made.append(Setting("pbd", f"{words}, k_B = {stiffness:g}", f"{label} kB{stiffness:g}", case(
             f"pbd-{m}-{n}-{step}-{stiffness}", "pbd",
             pushed(n, step, {"solver": "pbd", **gains, **changed, "bendStiffness": stiffness}))))
-    fine = Case("fine", pushed(150, 5e-3, {**material, "contactDistance": 5e-6}))
-    coarse = Case("coarse", pushed(75, 1e-2, {**material, "contactDistance": 1e-5}))
+    fine = Case("fine", direct("implicitEuler", 600, 2.5e-3, 1.25e-6))
+    coarse = Case("coarse", direct("implicitEuler", 300, 5e-3, 2.5e-6))
 
     def measure(runs: Mapping[str, Run]) -> tuple[Measure, str]:
         exact = _points(runs[fine.key])
@@ -188,8 +199,8 @@ def _insertion() -> scenes.Asking[Asked]:
         def error(run: Run) -> float:
             return float(np.max(np.linalg.norm(_points(run) - exact, axis=1))) / clearance
 
-        return error, (f"direct with n = 150, dt = 5 ms, contactDistance 5 µm; twice as coarse in all three it is "
-                       f"{percent(error(runs[coarse.key]), 1)} off")
+        return error, (f"direct with n = 600, dt = 2.5 ms, contactDistance 1.25 µm; twice as coarse in all three "
+                       f"it is {percent(error(runs[coarse.key]), 2)} off")
 
     return Asked(made, measure, (fine, coarse))
 
