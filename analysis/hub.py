@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, fields
 from pathlib import Path
 
@@ -67,3 +68,29 @@ def read_hub(path: Path) -> HubLog:
     if not rows["time"]:
         raise LogError(f"{find_log(path)}: holds no whole step")
     return HubLog(**{name: np.asarray(values, dtype=float) for name, values in rows.items()})
+
+
+_SUDDEN = math.radians(1.0)  # of turning, within which a snap takes place
+
+
+def snap_turns(turn: np.ndarray, torque: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Between which turns of a hub its instrument has snapped: where, within a degree of turning or between two entries,
+    the torque has changed by more than half of its largest.
+
+    Parameters
+    ----------
+    turn, torque : ndarray, shape (k,)
+        In rad and in any unit.
+
+    Returns
+    -------
+    tuple of ndarray
+        Turns of the entries before and after each snap, rad.
+    """
+    way = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(turn)))))
+    far = np.maximum(np.searchsorted(way, way + _SUDDEN, side="right") - 1, np.arange(1, len(turn) + 1))
+    far = np.minimum(far, len(turn) - 1)
+    sudden = np.abs(torque[far] - torque) > 0.5 * np.max(np.abs(torque), initial=0.0)
+    steps = np.abs(np.diff(torque))
+    found = sorted({k + int(np.argmax(steps[k:far[k]])) for k in np.flatnonzero(sudden)})
+    return turn[found], turn[[k + 1 for k in found]]

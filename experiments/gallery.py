@@ -14,7 +14,7 @@ import matplotlib.pyplot as pyplot
 from matplotlib.figure import Figure
 
 from analysis.chart import figure as chart
-from analysis.chart import material, page, tables, walls
+from analysis.chart import coaxial, material, page, tables, walls
 from analysis.chart.points import Charted, Problem, check_of, in_short
 from analysis.figures import FIGURES, FigureSpec
 from analysis.figures.wording import number
@@ -139,7 +139,7 @@ def _catalogue(
     return Catalogue({**FIGURES, **{spec.id: spec for spec in specs}}, checked, studies)
 
 
-_PROBLEMS = (*material.PROBLEMS, *walls.PROBLEMS)
+_PROBLEMS = (*material.PROBLEMS, *walls.PROBLEMS, *coaxial.PROBLEMS)
 FULL = _catalogue(ROWS, _PROBLEMS, INTEGRATORS, STUDIES)
 QUICK = _catalogue(FAST, [in_short(problem) for problem in _PROBLEMS], INTEGRATORS_ONCE,
                    {name: shortened(study) for name, study in STUDIES.items()})

@@ -210,6 +210,8 @@ class _Measure:
         self._exact = quantity.read(reference, self._times)
         self._file = quantity.read(file, self._times)
         self._size = quantity.scale(self._exact)
+        if math.isnan(self._size):
+            raise LogError(f"{quantity.said} is not defined in the reference: nothing snaps")
         if not self._size > 0.0:
             raise LogError(f"{quantity.said} is 0 in the reference: a relative error is not defined")
 

@@ -15,18 +15,18 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 
-from analysis.hub import HubLog, read_hub
+from analysis.hub import HubLog, read_hub, snap_turns
 from analysis.logs import LogError, read_entries, read_log
 from analysis.runs import Run
 
-POSITION, TIP, CONTACT_FORCE = "position", "tip", "contactForce"
+POSITION, TIP, CONTACT_FORCE, SNAP = "position", "tip", "contactForce", "snapAngle"
 _OF_HUB = {"hubForce": "force", "hubTorque": "torque", "twist": "twist", "largestCurvature": "largest_curvature"}
-NAMED = (POSITION, TIP, *_OF_HUB, CONTACT_FORCE)
+NAMED = (POSITION, TIP, *_OF_HUB, CONTACT_FORCE, SNAP)
 RUN, END = "run", "end"
 _POINTS = 21  # along the wire
 _SAID = {POSITION: "the wire's position", TIP: "the tip's position", "hubForce": "the hub's force",
          "hubTorque": "the hub's torque", "twist": "the twist from hub to tip", "largestCurvature":
-         "the largest curvature", CONTACT_FORCE: "the walls' total force"}
+         "the largest curvature", CONTACT_FORCE: "the walls' total force", SNAP: "the hub's turn at the first snap"}
 
 
 @dataclass(frozen=True)
@@ -52,11 +52,18 @@ class Quantity:
     @property
     def is_one_number(self) -> bool:
         """Whether a run has one value of it: two runs that are wrong may agree in it by chance."""
-        return self.at == END or self.of not in NAMED
+        return self.at == END or self._is_of_all
+
+    @property
+    def _is_of_all(self) -> bool:
+        """Whether it is of the run as a whole, not of times within it."""
+        return self.of == SNAP or self.of not in NAMED
 
     @property
     def logged(self) -> dict[str, Any]:
         """Parameters with which a run leaves it."""
+        if self.of == SNAP:
+            return {"logHub": True, "logFormat": "json", "logEvery": 1}
         if self.of in _OF_HUB:
             return {"logHub": True, "logFormat": "json"}
         return {"logContacts": True, "logFormat": "json"} if self.of == CONTACT_FORCE else {}
@@ -64,7 +71,7 @@ class Quantity:
     @property
     def said(self) -> str:
         """For people."""
-        when = "" if self.of not in NAMED else " at the end" if self.at == END else " from start to end"
+        when = "" if self._is_of_all else " at the end" if self.at == END else " from start to end"
         return _SAID.get(self.of, self.of) + when
 
     @property
@@ -82,8 +89,10 @@ class Quantity:
         it."""
         if self.of not in NAMED:
             number_of(summary, self.of)
-        if self.of in _OF_HUB and scene["solver"] != "direct":
+        if self.of in (*_OF_HUB, SNAP) and scene["solver"] != "direct":
             raise LogError(f"--of {self.of} needs solver direct, this is {scene['solver']}")
+        if self.of == SNAP and not scene.get("catheters"):
+            raise LogError("--of snapAngle needs catheters, and the scene has none")
         if self.of == CONTACT_FORCE and not (scene.get("vessel") or scene.get("obstacles")):
             raise LogError(f"--of {self.of} needs walls, and the scene has none")
 
@@ -106,6 +115,11 @@ class Quantity:
         if self.of in _OF_HUB:
             log: HubLog = read_hub(run.folder)
             return np.interp(times, log.time, getattr(log, _OF_HUB[self.of]))[:, None]
+        if self.of == SNAP:
+            log = read_hub(run.folder)
+            before, after = snap_turns(log.turn, log.torque)
+            first = 0.5 * (before[0] + after[0]) if len(after) and run.parameters["catheters"] else np.nan
+            return np.full((len(times), 1), first)
         if self.of == CONTACT_FORCE:
             entries = [entry for _, entry in read_entries(run.folder)]
             found = np.array([[(entry.get("contact") or {}).get("total", {}).get(axis, 0.0) for axis in "xyz"]

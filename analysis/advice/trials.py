@@ -9,7 +9,7 @@ counts by how far it is from it.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -54,13 +54,12 @@ def references(scene: Values) -> tuple[Trial, Trial, Trial]:
     worth."""
     if scene["solver"] == "pbd":
         return tuple(Trial(f"reference, m times {f} and stiffness over {f}", _softened(scene, float(f))) for f in (8, 4, 6))
-    elements = 2 * max(16, int(scene["numberRodElements"])) if _may_change_elements(scene) else None
     scheme, parts = ("implicitEuler", (16.0, 8.0, 12.0)) if has_walls(scene) \
         else ("esdirk4", (4.0, 2.0, 3.0))
     made = []
     for fraction, part in zip((1.0, 0.5, 0.75), parts):
-        n = {} if elements is None else {"numberRodElements": int(fraction * elements)}
-        changed = {**_direct(scheme), **n, **_stepped(scene, 1.0 / part)}
+        finer = _with_elements(scene, lambda n: int(fraction * 2 * max(16, n))) if _may_change_elements(scene) else {}
+        changed = {**_direct(scheme), **finer, **_stepped(scene, 1.0 / part)}
         made.append(Trial("reference, " + _settings({**scene, **changed}), changed))
     return tuple(made)
 
@@ -75,7 +74,7 @@ def candidates(scene: Values) -> list[Trial]:
     return list(found.values())
 
 
-_VARIED = ("solver", "integrator", "numberRodElements", "timeStep", "constraintSolverSteps", "substeps",
+_VARIED = ("solver", "integrator", "numberRodElements", "catheters", "timeStep", "constraintSolverSteps", "substeps",
            "elementContact", *_STIFFNESSES)
 
 
@@ -89,6 +88,7 @@ def parts(scene: Values) -> list[Trial]:
         ("friction, left out", _smooth(scene)),
         ("twist by the drive, left out", _without(scene, "twistPerStep", 0.0)),
         ("local element size, left out", _even(scene)),
+        ("catheters, left out", {"catheters": []} if scene.get("catheters") else None),
     ]
     if scene["solver"] == "pbd":
         found += [
@@ -114,7 +114,8 @@ def parts(scene: Values) -> list[Trial]:
 def work(effective: Values, summary: Values) -> float:
     """What a run costs by its counts, in iterations of one element; the same on every machine, and only roughly in
     proportion to its time."""
-    steps, n = summary["steps"], int(effective["numberRodElements"])
+    steps = summary["steps"]
+    n = effective["numberRodElements"] + sum(one["elements"] for one in effective.get("catheters") or ())
     solver = summary.get("solver") or {}
     if effective["solver"] == "direct":
         solved = solver["factorisations"] + 0.5 * solver["keptSolutions"] + 3.0 * (solver.get("wallIterations") or 0)
@@ -162,7 +163,9 @@ def _settings(effective: Values) -> str:
     words = [effective["solver"]]
     if effective["solver"] == "direct":
         words.append(effective["integrator"])
-    words += [f"n = {effective['numberRodElements']}", f"dt = {number(1e3 * effective['timeStep'], 3)} ms"]
+    words.append(f"n = {effective['numberRodElements']}")
+    words += [f"of the catheter {one['elements']}" for one in effective.get("catheters") or ()]
+    words += [f"dt = {number(1e3 * effective['timeStep'], 3)} ms"]
     if effective["solver"] in ("pbd", "xpbd"):
         words.append(f"m = {effective['constraintSolverSteps']}")
     if effective["solver"] == "pbd":
@@ -179,13 +182,26 @@ def _direct(scheme: str) -> dict[str, Any]:
 
 
 def _may_change_elements(scene: Values) -> bool:
-    """Whether all elements are alike and none stands in a start file."""
-    return not scene.get("startFile") and not any("numberRodElements" in one for one in scene.get("wireSections") or ())
+    """Whether all elements of each instrument are alike and none stands in a start file."""
+    return not scene.get("startFile") and not any(
+        "numberRodElements" in section for one in (scene, *(scene.get("catheters") or ()))
+        for section in one.get("wireSections") or ())
+
+
+def _with_elements(scene: Values, change: Callable[[int], int]) -> dict[str, Any]:
+    """Other numbers of elements for the wire and for each catheter."""
+    changed: dict[str, Any] = {"numberRodElements": change(int(scene["numberRodElements"]))}
+    if scene.get("catheters"):
+        changed["catheters"] = [{**one, "elements": change(int(one["elements"]))} for one in scene["catheters"]]
+    return changed
 
 
 def _fewer(scene: Values, fraction: float) -> dict[str, Any] | None:
-    n = round(fraction * scene["numberRodElements"])
-    return {"numberRodElements": n} if n >= _FEWEST_ELEMENTS and _may_change_elements(scene) else None
+    if not _may_change_elements(scene):
+        return None
+    changed = _with_elements(scene, lambda n: round(fraction * n))
+    counts = (changed["numberRodElements"], *(one["elements"] for one in changed.get("catheters", ())))
+    return changed if min(counts) >= _FEWEST_ELEMENTS else None
 
 
 def _stepped(scene: Values, factor: float) -> dict[str, Any] | None:
@@ -221,12 +237,16 @@ def _without(scene: Values, key: str, neutral: Any) -> dict[str, Any] | None:
 
 
 def _smooth(scene: Values) -> dict[str, Any] | None:
-    """Walls without friction."""
+    """Walls and lumens without friction."""
+    rough = ("frictionCoefficient", "lumenFriction")
+
     def plain(wall: Values) -> dict[str, Any]:
-        return {key: value for key, value in wall.items() if key != "frictionCoefficient"}
+        return {key: value for key, value in wall.items() if key not in rough}
 
     vessel, obstacles = scene.get("vessel"), scene.get("obstacles") or []
     changed: dict[str, Any] = {}
+    if any(one.get(key) for one in scene.get("catheters") or () for key in rough):
+        changed["catheters"] = [plain(one) for one in scene["catheters"]]
     if vessel and vessel.get("frictionCoefficient"):
         changed["vessel"] = plain(vessel)
     if any(wall.get("frictionCoefficient") for wall in obstacles):

@@ -1,2 +1,2 @@
-"""Error against cost for every method on eight problems: what is run (`material`, `walls`), what came of it (`points`),
-and how it is shown (`figure`, `tables`, `page`)."""
+"""Error against cost for every method on twelve problems: what is run (`material`, `walls`, `coaxial`), what came of it
+(`points`), and how it is shown (`figure`, `tables`, `page`)."""

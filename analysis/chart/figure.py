@@ -20,6 +20,7 @@ from analysis.validation.pictures import SOLVER_MARKERS
 
 COLOURS = dict(zip(METHODS, ("C0", "C1", "C2", "C3")))
 _COLUMNS = 4
+_LETTERS = "abcdefghijklmnopqrstuvwxyz"
 _ROOM = 2.5  # factor between the outermost points and the frame
 _OFFSETS = ((4, 3), (4, -8), (-4, 3), (-4, -8), (4, 10), (-4, 10), (4, -15), (-4, -15))  # points, of a label
 _PADDING = 2.0  # pixels around a label
@@ -33,7 +34,7 @@ def draw_costs(found: Sequence[Charted]) -> tuple[Figure, str]:
     lines = ((1.0, "real time"),)
     figure = _panels(found, seconds, _COST, lines)
     caption = (
-        "Figure chart. Error against cost of every method on eight problems. Cost: wall time of the steps per "
+        "Figure chart. Error against cost of every method. Cost: wall time of the steps per "
         f"simulated second, one thread, median of timed runs made one at a time ({repeats_in_words()}), {_load(found)}. Markers: "
         "pbd diamonds, xpbd triangles, explicit squares, direct circles. Thick grey line: the Pareto front, which no "
         "other setting beats in both error and cost; its settings stand beside it where they fit (n elements, time "
@@ -68,8 +69,12 @@ def draw_steps(found: Sequence[Charted]) -> tuple[Figure, str]:
 @styled
 def draw_summary(found: Sequence[Charted]) -> Figure:
     """The front of each method and that of all."""
-    figure = new_figure(10.0, 4.6)
-    for axes, charted in zip(figure.subplots(2, _COLUMNS).ravel(), found):
+    rows = math.ceil(len(found) / _COLUMNS)
+    figure = new_figure(10.0, 2.3 * rows)
+    panels = figure.subplots(rows, _COLUMNS, squeeze=False).ravel()
+    for axes in panels[len(found):]:
+        axes.axis("off")
+    for axes, charted in zip(panels, found):
         _draw_front(axes, charted, seconds)
         for method in METHODS:
             front = charted.front(method=method)
@@ -92,7 +97,7 @@ def _panels(found: Sequence[Charted], cost: Cost, label: str,
     figure = new_figure(16.0, 4.4 * rows)
     panels = figure.subplots(rows, _COLUMNS, squeeze=False).ravel()
     for k, (axes, charted) in enumerate(zip(panels, found)):
-        letter(axes, "abcdefgh"[k], charted.problem.title)
+        letter(axes, _LETTERS[k], charted.problem.title)
         _draw_panel(axes, charted, cost, lines)
         axes.set(xlabel=label, ylabel=f"error: {charted.problem.error}")
     for axes in panels[len(found):]:
@@ -141,7 +146,7 @@ def _draw_published(axes: Axes, charted: Charted) -> None:
 def _published(found: Sequence[Charted]) -> str:
     """Where the bars of others come from."""
     names = [charted.problem.name for charted in found]
-    told = [f"({'abcdefgh'[names.index(one.problem)]}) {one.label}: {one.says} [{one.source}]"
+    told = [f"({_LETTERS[names.index(one.problem)]}) {one.label}: {one.says} [{one.source}]"
             for one in PUBLISHED if one.problem in names]
     return f" Grey bars: published by others, a wall time without an error. {'; '.join(told)}." if told else ""
 
@@ -177,13 +182,13 @@ def _load(found: Sequence[Charted]) -> str:
 
 def _lost(found: Sequence[Charted]) -> str:
     """Which settings have no answer."""
-    lost = [f"{p.setting.method}, {p.setting.words} ({'abcdefgh'[k]}): {p.outcome}"
+    lost = [f"{p.setting.method}, {p.setting.words} ({_LETTERS[k]}): {p.outcome}"
             for k, charted in enumerate(found) for p in charted.points if not p.held]
     return f"Without an answer: {'; '.join(lost)}. " if lost else ""
 
 
 def _references(found: Sequence[Charted]) -> str:
-    told = "; ".join(f"({'abcdefgh'[k]}) {charted.reference}" for k, charted in enumerate(found))
+    told = "; ".join(f"({_LETTERS[k]}) {charted.reference}" for k, charted in enumerate(found))
     return f"References: {told}."
 
 
@@ -195,7 +200,10 @@ def _gains(found: Sequence[Charted]) -> str:
 
 
 def _absent(found: Sequence[Charted]) -> str:
-    absent = {method for charted in found for method in charted.problem.absent}
-    names = " and ".join(method for method in METHODS if method in absent)
-    are = "meet no walls and are" if len(absent) > 1 else "meets no walls and is"
-    return f"{names} {are} missing there." if names else ""
+    """Which methods are missing where, and why."""
+    places: dict[tuple[str, str], str] = {}
+    for k, charted in enumerate(found):
+        for method, reason in charted.problem.absent.items():
+            places[method, reason] = places.get((method, reason), "") + _LETTERS[k]
+    told = "; ".join(f"{method} {reason} ({', '.join(where)})" for (method, reason), where in places.items())
+    return f"Missing: {told}." if told else ""

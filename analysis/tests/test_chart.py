@@ -14,17 +14,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from analysis.chart import figure, material, page, tables, walls
+from analysis.chart import coaxial, figure, material, page, tables, walls
 from analysis.chart.points import LOST, METHODS, Charted, Point, Problem, Setting, _point, pareto
 from analysis.chart.published import PUBLISHED
 from analysis.figures.style import CAPTION_ID
 from analysis.runs import Run
-from analysis.validation import swing
+from analysis.validation import concentric, swing
 from analysis.validation.wire import BASE
 from studies.table import Case
 
 STABLE = 2e-7  # s
-PROBLEMS = (*material.PROBLEMS, *walls.PROBLEMS)
+PROBLEMS = (*material.PROBLEMS, *walls.PROBLEMS, *coaxial.PROBLEMS)
 
 
 def point(method: str, error: float, cost: float, outcome: str = "finished") -> Point:
@@ -100,7 +100,7 @@ def test_the_picture_of_steps_has_lines_for_loops() -> None:
 
 
 def test_what_others_state_stands_in_the_picture_of_steps_with_its_source_and_without_an_error() -> None:
-    pushed = replace(charted(*POINTS), problem=replace(PROBLEMS[-1], ask=lambda: None))
+    pushed = replace(charted(*POINTS), problem=replace(walls.PROBLEMS[-1], ask=lambda: None))
     drawn, caption = figure.draw_steps([charted(*POINTS), pushed])
     (one,) = PUBLISHED
     bars = [[line for line in axes.lines if line.get_marker() == "|"] for axes in drawn.axes[:2]]
@@ -157,7 +157,7 @@ def test_every_problem_has_all_methods_or_says_why_not() -> None:
     assert {setting.method for setting in twist.settings} == set(METHODS)
     for setting in twist.settings:  # gains stand between the same ends
         assert setting.case.overrides["distalEnd"] == "clamped" and "twistPerStep" not in setting.case.overrides
-    assert len({problem.name for problem in PROBLEMS}) == len(PROBLEMS) == 8
+    assert len({problem.name for problem in PROBLEMS}) == len(PROBLEMS) == 12
     asked = walls._insertion()
     next(asked)
     with pytest.raises(StopIteration) as ended:
@@ -169,6 +169,15 @@ def test_twist_of_gains_is_off_by_an_element_at_either_clamp() -> None:
     # Inner element j of n stands at (j - 1/2)/(n - 2) instead of (j + 1/2)/n: (n - 2 j - 1)/(n (n - 2)) apart.
     n = 30
     assert material.pbd_twist_error(n) == pytest.approx((n - 5) / (n * (n - 2)), rel=1e-12)
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.7, 2.5])
+def test_tubes_that_do_not_twist_are_arcs_of_their_mean_curvature(turn: float) -> None:
+    curvature = np.array([1.0 + 0.6 * math.cos(turn), 0.6 * math.sin(turn), 0.0]) * 1.2 / 1.6
+    size = float(np.linalg.norm(curvature))
+    across = np.cross(curvature / size, [0.0, 0.0, 1.0])
+    arc = (1.0 - math.cos(size)) / size * across + np.array([0.0, 0.0, math.sin(size) / size])
+    np.testing.assert_allclose(concentric.turned_tip(0.6, -1.0 + 1e-9, 1.2, turn), arc, atol=1e-8)
 
 
 def test_a_pendulum_keeps_its_energy_and_swings_as_a_stiff_rod_does() -> None:

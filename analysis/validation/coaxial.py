@@ -13,12 +13,12 @@ from typing import Any
 import numpy as np
 
 from analysis.figures.wording import number, percent, span
-from analysis.logs import read_entries
+from analysis.hub import read_hub, snap_turns
 from analysis.runs import Run
 from analysis.validation import pictures, scenes
 from analysis.validation.check import Check, Finding, Plan, Result
 from analysis.validation.concentric import coupling, hub_slope, snap_angle, threshold
-from analysis.validation.states import last_state, solver_report, wall_time
+from analysis.validation.states import last_state, solver_report, tip_motion, wall_time
 from studies.table import Case
 
 SECTION = "A wire in a catheter"
@@ -34,7 +34,7 @@ _Sections = Sequence[tuple[float, float]]  # (length, rest curvature) from the h
 
 
 @dataclass(frozen=True)
-class _Pair:
+class Pair:
     """Two instruments, lengths over the catheter's, stiffnesses over its.
 
     Attributes
@@ -94,10 +94,10 @@ def _sections(pieces: _Sections, turn: float) -> list[dict[str, Any]]:
     return made
 
 
-def _even(n: int, ratio: float, nu: float, curvature: float, turn: float, lead: float = 0.0, **more: Any) -> _Pair:
+def even(n: int, ratio: float, nu: float, curvature: float, turn: float, lead: float = 0.0, **more: Any) -> Pair:
     """Two tubes of one length and curvature, the inner one with a straight length before."""
     before = [(lead, 0.0)] if lead else []
-    return _Pair(n, n, [(1.0, curvature)], [*before, (1.0, curvature)], ratio, nu, lead, turn, more=more)
+    return Pair(n, n, [(1.0, curvature)], [*before, (1.0, curvature)], ratio, nu, lead, turn, more=more)
 
 
 def _hub(run: Run, name: str) -> float:
@@ -105,9 +105,9 @@ def _hub(run: Run, name: str) -> float:
     return float(run.summary["hub"][name]) / (_BENDING / _LENGTH**(2 if name == "force" else 1))
 
 
-def _tip(run: Run) -> np.ndarray:
+def tip_of(run: Run) -> np.ndarray:
     """Of the wire, over L."""
-    return last_state(run).positions[-1] / _LENGTH
+    return tip_motion(run)[1][-1] / _LENGTH
 
 
 def _line(what: str, value: float, reference: float, error: float, gate: float | None, unit: str = "",
@@ -121,8 +121,8 @@ _TURNS = (0.3, 1.0, 2.0, 3.0)
 
 def _torque() -> Plan:
     """Two turned tubes: the mean curvature where twist is stiff, and the torque at the hub."""
-    stiff = {turn: _even(10, 0.5, -0.9999, 1.2, turn).case(f"stiff,turn={turn:g}") for turn in (0.0, 0.8, 2.5)}
-    soft = {(n, turn): _even(n, _RATIO, _NU, 1.0, turn).case(f"n={n},turn={turn:g}")
+    stiff = {turn: even(10, 0.5, -0.9999, 1.2, turn).case(f"stiff,turn={turn:g}") for turn in (0.0, 0.8, 2.5)}
+    soft = {(n, turn): even(n, _RATIO, _NU, 1.0, turn).case(f"n={n},turn={turn:g}")
             for n in (10, 20) for turn in _TURNS}
     runs = yield [*stiff.values(), *soft.values()]
     results = []
@@ -170,7 +170,7 @@ def _stability() -> Plan:
         for level in _BELOW:
             root = level * threshold(lead * part)
             curvature = root / math.sqrt(coupling(_RATIO, _NU, 1.0))
-            cases[lead, n, level] = _even(n, _RATIO, _NU, curvature, math.pi, lead).case(
+            cases[lead, n, level] = even(n, _RATIO, _NU, curvature, math.pi, lead).case(
                 f"lead={lead:g},n={n},level={level:g}")
     runs = yield list(cases.values())
     results, errors, lines = [], {}, {}
@@ -206,45 +206,44 @@ def _stability() -> Plan:
         "smallest eigenvalue of the second derivative of the energy is extrapolated to zero by a parabola in c."))
 
 
-_SNAPS = {"B_2/B_1 = 1, k L = 1.5": (1.0, 0.3, 1.5, 0.0), "B_2/B_1 = 1, k L = 2": (1.0, 0.3, 2.0, 0.0),
+SNAPS = {"B_2/B_1 = 1, k L = 1.5": (1.0, 0.3, 1.5, 0.0), "B_2/B_1 = 1, k L = 2": (1.0, 0.3, 2.0, 0.0),
           "B_2/B_1 = 1/2, k L = 1.2, L_t = L": (0.5, 0.35, 1.2, 1.0)}
-_BEGIN = 175.0  # degrees, of the hub at the start
+BEGIN = 175.0  # degrees, of the hub at the start
 _FINE = {10: 0.1, 20: 0.02}  # degrees a step
 _TURN_STEP = 2.5  # degrees
 
 
-def _turning(pair: _Pair, degrees: float, steps: int, key: str) -> Case:
-    """From its rest shape a hub that turns by so many degrees a step."""
-    return Case(key, {**pair.case(key).overrides, "integrator": "implicitEuler", "timeStep": _STEP,
+def turning(pair: Pair, degrees: float, steps: int, key: str, step: float = _STEP) -> Case:
+    """From its rest shape a hub that turns by so many degrees a step, which takes `step` s."""
+    return Case(key, {**pair.case(key).overrides, "integrator": "implicitEuler", "timeStep": step,
                       "maxSimulationSteps": steps, "deltaThreshold": 0.0, "massDamping": 100.0, "logSpheres": "last",
-                      "rotationSpeed": math.radians(degrees) / _STEP})
+                      "rotationSpeed": math.radians(degrees) / step})
 
 
 def _jumps(run: Run, start: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Hub angles, torques, and the angles before which the torque has come back by half of its largest, degrees."""
-    hubs = [entry["hub"] for _, entry in read_entries(run.folder)]
-    angle = start + np.degrees([hub["turn"] for hub in hubs])
-    torque = np.array([hub["torque"] for hub in hubs]) / (_BENDING / _LENGTH)
-    back = np.abs(np.diff(torque)) > 0.5 * np.max(np.abs(torque))
-    return angle, torque, angle[1:][back]
+    """Hub angles, torques, and the angles at the end of the steps in which it snapped, degrees."""
+    log = read_hub(run.folder)
+    angle = start + np.degrees(log.turn)
+    torque = log.torque / (_BENDING / _LENGTH)
+    return angle, torque, np.degrees(snap_turns(np.radians(angle), torque)[1])
 
 
 def _snap() -> Plan:
     """Two tubes turned until they snap."""
     cases, turned = {}, {}
-    for name, (ratio, nu, curvature, straight) in _SNAPS.items():
+    for name, (ratio, nu, curvature, straight) in SNAPS.items():
         # The inner one alone is straight before: its part of the twist is (1/C_2)/(1/C_1 + 1/C_2).
         lead = straight * (1.0 + ratio)
         turned[name] = math.degrees(snap_angle(coupling(ratio, nu, curvature), straight))
         for n, fine in _FINE.items():
-            pair = _even(n, ratio, nu, curvature, math.radians(_BEGIN), lead)
-            steps = math.ceil((1.01 * turned[name] - _BEGIN) / fine)
-            cases[name, n] = _turning(pair, fine, steps, f"{list(_SNAPS).index(name)},n={n}")
-    three = _turning(_even(10, 1.0, 0.3, 2.0, 0.0), _TURN_STEP, round(1080.0 / _TURN_STEP), "three-turns")
+            pair = even(n, ratio, nu, curvature, math.radians(BEGIN), lead)
+            steps = math.ceil((1.01 * turned[name] - BEGIN) / fine)
+            cases[name, n] = turning(pair, fine, steps, f"{list(SNAPS).index(name)},n={n}")
+    three = turning(even(10, 1.0, 0.3, 2.0, 0.0), _TURN_STEP, round(1080.0 / _TURN_STEP), "three-turns")
     runs = yield [*cases.values(), three]
     results = []
     for (name, n), case in cases.items():
-        found = _jumps(runs[case.key], _BEGIN)[2]
+        found = _jumps(runs[case.key], BEGIN)[2]
         angle = float(found[0]) - 0.5 * _FINE[n] if len(found) == 1 else math.nan
         results.append(_line(f"two tubes, {name}, n = {n}: hub angle of the snap; reference: theta'' = c sin theta",
                              angle, turned[name], abs(angle / turned[name] - 1.0), 2e-3 if n == 10 else 5e-4, "degrees",
@@ -280,7 +279,7 @@ _INSIDE = tuple(0.2 + 0.0271 * k for k in range(0, 23, 3))  # how far the wire's
 
 def _expulsion() -> Plan:
     """A straight wire in a bent catheter, its tip inside."""
-    cases = {(ratio, lead): _Pair(10, 11, [(1.0, 1.3)], [(1.1, 0.0)], ratio, lead=lead).case(
+    cases = {(ratio, lead): Pair(10, 11, [(1.0, 1.3)], [(1.1, 0.0)], ratio, lead=lead).case(
         f"ratio={ratio:g},lead={lead:.4f}") for ratio in _RATIOS for lead in _INSIDE}
     runs = yield list(cases.values())
     results, forces = [], {}
@@ -317,7 +316,7 @@ _TURNED = 1.2  # rad
 def _hooked(n: int, extension: float, key: str) -> Case:
     """A wire with a hook through a catheter with a bent tip, a load on the outermost tip."""
     load = np.array([0.1, 0.2, -0.1]) * _BENDING / _LENGTH**2
-    return _Pair(n, 3 * n // 2, [(0.6, 0.0), (0.4, 1.5)], [(1.27, 0.0), (0.23, 3.0)], 0.5, 0.3, 0.5 - extension,
+    return Pair(n, 3 * n // 2, [(0.6, 0.0), (0.4, 1.5)], [(1.27, 0.0), (0.23, 3.0)], 0.5, 0.3, 0.5 - extension,
                  _TURNED, more={"tipForce": load.tolist()}).case(key)
 
 
@@ -332,7 +331,7 @@ def _sliding() -> Plan:
     reach = np.ptp([force[finest, p] for p in _EXTENSIONS])
     results = []
     for n in _TIP_GATE:
-        tips = [float(np.linalg.norm(_tip(runs[cases[n, p].key]) - _tip(runs[cases[finest, p].key])))
+        tips = [float(np.linalg.norm(tip_of(runs[cases[n, p].key]) - tip_of(runs[cases[finest, p].key])))
                 for p in _EXTENSIONS]
         apart = max(abs(force[n, p] - force[finest, p]) for p in _EXTENSIONS)
         what = f"a wire with a hook through a bent catheter, n = {n}; reference: n = {finest}"
@@ -365,10 +364,10 @@ _STIFF = 1e6  # N: where the chain stretches as the catheter does, none bends fo
 def _limits() -> Plan:
     """A catheter of no stiffness, and one that is a guide."""
     across = {"tipForce": [_LOAD * _BENDING / _LENGTH**2, 0.0, 0.0]}
-    guides = {n: _Pair(n, 2 * n, [(1.0, 0.0)], [(2.0, 0.0)], 1.0, 0.3, 0.5, rigid=1e7, more=across).case(f"guide,n={n}")
+    guides = {n: Pair(n, 2 * n, [(1.0, 0.0)], [(2.0, 0.0)], 1.0, 0.3, 0.5, rigid=1e7, more=across).case(f"guide,n={n}")
               for n in (10, 20, 40)}
     own = {"straight": 0.0, "bent": 0.8}
-    soft = {name: _Pair(6, 10, [(0.6, 0.0 if name == "straight" else 2.0)], [(1.0, k)], 1.0, 0.3, rigid=1e-9,
+    soft = {name: Pair(6, 10, [(0.6, 0.0 if name == "straight" else 2.0)], [(1.0, k)], 1.0, 0.3, rigid=1e-9,
                         stretch={"axialStiffness": _STIFF, "shearStiffness": _STIFF},
                         more={"tipForce": [0.0, -0.2 * _BENDING / _LENGTH**2, 0.05 * _BENDING / _LENGTH**2]}).case(
         f"none,{name}") for name, k in own.items()}

@@ -46,3 +46,22 @@ def snap_angle(c: float, lead: float = 0.0) -> float:
 def threshold(lead: float) -> float:
     """sqrt(c) L at which the twist of pi ceases to be stable: sqrt(c) L_t tan(sqrt(c) L) = 1."""
     return 0.5 * math.pi if lead == 0.0 else brentq(lambda x: x * lead * math.tan(x) - 1.0, 1e-6, 0.5 * math.pi - 1e-9)
+
+
+def turned_tip(ratio: float, nu: float, curvature: float, turn: float) -> np.ndarray:
+    """Tip (over L) of two tubes of one curvature, the inner one turned at its hub, on the branch from 0.
+
+    In the outer tube's frame, R' = R [u]x and x' = R e3, the bending is the mean by stiffness of k_1 and R(theta) k_2,
+    and without a couple about the axis C_1 u_z + C_2 (u_z + theta') = 0."""
+    c = coupling(ratio, nu, curvature)
+    inner = ratio / (1.0 + ratio)
+
+    def rate(_: float, y: np.ndarray) -> np.ndarray:
+        theta, slope = y[:2]
+        directors = y[2:11].reshape(3, 3)
+        x, y_, z = curvature * (1.0 - inner + inner * math.cos(theta)), curvature * inner * math.sin(theta), -inner * slope
+        turned = directors @ np.array([[0.0, -z, y_], [z, 0.0, -x], [-y_, x, 0.0]])
+        return np.concatenate(([slope, c * math.sin(theta)], turned.ravel(), directors[:, 2]))
+
+    start = np.concatenate(([turn, hub_slope(c, turn)], np.eye(3).ravel(), np.zeros(3)))
+    return solve_ivp(rate, (0.0, 1.0), start, rtol=1e-10, atol=1e-12).y[-3:, -1]

@@ -13,7 +13,7 @@ from analysis.advice import chart, plan, quantity, report
 from analysis.advice.plan import Advice, Tried, Wish
 from analysis.advice.quantity import Quantity
 from analysis.advice.trials import Trial
-from analysis.hub import read_hub
+from analysis.hub import read_hub, snap_turns
 from analysis.logs import LogError, read_log
 from analysis.runs import read_runs
 from analysis.validation.check import replay
@@ -110,10 +110,30 @@ def test_the_walls_force_is_read_from_the_contacts_of_the_log(advise) -> None:
 @pytest.mark.parametrize("of, scene, said", [
     ("hubForce", {"solver": "pbd"}, "--of hubForce needs solver direct, this is pbd"),
     ("contactForce", {"solver": "direct", "vessel": None}, "needs walls"),
+    ("snapAngle", {"solver": "direct"}, "needs catheters"),
+    ("snapAngle", {"solver": "xpbd"}, "needs solver direct"),
 ])
 def test_what_a_scene_does_not_have_is_told(of: str, scene: dict, said: str) -> None:
     with pytest.raises(LogError, match=said):
         Quantity(of).refuse(scene, {})
+
+
+@pytest.mark.parametrize("steps", [7, 97, 5000])
+def test_a_snap_lies_between_the_entries_where_the_torque_comes_back(steps: int) -> None:
+    """The torque falls back over a fifth of a degree at 1.2 and at 2.4 rad, the hub then turns back; slow changes are no
+    snaps."""
+    turn = np.concatenate((np.linspace(0.0, 3.0, steps + 1), np.linspace(3.0, 2.0, steps)))
+    torque = 0.2 * np.sin(40.0 * turn[: steps + 1]) / 40.0
+    for at in (1.2, 2.4):
+        torque -= 0.5 + 0.5 * np.tanh((turn[: steps + 1] - at) / math.radians(0.04))
+    torque += turn[: steps + 1] / 1.2
+    torque = np.concatenate((torque, np.full(steps, torque[-1])))
+    before, after = snap_turns(turn, torque)
+    assert len(before) == len(after) == 2
+    for at, start, end in zip((1.2, 2.4), before, after):
+        slack = math.radians(0.05)
+        assert start - slack <= at <= end + slack and end - start == pytest.approx(3.0 / steps, rel=1e-9)
+    assert len(snap_turns(turn, np.zeros(len(turn)))[0]) == 0
 
 
 def test_an_unknown_name_gets_the_nearest() -> None:
