@@ -83,6 +83,7 @@ namespace Guidewire.Core
                 IsAtRest = failure == null;
             }
             Start(scene, terms, 0.0, 0.0);
+            _record.TakePlay(_rod.Joints, shape);
             TakeWire();
         }
 
@@ -105,11 +106,11 @@ namespace Guidewire.Core
             {
                 double slip = Math.Abs(_wireDrive.Slip) > Math.Abs(_catheterDrive.Slip) ? _wireDrive.Slip
                     : _catheterDrive.Slip;
-                return slip != 0.0 ? string.Format(System.Globalization.CultureInfo.InvariantCulture,
-                    "a hub fell short by {0:G3} m: {1}the wire's came to the catheter's, or its tip to the first"
-                    + " element of the catheter{2}", slip, _catheterSlip.IsLimited || _wireSlip.IsLimited
-                        ? "it slipped at its hubForceLimit, or " : "",
-                    _wireSlip.TextOfExcess + _catheterSlip.TextOfExcess) : null;
+                string excess = _wireSlip.TextOfExcess + _catheterSlip.TextOfExcess;
+                return slip == 0.0 && excess == "" ? null : slip == 0.0 ? excess.Substring(2)
+                    : string.Format(System.Globalization.CultureInfo.InvariantCulture, "a hub fell short by {0:G3} m:"
+                    + " {1}the wire's came to the catheter's, or its tip to the first element of the catheter{2}", slip,
+                    _catheterSlip.IsLimited || _wireSlip.IsLimited ? "it slipped at its hubForceLimit, or " : "", excess);
             }
         }
 

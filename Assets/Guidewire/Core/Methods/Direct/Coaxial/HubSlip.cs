@@ -9,7 +9,8 @@ namespace Guidewire.Core
     /// straight line has the limit, until the force is within 2 % below it. A hub that may not even rest gives
     /// way, farther and farther; where that went from too much of one sense to too much of the other, the displacement
     /// without force lies between. An instrument is stiff along its axis: what it may be displaced between both limits
-    /// is some micrometres.</remarks>
+    /// is some micrometres. Where the force jumps from beyond the limit in one sense to beyond it in the other, it is the
+    /// least of those that were found.</remarks>
     internal sealed class HubSlip
     {
         private const double Close = 0.02;      // of the limit
@@ -26,6 +27,7 @@ namespace Guidewire.Core
         private Trial _first;
         private Trial _thrust;                  // the last with too much of either sense
         private Trial _tension;
+        private Trial _least;                   // force of all that have too much
         private bool _hasAllowed;
         private int _trials;
         private int _stepsBeyond;
@@ -51,6 +53,7 @@ namespace Guidewire.Core
             _hasAllowed = false;
             _thrust = default;
             _tension = default;
+            _least = default;
             Displacement = null;
         }
 
@@ -69,11 +72,16 @@ namespace Guidewire.Core
             {
                 return false;
             }
+            if (isTooMuch && (!_least.IsMade || Math.Abs(force) < Math.Abs(_least.Force)) && !double.IsNaN(force))
+            {
+                _least = new Trial(moved, force);
+            }
             if (_trials++ >= MostTrials)
             {
                 // Where the force jumps past the limit, as far as it is no more.
-                Displacement = _allowed;
-                return isTooMuch && _hasAllowed && _trials == MostTrials + 1;
+                Displacement = _hasAllowed ? _allowed : _least.Moved;
+                return isTooMuch && (_hasAllowed || _least.IsMade) && _trials == MostTrials + 1
+                    && Displacement != moved;
             }
             if (isTooMuch)
             {

@@ -113,6 +113,20 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void RestShape_HasThePlayOfItsOverlap()
+        {
+            SimulationParameters parameters = CoaxialScenes.Pair(Integrator.ImplicitEuler);
+            parameters.Scene.InitialState = InitialState.Equilibrium;
+            parameters.Method.MaxSimulationSteps = 0;
+            CoaxialRecord record = Simulation.Create(parameters).Coaxial()!;
+            // The catheter's bent tip over a straight part of the wire: sqrt(3 d k) and sqrt(12 d/k).
+            double mismatch = new Vector3d(30.0, 10.0, 0.0).Length;
+            double play = 0.6e-3 - 0.445e-3;
+            Assert.That(record.PlayAngle, Is.EqualTo(180.0 / Math.PI * Math.Sqrt(3.0 * play * mismatch)).Within(1e-9));
+            Assert.That(record.PlayLength, Is.EqualTo(Math.Sqrt(12.0 * play / mismatch)).Within(1e-12));
+        }
+
+        [Test]
         public void Step_LeavesNothingForTheCollector_WhereNoNodeComesOrGoes()
         {
             SimulationParameters parameters = CoaxialScenes.Pair(Integrator.ImplicitEuler);

@@ -38,21 +38,26 @@ namespace Guidewire.Core.Tests
             Assert.That(slip.TextOfExcess, Is.Empty);
         }
 
-        [Test]
-        public void HubWhoseForceJumpsPastItsLimit_IsSaidToHaveMore()
+        // Of the two forces on either side of the jump it has the smaller one, whichever the search ends at.
+        [TestCase(0.2, -0.1)]
+        [TestCase(0.1, -0.2)]
+        [TestCase(0.07, -5.0)]
+        public void HubWhoseForceJumpsPastItsLimit_HasTheLeastOfThem_AndIsSaidTo(double ahead, double behind)
         {
             var slip = new HubSlip(null!, Limit, Shortest);
+            double least = Math.Min(Math.Abs(ahead), Math.Abs(behind));
             for (int step = 0; step < 2; step++)
             {
                 slip.Begin();
                 double moved = Asked;
                 int trials = 0;
-                while (slip.NeedsAnother(moved, moved > 1e-4 ? 0.2 : -0.1))
+                while (slip.NeedsAnother(moved, moved > 1e-4 ? ahead : behind))
                 {
                     moved = slip.Displacement!.Value;
                     Assert.That(trials++, Is.LessThanOrEqualTo(MostTrials));
                 }
-                slip.EndStep(moved > 1e-4 ? 0.2 : -0.1);
+                Assert.That(Math.Abs(moved > 1e-4 ? ahead : behind), Is.EqualTo(least));
+                slip.EndStep(moved > 1e-4 ? ahead : behind);
             }
             Assert.That(slip.TextOfExcess, Does.Contain("hubForceLimit of 0.05 N"));
             Assert.That(slip.TextOfExcess, Does.Contain("in 2 of the steps"));

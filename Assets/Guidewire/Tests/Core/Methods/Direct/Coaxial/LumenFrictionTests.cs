@@ -18,7 +18,7 @@ namespace Guidewire.Core.Tests
             [Values(30.0, 90.0, 180.0)] double degrees)
         {
             double grows = Math.Exp(coefficient * Math.PI / 180.0 * degrees);
-            Simulation run = Start(coefficient, degrees, out Steering hub);
+            Simulation run = Start(coefficient, degrees, out Steering hub, out _);
             hub.Push = -0.05;
             Step(run, 12);
             Assert.That(run.Coaxial()!.WireForce, Is.EqualTo(-Load * grows).Within(Tolerance * Load * grows), "drawn");
@@ -34,10 +34,45 @@ namespace Guidewire.Core.Tests
             Assert.That(run.Coaxial()!.Force + run.Coaxial()!.WireForce, Is.EqualTo(both).Within(Tolerance * Load));
         }
 
+        // The wire is drawn back: friction of the lumen counts towards the force at which its hub slips. It goes till it
+        // has its limit, and stays.
+        [TestCase(0.2, 90.0, 0.12)]
+        [TestCase(0.2, 90.0, 0.135)]
+        [TestCase(0.5, 180.0, 0.3)]
+        public void SlippingHub_HasItsLimitWithFriction(double coefficient, double degrees, double limit)
+        {
+            Simulation run = StartSlipping(coefficient, degrees, limit, out Steering hub);
+            Simulation free = StartSlipping(0.0, degrees, limit, out Steering freeHub);
+            hub.Push = -0.05;
+            freeHub.Push = -0.05;
+            Step(run, 12);
+            Step(free, 12);
+            Assert.That(limit, Is.LessThan(Load * Math.Exp(coefficient * Math.PI / 180.0 * degrees)), "what it would be");
+            Assert.That(run.Coaxial()!.WireForce, Is.InRange(-limit, -0.979 * limit));
+            Assert.That(run.Coaxial()!.FrictionForce, Is.EqualTo(run.Coaxial()!.WireForce + Load)
+                .Within(Tolerance * Load));
+            Assert.That(run.Coaxial()!.WireShortfall, Is.GreaterThan(0.9 * run.Coaxial()!.WireAsked));
+            Assert.That(run.Coaxial()!.WireGone + run.Coaxial()!.WireShortfall,
+                Is.EqualTo(run.Coaxial()!.WireAsked).Within(1e-12));
+            Assert.That(free.Coaxial()!.WireShortfall, Is.Zero, "without friction it does not slip");
+        }
+
+        // The hub is where the catheter's is: it cannot give way to the pull, and loses nothing.
+        [Test]
+        public void HubBeyondItsLimit_IsSaidToBe_WhereItFallsShortOfNothing()
+        {
+            Simulation run = StartSlipping(0.0, 90.0, 0.5 * Load, out Steering hub, 0.0);
+            Step(run, 3);
+            run.End(Outcome.Interrupted, "asked");
+            Assert.That(run.Coaxial()!.WireShortfall, Is.Zero);
+            Assert.That(run.Coaxial()!.WireForce, Is.EqualTo(-Load).Within(Tolerance * Load));
+            Assert.That(run.Reason, Does.Contain("a hub had up to 0.1 N, above its hubForceLimit of 0.05 N, in 3 of"));
+        }
+
         [Test]
         public void WithoutACoefficient_ThereIsNone()
         {
-            Simulation run = Start(0.0, 90.0, out Steering hub);
+            Simulation run = Start(0.0, 90.0, out Steering hub, out _);
             hub.Push = -0.05;
             Step(run, 12);
             Assert.That(run.Coaxial()!.FrictionForce, Is.Zero);
@@ -70,9 +105,10 @@ namespace Guidewire.Core.Tests
         }
 
         // A limp wire through a catheter that is bent by an angle and does not give, its tip pulled along.
-        private static Simulation Start(double coefficient, double degrees, out Steering hub)
+        private static Simulation Start(double coefficient, double degrees, out Steering hub,
+            out SimulationParameters parameters, double lead = 50.0)
         {
-            SimulationParameters parameters = CoaxialScenes.Pair(Integrator.ImplicitEuler);
+            parameters = CoaxialScenes.Pair(Integrator.ImplicitEuler);
             double angle = Math.PI / 180.0 * degrees;
             parameters.Method.TimeStep = 0.01;
             parameters.Scene.InitialState = InitialState.Equilibrium;
@@ -88,7 +124,7 @@ namespace Guidewire.Core.Tests
             Catheter catheter = parameters.Scene.Catheters[0];
             catheter.Length = Length;
             catheter.Elements = 40;
-            catheter.Start = 50.0;
+            catheter.Start = lead;
             catheter.LumenFriction = coefficient;
             catheter.Material.YoungsModulus = 1e13;
             catheter.Material.ShearModulus = 4e12;
@@ -97,6 +133,18 @@ namespace Guidewire.Core.Tests
             Simulation run = Simulation.Create(parameters);
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Running), run.Reason);
             return run;
+        }
+
+        // It goes on with a hub that slips, as hubs do between walls: one that is far from both.
+        private static Simulation StartSlipping(double coefficient, double degrees, double limit, out Steering hub,
+            double lead = 50.0)
+        {
+            Simulation run = Start(coefficient, degrees, out hub, out SimulationParameters parameters, lead);
+            parameters.Scene.InitialState = InitialState.Straight;
+            parameters.Scene.Walls = new ContactShape[] { new PlaneShape(new Vector3d(500.0, 0.0, 0.0),
+                -Vector3d.UnitX) };
+            parameters.Drive.HubForceLimit = limit;
+            return run.Continue(parameters);
         }
 
         private static void Step(Simulation run, int steps)
