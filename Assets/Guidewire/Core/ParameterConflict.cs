@@ -150,6 +150,7 @@ namespace Guidewire.Core
             OfCatheters(p => p.Scene.TipMoment == Vector3d.Zero && p.Scene.TipFollowerForce == Vector3d.Zero,
                 "no tipMoment and no tipFollowerForce"),
             OfCatheters(p => p.Material.MaterialDamping == 0.0, "materialDamping 0"),
+            OfCatheters(p => p.Material.ClampRule != ClampRule.WholeElement, "no clampRule \"wholeElement\""),
             OfCatheters(p => p.Material.BendLaw == BendLaw.RotationVector, "bendLaw \"rotationVector\""),
             new Rule("catheters", p => FindInCatheters(p.All) != null, p => FindInCatheters(p.All)!),
         };

@@ -41,7 +41,8 @@ namespace Guidewire.Core
             own.Scene.GuidewireLength = catheter.Length;
             own.Scene.NumberRodElements = catheter.Elements;
             own.Scene.GuidewireOffset += catheter.Start;
-            own.Material = catheter.Material;
+            own.Material = catheter.Material.Copy();
+            own.Material.MassRule = Material.MassRule;
             own.Drive = catheter.Drive.Copy();
             own.Drive.Kind = Core.Drive.Displace;
             own.Drive.DisplacementDirection = axis;

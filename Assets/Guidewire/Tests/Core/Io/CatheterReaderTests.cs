@@ -57,6 +57,7 @@ namespace Guidewire.Core.Tests
         [TestCase("sheath", "{}", "sheath")]
         [TestCase("proximalEnd", "\"held\"", "clamped")]
         [TestCase("materialDamping", "0.001", "materialDamping 0")]
+        [TestCase("clampRule", "\"wholeElement\"", "no clampRule")]
         [TestCase("tipMoment", "[0, 0, 1]", "no tipMoment")]
         [TestCase("distalEnd", "\"clamped\"", "distalEnd")]
         [TestCase("logStrains", "true", "false with catheters")]

@@ -1,0 +1,111 @@
+using System;
+using System.Collections.Generic;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>Runs of a wire in a catheter without stiffness and mass: they are those of the wire alone, on the
+    /// catheter's elements.</summary>
+    /// <remarks>Where the two have the same stations and the wire's clamp is that of half an element, as joints of
+    /// coaxial instruments have it, nothing is left but what the catheter has. On others the wire in it has elements of
+    /// the length l_c instead of its own l_w, and either has an error of second order: they differ by c (l_c^2 -
+    /// l_w^2).</remarks>
+    public sealed class SoftCatheterTests
+    {
+        private const double Length = 300.0;   // mm, of the wire; half of it in the catheter
+        private const int Elements = 30;
+        private const int Steps = 80;
+
+        // Swinging under its own weight while both hubs go together, and turn.
+        [TestCase(0.0, 0.0, MassRule.Consistent)]
+        [TestCase(0.05, 3.0, MassRule.Consistent)]
+        [TestCase(0.4, -20.0, MassRule.Consistent)]
+        [TestCase(0.05, 0.0, MassRule.Lumped)]
+        public void OnTheSameStations_ItIsTheWireAlone(double speed, double turns, MassRule mass)
+        {
+            List<Vector3d[]> alone = Run(speed, turns, mass, 0);
+            List<Vector3d[]> soft = Run(speed, turns, mass, Elements / 2);
+            Assert.That(Math.Abs(alone[Steps - 1][Elements].Y), Is.GreaterThan(0.05 * Length), "it sags");
+            double worst = 0.0;
+            for (int k = 0; k < Steps; k++)
+            {
+                for (int i = 0; i <= Elements; i++)
+                {
+                    worst = Math.Max(worst, (alone[k][i] - soft[k][i]).Length / Length);
+                }
+            }
+            TestContext.WriteLine("{0:G3} of L", worst);
+            Assert.That(worst, Is.LessThan(1e-6));
+        }
+
+        [Test]
+        public void OnOtherStations_ItDiffersAsTheirSquares([Values(0.0, 0.4)] double speed)
+        {
+            double exact = Sag(speed, 0);
+            double own = Square(Elements / 2);
+            double perSquare = 0.0;
+            foreach (int elements in new[] { 8, 10, 20, 30, 40 })
+            {
+                double difference = Sag(speed, elements) - exact;
+                double found = difference / (Square(elements) - own);
+                TestContext.WriteLine("{0} elements: {1:G3} of L, {2:G4}/mm^2", elements, difference, found);
+                perSquare = perSquare == 0.0 ? found : perSquare;
+                Assert.That(Math.Abs(difference), Is.GreaterThan(1e-5));
+                Assert.That(found, Is.EqualTo(perSquare).Within(0.02 * Math.Abs(perSquare)), elements + " elements");
+            }
+        }
+
+        // mm^2, of the catheter's elements, or of the wire's where as many are in it.
+        private static double Square(int elements)
+        {
+            double l = 0.5 * Length / elements;
+            return l * l;
+        }
+
+        // Of the tip, of L.
+        private static double Sag(double speed, int catheterElements)
+        {
+            return -Run(speed, 0.0, MassRule.Consistent, catheterElements)[Steps - 1][Elements].Y / Length;
+        }
+
+        private static List<Vector3d[]> Run(double speed, double turns, MassRule mass, int catheterElements)
+        {
+            SimulationParameters parameters = CoaxialScenes.Pair(Integrator.ImplicitEuler);
+            Catheter catheter = parameters.Scene.Catheters[0];
+            parameters.Scene.GuidewireLength = Length;
+            parameters.Scene.NumberRodElements = Elements;
+            parameters.Scene.Gravity = new Vector3d(0.0, -9.81, 0.0);
+            parameters.Material.Sections = Array.Empty<WireSection>();
+            parameters.Material.ClampRule = ClampRule.HalfElement;
+            parameters.Material.MassRule = mass;
+            parameters.Method.TimeStep = 5e-3;
+            parameters.Method.MaxSimulationSteps = Steps;
+            parameters.Drive.InsertionSpeed = speed;
+            parameters.Drive.RotationSpeed = turns;
+            catheter.Start = 0.0;
+            catheter.Length = 0.5 * Length;
+            catheter.Elements = catheterElements;
+            catheter.Drive = parameters.Drive;
+            catheter.Material.YoungsModulus = 10.0;
+            catheter.Material.ShearModulus = 4.0;
+            catheter.Material.Density = 1e-6;
+            // Elements of the overlap stretch as the catheter does.
+            double area = Math.PI * parameters.Material.WireRadius * parameters.Material.WireRadius;
+            catheter.Material.Sections = new[]
+            {
+                new WireSection { From = 0.0, To = catheter.Length, AxialStiffness = parameters.Material.YoungsModulus
+                    * area, ShearStiffness = parameters.Material.ShearModulus * area },
+            };
+            parameters.Scene.Catheters = catheterElements == 0 ? Array.Empty<Catheter>() : new[] { catheter };
+            Simulation run = Simulation.Create(parameters);
+            var found = new List<Vector3d[]>();
+            while (run.Outcome == Outcome.Running)
+            {
+                run.Step();
+                found.Add((Vector3d[])run.State.Positions.Clone());
+            }
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            return found;
+        }
+    }
+}
