@@ -10,7 +10,7 @@ namespace Guidewire.Benchmarks
     internal sealed class CoaxialFeed
     {
         private const double Length = 300.0;      // mm
-        private const int Elements = 60;
+        public const int Elements = 60;
         private const double Way = 100.0;         // mm
         private const double Speed = 0.02;        // m/s
         private const double TimeStep = 0.02;     // s
@@ -21,6 +21,12 @@ namespace Guidewire.Benchmarks
         private readonly Simulation _run;
 
         private CoaxialFeed(bool hasCatheter)
+        {
+            _run = Simulation.Create(Parameters(hasCatheter ? Elements / 2 : 0));
+        }
+
+        /// <summary>Of the wire in a catheter over so many of its elements; 0: alone.</summary>
+        public static SimulationParameters Parameters(int covered)
         {
             var drive = new DriveParameters { Kind = Drive.Displace, Displacement = 0.0, InsertionSpeed = Speed };
             var parameters = new SimulationParameters
@@ -44,9 +50,9 @@ namespace Guidewire.Benchmarks
                 },
                 Drive = { Kind = Drive.Displace, Displacement = 0.0, InsertionSpeed = Speed },
             };
-            if (hasCatheter)
+            if (covered > 0)
             {
-                var catheter = new Catheter { Length = 0.5 * Length, Elements = Elements / 2, Drive = drive };
+                var catheter = new Catheter { Length = Length * covered / Elements, Elements = covered, Drive = drive };
                 catheter.Material.WireRadius = 0.4e-3;
                 catheter.Material.InnerRadius = 0.25e-3;
                 catheter.Material.YoungsModulus = 1e9;
@@ -54,7 +60,7 @@ namespace Guidewire.Benchmarks
                 catheter.Material.Density = 1200.0;
                 parameters.Scene.Catheters = new[] { catheter };
             }
-            _run = Simulation.Create(parameters);
+            return parameters;
         }
 
         /// <summary>Times both in turns, step by step, and prints what the catheter costs.</summary>

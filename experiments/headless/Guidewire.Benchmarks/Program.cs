@@ -48,6 +48,7 @@ namespace Guidewire.Benchmarks
             if (arguments.Contains("--coaxial"))
             {
                 CoaxialFeed.Print();
+                CoaxialParts.Print();
                 PrintScenes(arguments);
                 return 0;
             }
@@ -90,6 +91,7 @@ namespace Guidewire.Benchmarks
                 PrintArch();
                 SheathFeed.Print();
                 CoaxialFeed.Print();
+                CoaxialParts.Print();
                 PrintScenes(arguments);
             }
             return rows.All(row => row.Measured) ? 0 : 1;

@@ -62,6 +62,12 @@ namespace Guidewire.Core
         /// <param name="sense">1, or -1 at the tip of the outer instrument.</param>
         public void RestAt(double t, double sense, out Vector3d rest, out Vector3d slope)
         {
+            if (TurnedX == 0.0 && TurnedY == 0.0)
+            {
+                rest = new Vector3d(FixedX, FixedY, 0.0);
+                slope = Vector3d.Zero;
+                return;
+            }
             double c = Math.Cos(t);
             double s = sense * Math.Sin(t);
             double x = c * TurnedX - s * TurnedY;
@@ -73,6 +79,12 @@ namespace Guidewire.Core
         /// <summary>Energy that does not go with the joint's rotation, J, and its derivatives by t.</summary>
         public double HeldAt(double t, out double slope, out double second)
         {
+            if (Cosine == 0.0 && Sine == 0.0)
+            {
+                slope = 0.0;
+                second = 0.0;
+                return Held;
+            }
             double c = Math.Cos(t);
             double s = Math.Sin(t);
             slope = Cosine * s - Sine * c;

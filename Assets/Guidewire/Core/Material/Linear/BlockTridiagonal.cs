@@ -93,27 +93,37 @@ namespace Guidewire.Core
                     HoldEnd();
                 }
                 Subtract(gradient, y, from, to);
-                int first = from;
-#if NET8_0_OR_GREATER
-                if (_twistCount == 0 && Rows4.IsSupported)
+                int twists = Math.Min(to, Math.Max(from, _twistCount));
+                for (int i = from; i < twists; i++)
                 {
-                    negative += EliminationLanes.Eliminate(_block, y, from, to);
-                    first = to;
+                    negative += Eliminate(y, i, i + 1);
+                    ref RodVector z = ref y[_count + 1 + i];
+                    ref RodVector nextZ = ref y[_count + 2 + i];
+                    z.T3 -= gradient[_count + 1 + i].T3;
+                    negative += TwistElimination.Eliminate(_block[i], ref _block[i + 1], ref _twist[i],
+                        ref _twist[i + 1], y[i], ref y[i + 1], ref z.T3, ref nextZ.T3);
                 }
-#endif
-                for (int i = first; i < to; i++)
+                if (twists < to)
                 {
-                    negative += BlockElimination.Eliminate(ref _block[i], ref _block[i + 1], ref y[i], ref y[i + 1]);
-                    if (i < _twistCount)
-                    {
-                        ref RodVector z = ref y[_count + 1 + i];
-                        ref RodVector nextZ = ref y[_count + 2 + i];
-                        z.T3 -= gradient[_count + 1 + i].T3;
-                        negative += TwistElimination.Eliminate(_block[i], ref _block[i + 1], ref _twist[i],
-                            ref _twist[i + 1], y[i], ref y[i + 1], ref z.T3, ref nextZ.T3);
-                    }
+                    negative += Eliminate(y, twists, to);
                 }
                 from = to;
+            }
+            return negative;
+        }
+
+        private int Eliminate(RodVector[] y, int from, int to)
+        {
+#if NET8_0_OR_GREATER
+            if (Rows4.IsSupported)
+            {
+                return EliminationLanes.Eliminate(_block, y, from, to);
+            }
+#endif
+            int negative = 0;
+            for (int i = from; i < to; i++)
+            {
+                negative += BlockElimination.Eliminate(ref _block[i], ref _block[i + 1], ref y[i], ref y[i + 1]);
             }
             return negative;
         }

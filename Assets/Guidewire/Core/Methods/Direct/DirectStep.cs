@@ -77,6 +77,9 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         protected override double KineticEnergy => Terms.Mass.KineticEnergy(Velocities, Spins);
 
+        /// <summary>The motion.</summary>
+        public RodDynamics Dynamics => _dynamics;
+
         /// <inheritdoc/>
         public override ContactRecord? Contacts { get; }
 
