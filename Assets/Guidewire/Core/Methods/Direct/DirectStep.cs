@@ -340,6 +340,10 @@ namespace Guidewire.Core
             _monitor?.Serialize(snapshot);
             snapshot.Serialize(ref _hubWork);
             Contacts?.Serialize(snapshot);
+            if (!snapshot.IsWritten)
+            {
+                (Failure, Divergence) = (null, null);
+            }
         }
 
         /// <summary>Writes or takes over what was counted, whatever the number of elements.</summary>

@@ -6,6 +6,8 @@ namespace Guidewire.Core
     /// rod.</summary>
     internal sealed class CoaxialSetup
     {
+        private const double Nowhere = 1e9;     // m, farther than any drive goes
+
         private readonly SimulationParameters _parameters;
         private readonly InstrumentProfile _wireProfile;
         private readonly InstrumentProfile _catheterProfile;
@@ -68,6 +70,19 @@ namespace Guidewire.Core
         public MaterialDrive DriveOf(MaterialScene scene)
         {
             return new MaterialDrive(scene.Drive, scene.Schedule.Hub, Axis);
+        }
+
+        /// <summary>Lets hubs go in the step that begins at a time so far that neither passes the other one, and that
+        /// the wire's tip stays in the catheter by an element at least.</summary>
+        public void LimitDrives(MaterialDrive outer, MaterialDrive inner, CoaxialHubs hubs, double time)
+        {
+            double lead = hubs.LeadAt(time);
+            double inside = WireStations[WireStations.Length - 1] - lead - Catheter.Rod.Length[0];
+            outer.Limit(-Nowhere, Nowhere);
+            double catheter = outer.NextMove(time);
+            inner.Limit(Math.Min(0.0, catheter - inside), Math.Max(0.0, lead + catheter));
+            double wire = inner.NextMove(time);
+            outer.Limit(Math.Min(0.0, wire - lead), Math.Max(0.0, inside + wire));
         }
 
         /// <summary>Energies and loads of both, which follow their hubs.</summary>

@@ -14,7 +14,6 @@ namespace Guidewire.Core
         private const double Left = 0.01;
         private const double SameTime = 1e-6;   // of a step, or of that length
         private const double OfRadius = 0.01;   // of a radius, by which a hub gives way at first
-        private const double Nowhere = 1e9;     // m, farther than any drive goes
 
         private readonly MethodParameters _method;
         private readonly SolverReport _report;
@@ -35,6 +34,7 @@ namespace Guidewire.Core
         private DirectStep _inner = null!;
         private int _active;                      // elements with both, when it was built
         private double _lead;                     // between the hubs, when it was built, m
+        private (CoaxialRod, RodDynamics, DirectStep, int, double) _kept;   // these when a step began
 
         /// <summary>A step of the instruments of these parameters, from their start.</summary>
         /// <param name="failure">Why there is no rest shape to start from, or null.</param>
@@ -48,7 +48,7 @@ namespace Guidewire.Core
             _catheterSlip = new HubSlip(_catheterDrive, parameters.Scene.Catheters[0].Drive.HubForceLimit,
                 OfRadius * _setup.Catheter.Rod.Radius[0]);
             _wireSlip = new HubSlip(_wireDrive, parameters.Drive.HubForceLimit, OfRadius * _setup.Wire.Rod.Radius[0]);
-            _start = new StepStart(Serialize);
+            _start = new StepStart(SerializeStep);
             _hubs = new CoaxialHubs(_catheterDrive.Hub, _wireDrive.Hub, _setup.Axis);
             int n = _setup.Wire.Rod.ElementCount;
             _wire = new RodShape(n);
@@ -100,19 +100,7 @@ namespace Guidewire.Core
         public CoaxialRod Rod => _rod;
 
         /// <inheritdoc/>
-        public override string? AccuracyWarning
-        {
-            get
-            {
-                double slip = Math.Abs(_wireDrive.Slip) > Math.Abs(_catheterDrive.Slip) ? _wireDrive.Slip
-                    : _catheterDrive.Slip;
-                string excess = _wireSlip.TextOfExcess + _catheterSlip.TextOfExcess;
-                return slip == 0.0 && excess == "" ? null : slip == 0.0 ? excess.Substring(2)
-                    : string.Format(System.Globalization.CultureInfo.InvariantCulture, "a hub fell short by {0:G3} m:"
-                    + " {1}the wire's came to the catheter's, or its tip to the first element of the catheter{2}", slip,
-                    _catheterSlip.IsLimited || _wireSlip.IsLimited ? "it slipped at its hubForceLimit, or " : "", excess);
-            }
-        }
+        public override string? AccuracyWarning => HubSlip.WarningOf(_wireSlip, _catheterSlip);
 
         /// <inheritdoc/>
         public override void Advance(RodState state)
@@ -185,7 +173,7 @@ namespace Guidewire.Core
         // The hubs go as far as they may.
         private void BeginStep()
         {
-            LimitDrives();
+            _setup.LimitDrives(_catheterDrive, _wireDrive, _hubs, _dynamics.Time);
             double catheter = _catheterDrive.Insertion;
             double wire = _wireDrive.Insertion;
             _catheterDrive.Prepare(_dynamics.Shape, _dynamics.Time);
@@ -284,17 +272,22 @@ namespace Guidewire.Core
 
         private CoaxialBendTwist Bending => (CoaxialBendTwist)_dynamics.Terms.Bending;
 
-        // Hubs do not pass one another, and the wire's tip stays in the catheter by an element at least.
-        private void LimitDrives()
+        /// <summary>Writes or takes over all that a step may touch, for a <see cref="StepStart"/>. What was simulated
+        /// when it began is kept: the step may build it anew.</summary>
+        public void SerializeStep(Snapshot snapshot)
         {
-            double time = _dynamics.Time;
-            double lead = _hubs.LeadAt(time);
-            double inside = _setup.WireStations[_wire.ElementCount] - lead - _setup.Catheter.Rod.Length[0];
-            _catheterDrive.Limit(-Nowhere, Nowhere);
-            double catheter = _catheterDrive.NextMove(time);
-            _wireDrive.Limit(Math.Min(0.0, catheter - inside), Math.Max(0.0, lead + catheter));
-            double wire = _wireDrive.NextMove(time);
-            _catheterDrive.Limit(Math.Min(0.0, wire - lead), Math.Max(0.0, inside + wire));
+            if (snapshot.IsWritten)
+            {
+                _kept = (_rod, _dynamics, _inner, _active, _lead);
+            }
+            (_rod, _dynamics, _inner, _active, _lead) = _kept;
+            _wireDrive.SerializeStep(snapshot);
+            _record.Serialize(snapshot);
+            _inner.SerializeStep(snapshot);
+            if (!snapshot.IsWritten)
+            {
+                _dynamics.Terms.SetTime(_inner.Schedule, _dynamics.Time);
+            }
         }
 
         // For a part of a step, s.

@@ -107,6 +107,18 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>What is not as asked of two hubs, the wire's and the catheter's, in one line; or null.</summary>
+        public static string? WarningOf(HubSlip wire, HubSlip catheter)
+        {
+            double slip = Math.Abs(wire._drive.Slip) > Math.Abs(catheter._drive.Slip) ? wire._drive.Slip
+                : catheter._drive.Slip;
+            string excess = wire.TextOfExcess + catheter.TextOfExcess;
+            return slip == 0.0 && excess == "" ? null : slip == 0.0 ? excess.Substring(2)
+                : string.Format(CultureInfo.InvariantCulture, "a hub fell short by {0:G3} m: {1}the wire's came to the"
+                + " catheter's, or its tip to the first element of the catheter{2}", slip,
+                wire.IsLimited || catheter.IsLimited ? "it slipped at its hubForceLimit, or " : "", excess);
+        }
+
         /// <summary>That it had more than its limit, in one phrase, or nothing.</summary>
         public string TextOfExcess => _stepsBeyond == 0 ? "" : string.Format(CultureInfo.InvariantCulture,
             "; a hub had up to {0:G3} N, above its hubForceLimit of {1:G3} N, in {2} of the steps: no displacement"

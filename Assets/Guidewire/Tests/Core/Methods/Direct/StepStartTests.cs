@@ -52,6 +52,30 @@ namespace Guidewire.Core.Tests
             AssertSameBits(parameters, 45, 4);
         }
 
+        // Nodes come in and go, some of them in the steps that are taken again.
+        [TestCase(0.2, 0.0, 0.0, true)]
+        [TestCase(-0.3, 0.1, 0.0, true)]
+        [TestCase(0.4, 0.1, 0.02, true)]
+        [TestCase(0.0, 0.5, 0.0, false)]
+        public void StepsTakenAgainAtRandom_LeaveTheSameBits_OfAWireInACatheter(double wire, double catheter,
+            double limit, bool hasWalls)
+        {
+            SimulationParameters parameters = CoaxialScenes.Pair(Integrator.ImplicitEuler);
+            parameters.Method.TimeStep = 0.01;
+            parameters.Drive.InsertionSpeed = wire;
+            parameters.Drive.RotationSpeed = 5.0;
+            parameters.Scene.Catheters[0].Drive.InsertionSpeed = catheter;
+            parameters.Scene.Catheters[0].Drive.RotationSpeed = -3.0;
+            parameters.Scene.Catheters[0].LumenFriction = 0.1;
+            parameters.Drive.HubForceLimit = limit;
+            parameters.Scene.Walls = hasWalls ? new ContactShape[]
+            {
+                new TubeShape(new[] { new Vector3d(0.0, 0.0, -10.0), new Vector3d(0.0, 0.0, 700.0) },
+                    new[] { 5.0, 5.0 }, true, true) { FrictionCoefficient = 0.1 },
+            } : Array.Empty<ContactShape>();
+            AssertSameBits(parameters, 45, 5);
+        }
+
         [Test]
         public void StepWithoutASolution_LeavesTheNextTryNothing()
         {
@@ -128,12 +152,12 @@ namespace Guidewire.Core.Tests
                 a.Stepper.Advance(a.State);
                 if (random.Next(2) == 0)
                 {
-                    DirectStep step = b.Stepper is SheathStep sheath ? sheath.Inner : (DirectStep)b.Stepper;
-                    var start = new StepStart(step.SerializeStep);
+                    (Action<Snapshot> exchange, Action take) = StepOf(b);
+                    var start = new StepStart(exchange);
                     start.Save();
                     for (int tries = random.Next(1, 3); tries > 0; tries--)
                     {
-                        step.Step();
+                        take();
                     }
                     start.Restore();
                     again++;
@@ -155,6 +179,16 @@ namespace Guidewire.Core.Tests
             Assert.That(b.Stepper.Report()!.InnerSteps, Is.EqualTo(a.Stepper.Report()!.InnerSteps));
             Assert.That(b.Stepper.Report()!.Extremes!.FrictionWork,
                 Is.EqualTo(a.Stepper.Report()!.Extremes!.FrictionWork));
+        }
+
+        private static (Action<Snapshot> Exchange, Action Take) StepOf(MethodStart start)
+        {
+            if (start.Stepper is CoaxialStep coaxial)
+            {
+                return (coaxial.SerializeStep, () => coaxial.Advance(start.State));
+            }
+            DirectStep step = start.Stepper is SheathStep sheath ? sheath.Inner : (DirectStep)start.Stepper;
+            return (step.SerializeStep, () => step.Step());
         }
 
         private static MethodStart Start(SimulationParameters parameters)

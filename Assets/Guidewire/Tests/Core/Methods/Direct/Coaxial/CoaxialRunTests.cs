@@ -126,26 +126,6 @@ namespace Guidewire.Core.Tests
             Assert.That(record.PlayLength, Is.EqualTo(Math.Sqrt(12.0 * play / mismatch)).Within(1e-12));
         }
 
-        [Test]
-        public void Step_LeavesNothingForTheCollector_WhereNoNodeComesOrGoes()
-        {
-            SimulationParameters parameters = CoaxialScenes.Pair(Integrator.ImplicitEuler);
-            parameters.Drive.InsertionSpeed = 1e-5;
-            parameters.Drive.RotationSpeed = 1.0;
-            Simulation run = Simulation.Create(parameters);
-            for (int k = 0; k < 20; k++)
-            {
-                run.Step();
-            }
-            Assert.That(Garbage.LeftBy(() =>
-            {
-                for (int k = 0; k < 20; k++)
-                {
-                    run.Step();
-                }
-            }), Is.Zero);
-        }
-
         // A wire is bent by a load beyond a straight guide: a sheath, or a catheter 9,000 times stiffer. It is driven
         // back by M^2/2B, and either has its own error of second order in that.
         [Test]

@@ -1,0 +1,84 @@
+using System.Collections.Generic;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>Steps of a wire in a catheter leave nothing for the garbage collector, but those in which an element
+    /// comes or goes, and what is simulated is built anew.</summary>
+    public sealed class CoaxialGarbageTests
+    {
+        private const int Steps = 200;
+        private const int First = 20;   // until all memory that steps use again is there
+
+        // Both hubs go and turn, at speeds with which nodes come in and go.
+        [TestCase(0.2, 0.07)]
+        [TestCase(-0.3, 0.0)]
+        [TestCase(0.0, -0.2)]
+        public void StepThatKeepsItsElements_LeavesNothing(double wire, double catheter)
+        {
+            foreach (Integrator integrator in new[] { Integrator.ImplicitEuler, Integrator.Bdf2, Integrator.Esdirk3 })
+            {
+                AssertNothingIsLeft(Moving(integrator, wire, catheter), 3);
+            }
+        }
+
+        // In a tube that the bent tips touch, with friction on it and in the lumen.
+        [TestCase(0.1, 0.05, 0.0, 2)]
+        [TestCase(-0.1, 0.05, 0.0, 3)]
+        [TestCase(0.1, 0.1, 0.5, 0)]
+        [TestCase(0.3, 0.1, 0.02, 0)]
+        public void StepThatKeepsItsElements_LeavesNothing_InAVessel(double wire, double catheter, double limit,
+            int leastBuilt)
+        {
+            SimulationParameters parameters = Moving(Integrator.ImplicitEuler, wire, catheter);
+            parameters.Scene.Walls = new ContactShape[]
+            {
+                new TubeShape(new[] { new Vector3d(0.0, 0.0, -10.0), new Vector3d(0.0, 0.0, 700.0) },
+                    new[] { 6.0, 6.0 }, true, true)
+                {
+                    FrictionCoefficient = 0.1,
+                },
+            };
+            parameters.Drive.HubForceLimit = limit;
+            parameters.Scene.Catheters[0].Drive.HubForceLimit = limit;
+            parameters.Scene.Catheters[0].LumenFriction = 0.1;
+            AssertNothingIsLeft(parameters, leastBuilt);
+        }
+
+        private static SimulationParameters Moving(Integrator integrator, double wire, double catheter)
+        {
+            SimulationParameters parameters = CoaxialScenes.Pair(integrator);
+            parameters.Method.MaxSimulationSteps = Steps;
+            parameters.Drive.InsertionSpeed = wire;
+            parameters.Drive.RotationSpeed = 2.0;
+            parameters.Scene.Catheters[0].Drive.InsertionSpeed = catheter;
+            parameters.Scene.Catheters[0].Drive.RotationSpeed = -1.0;
+            return parameters;
+        }
+
+        private static void AssertNothingIsLeft(SimulationParameters parameters, int leastBuilt)
+        {
+            MethodStart start = MethodBuilder.Build(parameters, new Scene(parameters));
+            var run = (CoaxialStep)start.Stepper;
+            var left = new List<string>();
+            int built = 0;
+            long most = 0;
+            for (int k = 0; k < Steps; k++)
+            {
+                RodDynamics before = run.Dynamics;
+                long bytes = Garbage.LeftBy(() => run.Advance(start.State));
+                Assert.That(run.Failure, Is.Null);
+                bool isKept = run.Dynamics == before;
+                built += isKept ? 0 : 1;
+                most = isKept ? most : System.Math.Max(most, bytes);
+                if (isKept && bytes > 0 && k >= First)
+                {
+                    left.Add("step " + k + ": " + bytes);
+                }
+            }
+            TestContext.WriteLine("{0} steps in which an element comes or goes, with {1} bytes at most", built, most);
+            Assert.That(built, Is.InRange(leastBuilt, Steps / 2));
+            Assert.That(left, Is.Empty);
+        }
+    }
+}
