@@ -74,8 +74,8 @@ _SUDDEN = math.radians(1.0)  # of turning, within which a snap takes place
 
 
 def snap_turns(turn: np.ndarray, torque: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Between which turns of a hub its instrument has snapped: where, within a degree of turning or between two entries,
-    the torque has changed by more than half of its largest.
+    """Between which turns of a hub its instrument has snapped: where, within a degree of turning or between two
+    entries, the torque has changed by more than half of its largest.
 
     Parameters
     ----------

@@ -59,8 +59,9 @@ def turned_tip(ratio: float, nu: float, curvature: float, turn: float) -> np.nda
     def rate(_: float, y: np.ndarray) -> np.ndarray:
         theta, slope = y[:2]
         directors = y[2:11].reshape(3, 3)
-        x, y_, z = curvature * (1.0 - inner + inner * math.cos(theta)), curvature * inner * math.sin(theta), -inner * slope
-        turned = directors @ np.array([[0.0, -z, y_], [z, 0.0, -x], [-y_, x, 0.0]])
+        u1, u2 = curvature * (1.0 - inner + inner * math.cos(theta)), curvature * inner * math.sin(theta)
+        u3 = -inner * slope
+        turned = directors @ np.array([[0.0, -u3, u2], [u3, 0.0, -u1], [-u2, u1, 0.0]])
         return np.concatenate(([slope, c * math.sin(theta)], turned.ravel(), directors[:, 2]))
 
     start = np.concatenate(([turn, hub_slope(c, turn)], np.eye(3).ravel(), np.zeros(3)))

@@ -159,15 +159,15 @@ def test_parts_are_those_that_the_scene_has() -> None:
 
 def test_elements_of_a_catheter_change_with_those_of_the_wire() -> None:
     """Its elements carry the overlap: a reference that has as many as the file says nothing of their error."""
-    scene = {"solver": "direct", "integrator": "esdirk3", "numberRodElements": 28, "timeStep": 0.01, "shearModulus": 2.0,
-             "shearFactor": 0.9, "maxSimulationSteps": 96,
+    scene = {"solver": "direct", "integrator": "esdirk3", "numberRodElements": 28, "timeStep": 0.01,
+             "shearModulus": 2.0, "shearFactor": 0.9, "maxSimulationSteps": 96,
              "catheters": [{"start": 1.0, "elements": 25, "lumenFriction": 0.1}]}
     for trial, n, m in zip(trials.references(scene), (56, 28, 42), (50, 25, 37)):
         assert trial.changed["numberRodElements"] == n
         assert trial.changed["catheters"] == [{"start": 1.0, "elements": m, "lumenFriction": 0.1}]
         assert f"n = {n}, of the catheter {m}, dt" in trial.name
-    tried = {(trial.changed.get("numberRodElements", 28), trial.changed.get("catheters", scene["catheters"])[0]["elements"])
-             for trial in trials.candidates(scene)}
+    tried = {(one["numberRodElements"], one["catheters"][0]["elements"])
+             for one in ({**scene, **trial.changed} for trial in trials.candidates(scene))}
     assert tried == {(7, 6), (14, 12), (28, 25), (56, 50)}
     changed = {trial.name: trial.changed for trial in trials.parts(scene)}
     assert changed["catheters, left out"] == {"catheters": []}

@@ -120,8 +120,8 @@ def test_what_a_scene_does_not_have_is_told(of: str, scene: dict, said: str) -> 
 
 @pytest.mark.parametrize("steps", [7, 97, 5000])
 def test_a_snap_lies_between_the_entries_where_the_torque_comes_back(steps: int) -> None:
-    """The torque falls back over a fifth of a degree at 1.2 and at 2.4 rad, the hub then turns back; slow changes are no
-    snaps."""
+    """The torque falls back over a fifth of a degree at 1.2 and at 2.4 rad, the hub then turns back; slow changes are
+    no snaps."""
     turn = np.concatenate((np.linspace(0.0, 3.0, steps + 1), np.linspace(3.0, 2.0, steps)))
     torque = 0.2 * np.sin(40.0 * turn[: steps + 1]) / 40.0
     for at in (1.2, 2.4):

@@ -61,8 +61,8 @@ namespace Guidewire.Benchmarks
             foreach (int covered in new[] { CoaxialFeed.Elements / 2, CoaxialFeed.Elements })
             {
                 var both = new CoaxialParts(covered);
-                Console.WriteLine("parts of a Newton iteration, us: a wire of {0} elements in a catheter over {1} of them,"
-                    + " alone, ratio, difference", CoaxialFeed.Elements, covered);
+                Console.WriteLine("parts of a Newton iteration, us: a wire of {0} elements in a catheter over {1} of"
+                    + " them, alone, ratio, difference", CoaxialFeed.Elements, covered);
                 foreach ((string name, Action<CoaxialParts> part) in Parts())
                 {
                     void First() => Repeat(part, both);
@@ -72,7 +72,8 @@ namespace Guidewire.Benchmarks
                     double one = 1e-3 * timed.FirstBest / Calls;
                     double other = 1e-3 * timed.SecondBest / Calls;
                     Console.WriteLine(string.Format(CultureInfo.InvariantCulture,
-                        "  {0,-34}{1,8:0.00}{2,8:0.00}{3,8:0.00}{4,8:0.00}", name, one, other, one / other, one - other));
+                        "  {0,-34}{1,8:0.00}{2,8:0.00}{3,8:0.00}{4,8:0.00}", name, one, other, one / other,
+                        one - other));
                 }
             }
         }
@@ -88,7 +89,8 @@ namespace Guidewire.Benchmarks
                 one._gradient, one._direction, 0.0));
             yield return ("back substitution", one => one._system.Back(one._direction));
             yield return ("move", one => one.Move());
-            yield return ("gradient", one => one._system.Gradient(one._terms, one._shape, one._gradient, one._direction));
+            yield return ("gradient", one => one._system.Gradient(one._terms, one._shape, one._gradient,
+                one._direction));
             yield return ("value", one => EnergySum.Value(one._terms, one._shape, out _));
             yield return ("value: bend-twist", one => one._all.Bending.Value(one._shape));
             yield return ("read off at the hubs", one => one._stepper.Hub());

@@ -9,8 +9,8 @@ namespace Guidewire.Core
     /// straight line has the limit, until the force is within 2 % below it. A hub that may not even rest gives
     /// way, farther and farther; where that went from too much of one sense to too much of the other, the displacement
     /// without force lies between. An instrument is stiff along its axis: what it may be displaced between both limits
-    /// is some micrometres. Where the force jumps from beyond the limit in one sense to beyond it in the other, it is the
-    /// least of those that were found.</remarks>
+    /// is some micrometres. Where the force jumps from beyond the limit in one sense to beyond it in the other, it is
+    /// the least of those that were found.</remarks>
     internal sealed class HubSlip
     {
         private const double Close = 0.02;      // of the limit

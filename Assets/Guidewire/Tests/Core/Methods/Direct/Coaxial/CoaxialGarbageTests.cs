@@ -58,7 +58,9 @@ namespace Guidewire.Core.Tests
 
         private static void AssertNothingIsLeft(SimulationParameters parameters, int leastBuilt)
         {
+            // Twice the same steps: what the runtime leaves as it compiles comes once.
             MethodStart start = MethodBuilder.Build(parameters, new Scene(parameters));
+            MethodStart other = MethodBuilder.Build(parameters, new Scene(parameters));
             var run = (CoaxialStep)start.Stepper;
             var left = new List<string>();
             int built = 0;
@@ -67,6 +69,7 @@ namespace Guidewire.Core.Tests
             {
                 RodDynamics before = run.Dynamics;
                 long bytes = Garbage.LeftBy(() => run.Advance(start.State));
+                bytes = System.Math.Min(bytes, Garbage.LeftBy(() => other.Stepper.Advance(other.State)));
                 Assert.That(run.Failure, Is.Null);
                 bool isKept = run.Dynamics == before;
                 built += isKept ? 0 : 1;
