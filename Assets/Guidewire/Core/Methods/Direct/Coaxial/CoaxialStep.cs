@@ -14,7 +14,6 @@ namespace Guidewire.Core
         private const double Left = 0.01;
         private const double SameTime = 1e-6;   // of a step, or of that length
         private const double OfRadius = 0.01;   // of a radius, by which a hub gives way at first
-        private const double Nowhere = 1e9;     // m, farther than any drive goes
 
         private readonly MethodParameters _method;
         private readonly SolverReport _report;
@@ -49,7 +48,7 @@ namespace Guidewire.Core
                 OfRadius * _setup.Catheter.Rod.Radius[0]);
             _wireSlip = new HubSlip(_wireDrive, parameters.Drive.HubForceLimit, OfRadius * _setup.Wire.Rod.Radius[0]);
             _start = new StepStart(Serialize);
-            _hubs = new CoaxialHubs(_catheterDrive.Hub, _wireDrive.Hub, _setup.Axis);
+            _hubs = new CoaxialHubs(_catheterDrive.Hub, _wireDrive.Hub, _setup.Axis, _setup.Sheath);
             int n = _setup.Wire.Rod.ElementCount;
             _wire = new RodShape(n);
             _velocities = new Vector3d[n + 1];
@@ -68,7 +67,7 @@ namespace Guidewire.Core
                 Contacts = new ContactRecord(n + 1);
             }
             double lead = _hubs.LeadAt(0.0);
-            _rod = _setup.Rod(NodesBeyond(0, lead, lead), lead);
+            _rod = _setup.Rod(NodesBeyond(0, lead, lead), lead, _hubs.SheathedAt(0.0));
             var shape = new RodShape(_rod.Joints.ElementCount, true);
             shape.SetStraight(_catheterDrive.Hub.PositionAt(0.0), _hubs.Outer.Frame, _rod.Joints.Stations);
             Array.Fill(shape.Twist, _hubs.TwistAt(0.0), 0, _rod.Joints.ActiveCount);
@@ -184,7 +183,7 @@ namespace Guidewire.Core
         // The hubs go as far as they may.
         private void BeginStep()
         {
-            LimitDrives();
+            _setup.LimitDrives(_catheterDrive, _wireDrive, _hubs, _dynamics.Time);
             double catheter = _catheterDrive.Insertion;
             double wire = _wireDrive.Insertion;
             _catheterDrive.Prepare(_dynamics.Shape, _dynamics.Time);
@@ -229,6 +228,10 @@ namespace Guidewire.Core
             CoaxialRecord record = Coaxial()!;
             _hub.Take(_wireDrive, record.WireForce, record.WireTorque,
                 _wire.Q[_wire.ElementCount - 1].Director3, record.WireTwist, record.LargestCurvature);
+            if (_setup.Sheath != null)
+            {
+                _hub.TakeBody(_setup.WireStations, _rod.Joints.Lead + _rod.Joints.Sheathed);
+            }
             return _hub;
         }
 
@@ -241,7 +244,8 @@ namespace Guidewire.Core
             double force = Bending.InnerForce(shape, terms.Stretch);
             double torque = Bending.InnerTorque(shape);
             _record.Take(_rod.Joints, terms, shape, _catheterDrive, _wireDrive,
-                Vector3d.Dot(_dynamics.ReactionAt(0), _setup.Axis) - force,
+                Vector3d.Dot(_dynamics.ReactionAt(0), _setup.Axis) - force
+                    + Bending.SheathForce(shape, terms.Stretch),
                 Vector3d.Dot(terms.Bending.ProximalCouple(shape), _setup.Axis) - torque, force, torque);
             return _record;
         }
@@ -266,7 +270,7 @@ namespace Guidewire.Core
             _record.Serialize(snapshot);
             if (!snapshot.IsWritten)
             {
-                _rod = _setup.Rod(beyond, lead);
+                _rod = _setup.Rod(beyond, lead, _hubs.SheathedAt(time));
                 var scene = new MaterialScene(_setup.Catheter, _rod, new RodShape(_rod.Joints.ElementCount, true),
                     _catheterDrive, _hubs.Inner);
                 // Placed on the axis until its own state is read.
@@ -283,19 +287,6 @@ namespace Guidewire.Core
 
         private CoaxialBendTwist Bending => (CoaxialBendTwist)_dynamics.Terms.Bending;
 
-        // Hubs do not pass one another, and the wire's tip stays in the catheter by an element at least.
-        private void LimitDrives()
-        {
-            double time = _dynamics.Time;
-            double lead = _hubs.LeadAt(time);
-            double inside = _setup.WireStations[_wire.ElementCount] - lead - _setup.Catheter.Rod.Length[0];
-            _catheterDrive.Limit(-Nowhere, Nowhere);
-            double catheter = _catheterDrive.NextMove(time);
-            _wireDrive.Limit(Math.Min(0.0, catheter - inside), Math.Max(0.0, lead + catheter));
-            double wire = _wireDrive.NextMove(time);
-            _catheterDrive.Limit(Math.Min(0.0, wire - lead), Math.Max(0.0, inside + wire));
-        }
-
         // For a part of a step, s.
         private void MoveNodes(double length)
         {
@@ -308,7 +299,7 @@ namespace Guidewire.Core
                 return;
             }
             RodShape old = _dynamics.Shape;
-            _rod = _setup.Rod(beyond, lead);
+            _rod = _setup.Rod(beyond, lead, _hubs.SheathedAt(time));
             RodShape shape = CoaxialShape.Take(old, _rod.Joints);
             var scene = new MaterialScene(_setup.Catheter, _rod, shape, _catheterDrive, _hubs.Inner);
             TakeMotion(scene, old.ElementCount);
