@@ -68,10 +68,12 @@ namespace Guidewire.Core.Tests
 
         /// <summary>A new number of nodes beyond the outer tip, or lead, with the shape as it is: inner nodes come in
         /// after the tip or go there.</summary>
-        public void Build(int beyond, double lead)
+        /// <param name="sheathed">Length in a sheath, m.</param>
+        public void Build(int beyond, double lead, double sheathed = 0.0)
         {
             RodShape? old = Shape;
-            var rod = new CoaxialRod(_outerRod, ProfileOf(_outer), _innerRod, ProfileOf(_inner), beyond, lead);
+            var rod = new CoaxialRod(_outerRod, ProfileOf(_outer), _innerRod, ProfileOf(_inner), beyond, lead,
+                sheathed: sheathed);
             Supports = new RodSupports { Clamp = ClampRule.HalfElement, Coaxial = rod };
             Coaxial = rod;
             Terms = new RodTerms(rod.Rod, Supports);
