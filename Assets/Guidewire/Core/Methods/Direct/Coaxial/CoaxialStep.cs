@@ -13,6 +13,7 @@ namespace Guidewire.Core
         private const double Reached = 0.02;    // of an element's length
         private const double Left = 0.01;
         private const double SameTime = 1e-6;   // of a step, or of that length
+        private const double Nothing = 1e-12;   // m, a shortfall left by rounding where a hub just comes to its end
         private const double OfRadius = 0.01;   // of a radius, by which a hub gives way at first
 
         private readonly MethodParameters _method;
@@ -104,11 +105,12 @@ namespace Guidewire.Core
             {
                 double slip = Math.Abs(_wireDrive.Slip) > Math.Abs(_catheterDrive.Slip) ? _wireDrive.Slip
                     : _catheterDrive.Slip;
-                return slip != 0.0 ? string.Format(System.Globalization.CultureInfo.InvariantCulture,
+                return Math.Abs(slip) > Nothing ? string.Format(System.Globalization.CultureInfo.InvariantCulture,
                     "a hub fell short by {0:G3} m: {1}the wire's came to the catheter's, or its tip to the first"
-                    + " element of the catheter{2}", slip, _catheterSlip.IsLimited || _wireSlip.IsLimited
+                    + " element of the catheter{3}{2}", slip, _catheterSlip.IsLimited || _wireSlip.IsLimited
                         ? "it slipped at its hubForceLimit, or " : "",
-                    _wireSlip.TextOfExcess + _catheterSlip.TextOfExcess) : null;
+                    _wireSlip.TextOfExcess + _catheterSlip.TextOfExcess,
+                    _setup.Sheath == null ? "" : ", or the catheter's to the exit of the sheath") : null;
             }
         }
 
