@@ -13,7 +13,7 @@ namespace Guidewire.Core
     /// of the outer one the joint stands on the inner one's frame, and F' is the outer one's: it turns by -t.</remarks>
     internal struct CoaxialJoint
     {
-        private const double Retained = 1e-6;   // of the compliance of a piece in a sheath
+        private const double Retained = 1e-8;   // of the compliance of a piece in a sheath
 
         public double Compliance1;   // A_1, 1/(N m)
         public double Compliance2;

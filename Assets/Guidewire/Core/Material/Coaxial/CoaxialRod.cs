@@ -10,7 +10,7 @@ namespace Guidewire.Core
     internal sealed class CoaxialRod
     {
         private const double Viscosity = 1e-3;   // of saline that flushes a lumen, Pa s
-        private const double Retained = 1e-2;    // of the shear compliance of what is in a sheath
+        private const double Retained = 1e-4;    // of the shear compliance of what is in a sheath
 
         private readonly MaterialRod _outer;
         private readonly InstrumentProfile _innerProfile;
