@@ -101,6 +101,21 @@ namespace Guidewire.Core.Tests
             }
         }
 
+        /// <summary>Whether the shape with this angle of the inner instrument all along is stable.</summary>
+        public bool IsStable(double hubTwist)
+        {
+            Bending.HubTwist = hubTwist;
+            Array.Fill(Shape.Twist, hubTwist);
+            Bending.RelaxTurns(Shape);
+            for (int j = 0; j < Shape.ElementCount; j++)
+            {
+                Shape.X[j + 1] = Shape.X[j] + Coaxial.Rod.Length[j] * Shape.Q[j].Director3;
+            }
+            var system = new BlockTridiagonal(Coaxial.Rod, Supports);
+            return system.Factorise(Terms.All, Shape, new RodVector[system.VectorCount],
+                new RodVector[system.VectorCount], 0.0) == 0;
+        }
+
         /// <summary>Torque of the inner hub, N m.</summary>
         public double Torque => Bending.InnerTorque(Shape);
 

@@ -104,8 +104,8 @@ namespace Guidewire.Core.Tests
                 .Within(1e-6 * Math.Abs(torque)));
         }
 
-        // sqrt(c) L_t tan(sqrt(c) L) = 1 with L_t = 0.5 of both in the sheath and L = 1 beyond it: there the twist of pi
-        // is no longer stable.
+        // sqrt(c) L_t tan(sqrt(c) L) = 1 with L_t of both in the sheath and L beyond it: there the twist of pi is no
+        // longer stable.
         [TestCase(0.5)]
         [TestCase(0.53)]
         public void Stability_EndsEarlier_WithALengthOfBothInTheSheath(double sheathed)
@@ -142,16 +142,7 @@ namespace Guidewire.Core.Tests
                 var pair = new CoaxialPair(new[] { new CoaxialPair.Piece(1.5, 1.0, curvature) }, n,
                     new[] { new CoaxialPair.Piece(1.5, b, curvature) }, n, nu, 0.0);
                 pair.Build(0, 0.0, sheathed);
-                pair.Bending.HubTwist = Math.PI;
-                Array.Fill(pair.Shape.Twist, Math.PI);
-                pair.Bending.RelaxTurns(pair.Shape);
-                for (int j = 0; j < n; j++)
-                {
-                    pair.Shape.X[j + 1] = pair.Shape.X[j] + (1.5 / n) * pair.Shape.Q[j].Director3;
-                }
-                var system = new BlockTridiagonal(pair.Coaxial.Rod, pair.Supports);
-                bool isStable = system.Factorise(pair.Terms.All, pair.Shape, new RodVector[system.VectorCount],
-                    new RodVector[system.VectorCount], 0.0) == 0;
+                bool isStable = pair.IsStable(Math.PI);
                 low = isStable ? root : low;
                 high = isStable ? high : root;
             }
@@ -186,46 +177,13 @@ namespace Guidewire.Core.Tests
         private static double CycleWork(double perStep, out double peak)
         {
             SimulationParameters parameters = CoaxialScenes.Pair(Integrator.ImplicitEuler);
-            int steps = (int)Math.Round(3.2 / perStep);
-            double dt = 40.0 * perStep;
-            double way = steps * perStep * 0.01;
             parameters.Scene.Sheath = new Sheath { Exit = new Vector3d(0.0, 0.0, 243.0) };
             parameters.Scene.Walls = FarWall();
-            parameters.Material.MassDamping = 0.0;
             parameters.Material.Sections[0].From = 100.0;
             parameters.Material.Sections[0].RestCurvature = new Vector3d(10.0, 0.0, 0.0);
             parameters.Scene.Catheters[0].Material.Sections[0].From = 30.0;
             parameters.Scene.Catheters[0].Material.Sections[0].RestCurvature = new Vector3d(6.0, 4.0, 0.0);
-            parameters.Method.TimeStep = dt;
-            parameters.Method.SolverTolerance = 1e-10;
-            parameters.Method.MaxSimulationSteps = 10 + 4 * steps;
-            double[] times = { 0.0, 10.0 * dt, (10 + steps) * dt, (10 + 2 * steps) * dt, (10 + 3 * steps) * dt,
-                (10 + 4 * steps) * dt };
-            parameters.Drive.Table = new DriveTable(new TimeTable(times, new[] { 0.0, 0.0, way, way, 0.6 * way, 0.0 }),
-                new TimeTable(times, new[] { 0.0, 0.0, 0.5, 0.5, 0.0, 0.0 }));
-            parameters.Scene.Catheters[0].Drive.Table = new DriveTable(
-                new TimeTable(times, new[] { 0.0, 0.0, 0.0, 0.6 * way, 0.6 * way, 0.0 }),
-                new TimeTable(times, new[] { 0.0, 0.0, 0.0, -0.4, -0.4, 0.0 }));
-            Simulation run = Simulation.Create(parameters);
-            double work = 0.0;
-            peak = 0.0;
-            double[] old = new double[8];
-            while (run.Outcome == Outcome.Running)
-            {
-                run.Step();
-                CoaxialRecord record = run.Coaxial()!;
-                HubRecord hub = run.Hub()!;
-                double[] now = { hub.Force, hub.Torque, record.Force, record.Torque, hub.Insertion, hub.Turn,
-                    record.Insertion, record.Turn };
-                for (int k = 0; k < 4 && run.StepCount > 5; k++)
-                {
-                    work += 0.5 * (now[k] + old[k]) * (now[k + 4] - old[k + 4]);
-                }
-                old = now;
-                peak = Math.Max(peak, Math.Abs(work));
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
-            return work;
+            return CoaxialScenes.CycleWork(parameters, perStep, out peak);
         }
 
         [Test]
@@ -282,18 +240,7 @@ namespace Guidewire.Core.Tests
             SimulationParameters parameters = Fed();
             parameters.Drive.InsertionSpeed = 1e-5;
             parameters.Scene.Catheters[0].Drive.InsertionSpeed = 1e-5;
-            Simulation run = Simulation.Create(parameters);
-            for (int k = 0; k < 20; k++)
-            {
-                run.Step();
-            }
-            Assert.That(Garbage.LeftBy(() =>
-            {
-                for (int k = 0; k < 20; k++)
-                {
-                    run.Step();
-                }
-            }), Is.Zero);
+            Assert.That(CoaxialScenes.Garbage(parameters), Is.Zero);
         }
 
         [TestCase(90.0, "its exit has to be ahead of the catheter's hub")]
