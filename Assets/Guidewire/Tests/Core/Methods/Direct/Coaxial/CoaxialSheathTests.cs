@@ -250,11 +250,13 @@ namespace Guidewire.Core.Tests
         {
             SimulationParameters parameters = Fed();
             parameters.Method.MaxSimulationSteps = 25;
+            parameters.Scene.Walls = FarWall();
             parameters.Scene.Sheath!.Exit = new Vector3d(0.0, 0.0, exit);
             Assert.That(Simulation.FindProblemOfStart(parameters), Does.Contain(expected));
         }
 
-        // Both hubs push and turn, out of a sheath into a tube; the hubs are 150 and 250 mm behind its exit.
+        // Both hubs push and turn, out of a sheath into a tube, through its closed end; the hubs are 150 and 250 mm behind
+        // the exit.
         private static SimulationParameters Fed()
         {
             SimulationParameters parameters = CoaxialScenes.Pair(Integrator.ImplicitEuler);
@@ -262,7 +264,7 @@ namespace Guidewire.Core.Tests
             parameters.Scene.Walls = new ContactShape[]
             {
                 new TubeShape(new[] { new Vector3d(0.0, 0.0, 240.0), new Vector3d(0.0, 0.0, 1000.0) },
-                    new[] { 12.0, 12.0 }, true, true)
+                    new[] { 12.0, 12.0 }, false, true)
                 {
                     FrictionCoefficient = 0.1,
                 },
