@@ -255,8 +255,8 @@ namespace Guidewire.Core.Tests
             Assert.That(Simulation.FindProblemOfStart(parameters), Does.Contain(expected));
         }
 
-        // Both hubs push and turn, out of a sheath into a tube, through its closed end; the hubs are 150 and 250 mm behind
-        // the exit.
+        // Both hubs push and turn, out of a sheath into a tube, through its closed end; the hubs are 150 and 250 mm
+        // behind the exit.
         private static SimulationParameters Fed()
         {
             SimulationParameters parameters = CoaxialScenes.Pair(Integrator.ImplicitEuler);
