@@ -16,7 +16,7 @@ const ARROWS = 0x7fe07f;
 const LONGEST_ARROW = 0.2; // share of the wire's length
 const LEAST_RADIUS = 2; // points of the screen that a wire takes so that it is seen
 const SHEATH_COLOUR = 0x8fa9c4;
-const SHEATH = 2; // radius of a sheath over that of the wire in it
+const SHEATH = 2; // radius of a sheath over that of the widest instrument in it
 
 /** One run in the picture: its instruments, walls and the forces of the walls on it. */
 export class Model {
@@ -37,7 +37,8 @@ export class Model {
     this.arrows.frustumCulled = false;
     for (const wall of recording.walls) this.walls.add(...surfaces(wall));
     this.group.add(...this.drawn.map((one) => one.group), this.arrows, this.walls);
-    this._sheath = recording.sheath && makeSheath(recording.sheath, SHEATH * recording.radius, [
+    this._sheath = recording.sheath && makeSheath(recording.sheath, SHEATH * Math.max(
+      ...recording.centrelines.map((_, k) => recording.radiusOf(k))), [
       this._tinted(new MeshLambertMaterial({ color: SHEATH_COLOUR })),
       this._tinted(new LineBasicMaterial({ color: SHEATH_COLOUR }))]);
     if (this._sheath) this.group.add(this._sheath);

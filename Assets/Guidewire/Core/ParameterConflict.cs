@@ -137,7 +137,6 @@ namespace Guidewire.Core
                 "integrator \"implicitEuler\" between walls"),
             OfCatheters(p => p.HasWalls || p.Scene.Catheters[0].Drive.HubForceLimit == 0.0,
                 "a vessel or obstacles where a catheter has a hubForceLimit"),
-            OfCatheters(p => p.Scene.Sheath == null, "no sheath"),
             OfCatheters(p => p.IsClamped, "proximalEnd \"clamped\""),
             OfCatheters(p => p.Drive.Kind == Drive.Displace || p.Drive.Kind == Drive.Hold,
                 "drive \"displace\" or \"hold\""),

@@ -124,11 +124,16 @@ namespace Guidewire.Core
             }
             if (parameters.Scene.Catheters.Count > 0)
             {
-                return new CoaxialSetup(parameters).FindProblemOfStart();
+                return FindProblemInSheath(parameters, scene) ?? new CoaxialSetup(parameters).FindProblemOfStart();
             }
-            var material = new MaterialScene(parameters, scene);
-            return parameters.Scene.Sheath == null ? MaterialStart.FindProblem(parameters, material)
-                : SheathExit.FindProblem(parameters, material);
+            return parameters.Scene.Sheath != null ? FindProblemInSheath(parameters, scene)
+                : MaterialStart.FindProblem(parameters, new MaterialScene(parameters, scene));
+        }
+
+        private static string? FindProblemInSheath(SimulationParameters parameters, Scene scene)
+        {
+            return parameters.Scene.Sheath == null ? null
+                : SheathExit.FindProblem(parameters, new MaterialScene(parameters, scene));
         }
 
         /// <summary>What the solver says of itself, for a run with a material; null with pbd.</summary>

@@ -101,6 +101,21 @@ namespace Guidewire.Core
             LargestCurvature = largestCurvature;
         }
 
+        /// <summary>Takes what of the wire is out of its sheath.</summary>
+        /// <param name="stations">Of its nodes, m.</param>
+        /// <param name="exit">Where the sheath ends along it, m.</param>
+        internal void TakeBody(double[] stations, double exit)
+        {
+            int n = stations.Length - 1;
+            int inside = 0;
+            while (inside <= n && stations[inside] <= exit)
+            {
+                inside++;
+            }
+            SpheresInBody = n + 1 - inside;
+            LengthInBody = Math.Max(0.0, stations[n] - exit);
+        }
+
         // Up to the first node outside the wire is straight.
         private void TakeBody(SheathWindow window, RodShape shape)
         {

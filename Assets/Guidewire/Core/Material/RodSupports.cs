@@ -15,6 +15,9 @@ namespace Guidewire.Core
         /// null.</summary>
         public SheathWindow? Sheath { get; set; }
 
+        /// <summary>Where the sheath ends in which the rod's first nodes may be; null without one.</summary>
+        public SheathEnd? SheathEnd => Coaxial == null ? Sheath : Coaxial.Sheath;
+
         /// <summary>The instruments of a rod that is several coaxial ones; null for one alone.</summary>
         public CoaxialRod? Coaxial { get; set; }
 

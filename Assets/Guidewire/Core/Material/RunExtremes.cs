@@ -72,18 +72,20 @@ namespace Guidewire.Core
             for (int k = 0; k <= n; k++)
             {
                 Vector3d turn = _turns[k];
-                double fraction = terms.Sheath == null ? 1.0 : terms.Sheath.FractionOutside(k);
-                Vector3d change = turn - (terms.Sheath == null ? joints[k].Rest : terms.Sheath.RestOf(k));
-                if (fraction == 0.0)
+                CoaxialJoints? coaxial = terms.Supports.Coaxial?.Joints;
+                double fraction = coaxial != null ? coaxial.FractionOutside(k)
+                    : terms.Sheath == null ? 1.0 : terms.Sheath.FractionOutside(k);
+                Vector3d change = turn - (coaxial != null ? fraction * joints[k].Rest
+                    : terms.Sheath == null ? joints[k].Rest : terms.Sheath.RestOf(k));
+                if (fraction <= (coaxial != null ? CoaxialJoints.LeastFraction : 0.0))
                 {
                     continue;
                 }
                 double length = fraction * lengths[k];
-                if (terms.Supports.Coaxial != null)
+                if (coaxial != null)
                 {
                     // Lengths at the outer tip change; there the joint's frame is the inner one's.
-                    CoaxialJoints coaxial = terms.Supports.Coaxial.Joints;
-                    length = coaxial.LengthOf(k);
+                    length = fraction * coaxial.LengthOf(k);
                     change = coaxial.IsTip(k) ? Vector3d.Zero : change;
                 }
                 double perLength = 1.0 / length;

@@ -4,7 +4,7 @@ namespace Guidewire.Core
 {
     /// <summary>What the sheathed part is to the elements of a wire that are simulated, from one on: the springs that
     /// it has along and about its axis, and where it ends.</summary>
-    internal sealed class SheathWindow
+    internal sealed class SheathWindow : SheathEnd
     {
         private readonly (double Stretch, double Twist)[] _sheathed;  // EA and GJ of the elements up to the first
 
@@ -14,7 +14,10 @@ namespace Guidewire.Core
         /// <param name="lengths">The length that each of them stands for, m.</param>
         /// <param name="pieces">What each of them is made of.</param>
         /// <param name="first">The first element that is simulated.</param>
-        public SheathWindow(MaterialRod whole, Joint[] joints, double[] lengths, JointPieces pieces, int first)
+        /// <param name="end">Of the sheath.</param>
+        public SheathWindow(MaterialRod whole, Joint[] joints, double[] lengths, JointPieces pieces, int first,
+            SheathEnd end)
+            : base(end.Exit, end.Axis)
         {
             First = first;
             Pieces = pieces;
@@ -44,12 +47,6 @@ namespace Guidewire.Core
         /// <summary>The first element that is simulated.</summary>
         public int First { get; }
 
-        /// <summary>Where the sheath ends, m.</summary>
-        public Vector3d Exit { get; set; }
-
-        /// <summary>Where it leads, a unit vector.</summary>
-        public Vector3d Axis { get; set; }
-
         /// <summary>The joints of the window; joint 0 twists as all of the sheathed part with it.</summary>
         public Joint[] Joints { get; }
 
@@ -76,23 +73,6 @@ namespace Guidewire.Core
         public double ExitFrom(in Vector3d position)
         {
             return Pieces.Stations[First] - Outside(position);
-        }
-
-        /// <summary>How many nodes of the window, from its first on, are in the sheath.</summary>
-        public int NodesInside(Vector3d[] x)
-        {
-            int inside = 0;
-            while (inside < x.Length && Outside(x[inside]) < 0.0)
-            {
-                inside++;
-            }
-            return inside;
-        }
-
-        /// <summary>How far a node of the window is out of the sheath, m; negative inside.</summary>
-        public double Outside(in Vector3d node)
-        {
-            return Vector3d.Dot(node - Exit, Axis);
         }
     }
 }

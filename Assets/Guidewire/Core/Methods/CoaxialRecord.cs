@@ -239,7 +239,9 @@ namespace Guidewire.Core
             {
                 Vector3d turn = bending.TurnOf(shape, k);
                 double curvature = Math.Sqrt(turn.X * turn.X + turn.Y * turn.Y) / joints.LengthOf(k);
-                LargestCurvature = Math.Max(LargestCurvature, curvature);
+                double outside = joints.FractionOutside(k);
+                LargestCurvature = outside <= CoaxialJoints.LeastFraction ? LargestCurvature
+                    : Math.Max(LargestCurvature, curvature / outside);
                 // A joint has the curvature between the middles of its elements, the last one on to the end.
                 double from = to;
                 to = k + 1 < joints.ElementCount ? 0.5 * (joints.Stations[k] + joints.Stations[k + 1]) : Overlap;

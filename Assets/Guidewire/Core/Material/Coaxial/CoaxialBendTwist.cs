@@ -14,7 +14,7 @@ namespace Guidewire.Core
     internal sealed class CoaxialBendTwist : BendTwistTerm
     {
         private const double Difference = 1e-4;   // of an element, between two energies whose difference is a force
-        private const string NoSheath = "coaxial instruments in a sheath";
+        private const string NoWinding = "joint 0 of coaxial instruments has no winding";
 
         private readonly CoaxialRod _rod;
         private readonly CoaxialJoints _joints;
@@ -51,15 +51,14 @@ namespace Guidewire.Core
         /// element at the outer tip. Negative where the instrument is driven out.</summary>
         public double InnerForce(RodShape shape, StretchEnergy stretch)
         {
-            SetIdleTwists(shape);
-            double lead = _joints.Lead;
-            double step = Difference * _rod.Rod.Length[0];
-            _rod.SetLead(lead - step);
-            double ahead = Value(shape) + stretch.Value(shape);
-            _rod.SetLead(lead + step);
-            double behind = Value(shape) + stretch.Value(shape);
-            _rod.SetLead(lead);
-            return 0.5 * (ahead - behind) / step;
+            return Released(shape, stretch, Difference * _rod.Rod.Length[0], 0.0);
+        }
+
+        /// <summary>What the outer hub has of the force along the axis besides that on its node, N: with -dE/dD, D the
+        /// length in the sheath, a bent instrument is driven out.</summary>
+        public double SheathForce(RodShape shape, StretchEnergy stretch)
+        {
+            return _joints.Sheathed == 0.0 ? 0.0 : Released(shape, stretch, 0.0, Difference * _rod.Rod.Length[0]);
         }
 
         /// <summary>Where the two hubs are in time; null where they are set by hand.</summary>
@@ -90,9 +89,10 @@ namespace Guidewire.Core
             {
                 double lead = Hubs.LeadAt(time);
                 HubTwist = Hubs.TwistAt(time);
-                if (lead != _joints.Lead)
+                double sheathed = Hubs.SheathedAt(time);
+                if (lead != _joints.Lead || sheathed != _joints.Sheathed)
                 {
-                    _rod.SetLead(lead);
+                    _rod.SetHubs(lead, sheathed);
                 }
             }
         }
@@ -262,13 +262,13 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void TurnProximal(double turn)
         {
-            throw new NotSupportedException(NoSheath);
+            throw new NotSupportedException(NoWinding);
         }
 
         /// <inheritdoc/>
         public override double TurnCouple(RodShape shape)
         {
-            throw new NotSupportedException(NoSheath);
+            throw new NotSupportedException(NoWinding);
         }
 
         /// <inheritdoc/>
@@ -285,6 +285,19 @@ namespace Guidewire.Core
         public override Vector3d DistalCouple(RodShape shape)
         {
             return Vector3d.Zero;
+        }
+
+        // Of energy, by lead and length in the sheath that are less by these, m: a centred difference, N.
+        private double Released(RodShape shape, StretchEnergy stretch, double lead, double sheathed)
+        {
+            SetIdleTwists(shape);
+            (double from, double inside) = (_joints.Lead, _joints.Sheathed);
+            _rod.SetHubs(from - lead, inside - sheathed);
+            double less = Value(shape) + stretch.Value(shape);
+            _rod.SetHubs(from + lead, inside + sheathed);
+            double more = Value(shape) + stretch.Value(shape);
+            _rod.SetHubs(from, inside);
+            return 0.5 * (less - more) / (lead + sheathed);
         }
 
         private bool HasEnd => _joints.Beyond == 0 && _joints.ActiveCount == _joints.ElementCount;

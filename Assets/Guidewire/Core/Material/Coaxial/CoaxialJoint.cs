@@ -13,6 +13,8 @@ namespace Guidewire.Core
     /// of the outer one the joint stands on the inner one's frame, and F' is the outer one's: it turns by -t.</remarks>
     internal struct CoaxialJoint
     {
+        private const double Retained = 1e-8;   // of the compliance of a piece in a sheath
+
         public double Compliance1;   // A_1, 1/(N m)
         public double Compliance2;
         public double FixedX, FixedY;     // F, rad
@@ -56,6 +58,17 @@ namespace Guidewire.Core
             FixedY += isTip ? other.Y : own.Y;
             TurnedX += isTip ? own.X : other.X;
             TurnedY += isTip ? own.Y : other.Y;
+        }
+
+        /// <summary>Adds a piece in a sheath: it is straight, whatever it is made of.</summary>
+        /// <param name="lambda">m.</param>
+        /// <param name="bend">B, of all that is there, N m^2.</param>
+        /// <param name="held">Energy that keeps it straight, J/m.</param>
+        public void AddSheathed(double lambda, double bend, double held)
+        {
+            Compliance1 += Retained * lambda / bend;
+            Compliance2 += Retained * lambda / bend;
+            Held += lambda * held;
         }
 
         /// <summary>f at an angle t, and its derivative by t.</summary>

@@ -8,9 +8,15 @@ namespace Guidewire.Core
     /// behind it: between the hubs it is straight. Beyond the outer tip it sticks out by p = (its length) - d - (the
     /// outer one's length), and the element between that tip and the first inner node has the length l that follows
     /// from d, not from the nodes' positions: so the matrix stays block-tridiagonal. That element is stretched as all
-    /// of the inner instrument from its hub is. An inner tip in the outer one is only a border of pieces.</remarks>
+    /// of the inner instrument from its hub is. An inner tip in the outer one is only a border of pieces.
+    ///
+    /// In a sheath the chain is straight, up to a length from the outer hub that follows from that hub: as an outermost
+    /// instrument without bend that turns with what is inside. Its exit is a border of pieces, too.</remarks>
     internal sealed class CoaxialJoints
     {
+        /// <summary>Fraction of a joint outside a sheath below which it counts as straight.</summary>
+        public const double LeastFraction = 1e-3;
+
         private readonly InstrumentProfile _outer;
         private readonly InstrumentProfile _inner;
         private readonly double[] _innerStation;   // of the inner nodes, m from its hub
@@ -24,8 +30,9 @@ namespace Guidewire.Core
         /// <param name="innerStations">Nodes of the inner one, m from its hub.</param>
         /// <param name="beyond">How many of these, from the tip on, are nodes of the chain.</param>
         /// <param name="lead">d, m.</param>
+        /// <param name="sheathed">Length of the chain in a sheath, m from the outer hub.</param>
         public CoaxialJoints(InstrumentProfile outer, InstrumentProfile inner, double[] outerStations,
-            double[] innerStations, int beyond, double lead)
+            double[] innerStations, int beyond, double lead, double sheathed)
         {
             _outer = outer;
             _inner = inner;
@@ -35,7 +42,7 @@ namespace Guidewire.Core
             _station = new double[_tip + 1 + beyond];
             Array.Copy(outerStations, _station, _tip + 1);
             _joint = new CoaxialJoint[_station.Length];
-            SetLead(lead);
+            SetHubs(lead, sheathed);
         }
 
         /// <summary>Elements of the chain.</summary>
@@ -49,6 +56,9 @@ namespace Guidewire.Core
 
         /// <summary>Distance of the inner hub behind the outer one, d, m.</summary>
         public double Lead { get; private set; }
+
+        /// <summary>Length of the chain in a sheath, m from the outer hub; 0 without one.</summary>
+        public double Sheathed { get; private set; }
 
         /// <summary>How far the inner tip is beyond the outer one, p, m; negative inside.</summary>
         public double Extension => _inner.Length - Lead - _outer.Length;
@@ -80,6 +90,21 @@ namespace Guidewire.Core
             return 0.5 * (_station[Math.Min(k + 1, _station.Length - 1)] - _station[Math.Max(k - 1, 0)]);
         }
 
+        /// <summary>The fraction of that, weighted by the joint's hat function, that is not in a sheath.</summary>
+        public double FractionOutside(int k)
+        {
+            double node = _station[k];
+            if (Sheathed <= (k > 0 ? _station[k - 1] : node))
+            {
+                return 1.0;
+            }
+            double before = k > 0 ? node - _station[k - 1] : 0.0;
+            double after = k < _station.Length - 1 ? _station[k + 1] - node : 0.0;
+            double outside = Sheathed < node ? after + (node - Sheathed) * (1.0 + (Sheathed - node + before) / before)
+                : after > 0.0 ? Math.Pow(Math.Max(0.0, node + after - Sheathed), 2.0) / after : 0.0;
+            return outside / (before + after);
+        }
+
         /// <summary>What both instruments are made of at node k, in the overlap.</summary>
         public void PiecesAt(int k, out CrossSection outer, out CrossSection inner)
         {
@@ -87,11 +112,13 @@ namespace Guidewire.Core
             inner = _inner.Pieces[_inner.PieceAt(_station[k] + Lead)];
         }
 
-        /// <summary>The inner hub is this far behind the outer one.</summary>
+        /// <summary>The inner hub is this far behind the outer one, and the outer one this far in a sheath.</summary>
         /// <param name="lead">d, m.</param>
-        public void SetLead(double lead)
+        /// <param name="sheathed">m.</param>
+        public void SetHubs(double lead, double sheathed)
         {
             Lead = lead;
+            Sheathed = sheathed;
             int first = _innerStation.Length - 1 - Beyond;
             for (int i = 1; i <= Beyond; i++)
             {
@@ -179,7 +206,8 @@ namespace Guidewire.Core
             for (double at = from; at < to;)
             {
                 bool hasInner = at < innerEnd;
-                double next = to;
+                bool isSheathed = at < Sheathed;
+                double next = isSheathed ? Math.Min(to, Sheathed) : to;
                 if (hasOuter && o < _outer.Pieces.Length - 1)
                 {
                     next = Math.Min(next, _outer.Borders[o + 1]);
@@ -192,8 +220,16 @@ namespace Guidewire.Core
                 if (next > at)
                 {
                     double lambda = (next - at) * (1.0 - Math.Abs(0.5 * (at + next) - node) * perLength);
-                    Add(ref joint, lambda, hasOuter ? o : -1, hasInner || !hasOuter ? i : -1, isTip, ref shared,
-                        ref twists);
+                    int inner = hasInner || !hasOuter ? i : -1;
+                    AddTwists(ref twists, lambda, hasOuter ? o : -1, inner);
+                    if (isSheathed)
+                    {
+                        AddSheathed(ref joint, lambda, hasOuter ? o : -1, inner);
+                    }
+                    else
+                    {
+                        Add(ref joint, lambda, hasOuter ? o : -1, inner, isTip, ref shared);
+                    }
                 }
                 at = Math.Max(next, at);
                 o += hasOuter && o < _outer.Pieces.Length - 1 && at >= _outer.Borders[o + 1] ? 1 : 0;
@@ -201,8 +237,7 @@ namespace Guidewire.Core
             }
         }
 
-        private void Add(ref CoaxialJoint joint, double lambda, int outer, int inner, bool isTip, ref double shared,
-            ref Twists twists)
+        private void AddTwists(ref Twists twists, double lambda, int outer, int inner)
         {
             if (outer >= 0)
             {
@@ -216,6 +251,27 @@ namespace Guidewire.Core
                 twists.InnerCompliance += lambda / piece.TwistStiffness;
                 twists.InnerRest += lambda * piece.RestCurvature.Z;
             }
+        }
+
+        private void AddSheathed(ref CoaxialJoint joint, double lambda, int outer, int inner)
+        {
+            double bend = 0.0;
+            double held = 0.0;
+            if (outer >= 0)
+            {
+                bend += _outer.Pieces[outer].BendStiffness1;
+                held += Straightened(_outer.Pieces[outer]);
+            }
+            if (inner >= 0)
+            {
+                bend += _inner.Pieces[inner].BendStiffness1;
+                held += Straightened(_inner.Pieces[inner]);
+            }
+            joint.AddSheathed(lambda, bend, held);
+        }
+
+        private void Add(ref CoaxialJoint joint, double lambda, int outer, int inner, bool isTip, ref double shared)
+        {
             if (outer >= 0 && inner >= 0)
             {
                 shared += lambda;
@@ -235,13 +291,19 @@ namespace Guidewire.Core
                 if (length > 0.0)
                 {
                     ref CrossSection piece = ref _inner.Pieces[p];
-                    Vector3d curvature = piece.RestCurvature;
                     compliance += length / piece.TwistStiffness;
-                    rest += length * curvature.Z;
-                    HeldInLead += 0.5 * length * (piece.BendStiffness1 * curvature.X * curvature.X
-                        + piece.BendStiffness2 * curvature.Y * curvature.Y);
+                    rest += length * piece.RestCurvature.Z;
+                    HeldInLead += length * Straightened(piece);
                 }
             }
+        }
+
+        // Energy of a piece that is kept straight, J/m.
+        private static double Straightened(in CrossSection piece)
+        {
+            Vector3d curvature = piece.RestCurvature;
+            return 0.5 * (piece.BendStiffness1 * curvature.X * curvature.X
+                + piece.BendStiffness2 * curvature.Y * curvature.Y);
         }
 
         // Of both instruments over the pieces where they are.

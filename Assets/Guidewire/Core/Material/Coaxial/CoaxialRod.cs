@@ -10,10 +10,12 @@ namespace Guidewire.Core
     internal sealed class CoaxialRod
     {
         private const double Viscosity = 1e-3;   // of saline that flushes a lumen, Pa s
+        private const double Retained = 1e-4;    // of the shear compliance of what is in a sheath
 
         private readonly MaterialRod _outer;
         private readonly InstrumentProfile _innerProfile;
         private readonly double _lumenRadius;   // m; 0 where its fluid is left out
+        private readonly double[] _shear;       // GA of the elements outside a sheath, N
 
         /// <summary>Of these instruments.</summary>
         /// <param name="outer">The outer one.</param>
@@ -23,15 +25,17 @@ namespace Guidewire.Core
         /// <param name="beyond">How many of the inner nodes are beyond the outer tip.</param>
         /// <param name="lead">How far the inner hub is behind the outer one, m.</param>
         /// <param name="lumenRadius">Of the outer one, m; 0 leaves out the drag of the fluid in it.</param>
+        /// <param name="sheathed">Length in a sheath, m from the outer hub.</param>
         public CoaxialRod(MaterialRod outer, InstrumentProfile outerProfile, MaterialRod inner,
-            InstrumentProfile innerProfile, int beyond, double lead, double lumenRadius = 0.0)
+            InstrumentProfile innerProfile, int beyond, double lead, double lumenRadius = 0.0, double sheathed = 0.0)
         {
             _lumenRadius = lumenRadius;
             InnerSpin = new double[outer.ElementCount];
             LumenDrag = new double[outer.ElementCount];
             _outer = outer;
             _innerProfile = innerProfile;
-            Joints = new CoaxialJoints(outerProfile, innerProfile, StationsOf(outer), StationsOf(inner), beyond, lead);
+            Joints = new CoaxialJoints(outerProfile, innerProfile, StationsOf(outer), StationsOf(inner), beyond, lead,
+                sheathed);
             Rod = new MaterialRod(Joints.ElementCount) { MassDamping = outer.MassDamping };
             int tip = outer.ElementCount;
             for (int j = 0; j < Rod.ElementCount; j++)
@@ -40,7 +44,8 @@ namespace Guidewire.Core
                 int at = j < tip ? j : inner.ElementCount - beyond + j - tip;
                 Rod.Take(j, from, at);
             }
-            SetLead(lead);
+            _shear = (double[])Rod.ShearStiffness.Clone();
+            SetHubs(lead, sheathed);
             SetMass();
         }
 
@@ -49,6 +54,9 @@ namespace Guidewire.Core
 
         /// <summary>Both as one rod.</summary>
         public MaterialRod Rod { get; }
+
+        /// <summary>Where the sheath ends in which they are, or null.</summary>
+        public SheathEnd? Sheath { get; set; }
 
         /// <summary>Inertia about the axis of the inner instrument's part in each element of the outer one, rho (I1 +
         /// I2) times its length, kg m^2.</summary>
@@ -62,7 +70,20 @@ namespace Guidewire.Core
         /// <param name="lead">m.</param>
         public void SetLead(double lead)
         {
-            Joints.SetLead(lead);
+            SetHubs(lead, Joints.Sheathed);
+        }
+
+        /// <summary>The inner hub is this far behind the outer one, and the outer one this far in a sheath.</summary>
+        /// <param name="lead">m.</param>
+        /// <param name="sheathed">m.</param>
+        public void SetHubs(double lead, double sheathed)
+        {
+            bool isSheathed = sheathed > 0.0 || Joints.Sheathed > 0.0;
+            Joints.SetHubs(lead, sheathed);
+            if (isSheathed)
+            {
+                SetShear(sheathed);
+            }
             if (Joints.Beyond > 0)
             {
                 int tip = Joints.OuterCount;
@@ -70,6 +91,18 @@ namespace Guidewire.Core
                 Rod.Length[tip] = length;
                 Rod.StretchStiffness[tip] = length / _innerProfile.Integral(0.0, Joints.Stations[tip + 1] + lead,
                     piece => 1.0 / piece.StretchStiffness);
+            }
+        }
+
+        // An element in parts in series, as far as shear goes: nothing in a sheath leaves its axis.
+        private void SetShear(double sheathed)
+        {
+            double[] station = Joints.Stations;
+            for (int j = 0; j < _shear.Length; j++)
+            {
+                double inside = (sheathed - station[j]) / (station[j + 1] - station[j]);
+                inside = Math.Min(1.0, Math.Max(0.0, inside));
+                Rod.ShearStiffness[j] = _shear[j] / (1.0 - (1.0 - Retained) * inside);
             }
         }
 

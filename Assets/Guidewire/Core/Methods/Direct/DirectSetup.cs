@@ -23,7 +23,7 @@ namespace Guidewire.Core
             SupportSpring spring, double outerFriction = double.NaN)
         {
             double move = parameters.Drive.LargestMove(parameters.Method.TimeStep, scene.Metres);
-            var contact = new BarrierEnergy(scene.Rod, scene.Walls, scene.Metres, barrier, scene.Supports.Sheath);
+            var contact = new BarrierEnergy(scene.Rod, scene.Walls, scene.Metres, barrier, scene.Supports.SheathEnd);
             FrictionEnergy? friction = outerFriction > 0.0
                 || Array.Exists(scene.Walls, wall => wall.FrictionCoefficient > 0.0)
                 ? new FrictionEnergy(contact, scene.Rod.ElementCount, parameters.Contact.ElasticSlip > 0.0

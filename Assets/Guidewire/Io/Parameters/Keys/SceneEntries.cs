@@ -139,8 +139,9 @@ namespace Guidewire.Io
             },
             new JsonEntry("sheath", JTokenType.Object, "null or {\"exit\", \"direction\"}, each [x, y, z]",
                 "a straight, frictionless guide around the proximal part of the wire, on the wire's initial axis:"
-                + " only what is beyond its exit (units) is simulated, the rest is an axial and a torsional spring; the"
-                + " default exit is one element inside the vessel's inlet, the default direction that of the wire;"
+                + " of a wire alone only what is beyond its exit (units) is simulated, the rest is an axial and a"
+                + " torsional spring; catheters are in it, too; the default exit is one element inside the vessel's"
+                + " inlet, the default direction that of the wire;"
                 + " needs a vessel, proximalEnd \"clamped\" and drive \"displace\"")
             {
                 Methods = Takers.Only(Solver.Direct),

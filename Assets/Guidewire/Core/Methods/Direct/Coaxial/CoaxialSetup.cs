@@ -1,4 +1,5 @@
 using System;
+using System.Globalization;
 
 namespace Guidewire.Core
 {
@@ -7,6 +8,7 @@ namespace Guidewire.Core
     internal sealed class CoaxialSetup
     {
         private const double Nowhere = 1e9;     // m, farther than any drive goes
+        private const double Rounding = 1e-6;   // of a length
 
         private readonly SimulationParameters _parameters;
         private readonly InstrumentProfile _wireProfile;
@@ -27,6 +29,10 @@ namespace Guidewire.Core
             _catheterProfile = ProfileOf(catheter, Wire.Metres);
             _drag = parameters.Material.MassDamping;
             WireStations = CoaxialRod.StationsOf(Wire.Rod);
+            if (parameters.Scene.Sheath != null)
+            {
+                Sheath = new SheathEnd(Wire.Metres * SheathExit.Find(parameters.Scene.Sheath, Wire), Axis);
+            }
             if (Wire.Walls.Length > 0)
             {
                 double step = parameters.Method.TimeStep;
@@ -46,6 +52,9 @@ namespace Guidewire.Core
         /// <summary>The catheter as if it were alone.</summary>
         public MaterialScene Catheter { get; }
 
+        /// <summary>Where the sheath ends in which both are, or null.</summary>
+        public SheathEnd? Sheath { get; }
+
         /// <summary>Along which both hubs move, a unit vector.</summary>
         public Vector3d Axis => Wire.Schedule.Hub.Frame.Director3;
 
@@ -58,10 +67,11 @@ namespace Guidewire.Core
         /// <summary>Both as one rod.</summary>
         /// <param name="beyond">Wire nodes beyond the catheter's tip.</param>
         /// <param name="lead">How far the wire's hub is behind the catheter's, m.</param>
-        public CoaxialRod Rod(int beyond, double lead)
+        /// <param name="sheathed">How far the catheter's hub is from the exit of the sheath, m.</param>
+        public CoaxialRod Rod(int beyond, double lead, double sheathed)
         {
             var rod = new CoaxialRod(Catheter.Rod, _catheterProfile, Wire.Rod, _wireProfile, beyond, lead,
-                LumenRadius);
+                LumenRadius, sheathed) { Sheath = Sheath };
             rod.Rod.MassDamping = _drag;
             return rod;
         }
@@ -72,17 +82,18 @@ namespace Guidewire.Core
             return new MaterialDrive(scene.Drive, scene.Schedule.Hub, Axis);
         }
 
-        /// <summary>Lets hubs go in the step that begins at a time so far that neither passes the other one, and that
-        /// the wire's tip stays in the catheter by an element at least.</summary>
+        /// <summary>Lets hubs go in the step that begins at a time so far that neither passes the other one nor the
+        /// exit of a sheath, and that the wire's tip stays in the catheter by an element at least.</summary>
         public void LimitDrives(MaterialDrive outer, MaterialDrive inner, CoaxialHubs hubs, double time)
         {
             double lead = hubs.LeadAt(time);
             double inside = WireStations[WireStations.Length - 1] - lead - Catheter.Rod.Length[0];
-            outer.Limit(-Nowhere, Nowhere);
+            double toExit = Sheath == null ? Nowhere : hubs.SheathedAt(time);
+            outer.Limit(-Nowhere, toExit);
             double catheter = outer.NextMove(time);
             inner.Limit(Math.Min(0.0, catheter - inside), Math.Max(0.0, lead + catheter));
             double wire = inner.NextMove(time);
-            outer.Limit(Math.Min(0.0, wire - lead), Math.Max(0.0, inside + wire));
+            outer.Limit(Math.Min(0.0, wire - lead), Math.Min(toExit, Math.Max(0.0, inside + wire)));
         }
 
         /// <summary>Energies and loads of both, which follow their hubs.</summary>
@@ -103,9 +114,13 @@ namespace Guidewire.Core
         }
 
         /// <summary>What is wrong with the start between walls, in one phrase, or null: of the catheter, and of the
-        /// wire beyond it.</summary>
+        /// wire beyond it; in a sheath, of what is beyond its exit.</summary>
         public string? FindProblemOfStart()
         {
+            if (Sheath != null)
+            {
+                return FindProblemBeyondSheath(Sheath);
+            }
             double tip = Catheter.Schedule.Hub.PositionAt(0.0).Z - Wire.Schedule.Hub.PositionAt(0.0).Z
                 + Catheter.Rod.TotalLength;
             int n = Wire.Rod.ElementCount;
@@ -113,6 +128,34 @@ namespace Guidewire.Core
             string? problem = MaterialStart.FindProblem(Catheter, 0, Catheter.Rod.ElementCount);
             return problem != null ? "of the catheter, " + problem
                 : first < 0 ? null : MaterialStart.FindProblem(Wire, first - 1, n);
+        }
+
+        // That of the wire is found as if it were alone.
+        private string? FindProblemBeyondSheath(SheathEnd sheath)
+        {
+            Vector3d[] x = Catheter.Shape.X;
+            int inside = sheath.NodesInside(x);
+            if (inside == 0)
+            {
+                return Text("sheath: its exit has to be ahead of the catheter's hub, which starts {0:G4} m beyond it",
+                    sheath.Outside(x[0]));
+            }
+            double available = -sheath.Outside(x[0]);
+            double asked = _parameters.Scene.Catheters[0].Drive.LargestInsertion(
+                _parameters.Method.MaxSimulationSteps * _parameters.Method.TimeStep);
+            if (asked > available * (1.0 + Rounding))
+            {
+                return Text("sheath: an insertion of {0:G4} m of the catheter's hub is longer than the way to the"
+                    + " sheath's exit, {1:G4} m", asked, available);
+            }
+            string? problem = inside == x.Length ? null
+                : MaterialStart.FindProblemFrom(Catheter, inside - 1, (1.0 / Wire.Metres) * sheath.Exit);
+            return problem == null ? null : "of the catheter, " + problem;
+        }
+
+        private static string Text(string format, params object[] numbers)
+        {
+            return string.Format(CultureInfo.InvariantCulture, format, numbers);
         }
 
         private static MaterialScene SceneOf(SimulationParameters parameters)

@@ -49,7 +49,7 @@ namespace Guidewire.Core
                 OfRadius * _setup.Catheter.Rod.Radius[0]);
             _wireSlip = new HubSlip(_wireDrive, parameters.Drive.HubForceLimit, OfRadius * _setup.Wire.Rod.Radius[0]);
             _start = new StepStart(SerializeStep);
-            _hubs = new CoaxialHubs(_catheterDrive.Hub, _wireDrive.Hub, _setup.Axis);
+            _hubs = new CoaxialHubs(_catheterDrive.Hub, _wireDrive.Hub, _setup.Axis, _setup.Sheath);
             int n = _setup.Wire.Rod.ElementCount;
             _wire = new RodShape(n);
             _velocities = new Vector3d[n + 1];
@@ -68,7 +68,7 @@ namespace Guidewire.Core
                 Contacts = new ContactRecord(n + 1);
             }
             double lead = _hubs.LeadAt(0.0);
-            _rod = _setup.Rod(NodesBeyond(0, lead, lead), lead);
+            _rod = _setup.Rod(NodesBeyond(0, lead, lead), lead, _hubs.SheathedAt(0.0));
             var shape = new RodShape(_rod.Joints.ElementCount, true);
             shape.SetStraight(_catheterDrive.Hub.PositionAt(0.0), _hubs.Outer.Frame, _rod.Joints.Stations);
             Array.Fill(shape.Twist, _hubs.TwistAt(0.0), 0, _rod.Joints.ActiveCount);
@@ -100,7 +100,7 @@ namespace Guidewire.Core
         public CoaxialRod Rod => _rod;
 
         /// <inheritdoc/>
-        public override string? AccuracyWarning => HubSlip.WarningOf(_wireSlip, _catheterSlip);
+        public override string? AccuracyWarning => HubSlip.WarningOf(_wireSlip, _catheterSlip, _setup.Sheath != null);
 
         /// <inheritdoc/>
         public override void Advance(RodState state)
@@ -218,6 +218,10 @@ namespace Guidewire.Core
             CoaxialRecord record = Coaxial()!;
             _hub.Take(_wireDrive, record.WireForce, record.WireTorque,
                 _wire.Q[_wire.ElementCount - 1].Director3, record.WireTwist, record.LargestCurvature);
+            if (_setup.Sheath != null)
+            {
+                _hub.TakeBody(_setup.WireStations, _rod.Joints.Lead + _rod.Joints.Sheathed);
+            }
             return _hub;
         }
 
@@ -230,7 +234,8 @@ namespace Guidewire.Core
             double force = Bending.InnerForce(shape, terms.Stretch);
             double torque = Bending.InnerTorque(shape);
             _record.Take(_rod.Joints, terms, shape, _catheterDrive, _wireDrive,
-                Vector3d.Dot(_dynamics.ReactionAt(0), _setup.Axis) - force,
+                Vector3d.Dot(_dynamics.ReactionAt(0), _setup.Axis) - force
+                    + Bending.SheathForce(shape, terms.Stretch),
                 Vector3d.Dot(terms.Bending.ProximalCouple(shape), _setup.Axis) - torque, force, torque);
             return _record;
         }
@@ -255,7 +260,7 @@ namespace Guidewire.Core
             _record.Serialize(snapshot);
             if (!snapshot.IsWritten)
             {
-                _rod = _setup.Rod(beyond, lead);
+                _rod = _setup.Rod(beyond, lead, _hubs.SheathedAt(time));
                 var scene = new MaterialScene(_setup.Catheter, _rod, new RodShape(_rod.Joints.ElementCount, true),
                     _catheterDrive, _hubs.Inner);
                 // Placed on the axis until its own state is read.
@@ -302,7 +307,7 @@ namespace Guidewire.Core
                 return;
             }
             RodShape old = _dynamics.Shape;
-            _rod = _setup.Rod(beyond, lead);
+            _rod = _setup.Rod(beyond, lead, _hubs.SheathedAt(time));
             RodShape shape = CoaxialShape.Take(old, _rod.Joints);
             var scene = new MaterialScene(_setup.Catheter, _rod, shape, _catheterDrive, _hubs.Inner);
             TakeMotion(scene, old.ElementCount);

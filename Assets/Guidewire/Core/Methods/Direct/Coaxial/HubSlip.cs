@@ -13,6 +13,7 @@ namespace Guidewire.Core
     /// the least of those that were found.</remarks>
     internal sealed class HubSlip
     {
+        private const double Nothing = 1e-12;   // m, a shortfall left by rounding where a hub just comes to its end
         private const double Close = 0.02;      // of the limit
         private const int MostTrials = 24;
         private const double Exact = 1e-3;      // of the limit
@@ -108,15 +109,18 @@ namespace Guidewire.Core
         }
 
         /// <summary>What is not as asked of two hubs, the wire's and the catheter's, in one line; or null.</summary>
-        public static string? WarningOf(HubSlip wire, HubSlip catheter)
+        /// <param name="isSheathed">Whether the catheter's hub ends at the exit of a sheath.</param>
+        public static string? WarningOf(HubSlip wire, HubSlip catheter, bool isSheathed)
         {
             double slip = Math.Abs(wire._drive.Slip) > Math.Abs(catheter._drive.Slip) ? wire._drive.Slip
                 : catheter._drive.Slip;
             string excess = wire.TextOfExcess + catheter.TextOfExcess;
-            return slip == 0.0 && excess == "" ? null : slip == 0.0 ? excess.Substring(2)
+            bool isShort = Math.Abs(slip) > Nothing;
+            return !isShort && excess == "" ? null : !isShort ? excess.Substring(2)
                 : string.Format(CultureInfo.InvariantCulture, "a hub fell short by {0:G3} m: {1}the wire's came to the"
-                + " catheter's, or its tip to the first element of the catheter{2}", slip,
-                wire.IsLimited || catheter.IsLimited ? "it slipped at its hubForceLimit, or " : "", excess);
+                + " catheter's, or its tip to the first element of the catheter{2}{3}", slip,
+                wire.IsLimited || catheter.IsLimited ? "it slipped at its hubForceLimit, or " : "",
+                isSheathed ? ", or the catheter's to the exit of the sheath" : "", excess);
         }
 
         /// <summary>That it had more than its limit, in one phrase, or nothing.</summary>

@@ -32,7 +32,7 @@ namespace Guidewire.Core
         private readonly double[] _elementRadius;
         private readonly Barrier _barrier;
         private readonly NeighbourList _near;
-        private readonly SheathWindow? _sheath;
+        private readonly SheathEnd? _sheath;
         private int _inside;                      // nodes in the sheath in the current shape
         private readonly Vector3d[] _x;           // of the current shape, units
         private readonly Vector3d[] _to;          // where its nodes move to, units
@@ -54,7 +54,7 @@ namespace Guidewire.Core
         /// <param name="barrier">Of each gap.</param>
         /// <param name="sheath">In which no wall acts, or null.</param>
         public BarrierEnergy(MaterialRod rod, ContactShape[] walls, double metresPerUnit, in Barrier barrier,
-            SheathWindow? sheath = null)
+            SheathEnd? sheath = null)
         {
             _sheath = sheath;
             int n = rod.ElementCount;

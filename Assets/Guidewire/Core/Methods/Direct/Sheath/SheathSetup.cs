@@ -70,7 +70,7 @@ namespace Guidewire.Core
         /// <summary>What the sheathed part is to the elements from one on.</summary>
         public SheathWindow Window(int first)
         {
-            return new SheathWindow(_whole.Rod, Joints, _jointLengths, _pieces, first) { Exit = Exit, Axis = Axis };
+            return new SheathWindow(_whole.Rod, Joints, _jointLengths, _pieces, first, new SheathEnd(Exit, Axis));
         }
 
         /// <summary>The elements of a window as a scene of their own, with a hub of its own.</summary>

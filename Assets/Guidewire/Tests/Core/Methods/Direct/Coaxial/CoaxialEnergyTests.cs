@@ -179,44 +179,10 @@ namespace Guidewire.Core.Tests
         private static double CycleWork(double perStep, out double peak)
         {
             SimulationParameters parameters = CoaxialScenes.Pair(Integrator.ImplicitEuler);
-            double l = 0.01;
-            int steps = (int)Math.Round(3.2 / perStep);
-            double dt = 40.0 * perStep;
-            double way = steps * perStep * l;
-            parameters.Material.MassDamping = 0.0;
             parameters.Material.Sections[0].From = 312.0;
             parameters.Material.Sections[0].RestCurvature = new Vector3d(10.0, 0.0, 0.0);
             parameters.Scene.Catheters[0].Material.Sections[0].RestCurvature = new Vector3d(10.0, 4.0, 0.0);
-            parameters.Method.TimeStep = dt;
-            parameters.Method.SolverTolerance = 1e-10;
-            parameters.Method.MaxSimulationSteps = 10 + 4 * steps;
-            double[] times = { 0.0, 10.0 * dt, (10 + steps) * dt, (10 + 2 * steps) * dt, (10 + 3 * steps) * dt,
-                (10 + 4 * steps) * dt };
-            parameters.Drive.Table = new DriveTable(new TimeTable(times, new[] { 0.0, 0.0, way, way, 0.6 * way, 0.0 }),
-                new TimeTable(times, new[] { 0.0, 0.0, 0.5, 0.5, 0.0, 0.0 }));
-            parameters.Scene.Catheters[0].Drive.Table = new DriveTable(
-                new TimeTable(times, new[] { 0.0, 0.0, 0.0, 0.6 * way, 0.6 * way, 0.0 }),
-                new TimeTable(times, new[] { 0.0, 0.0, 0.0, -0.4, -0.4, 0.0 }));
-            Simulation run = Simulation.Create(parameters);
-            double work = 0.0;
-            peak = 0.0;
-            double[] old = new double[8];
-            while (run.Outcome == Outcome.Running)
-            {
-                run.Step();
-                CoaxialRecord record = run.Coaxial()!;
-                HubRecord hub = run.Hub()!;
-                double[] now = { hub.Force, hub.Torque, record.Force, record.Torque, hub.Insertion, hub.Turn,
-                    record.Insertion, record.Turn };
-                for (int k = 0; k < 4 && run.StepCount > 5; k++)
-                {
-                    work += 0.5 * (now[k] + old[k]) * (now[k + 4] - old[k + 4]);
-                }
-                old = now;
-                peak = Math.Max(peak, Math.Abs(work));
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
-            return work;
+            return CoaxialScenes.CycleWork(parameters, perStep, out peak);
         }
 
         // Both hubs move and turn in steps in which the instruments swing.

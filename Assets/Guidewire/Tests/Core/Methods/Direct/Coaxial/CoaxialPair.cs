@@ -68,10 +68,12 @@ namespace Guidewire.Core.Tests
 
         /// <summary>A new number of nodes beyond the outer tip, or lead, with the shape as it is: inner nodes come in
         /// after the tip or go there.</summary>
-        public void Build(int beyond, double lead)
+        /// <param name="sheathed">Length in a sheath, m.</param>
+        public void Build(int beyond, double lead, double sheathed = 0.0)
         {
             RodShape? old = Shape;
-            var rod = new CoaxialRod(_outerRod, ProfileOf(_outer), _innerRod, ProfileOf(_inner), beyond, lead);
+            var rod = new CoaxialRod(_outerRod, ProfileOf(_outer), _innerRod, ProfileOf(_inner), beyond, lead,
+                sheathed: sheathed);
             Supports = new RodSupports { Clamp = ClampRule.HalfElement, Coaxial = rod };
             Coaxial = rod;
             Terms = new RodTerms(rod.Rod, Supports);
@@ -97,6 +99,21 @@ namespace Guidewire.Core.Tests
             {
                 throw new InvalidOperationException(result.Reason);
             }
+        }
+
+        /// <summary>Whether the shape with this angle of the inner instrument all along is stable.</summary>
+        public bool IsStable(double hubTwist)
+        {
+            Bending.HubTwist = hubTwist;
+            Array.Fill(Shape.Twist, hubTwist);
+            Bending.RelaxTurns(Shape);
+            for (int j = 0; j < Shape.ElementCount; j++)
+            {
+                Shape.X[j + 1] = Shape.X[j] + Coaxial.Rod.Length[j] * Shape.Q[j].Director3;
+            }
+            var system = new BlockTridiagonal(Coaxial.Rod, Supports);
+            return system.Factorise(Terms.All, Shape, new RodVector[system.VectorCount],
+                new RodVector[system.VectorCount], 0.0) == 0;
         }
 
         /// <summary>Torque of the inner hub, N m.</summary>

@@ -1,3 +1,6 @@
+using System;
+using NUnit.Framework;
+
 namespace Guidewire.Core.Tests
 {
     /// <summary>Runs of a wire in a catheter that tests share.</summary>
@@ -36,6 +39,65 @@ namespace Guidewire.Core.Tests
             };
             parameters.Scene.Catheters = new[] { catheter };
             return parameters;
+        }
+
+        /// <summary>Work of both hubs, J, in one cycle, forth and back and turned, slowly: trapezoids of forces and
+        /// torques.</summary>
+        /// <param name="perStep">Of an element of 10 mm, by which they move in a step.</param>
+        /// <param name="peak">The largest that it was, J.</param>
+        public static double CycleWork(SimulationParameters parameters, double perStep, out double peak)
+        {
+            double l = 0.01;
+            int steps = (int)Math.Round(3.2 / perStep);
+            double dt = 40.0 * perStep;
+            double way = steps * perStep * l;
+            parameters.Material.MassDamping = 0.0;
+            parameters.Method.TimeStep = dt;
+            parameters.Method.SolverTolerance = 1e-10;
+            parameters.Method.MaxSimulationSteps = 10 + 4 * steps;
+            double[] times = { 0.0, 10.0 * dt, (10 + steps) * dt, (10 + 2 * steps) * dt, (10 + 3 * steps) * dt,
+                (10 + 4 * steps) * dt };
+            parameters.Drive.Table = new DriveTable(new TimeTable(times, new[] { 0.0, 0.0, way, way, 0.6 * way, 0.0 }),
+                new TimeTable(times, new[] { 0.0, 0.0, 0.5, 0.5, 0.0, 0.0 }));
+            parameters.Scene.Catheters[0].Drive.Table = new DriveTable(
+                new TimeTable(times, new[] { 0.0, 0.0, 0.0, 0.6 * way, 0.6 * way, 0.0 }),
+                new TimeTable(times, new[] { 0.0, 0.0, 0.0, -0.4, -0.4, 0.0 }));
+            Simulation run = Simulation.Create(parameters);
+            double work = 0.0;
+            peak = 0.0;
+            double[] old = new double[8];
+            while (run.Outcome == Outcome.Running)
+            {
+                run.Step();
+                CoaxialRecord record = run.Coaxial()!;
+                HubRecord hub = run.Hub()!;
+                double[] now = { hub.Force, hub.Torque, record.Force, record.Torque, hub.Insertion, hub.Turn,
+                    record.Insertion, record.Turn };
+                for (int k = 0; k < 4 && run.StepCount > 5; k++)
+                {
+                    work += 0.5 * (now[k] + old[k]) * (now[k + 4] - old[k + 4]);
+                }
+                old = now;
+                peak = Math.Max(peak, Math.Abs(work));
+            }
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            return work;
+        }
+
+        /// <summary>Bytes that 20 steps of a run leave after 20 others.</summary>
+        public static long Garbage(SimulationParameters parameters)
+        {
+            Simulation run = Simulation.Create(parameters);
+            void Steps()
+            {
+                for (int k = 0; k < 20; k++)
+                {
+                    run.Step();
+                }
+            }
+
+            Steps();
+            return Tests.Garbage.LeftBy(Steps);
         }
     }
 }

@@ -101,19 +101,7 @@ namespace Guidewire.Core.Tests
                 double root = 0.5 * (low + high);
                 double curvature = Math.Sqrt(root * root / Coupling(0.6, 0.3, 1.0));
                 CoaxialPair pair = Pair(n, 0.6, 0.3, curvature, lead);
-                pair.Bending.HubTwist = Math.PI;
-                for (int j = 0; j < n; j++)
-                {
-                    pair.Shape.Twist[j] = Math.PI;
-                }
-                pair.Bending.RelaxTurns(pair.Shape);
-                for (int j = 0; j < n; j++)
-                {
-                    pair.Shape.X[j + 1] = pair.Shape.X[j] + (1.0 / n) * pair.Shape.Q[j].Director3;
-                }
-                var system = new BlockTridiagonal(pair.Coaxial.Rod, pair.Supports);
-                bool isStable = system.Factorise(pair.Terms.All, pair.Shape, new RodVector[system.VectorCount],
-                    new RodVector[system.VectorCount], 0.0) == 0;
+                bool isStable = pair.IsStable(Math.PI);
                 low = isStable ? root : low;
                 high = isStable ? high : root;
             }

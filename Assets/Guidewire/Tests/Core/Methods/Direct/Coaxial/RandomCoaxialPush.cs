@@ -17,7 +17,8 @@ namespace Guidewire.Core.Tests
         private double _extension;
 
         /// <summary>Draws both and takes them to the end.</summary>
-        public RandomCoaxialPush(int seed)
+        /// <param name="isSheathed">Whether both come out of a sheath.</param>
+        public RandomCoaxialPush(int seed, bool isSheathed = false)
         {
             Seed = seed;
             var random = new RandomGeometry(seed);
@@ -27,6 +28,10 @@ namespace Guidewire.Core.Tests
             _catheterRadius = _wireRadius + random.Number(0.1, 0.4);
             _parameters = Draw(random, vessel);
             DrawHubs(new RandomGeometry(seed + OtherSeeds));
+            if (isSheathed)
+            {
+                DrawSheath(new RandomGeometry(seed + 2 * OtherSeeds));
+            }
             Simulation = Simulation.Create(_parameters);
             int steps = 20 + random.Index(20);
             double dt = _parameters.Method.TimeStep;
@@ -154,6 +159,13 @@ namespace Guidewire.Core.Tests
             _parameters.Drive.HubForceLimit = which < 2 ? wireLimit : 0.0;
             catheter.Drive.HubForceLimit = which > 0 && which < 3 ? catheterLimit : 0.0;
             catheter.FrictionCoefficient = random.Index(3) == 0 ? random.Number(0.0, 0.3) : double.NaN;
+        }
+
+        // Its exit is behind the wire's tip, and before or behind the catheter's.
+        private void DrawSheath(RandomGeometry random)
+        {
+            double tip = _parameters.Scene.GuidewireOffset + _parameters.Scene.GuidewireLength;
+            _parameters.Scene.Sheath = new Sheath { Exit = (tip - random.Number(0.5, 80.0)) * Vector3d.UnitZ };
         }
 
         private static WireSection Tip(RandomGeometry random, double length, double curvature)

@@ -21,9 +21,10 @@ namespace Guidewire.Core.Tests
             Assert.That(push.Simulation.Outcome, Is.EqualTo(Outcome.Running), push.Simulation.Reason);
         }
 
-        [Test]
         [Category("Long")]
-        public void NeitherInstrumentIsEverOutside_AndEveryRunHasAnEnd()
+        [TestCase(false)]
+        [TestCase(true)]
+        public void NeitherInstrumentIsEverOutside_AndEveryRunHasAnEnd(bool isSheathed)
         {
             (int first, int runs) = RandomGeometry.Asked("GUIDEWIRE_COAXIAL_PUSHES");
             runs = runs > 0 ? runs : RandomGeometry.Cases(100, 10);
@@ -39,7 +40,7 @@ namespace Guidewire.Core.Tests
                 RandomCoaxialPush push;
                 try
                 {
-                    push = new RandomCoaxialPush(seed);
+                    push = new RandomCoaxialPush(seed, isSheathed);
                 }
                 catch (ArgumentException error)
                 {
