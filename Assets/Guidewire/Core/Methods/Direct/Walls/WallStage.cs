@@ -1,5 +1,3 @@
-using System;
-
 namespace Guidewire.Core
 {
     /// <summary>One implicit stage of a wire between walls: starts where the wire is, moves as far towards the
@@ -8,7 +6,6 @@ namespace Guidewire.Core
     {
         private const int FrictionLagIterations = 1;       // of the normal forces in friction
         private const double FirstTolerances = 1e5;         // of a solution that only gives normal forces: 1 % of them
-        private const int MostParts = 4;    // of a prediction, by halving those that meet a wall
         private const double Far = 1e3;     // of the error of a stage: farther moved, not converged
 
         private readonly RodTerms _terms;
@@ -51,9 +48,24 @@ namespace Guidewire.Core
             spring.Besides = _terms.Sheath == null ? 0.0 : _terms.Sheath.StartForce;
             _terms.Walls()!.Friction?.Lag(shape);
             PlaceEnd(shape, end);
-            if (!Predict(shape, orientations, start - lag, out bool isFar))
+            int parts = _prediction.Begin(shape, start - lag);
+            bool isFar = false;
+            for (int k = 1; k <= parts; k++)
             {
-                return "the wire's surface is at a wall at the start of the step";
+                _predicted.CopyFrom(shape);
+                _prediction.Set((double)k / parts, orientations, shape, _predicted);
+                SetDirection(shape);
+                double fraction = Newton.MaxStepOf(shape, _direction);
+                if (!(fraction > 0.0) && k == 1)
+                {
+                    return "the wire's surface is at a wall at the start of the step";
+                }
+                isFar |= RodStep.Size(_direction, shape.ElementCount, _totalLength, out _) > Far * Newton.Tolerance;
+                RodStep.ApplyStraight(shape, _direction, fraction, shape);
+                if (fraction < 1.0)
+                {
+                    break;
+                }
             }
             FrictionEnergy? friction = _terms.Walls()!.Friction;
             int lags = friction == null ? 0 : FrictionLagIterations;
@@ -64,43 +76,6 @@ namespace Guidewire.Core
                 failure = Newton.Solve(shape, stageLength, loads, isFar: false, k == lags ? 1.0 : FirstTolerances);
             }
             return failure;
-        }
-
-        // Moves towards the prediction as far as walls allow: part by part, because the curve along which a wire slides
-        // is not straight, and a part that meets a wall is halved. False where no part is free.
-        private bool Predict(RodShape shape, Quaterniond[] orientations, in Vector3d start, out bool isFar)
-        {
-            int parts = _prediction.Begin(shape, start);
-            int most = Math.Max(parts, MostParts);
-            int k = 1;
-            bool hasMoved = false;
-            isFar = false;
-            while (k <= parts)
-            {
-                _predicted.CopyFrom(shape);
-                _prediction.Set((double)k / parts, orientations, shape, _predicted);
-                SetDirection(shape);
-                double fraction = Newton.MaxStepOf(shape, _direction);
-                if (fraction < 1.0 && 2 * parts <= most)
-                {
-                    parts *= 2;
-                    k = 2 * k - 1;
-                    continue;
-                }
-                if (!(fraction > 0.0) && !hasMoved)
-                {
-                    return false;
-                }
-                isFar |= RodStep.Size(_direction, shape.ElementCount, _totalLength, out _) > Far * Newton.Tolerance;
-                RodStep.ApplyStraight(shape, _direction, fraction, shape);
-                hasMoved = true;
-                if (fraction < 1.0)
-                {
-                    break;
-                }
-                k++;
-            }
-            return true;
         }
 
         // A held last node is where its support is.
