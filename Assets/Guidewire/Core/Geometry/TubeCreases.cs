@@ -177,8 +177,8 @@ namespace Guidewire.Core
             return Vector3d.Dot(m, u) < 0.0 && m.Length > LeastAngle && at.Distance > -_radii[k];
         }
 
-        // Whether a segment that may cross certainly does so beyond the range, or in the ball of the knot, where there is
-        // no crease: it crosses within the slack of the plane, and a piece's term has a slope of 1 at most.
+        // Whether a segment that may cross certainly does so beyond the range, or in the ball of the knot, where there
+        // is no crease: it crosses within the slack of the plane, and a piece's term has a slope of 1 at most.
         private bool IsFar(int k, in Vector3d a, in Vector3d b, double range)
         {
             double atA = _planes.Past(k, a);

@@ -195,8 +195,8 @@ namespace Guidewire.Core.Tests
 
         // A plate is one plane to every node of the tree: what is at the range above a triangle's middle, thousands of
         // times nearer than the plate is long, is found only if the rounding of boxes and slabs to single precision is
-        // made up for. Plates across an axis are met by their boxes, tilted ones by their slabs; a triangle without area
-        // far from a plate keeps it off the origin, where coordinates would be exact.
+        // made up for. Plates across an axis are met by their boxes, tilted ones by their slabs; a triangle without
+        // area far from a plate keeps it off the origin, where coordinates would be exact.
         [TestCase(false)]
         [TestCase(true)]
         public void Within_FindsWhatIsJustInRange_WhateverIsRoundedAway(bool isTilted)
@@ -234,7 +234,7 @@ namespace Guidewire.Core.Tests
                     Vector3d step = Place(0.01, 0.02, 0.0);
                     found.Clear();
                     tree.Within(new SweptSegment(x, x, x + step, x + step, range), found);
-                    Assert.That(Holds(found, t / 3), Is.True, "moving, plate " + plate + " at " + above);
+                    Assert.That(Holds(found, t / 3), Is.True, "moving, plate " + plate);
                 }
             }
         }
