@@ -55,6 +55,18 @@ namespace Guidewire.Core
             return _skin >= 0.0 ? _clearance - Moved(a, b) : double.NegativeInfinity;
         }
 
+        /// <summary>The same of its first end alone.</summary>
+        public readonly double ClearanceAtA(in Vector3d a)
+        {
+            return Clearance(a, _b);
+        }
+
+        /// <summary>The same of its second end.</summary>
+        public readonly double ClearanceAtB(in Vector3d b)
+        {
+            return Clearance(_a, b);
+        }
+
         /// <summary>Its features, if the result is valid between a and b.</summary>
         public readonly FeatureRange Features(StructList<WallFeature> features, in Vector3d a, in Vector3d b)
         {

@@ -94,7 +94,7 @@ namespace Guidewire.Core
 
         private void Add(int k, in Vector3d a, in Vector3d b, double range, StructList<EdgeContact> edgeContacts)
         {
-            if (!Cross(k, a, b, out Crossing c) || c.Distance > range)
+            if (IsFar(k, a, b, range) || !Cross(k, a, b, out Crossing c) || c.Distance > range)
             {
                 return;
             }
@@ -175,6 +175,22 @@ namespace Guidewire.Core
             // In the ball of the knot there is no crease.
             Vector3d m = at.First - at.Second;
             return Vector3d.Dot(m, u) < 0.0 && m.Length > LeastAngle && at.Distance > -_radii[k];
+        }
+
+        // Whether a segment that may cross certainly does so beyond the range, or in the ball of the knot, where there
+        // is no crease: it crosses within the slack of the plane, and a piece's term has a slope of 1 at most.
+        private bool IsFar(int k, in Vector3d a, in Vector3d b, double range)
+        {
+            double atA = _planes.Past(k, a);
+            double atB = _planes.Past(k, b);
+            if (!(atA < 0.0 && atB > 0.0))
+            {
+                return false;
+            }
+            double slack = Vector3d.Distance(a, b) * _slack[k] / (atB - atA);
+            Vector3d x = Vector3d.Lerp(a, b, atA / (atA - atB));
+            return _pieces[k - 1].Distance(x) > range + slack
+                || (_pieces[k - 1].IsPast(x, slack) && _pieces[k].IsBefore(x, slack));
         }
 
         // Near the crossing: in the plane that halves the bend.

@@ -48,6 +48,19 @@ namespace Guidewire.Core
             return ClosestPoints.SegmentSegment(a, b, From, To, out _, out _) <= near * near;
         }
 
+        /// <summary>Whether the centre that gives the distance is the last knot for all points within a distance of x.
+        /// </summary>
+        public bool IsPast(in Vector3d x, double distance)
+        {
+            return Free(x - From) > _length + (1.0 + Math.Abs(_lean)) * distance;
+        }
+
+        /// <summary>The same of the first knot.</summary>
+        public bool IsBefore(in Vector3d x, double distance)
+        {
+            return Free(x - From) < -(1.0 + Math.Abs(_lean)) * distance;
+        }
+
         /// <summary>max over y in [0, length] of R(y) - |x - c(y)|: how deep x lies in the piece's lumen, negative
         /// outside. Concave, because the lumen is convex, and of slope 1 or less.</summary>
         public double Distance(in Vector3d x)
@@ -62,12 +75,18 @@ namespace Guidewire.Core
         public double Distance(in Vector3d x, out Vector3d centre, out double along)
         {
             Vector3d offset = x - From;
-            double z = Vector3d.Dot(offset, _axis);
-            double free = _slope == 0.0 ? z : z + _lean * (offset - z * _axis).Length;
+            double free = Free(offset);
             along = free / _length;
             double y = Math.Min(Math.Max(free, 0.0), _length);
             centre = y >= _length ? To : From + y * _axis;
             return _radius + _slope * y - Vector3d.Distance(x, centre);
+        }
+
+        // Arc length of the centre if the piece had no ends, for an offset from the first knot.
+        private double Free(in Vector3d offset)
+        {
+            double z = Vector3d.Dot(offset, _axis);
+            return _slope == 0.0 ? z : z + _lean * (offset - z * _axis).Length;
         }
     }
 }

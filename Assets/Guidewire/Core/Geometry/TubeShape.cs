@@ -314,8 +314,19 @@ namespace Guidewire.Core
             double range, int cuts, ref double s, ref double distance, ref int piece)
         {
             double bound = 0.5 * (from.Distance + to.Distance - length * (to.S - from.S));
-            if (from.Piece == to.Piece || bound > range || bound >= distance - _tree.Resolution || cuts == MostCuts
-                || IsHeld(from.Piece, a, b, to.S, distance) || IsHeld(to.Piece, a, b, from.S, distance))
+            if (from.Piece == to.Piece || bound > range || bound >= distance - _tree.Resolution || cuts == MostCuts)
+            {
+                return;
+            }
+            // A piece's term is no less than the line between its values at both ends: so between the ends d is nowhere
+            // below the value at which the two pieces' lines cross.
+            double fromAtEnd = _tree.Pieces[from.Piece].Distance(Vector3d.Lerp(a, b, to.S));
+            double toAtStart = _tree.Pieces[to.Piece].Distance(Vector3d.Lerp(a, b, from.S));
+            double falls = from.Distance - toAtStart;
+            double rises = to.Distance - fromAtEnd;
+            double held = distance - _tree.Resolution;
+            if (fromAtEnd >= held || toAtStart >= held
+                || (from.Distance * rises + fromAtEnd * falls) / (falls + rises) > Math.Min(range, held))
             {
                 return;
             }
@@ -337,12 +348,6 @@ namespace Guidewire.Core
             var cut = new TubePoint(middle, d, deepest);
             Between(a, b, length, from, cut, range, cuts + 1, ref s, ref distance, ref piece);
             Between(a, b, length, cut, to, range, cuts + 1, ref s, ref distance, ref piece);
-        }
-
-        // True where the piece's term at the other end of its part is no less than the least distance so far.
-        private bool IsHeld(int piece, in Vector3d a, in Vector3d b, double s, double distance)
-        {
-            return _tree.Pieces[piece].Distance(Vector3d.Lerp(a, b, s)) >= distance - _tree.Resolution;
         }
 
         /// <summary>The term of piece i at x with the centre that gives it, and where along the piece that centre would

@@ -108,7 +108,7 @@ namespace Guidewire.Core
         /// trial.</summary>
         /// <param name="isNew">Whether the shape is another than the last trial, whose energies are known.</param>
         /// <param name="isHidden">Whether the energy's own rounding hides the decrease: the step is then Newton's, and
-        /// small.</param>
+        /// small, and is taken without the energies of the trial.</param>
         public bool Search(RodShape shape, bool isNew, ref double scale, double size, out bool isHidden)
         {
             double slope = RodVectors.Dot(Gradient, Direction);
@@ -119,9 +119,8 @@ namespace Guidewire.Core
             for (int cut = 0; cut < _mostCuts; cut++)
             {
                 Apply(shape, scale);
-                double value = EnergySum.Value(_terms, Trial, _values, out _);
-                if (value <= start + SufficientDecrease * scale * slope + rounding
-                    || (isHidden && value <= double.MaxValue))
+                if (isHidden || EnergySum.Value(_terms, Trial, _values, out _)
+                    <= start + SufficientDecrease * scale * slope + rounding)
                 {
                     return true;
                 }

@@ -193,6 +193,52 @@ namespace Guidewire.Core.Tests
             Assert.That(few, Is.LessThan(cases * Count / 20));
         }
 
+        // A plate is one plane to every node of the tree: what is at the range above a triangle's middle, thousands of
+        // times nearer than the plate is long, is found only if the rounding of boxes and slabs to single precision is
+        // made up for. Plates across an axis are met by their boxes, tilted ones by their slabs; a triangle without
+        // area far from a plate keeps it off the origin, where coordinates would be exact.
+        [TestCase(false)]
+        [TestCase(true)]
+        public void Within_FindsWhatIsJustInRange_WhateverIsRoundedAway(bool isTilted)
+        {
+            const int Side = 6;
+            const double Rounding = 1e-15;
+            var random = new RandomGeometry(29);
+            var found = new StructList<int>(2 * Side * Side);
+            for (int plate = 0; plate < 20; plate++)
+            {
+                Quaterniond turn = isTilted ? random.Orientation() : Quaterniond.Identity;
+                Vector3d Place(double x, double y, double z) => Quaterniond.Rotate(turn, new Vector3d(x, y, z));
+                double height = random.Number(0.1, 1.0);
+                var corners = new Vector3d[6 * Side * Side + 3];
+                Array.Fill(corners, Place(0.0, 0.0, -random.Number(1.0, 9.0)), 6 * Side * Side, 3);
+                for (int k = 0; k < Side * Side; k++)
+                {
+                    double x = k / Side - 0.7 * Side;
+                    double y = k % Side - 0.3 * Side;
+                    corners[6 * k] = corners[6 * k + 3] = Place(x, y, height);
+                    corners[6 * k + 1] = Place(x + 1.0, y, height);
+                    corners[6 * k + 2] = corners[6 * k + 4] = Place(x + 1.0, y + 1.0, height);
+                    corners[6 * k + 5] = Place(x, y + 1.0, height);
+                }
+                var tree = new Bvh(corners);
+                for (int t = 0; t < 6 * Side * Side; t += 3)
+                {
+                    Vector3d middle = (corners[t] + corners[t + 1] + corners[t + 2]) / 3.0;
+                    double above = random.Number(-1e-3, 1e-3);
+                    Vector3d x = middle + Place(0.0, 0.0, above);
+                    double range = Math.Abs(above) + Rounding * Side;
+                    found.Clear();
+                    tree.Within(x, x, range, found);
+                    Assert.That(Holds(found, t / 3), Is.True, "plate " + plate + " at " + above);
+                    Vector3d step = Place(0.01, 0.02, 0.0);
+                    found.Clear();
+                    tree.Within(new SweptSegment(x, x, x + step, x + step, range), found);
+                    Assert.That(Holds(found, t / 3), Is.True, "moving, plate " + plate);
+                }
+            }
+        }
+
         private static bool Holds(StructList<int> found, int triangle)
         {
             bool holds = false;

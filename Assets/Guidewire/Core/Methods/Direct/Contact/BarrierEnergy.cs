@@ -355,11 +355,11 @@ namespace Guidewire.Core
             int n = _elementRadius.Length;
             for (int j = Math.Max(_inside - 1, 0); j <= n; j++)
             {
-                if (j >= _inside && _near.IsNodeNear(w, j))
+                if (j >= _inside && _near.MayReachNode(w, j, _x))
                 {
                     AddNode(w, j);
                 }
-                if (j < n && _near.IsNear(w, j))
+                if (j < n && _near.MayReach(w, j, _x))
                 {
                     AddElement(w, j);
                 }

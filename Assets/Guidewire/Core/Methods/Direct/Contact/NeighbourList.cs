@@ -108,6 +108,27 @@ namespace Guidewire.Core
                 : (i < n && _element[w * n + i].IsNear) || (i > 0 && _element[w * n + i - 1].IsNear);
         }
 
+        /// <summary>Whether wall w may be within the range of element j.</summary>
+        /// <param name="x">Nodes of the wire.</param>
+        public bool MayReach(int w, int j, Vector3d[] x)
+        {
+            return IsNear(w, j) && ClearanceOf(w, x, j) <= _range[j];
+        }
+
+        /// <summary>The same of node i, by what is known of it or of an element beside it.</summary>
+        public bool MayReachNode(int w, int i, Vector3d[] x)
+        {
+            int n = _range.Length;
+            if (!IsNodeNear(w, i))
+            {
+                return false;
+            }
+            double range = Math.Max(_range[Math.Max(i - 1, 0)], _range[Math.Min(i, n - 1)]);
+            return _caches[w] != null ? _node[w * (n + 1) + i].Clearance(x[i], x[i]) <= range
+                : (i == n || _element[w * n + i].ClearanceAtA(x[i]) <= range)
+                    && (i == 0 || _element[w * n + i - 1].ClearanceAtB(x[i]) <= range);
+        }
+
         /// <summary>Features of wall w about element j, if they are known where its nodes are.</summary>
         public FeatureRange FeaturesOf(int w, int j, in Vector3d a, in Vector3d b)
         {

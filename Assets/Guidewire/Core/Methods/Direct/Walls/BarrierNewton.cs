@@ -19,11 +19,12 @@ namespace Guidewire.Core
         private const double OfSpring = 10.0;            // EA/l: of the support
         private const double LeastShift = 1e-4;          // of EI/L^2
         private const double MostReflected = 1e-2;       // size of a step by pivots of changed sign: radians, or of L
-        private const double Far = 1e4;                  // times what may be unbalanced: not reached in one iteration
+        private const double Far = 1e5;                  // times what may be unbalanced: not reached in one iteration
         private const double FarFromLoose = 10.0;        // the same where many times the tolerance may be left
         private const int MostStiffened = 4;             // iterations of a stage
         private const double FreeParts = 5.0;            // L over what is free of a wire that touches walls
         private const int MostCuts = 30;
+        private const int MostKept = 2;                  // steps with one factorisation
 
         private readonly MaterialRod _rod;
         private readonly EnergyTerm[] _terms;
@@ -84,6 +85,7 @@ namespace Guidewire.Core
             double rounding = _rounding.BeginStage(shape, stageLength);
             double left = double.PositiveInfinity;
             bool hasValues = false;    // of the terms in this shape
+            int kept = MostKept;       // steps with the last factorisation
             for (int k = 0; k < MostIterations; k++)
             {
                 double before = left;
@@ -98,9 +100,14 @@ namespace Guidewire.Core
                     {
                         return null;
                     }
+                    if (KeptStep(shape, left, before, allowed, ref kept))
+                    {
+                        hasValues = false;
+                        continue;
+                    }
                 }
                 EnergySum.Anchor(_terms, shape);
-                FindDirection(shape, k < MostStiffened);
+                bool isPlain = FindDirection(shape, k < MostStiffened);
                 left = isFar ? Unbalanced() : left;
                 bool wasFar = isFar;
                 isFar = left > Math.Max(Far, FarFromLoose * tolerances) * (MostUnbalanced + rounding)
@@ -124,7 +131,8 @@ namespace Guidewire.Core
                     return "no lower energy along the Newton step, " + Text(left) + " N out of balance";
                 }
                 shape.CopyFrom(_newton.Trial);
-                hasValues = true;
+                hasValues = !isHidden;
+                kept = isPlain && scale == 1.0 ? 0 : MostKept;
                 // A full step that no longer lowers the residual force is at the limit of rounding.
                 if (isHidden && scale == 1.0 && left >= 0.5 * before && size <= Tolerance)
                 {
@@ -156,22 +164,48 @@ namespace Guidewire.Core
             Factorisations = snapshot.Serialize(Factorisations);
         }
 
+        // With the last factorisation: where its Newton step has left 'left' of 'before', such a step leaves about
+        // 2 left/before of what there was, the second as much of that as the first did. It is taken where two of them
+        // come below what is allowed; the force left, found in the next iteration, decides.
+        private bool KeptStep(RodShape shape, double left, double before, double allowed, ref int kept)
+        {
+            double rate = kept == 0 ? 2.0 * left / before : left / before;
+            if (kept >= MostKept || !(left * Math.Pow(rate, MostKept - kept) <= allowed))
+            {
+                return false;
+            }
+            _newton.System.Solve(_newton.Direction);
+            double size = _newton.Size(out double relative);
+            if (_newton.MaxStep(shape, size, relative, out _) < 1.0)
+            {
+                kept = MostKept;
+                return false;
+            }
+            Iterations++;
+            kept++;
+            _newton.Apply(shape, 1.0);
+            shape.CopyFrom(_newton.Trial);
+            return true;
+        }
+
         // Scale of small forces, N: by the wire's free length, which is less where it touches walls.
         private double MostUnbalanced =>
             (_barrier.Touches ? FreeParts * FreeParts : 1.0) * Tolerance * _bendForce;
 
-        // Far from balance without the terms of forces that may vanish; nearer only those of walls are left out.
-        private void FindDirection(RodShape shape, bool isStiffened)
+        // Far from balance without the terms of forces that may vanish; nearer only those of walls are left out. Says
+        // whether what is factorised is the second derivative itself, without a negative eigenvalue.
+        private bool FindDirection(RodShape shape, bool isStiffened)
         {
             Factorisations++;
             int negative = _newton.Factorise(shape, 0.0);
+            bool isPlain = negative == 0;
             if (negative > 0 && _hasFriction)
             {
                 _newton.System.ReflectNegativePivots(_newton.Direction);
                 _newton.System.Back(_newton.Direction);
                 if (_newton.Size(out _) < MostReflected)
                 {
-                    return;
+                    return false;
                 }
             }
             if (negative > 0)
@@ -190,6 +224,7 @@ namespace Guidewire.Core
             {
                 _newton.System.Back(_newton.Direction);
             }
+            return isPlain;
         }
 
         private void Stiffen(bool isAll, bool isOn)

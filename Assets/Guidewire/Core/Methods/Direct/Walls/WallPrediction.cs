@@ -22,6 +22,8 @@ namespace Guidewire.Core
         private readonly Vector3d[] _before;     // x
         private readonly Vector3d[] _change;     // x - c'(s + p')
         private readonly Vector3d[] _point;
+        private readonly Vector3d[] _slope;      // of the curve through x' or x by s
+        private readonly double[] _length;       // from node i - 1 to node i in x, m
         private readonly double[] _at;           // s_i, m
         private readonly double _shortest;       // element, m
         private readonly CoaxialBendTwist? _coaxial;
@@ -41,6 +43,8 @@ namespace Guidewire.Core
             _before = new Vector3d[_past.Length];
             _change = new Vector3d[_past.Length];
             _point = new Vector3d[_past.Length];
+            _slope = new Vector3d[_past.Length];
+            _length = new double[_past.Length];
             _at = new double[_past.Length];
             _shortest = double.PositiveInfinity;
             _coaxial = terms.Bending as CoaxialBendTwist;
@@ -64,6 +68,7 @@ namespace Guidewire.Core
             {
                 _before[i] = shape.X[i];
                 _past[i] = 2.0 * shape.X[i] - _inertia.FreePositions[i];
+                _length[i] = i == 0 ? 0.0 : Vector3d.Distance(shape.X[i - 1], shape.X[i]);
             }
             Vector3d along = shape.Q[0].Director3;
             _isHeld = _supports.Proximal != ProximalEnd.Free;
@@ -74,12 +79,14 @@ namespace Guidewire.Core
             double travelBefore = Vector3d.Dot(shape.X[0] - _past[0], along);
             double slideBefore = SlideBefore(shape);
             ShiftInner(-slideBefore);
+            SetSlopes(_past);
             for (int i = 0; i <= n; i++)
             {
                 double s = i > _tip ? _at[i] + slideBefore : _at[i];
                 _change[i] = shape.X[i] - PointOn(_past, s + travelBefore, ref at);
             }
             ShiftInner(slideBefore);
+            SetSlopes(_before);
             return (int)Math.Min(MostParts, Math.Ceiling(Math.Max(1.0,
                 Math.Max(Math.Abs(_travel), Math.Abs(_travel + _slide)) / (OfElement * _shortest))));
         }
@@ -132,8 +139,8 @@ namespace Guidewire.Core
         // By how much the element at an outer tip became longer in the stage before, m: what slid out.
         private double SlideBefore(RodShape shape)
         {
-            return shape.ElementCount == _tip ? 0.0 : Vector3d.Distance(shape.X[_tip], shape.X[_tip + 1])
-                - Vector3d.Distance(_past[_tip], _past[_tip + 1]);
+            return shape.ElementCount == _tip ? 0.0
+                : _length[_tip + 1] - Vector3d.Distance(_past[_tip], _past[_tip + 1]);
         }
 
         // Along the curve, m.
@@ -151,8 +158,7 @@ namespace Guidewire.Core
         {
             for (int i = 1; i <= last; i++)
             {
-                double length = Vector3d.Distance(_before[i - 1], _before[i]);
-                length = i == _tip + 1 ? length + fraction * _slide : length;
+                double length = i == _tip + 1 ? _length[i] + fraction * _slide : _length[i];
                 x[i] = x[i - 1] + length * Vector3d.Normalize(curve[i] - curve[i - 1]);
             }
         }
@@ -173,8 +179,8 @@ namespace Guidewire.Core
             double length = _at[j + 1] - _at[j];
             double u = (s - _at[j]) / length;
             Vector3d chord = x[j + 1] - x[j];
-            Vector3d first = length * SlopeAt(x, j);
-            Vector3d second = length * SlopeAt(x, j + 1);
+            Vector3d first = length * _slope[j];
+            Vector3d second = length * _slope[j + 1];
             if (u < 0.0)
             {
                 return x[j] + u * first;
@@ -187,20 +193,25 @@ namespace Guidewire.Core
             return x[j] + u * chord + (u * (1.0 - u)) * ((1.0 - u) * (first - chord) - u * (second - chord));
         }
 
-        private Vector3d SlopeAt(Vector3d[] x, int i)
+        // Those of the parabolas through three nodes, at the ends through the last three.
+        private void SetSlopes(Vector3d[] x)
         {
             int n = x.Length - 1;
-            if (n == 1)
+            double before = _at[1] - _at[0];
+            Vector3d one = (x[1] - x[0]) / before;
+            _slope[0] = one;
+            _slope[n] = one;
+            for (int i = 1; i < n; i++)
             {
-                return (x[1] - x[0]) / (_at[1] - _at[0]);
+                double after = _at[i + 1] - _at[i];
+                Vector3d two = (x[i + 1] - x[i]) / after;
+                Vector3d bend = (two - one) / (before + after);
+                _slope[i] = one + before * bend;
+                _slope[0] = i == 1 ? one - before * bend : _slope[0];
+                _slope[n] = two + after * bend;
+                before = after;
+                one = two;
             }
-            int middle = Math.Min(Math.Max(i, 1), n - 1);
-            double before = _at[middle] - _at[middle - 1];
-            double after = _at[middle + 1] - _at[middle];
-            Vector3d one = (x[middle] - x[middle - 1]) / before;
-            Vector3d two = (x[middle + 1] - x[middle]) / after;
-            Vector3d bend = (two - one) / (before + after);
-            return one + (2.0 * _at[i] - _at[middle] - _at[middle - 1]) * bend;
         }
 
         // The shortest turn from one direction to another.

@@ -1,0 +1,101 @@
+using System;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>What a tube leaves out because a bound says that it is too far is too far.</summary>
+    [TestFixture]
+    internal sealed class TubeBoundsTests
+    {
+        private const int Knots = 9;
+
+        /// <summary>The same creases with a range as without one, of which those beyond it are dropped.</summary>
+        [TestCase(0.0)]
+        [TestCase(0.3)]
+        public void EdgeContacts_WithinARange_AreThoseOfAllThatAreInIt(double widening)
+        {
+            var random = new RandomGeometry(31);
+            var all = new StructList<EdgeContact>(8);
+            var near = new StructList<EdgeContact>(8);
+            int found = 0;
+            int left = 0;
+            for (int i = 0; i < RandomGeometry.Cases(20_000); i++)
+            {
+                TubeShape tube = Tube(random, widening);
+                Segment(random, tube, out Vector3d a, out Vector3d b);
+                double range = random.Number(0.0, 1.0);
+                all.Clear();
+                near.Clear();
+                tube.FindEdgeContacts(a, b, double.PositiveInfinity, default, all);
+                tube.FindEdgeContacts(a, b, range, default, near);
+                int at = 0;
+                for (int k = 0; k < all.Count; k++)
+                {
+                    if (all[k].Distance > range)
+                    {
+                        left++;
+                        continue;
+                    }
+                    Assert.That(at, Is.LessThan(near.Count), "case " + i);
+                    Assert.That(near[at].Distance, Is.EqualTo(all[k].Distance), "case " + i);
+                    at++;
+                    found++;
+                }
+                Assert.That(near.Count, Is.EqualTo(at), "case " + i);
+            }
+            Assert.That(Math.Min(found, left), Is.GreaterThan(100));
+        }
+
+        /// <summary>No sample along a segment is nearer to the wall than the nearest point, and none is within a range
+        /// that nothing was found in.</summary>
+        [TestCase(0.0)]
+        [TestCase(0.3)]
+        public void Nearest_WithARange_MissesNoPointInIt(double widening)
+        {
+            const double Resolution = 1e-8;    // of distances that count as equal, of a tube of this size with far ends
+            const int Samples = 64;
+            var random = new RandomGeometry(32);
+            int found = 0;
+            int cases = RandomGeometry.Cases(20_000);
+            for (int i = 0; i < cases; i++)
+            {
+                TubeShape tube = Tube(random, widening);
+                Segment(random, tube, out Vector3d a, out Vector3d b);
+                double range = random.Number(0.0, 1.0);
+                int hint = -1;
+                bool isNear = tube.Nearest(a, b, range, ref hint, out SurfaceContact contact);
+                double least = isNear ? contact.Distance : range;
+                for (int k = 0; k <= Samples; k++)
+                {
+                    Vector3d x = Vector3d.Lerp(a, b, (double)k / Samples);
+                    Assert.That(tube.LeastDistance(x, x), Is.GreaterThanOrEqualTo(least - Resolution), "case " + i);
+                }
+                found += isNear ? 1 : 0;
+            }
+            Assert.That(Math.Min(found, cases - found), Is.GreaterThan(100));
+        }
+
+        private static TubeShape Tube(RandomGeometry random, double widening)
+        {
+            var knots = new Vector3d[Knots];
+            var radii = new double[Knots];
+            Vector3d along = random.Direction();
+            for (int k = 0; k < Knots; k++)
+            {
+                radii[k] = 1.0 + random.Number(0.0, widening);
+                along = Vector3d.Normalize(along + random.Number(0.0, 0.4) * random.Direction());
+                knots[k] = k == 0 ? Vector3d.Zero : knots[k - 1] + random.Number(0.7, 1.5) * along;
+            }
+            return new TubeShape(knots, radii, true, true);
+        }
+
+        // Along the tube over one to three knots, within its wall for the most part.
+        private static void Segment(RandomGeometry random, TubeShape tube, out Vector3d a, out Vector3d b)
+        {
+            int from = 1 + random.Index(Knots - 4);
+            int to = from + 1 + random.Index(3);
+            a = tube.Knots[from] + random.Number(0.0, 0.9) * random.Direction();
+            b = tube.Knots[to] + random.Number(0.0, 0.9) * random.Direction();
+        }
+    }
+}
