@@ -33,6 +33,7 @@ _ASIDE = 2.0  # of a branch's radii that a tip is in it, from which on the branc
 _STALLED = (20.0, 80.0)  # mm pushed without progress, from which on an attempt has failed; drawn for each
 _BACK = (4.0, 250.0)  # mm behind the farthest place, where an attempt begins
 _ALIKE = 8.0  # mm of the path within which snapshots are as good a start
+_IN_VAIN = 60  # attempts without progress, after which the search gives up
 _SPIN = 0.15  # rad a mm at most, while the wire is pushed
 _SEED = 28
 
@@ -49,7 +50,7 @@ class Tip:
         return f"{self.angle:g} degrees over {self.length:g} mm"
 
 
-_TIPS = (None, Tip(105.0, 30.0), Tip(70.0, 10.0), Tip(120.0, 10.0))  # in this order; None: the scene's own
+_TIPS = (None, Tip(45.0, 5.0), Tip(105.0, 30.0), Tip(70.0, 10.0), Tip(120.0, 10.0))  # None: the scene's own
 
 
 @dataclass(frozen=True)
@@ -161,7 +162,7 @@ def steer(scene: Path, most_attempts: int = 200, tell: Callable[[str], None] = l
     Parameters
     ----------
     scene : ``scene.json`` of ``guidewire.py anatomy``.
-    most_attempts : after which the search gives up.
+    most_attempts : after which the search gives up, as it does after 60 in a row that come no farther.
     tell : hears one line for each attempt.
     tip : in place of the scene's own.
 
@@ -180,6 +181,7 @@ def steer(scene: Path, most_attempts: int = 200, tell: Callable[[str], None] = l
         start = _Start(session.save(), 0.0, 0.0, 0.0, (0.0, 0.0, 0.0), None)
         starts, at, attempts = [start], start, 0
         stalled, spin = _STALLED[0], 0.0
+        reached, in_vain = 0.0, 0
         while True:
             along, is_wrong = None, False
             if session.state.outcome is None:  # a turn may have ended the run
@@ -198,9 +200,11 @@ def steer(scene: Path, most_attempts: int = 200, tell: Callable[[str], None] = l
                 starts.append(at)
                 continue
             attempts += 1
+            in_vain = in_vain + 1 if farthest <= reached else 0
+            reached = farthest
             why = "wrong branch" if is_wrong else ended or "no farther"
             tell(f"attempt {attempts}: {why} after {row[1]:.0f} mm, {farthest:.0f} of {route.length:.0f} mm")
-            if attempts >= most_attempts:
+            if attempts >= most_attempts or in_vain >= _IN_VAIN:
                 return Steered(False, attempts, farthest, route.length, at.rows(), tip)
             back = np.exp(random.uniform(*np.log(_BACK)))
             place = np.array([one.along for one in starts])

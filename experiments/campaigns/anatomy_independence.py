@@ -37,13 +37,8 @@ def draw(folder: Path, seed: int) -> dict[str, Any]:
     stiffness = float(np.exp(random.uniform(np.log(20e9), np.log(80e9))))
     bend, angle = random.uniform(0.0, 30.0), random.uniform(0.0, 2.0 * np.pi)
     *behind, last = scene["wireSections"]
-    found = json.loads((folder / "anatomy.json").read_text())
-    inlet, = (end for end in found["ends"] if end["number"] == scene["inlet"])
-    # Where nothing is said the tip starts one element out of the sheath: with more elements it would start elsewhere.
-    start = 1e3 * found["metresPerUnit"] * inlet["radius"] + (last["to"] - last["from"]) / last["numberRodElements"]
     steps = int(min(DISTANCE, 0.9 * scene["guidewireLength"]) / (1e3 * scene["insertionSpeed"] * scene["timeStep"]))
     return scene | {
-        "guidewireOffset": start - scene["guidewireLength"],
         "wireRadius": 0.5e-3 * float(random.choice(DIAMETERS)), "youngsModulus": stiffness,
         "shearModulus": 0.38 * stiffness, "maxSimulationSteps": min(scene["maxSimulationSteps"], steps),
         "wireSections": [*behind, last | {"restCurvature": [bend * np.cos(angle), bend * np.sin(angle), 0.0]}],

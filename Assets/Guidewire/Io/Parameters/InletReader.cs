@@ -71,9 +71,10 @@ namespace Guidewire.Io
             }
             double exit = scene.Sheath?.Exit is Vector3d point
                 ? Vector3d.Dot(point - inlet.Centre, inlet.Direction) : depth;
-            // In a sheath the tip begins one element out of it, without one the whole wire inside of the inlet.
+            // In a sheath the tip begins a radius out of it, so that it does not depend on the elements; a solver needs
+            // one of them. Without a sheath the whole wire begins inside of the inlet.
             scene.GuidewireOffset = scene.Sheath == null ? depth
-                : exit + ElementLayout.LastLength(values.Simulation) - scene.GuidewireLength;
+                : exit + Math.Max(depth, ElementLayout.LastLength(values.Simulation)) - scene.GuidewireLength;
         }
 
         private static VesselEnd? End(JToken value, Anatomy anatomy, out double distance)

@@ -163,8 +163,9 @@ namespace Guidewire.Io
             new EndEntry("inlet",
                 "end of the vessel at which the wire starts, straight along the centreline there, whatever z is;"
                 + " guidewireOffset is then measured from that end, positive into the vessel; its default puts the tip"
-                + " one element out of the sheath, which ends one radius inside; the drive moves along the same"
-                + " direction; a point is that of the nearest end; needs vessel.anatomy")
+                + " two radii of the end inside, at least one element out of the sheath, which ends one radius inside;"
+                + " the drive moves along the same direction; a point is that of the nearest end; needs"
+                + " vessel.anatomy")
             {
                 Methods = Takers.Walls,
                 IsRefusedElsewhere = true,

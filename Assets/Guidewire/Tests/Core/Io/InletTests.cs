@@ -33,18 +33,24 @@ namespace Guidewire.Core.Tests
             Directory.Delete(_folder, true);
         }
 
-        [TestCase(1, TestName = "Wire_StartsOnTheInletsAxis_OneElementOutOfItsSheath(first end)")]
-        [TestCase(2, TestName = "Wire_StartsOnTheInletsAxis_OneElementOutOfItsSheath(second end)")]
-        public void Wire_StartsOnTheInletsAxis_OneElementOutOfItsSheath(int end)
+        [TestCase(1, 40, 2.0, TestName = "Wire_StartsOnTheInletsAxis_ARadiusOutOfItsSheath(first end)")]
+        [TestCase(2, 40, 2.0, TestName = "Wire_StartsOnTheInletsAxis_ARadiusOutOfItsSheath(second end)")]
+        [TestCase(1, 160, 2.0, TestName = "Wire_StartsOnTheInletsAxis_ARadiusOutOfItsSheath(short elements)")]
+        [TestCase(1, 16, 5.0, TestName = "Wire_StartsOnTheInletsAxis_OneElementOutOfItsSheath(long elements)")]
+        public void Wire_StartsOnTheInletsAxis_ARadiusOutOfItsSheath(int end, int elements, double outside)
         {
-            ParameterHandler handler = Load(Scene(Slant, end, null));
+            string file = Scene(Slant, end, null);
+            JObject parameters = JObject.Parse(File.ReadAllText(file));
+            parameters["numberRodElements"] = elements;
+            File.WriteAllText(file, parameters.ToString());
+            ParameterHandler handler = Load(file);
             SceneParameters scene = handler.Values.Simulation.Scene;
             Vector3d into = end == 1 ? Slant : -Slant;
             Vector3d rim = end == 1 ? Vector3d.Zero : Length * Slant;
             Vector3d[] wire = Simulation.Create(handler.Values.Simulation).State.Positions;
             Assert.That(Vector3d.Distance(scene.Sheath!.Exit!.Value, rim + Radius * into), Is.LessThan(1e-9));
-            Assert.That(Vector3d.Distance(wire[wire.Length - 1], rim + (Radius + 2.0) * into), Is.LessThan(1e-9));
-            Assert.That(Vector3d.Distance(wire[0], rim + (Radius + 2.0 - 80.0) * into), Is.LessThan(1e-9));
+            Assert.That(Vector3d.Distance(wire[wire.Length - 1], rim + (Radius + outside) * into), Is.LessThan(1e-9));
+            Assert.That(Vector3d.Distance(wire[0], rim + (Radius + outside - 80.0) * into), Is.LessThan(1e-9));
             Assert.That(Vector3d.Distance(handler.Values.Simulation.Drive.DisplacementDirection, into),
                 Is.LessThan(1e-12));
         }
