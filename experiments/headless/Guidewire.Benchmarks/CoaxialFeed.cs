@@ -1,8 +1,3 @@
-using System;
-using System.Diagnostics;
-using System.Globalization;
-using Guidewire.Core;
-
 namespace Guidewire.Benchmarks
 {
     /// <summary>A nitinol wire of 300 mm and 0.36 mm in 60 elements, fed into <see cref="ArchWalls"/>: in a catheter
@@ -11,41 +6,23 @@ namespace Guidewire.Benchmarks
     {
         private const double Length = 300.0;      // mm
         private const int Elements = 60;
-        private const double Way = 100.0;         // mm
-        private const double Speed = 0.02;        // m/s
-        private const double TimeStep = 0.02;     // s
+        private const double Insertion = 100.0;   // mm
         private const int Rounds = 7;
 
-        private static readonly int Steps = (int)Math.Round(1e-3 * Way / (Speed * TimeStep));
+        private static readonly int Steps = (int)Math.Round(1e-3 * Insertion / (FedWire.Speed * FedWire.TimeStep));
 
         private readonly Simulation _run;
 
         private CoaxialFeed(bool hasCatheter)
         {
-            var drive = new DriveParameters { Kind = Drive.Displace, Displacement = 0.0, InsertionSpeed = Speed };
-            var parameters = new SimulationParameters
-            {
-                Scene =
-                {
-                    NumberRodElements = Elements,
-                    GuidewireLength = Length,
-                    GuidewireOffset = -Length,
-                    ProximalEnd = ProximalEnd.Clamped,
-                    Walls = new ContactShape[] { ArchWalls.Tube() },
-                },
-                Material = { WireRadius = 0.18e-3, YoungsModulus = 60e9, ShearModulus = 23e9, MassDamping = 20.0 },
-                Method =
-                {
-                    Solver = Solver.Direct,
-                    Integrator = Integrator.ImplicitEuler,
-                    TimeStep = TimeStep,
-                    DeltaThreshold = 0.0,
-                    MaxSimulationSteps = Steps,
-                },
-                Drive = { Kind = Drive.Displace, Displacement = 0.0, InsertionSpeed = Speed },
-            };
+            SimulationParameters parameters = FedWire.Parameters(Length, Elements, ArchWalls.Tube(), Steps);
+            parameters.Drive.InsertionSpeed = FedWire.Speed;
             if (hasCatheter)
             {
+                var drive = new DriveParameters
+                {
+                    Kind = Drive.Displace, Displacement = 0.0, InsertionSpeed = FedWire.Speed,
+                };
                 var catheter = new Catheter { Length = 0.5 * Length, Elements = Elements / 2, Drive = drive };
                 catheter.Material.WireRadius = 0.4e-3;
                 catheter.Material.InnerRadius = 0.25e-3;
@@ -75,10 +52,10 @@ namespace Guidewire.Benchmarks
                 {
                     // Every round makes the same steps: the shortest counts, which nothing else has interrupted.
                     long before = GC.GetAllocatedBytesForCurrentThread();
-                    one[k] = Math.Min(one[k], both.Step());
+                    one[k] = Math.Min(one[k], FedWire.Step(both._run, false));
                     garbage = round > 0 && k > 0
                         ? Math.Max(garbage, GC.GetAllocatedBytesForCurrentThread() - before) : garbage;
-                    other[k] = Math.Min(other[k], alone.Step());
+                    other[k] = Math.Min(other[k], FedWire.Step(alone._run, false));
                 }
                 iterations = both._run.Report()!.WallIterations / Steps;
                 iterationsAlone = alone._run.Report()!.WallIterations / Steps;
@@ -101,18 +78,6 @@ namespace Guidewire.Benchmarks
                 sum += time;
             }
             return sum;
-        }
-
-        private double Step()
-        {
-            long start = Stopwatch.GetTimestamp();
-            _run.Step();
-            double time = 1e6 * (Stopwatch.GetTimestamp() - start) / Stopwatch.Frequency;
-            if (_run.Outcome == Outcome.Failed)
-            {
-                throw new InvalidOperationException(_run.Reason);
-            }
-            return time;
         }
     }
 }
