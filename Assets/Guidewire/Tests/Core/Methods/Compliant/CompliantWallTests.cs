@@ -218,17 +218,7 @@ namespace Guidewire.Core.Tests
             SimulationParameters scene = Arch(10, 60.0, WallScenes.ArchTube(40));
             scene.Scene.Walls[0].FrictionCoefficient = 0.1;
             Simulation run = Simulation.Create(WallScenes.Compliant(scene, Young));
-            for (int k = 0; k < 40; k++)
-            {
-                run.Step();
-            }
-            long left = Garbage.LeftBy(() =>
-            {
-                for (int k = 0; k < 10; k++)
-                {
-                    run.Step();
-                }
-            });
+            long left = Garbage.LeftBySteps(run, 40, 10);
             Assert.That(run.Contacts!.Total.Length, Is.GreaterThan(0.0));
             Assert.That(left, Is.EqualTo(0));
         }

@@ -119,17 +119,7 @@ namespace Guidewire.Core.Tests
             parameters.Drive.InsertionSpeed = 1e-5;
             parameters.Drive.RotationSpeed = 1.0;
             Simulation run = Simulation.Create(parameters);
-            for (int k = 0; k < 20; k++)
-            {
-                run.Step();
-            }
-            Assert.That(Garbage.LeftBy(() =>
-            {
-                for (int k = 0; k < 20; k++)
-                {
-                    run.Step();
-                }
-            }), Is.Zero);
+            Assert.That(Garbage.LeftBySteps(run, 20, 20), Is.Zero);
         }
 
         // A wire is bent by a load beyond a straight guide: a sheath, or a catheter 9,000 times stiffer. It is driven

@@ -257,17 +257,7 @@ namespace Guidewire.Core.Tests
             SimulationParameters parameters = WallScenes.Arch(60, 0.01, 50.0, 150.0);
             parameters.Scene.Walls[0].FrictionCoefficient = 0.1;
             Simulation run = Simulation.Create(parameters);
-            for (int k = 0; k < 200; k++)
-            {
-                run.Step();
-            }
-            long left = Garbage.LeftBy(() =>
-            {
-                for (int k = 0; k < 20; k++)
-                {
-                    run.Step();
-                }
-            });
+            long left = Garbage.LeftBySteps(run, 200, 20);
             Assert.That(run.Contacts!.Total.Length, Is.GreaterThan(0.0));
             Assert.That(left, Is.EqualTo(0));
         }
