@@ -85,11 +85,8 @@ def _joint() -> Plan:
         fine = np.linspace(0.0, math.pi, 200)
         panel.plot(fine, fine, color="0.6", linewidth=2.5, label="θ")
         panel.plot(fine, np.sin(fine), "--", color="0.6", linewidth=2.5, label="sin θ")
-        for marker, (name, couples) in zip(pictures.MARKERS, series.items()):
-            panel.plot(_ANGLES, couples, marker, fillstyle="none", label=name)
-        panel.set_xlabel("angle θ of the joint (rad)")
-        panel.set_ylabel("couple (K)")
-        pictures.outside_legend(panel)
+        pictures.marks(panel, {name: (_ANGLES, couples) for name, couples in series.items()},
+                       "angle θ of the joint (rad)", "couple (K)")
 
     caption = (
         "A wire of one element behind one joint, turned by θ: the clamp's couple as the run's summary states it, for "
@@ -153,24 +150,20 @@ def _gradients() -> Plan:
         results.append(Result(f"{what} as gradient of the energy", "direct", float(np.linalg.norm(stated)), size,
                               float(np.linalg.norm(stated - derivative)) / size, EXACT, unit,
                               wall_time(runs[middle[at].key])))
-        components[what.replace(": ", ",\n")] = (stated / size, derivative / size)
+        components[what.replace(": ", ",\n")] = (derivative / size, stated / size)
     results += [not_run("gradient of the energy", solver, _NO_COUPLE) for solver in ("explicit", "xpbd")]
 
     def draw(figure) -> None:
         panel = figure.add_subplot()
         panel.plot([-1.0, 1.0], [-1.0, 1.0], color="0.6", linewidth=2.5, label="equal")
-        for marker, (name, (stated, derivative)) in zip(pictures.MARKERS, components.items()):
-            panel.plot(derivative, stated, marker, fillstyle="none", label=name)
-        panel.set_xlabel("component of the energy's gradient (of its size)")
-        panel.set_ylabel("component that the run states")
-        pictures.outside_legend(panel)
+        pictures.marks(panel, components, "component of the energy's gradient (of its size)",
+                       "component that the run states")
 
     caption = (
         "Forces and couples that runs state, by components, against central differences of the energy that other runs "
         "state, whose start is shifted or turned a little. Three elements, bent, twisted, stretched and sheared "
-        "between two clamps; and one joint, bent and twisted by "
-        f"{number(float(np.linalg.norm(_TURN)), 3)} rad at once. Largest difference "
-        f"{number(max(r.error for r in results if not r.reason), 1)}."
+        f"between two clamps; and one joint, bent and twisted by {number(float(np.linalg.norm(_TURN)), 3)} rad at "
+        f"once. Largest difference {number(max(r.error for r in results if not r.reason), 1)}."
     )
     return Finding(tuple(results), draw, caption)
 
@@ -260,11 +253,8 @@ def _joint_law() -> Plan:
         fine = np.linspace(0.0, 0.8, 100)
         axes.plot(fine, fine, color="0.6", linewidth=2.5, label="couple = K angle")
         axes.plot(np.arcsin(fine), fine, "--", color="0.6", linewidth=2.5, label="couple = K sin(angle)")
-        for marker, (law, angles) in zip(pictures.MARKERS, series.items()):
-            axes.plot(angles, couples, marker, fillstyle="none", label=law)
-        axes.set_xlabel("angle of the joint (rad)")
-        axes.set_ylabel("couple (K)")
-        pictures.outside_legend(axes)
+        pictures.marks(axes, {law: (angles, couples) for law, angles in series.items()},
+                       "angle of the joint (rad)", "couple (K)")
 
     caption = "One joint in the middle of a wire under a couple: its angle by both laws, K = EI/l."
     return Finding(tuple(results), draw, caption)

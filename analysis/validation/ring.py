@@ -58,9 +58,8 @@ def _ring(pushing: Sequence[str] = tuple(MOVING)) -> Plan:
     caption = (
         "A wire that is straight at rest, closed to a ring and twisted: its distance from its plane (root mean "
         "square), or the fraction of its twist that it lost by passing through itself. Both ends are clamped to one "
-        "frame by "
-        "a half-element joint each, so every element is free to move with respect to it. The direct solver's rest "
-        "shapes stay plane up to " + ", ".join(f"{number(r.value, 4)}" for r in results[:3])
+        "frame by a half-element joint each, so every element is free to move with respect to it. The direct solver's "
+        "rest shapes stay plane up to " + ", ".join(f"{number(r.value, 4)}" for r in results[:3])
         + " rad (dashed); Michell and Zajac: " + ", ".join(f"{number(r.reference, 4)}" for r in results[:3])
         + f" rad. explicit and xpbd are displaced by {PUSH:g} L, twisted, and move, damped, for "
         f"{1e3 * _DURATION:g} ms."

@@ -277,10 +277,9 @@ def _couple(tension: float, pushing: Sequence[str] = tuple(MOVING)) -> Plan:
     caption = (
         f"A straight rod between clamps, one rotated, under the tension T L²/EI = {tension:g}: its distance from the "
         f"axis. The direct solver's rest shapes stay straight up to M L/EI = {number(found.load, 5)} (dashed; "
-        f"Greenhill: {number(exact, 5)}); below it the distance is rounding. "
-        f"explicit and xpbd, whose clamps cannot slide, are displaced by {PUSH:g} L, rotated, and move, damped: the "
-        "disturbance decays or grows. With clamps held apart the rod leaves its axis at the same couple, since it "
-        "shortens by the square of the distance only."
+        f"Greenhill: {number(exact, 5)}); below it the distance is rounding. explicit and xpbd, whose clamps cannot "
+        f"slide, are displaced by {PUSH:g} L, rotated, and move, damped: the disturbance decays or grows. With clamps "
+        "held apart the rod leaves its axis at the same couple, since it shortens by the square of the distance only."
     )
     draw = branches("couple of the straight rod M L/EI (1)", "distance from the axis (L), or fraction of turns lost",
                     drawn)

@@ -6,11 +6,12 @@ Energies and momenta are summed up here from logged places, velocities and orien
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from analysis.figures.wording import number, percent
 from analysis.runs import Run
@@ -100,6 +101,22 @@ def _pendulum_share(wire: Wire, run: Run) -> float:
     return change / (0.5 * wire.line_density * wire.length**2 * _GRAVITY)
 
 
+def _errors(names: Sequence[str], errors: Mapping[tuple[str, str], float]) -> Callable[[Figure], None]:
+    """A row for each name with the errors of all schemes, by (name, scheme)."""
+
+    def draw(figure: Figure) -> None:
+        axes = figure.add_subplot()
+        for k, scheme in enumerate(_STAGES):
+            axes.plot([max(errors[name, scheme], 1e-16) for name in names], range(len(names)),
+                      pictures.MARKERS[k % 8], color=f"C{k}", fillstyle="none", label=scheme)
+        axes.set_yticks(range(len(names)), names, fontsize=6)
+        axes.set_xscale("log")
+        axes.set_xlabel("error (1)")
+        pictures.outside_legend(axes)
+
+    return draw
+
+
 def _large_turns() -> Plan:
     wires = {"": BASE, ", r = 0.1 mm": _THIN}
     pendulums = {(scheme, name): Case(f"pendulum-{scheme}{'-thin' if name else ''}",
@@ -129,23 +146,13 @@ def _large_turns() -> Plan:
         results.append(Result("free wire spun at 40 rad/s, 1 s at 0.5 ms: momentum over m w L/2", f"direct, {scheme}",
                               pushed, 0.0, pushed, _MOMENTUM_GATE))
 
-    def draw(figure) -> None:
-        axes = figure.add_subplot()
-        names = list(dict.fromkeys(r.what for r in results))
-        for k, scheme in enumerate(_STAGES):
-            mine = [(names.index(r.what), max(r.error, 1e-16)) for r in results if r.solver == f"direct, {scheme}"]
-            axes.plot([e for _, e in mine], [p for p, _ in mine], pictures.MARKERS[k % 8], color=f"C{k}",
-                      fillstyle="none", label=scheme)
-        axes.set_yticks(range(len(names)), names, fontsize=6)
-        axes.set_xscale("log")
-        axes.set_xlabel("error (1)")
-        pictures.outside_legend(axes)
-
     caption = (
         "Wires that turn far, so that their stiff stretch is driven all the time. " + "; ".join(
             f"{r.what}, {r.solver[8:]}: {percent(r.value)}" for r in results if "momentum over" not in r.what) + "."
     )
-    return Finding(tuple(results), draw, caption, width=11.0)
+    names = list(dict.fromkeys(r.what for r in results))
+    errors = {(r.what, r.solver[8:]): r.error for r in results}
+    return Finding(tuple(results), _errors(names, errors), caption, width=11.0)
 
 
 def _with_start(scene: tuple[dict[str, Any], dict[str, Any]]) -> tuple[dict[str, Any], int, dict[str, Any]]:
@@ -313,23 +320,13 @@ def _schemes() -> Plan:
     by = {key: r.error for key, r in zip(cases, results)}
     means = {scheme: float(np.exp(np.mean([math.log(by[name, scheme]) for name in names]))) for scheme in _STAGES}
 
-    def draw(figure) -> None:
-        axes = figure.add_subplot()
-        for k, scheme in enumerate(_STAGES):
-            axes.plot([by[name, scheme] for name in names], range(len(names)), pictures.MARKERS[k % 8], color=f"C{k}",
-                      fillstyle="none", label=scheme)
-        axes.set_yticks(range(len(names)), names, fontsize=6)
-        axes.set_xscale("log")
-        axes.set_xlabel("error (1)")
-        pictures.outside_legend(axes)
-
     caption = (
         f"The schemes on {len(names)} motions, with the same number of solved stages, which is what a motion costs: a "
         "scheme of k stages takes steps k times as long. Errors: " + "; ".join(
             f"{name}: " + ", ".join(f"{scheme} {percent(by[name, scheme])}" for scheme in _STAGES) for name in names)
         + ". Geometric means: " + ", ".join(f"{scheme} {percent(mean)}" for scheme, mean in means.items()) + "."
     )
-    return Finding(tuple(results), draw, caption, width=11.0)
+    return Finding(tuple(results), _errors(names, by), caption, width=11.0)
 
 
 def _step_text(run: Run) -> str:
