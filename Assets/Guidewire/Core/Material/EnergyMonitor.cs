@@ -106,14 +106,6 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Writes or takes over all that <see cref="Blowup"/> may touch, for a <see cref="StepStart"/>.
-        /// </summary>
-        public void SerializeStep(Snapshot snapshot)
-        {
-            SerializeSums(snapshot);
-            _before.Serialize(snapshot);
-        }
-
         private void SerializeSums(Snapshot snapshot)
         {
             snapshot.Serialize(ref _start);

@@ -161,19 +161,6 @@ namespace Guidewire.Core
             snapshot.Serialize(ref _carried);
         }
 
-        /// <summary>Writes or takes over all that a step may touch, for a <see cref="StepStart"/>.</summary>
-        public void SerializeStep(Snapshot snapshot)
-        {
-            SerializeTurns(snapshot);
-            SerializeWork(snapshot);
-            snapshot.Serialize(ref _firstPosition);
-            snapshot.Serialize(ref _lastPosition);
-            snapshot.Serialize(ref _firstFrame);
-            snapshot.Serialize(ref _lastFrame);
-            snapshot.Serialize(ref _lead);
-            snapshot.Serialize(ref _hubTwist);
-        }
-
         private void CountInner(RodShape shape, out double move, out double turn)
         {
             move = 0.0;

@@ -173,14 +173,6 @@ namespace Guidewire.Core
             snapshot.Serialize(ref _sense);
         }
 
-        /// <summary>Writes or takes over all that a step may touch, what it prescribes among it, for a
-        /// <see cref="StepStart"/>.</summary>
-        public void SerializeStep(Snapshot snapshot)
-        {
-            SerializeOwn(snapshot);
-            Hub.SerializeStep(snapshot);
-        }
-
         private void SerializeOwn(Snapshot snapshot)
         {
             Serialize(snapshot);

@@ -77,6 +77,9 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         protected override double KineticEnergy => Terms.Mass.KineticEnergy(Velocities, Spins);
 
+        /// <summary>The motion of the rod.</summary>
+        public RodDynamics Dynamics => _dynamics;
+
         /// <inheritdoc/>
         public override ContactRecord? Contacts { get; }
 
@@ -321,22 +324,6 @@ namespace Guidewire.Core
             {
                 Energy.Start();
             }
-        }
-
-        /// <summary>Writes or takes over all that <see cref="Step"/> may touch, for a <see cref="StepStart"/>.
-        /// </summary>
-        public void SerializeStep(Snapshot snapshot)
-        {
-            Drive.SerializeStep(snapshot);
-            _dynamics.SerializeStep(snapshot);
-            Ends.SerializeStep(snapshot);
-            Energy.SerializeStep(snapshot);
-            Rest.Serialize(snapshot);
-            _extremes.Serialize(snapshot);
-            _spinLoss?.Serialize(snapshot);
-            _monitor?.Serialize(snapshot);
-            snapshot.Serialize(ref _hubWork);
-            Contacts?.Serialize(snapshot);
         }
 
         /// <summary>Writes or takes over what was counted, whatever the number of elements.</summary>

@@ -2,8 +2,7 @@ using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
 {
-    /// <summary>The motion of a hub belongs to its drive: it is saved and restored with it, and moves nothing
-    /// else.</summary>
+    /// <summary>The motion of a hub belongs to its drive: it moves nothing else.</summary>
     public sealed class HubMotionTests
     {
         private const double Step = 0.01;
@@ -33,22 +32,6 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        public void DriveThatIsRestored_TakesItsHubBackToTheSameBits()
-        {
-            Scene scene = SteeredBy(new Steering { Push = 1.37, Turn = 0.3 }, out MaterialDrive drive);
-            var start = new StepStart(drive.SerializeStep);
-            drive.Prepare(scene.Shape, 0.0);
-            start.Save();
-            drive.Prepare(scene.Shape, Step);
-            (Vector3d, double, double) once = EndOf(scene, drive);
-            drive.SlipHub(4.1e-5);
-            start.Restore();
-            drive.Prepare(scene.Shape, Step);
-            Assert.That(EndOf(scene, drive), Is.EqualTo(once));
-            Assert.That(once.Item2, Is.EqualTo(0.6).Within(Rounding));
-        }
-
-        [Test]
         public void HubOfAWindow_IsWhereItsNodeIs_AndHoldsItsFrame()
         {
             var hub = new HubMotion(Vector3d.Zero, Quaterniond.Identity, 3.0);
@@ -60,12 +43,6 @@ namespace Guidewire.Core.Tests
             Assert.That(window.FrameTurnAt(2.0), Is.EqualTo(0.7));
             Assert.That(window.FrameTwistRate, Is.Zero);
             Assert.That(window.AheadAt(2.0), Is.EqualTo(6.0 - 0.7).Within(Rounding));
-        }
-
-        private static (Vector3d Position, double Turn, double Insertion) EndOf(Scene scene, MaterialDrive drive)
-        {
-            HubMotion hub = scene.Schedule.Hub;
-            return (hub.PositionAt(2.0 * Step), hub.TurnAt(2.0 * Step), drive.Insertion);
         }
 
         private static Scene SteeredBy(Steering user, out MaterialDrive drive)

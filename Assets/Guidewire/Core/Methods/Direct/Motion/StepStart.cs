@@ -8,26 +8,26 @@ namespace Guidewire.Core
     internal sealed class StepStart
     {
         private readonly Snapshot _kept = new Snapshot();
-        private readonly Action<Snapshot> _exchange;
+        private readonly Action<Snapshot> _serialize;
 
-        /// <summary>For a step that touches what is exchanged here.</summary>
-        public StepStart(Action<Snapshot> exchange)
+        /// <summary>For a step that touches what is serialized here.</summary>
+        public StepStart(Action<Snapshot> serialize)
         {
-            _exchange = exchange;
+            _serialize = serialize;
         }
 
         /// <summary>A step begins.</summary>
         public void Save()
         {
             _kept.WriteAnew();
-            _exchange(_kept);
+            _serialize(_kept);
         }
 
         /// <summary>Goes back to where it began.</summary>
         public void Restore()
         {
             _kept.ReadAnew();
-            _exchange(_kept);
+            _serialize(_kept);
         }
     }
 }

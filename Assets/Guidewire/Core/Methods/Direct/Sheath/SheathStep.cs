@@ -62,9 +62,6 @@ namespace Guidewire.Core
         /// <summary>The motion of what is simulated.</summary>
         public RodDynamics Dynamics => _dynamics;
 
-        /// <summary>Steps what is simulated.</summary>
-        public DirectStep Inner => _inner;
-
         /// <inheritdoc/>
         public override string? AccuracyWarning => _inner.AccuracyWarning;
 

@@ -116,24 +116,26 @@ namespace Guidewire.Core.Tests
             }), Is.Zero);
         }
 
-        // Of two runs one takes steps at random, one or two of them, and then again from where they began.
+        // Of two runs one moves its rod at random by one or two steps more, and back to where it was.
         private static void AssertSameBits(SimulationParameters parameters, int steps, int seed)
         {
             var random = new System.Random(seed);
             MethodStart a = Start(parameters);
             MethodStart b = Start(parameters);
             int again = 0;
+            int solved = 0;
             for (int k = 0; k < steps; k++)
             {
                 a.Stepper.Advance(a.State);
                 if (random.Next(2) == 0)
                 {
-                    DirectStep step = b.Stepper is SheathStep sheath ? sheath.Inner : (DirectStep)b.Stepper;
-                    var start = new StepStart(step.SerializeStep);
+                    RodDynamics motion = b.Stepper is SheathStep sheath ? sheath.Dynamics
+                        : ((DirectStep)b.Stepper).Dynamics;
+                    var start = new StepStart(motion.SerializeStep);
                     start.Save();
                     for (int tries = random.Next(1, 3); tries > 0; tries--)
                     {
-                        step.Step();
+                        solved += motion.Step(parameters.Method.TimeStep) == null ? 1 : 0;
                     }
                     start.Restore();
                     again++;
@@ -149,6 +151,7 @@ namespace Guidewire.Core.Tests
                 Assert.That(b.Stepper.Hub()!.Turn, Is.EqualTo(a.Stepper.Hub()!.Turn));
             }
             Assert.That(again, Is.GreaterThan(steps / 4));
+            Assert.That(solved, Is.GreaterThan(again / 2), "steps that had a solution, and were undone");
             Assert.That(b.Stepper.Contacts?.Passages, Is.EqualTo(a.Stepper.Contacts?.Passages));
             Assert.That(b.Stepper.Contacts?.DriveAsked, Is.EqualTo(a.Stepper.Contacts?.DriveAsked));
             Assert.That(b.Stepper.Contacts?.DriveShortfall, Is.EqualTo(a.Stepper.Contacts?.DriveShortfall));
