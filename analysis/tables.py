@@ -121,7 +121,7 @@ def read_table(folder: Path, key: str) -> StudyTable:
         The study, or a file of one of its runs, cannot be read, it varies more than ``key``, or nothing of it was run.
     """
     study = read_study(folder)
-    study.require_runs()
+    study.required()
     rows = [_measure(run, study.timed(run.key), run.number(key)) for run in study.along(key)]
     return StudyTable(study.name, key, tuple(sorted(rows, key=lambda row: row.value)), study.missing)
 

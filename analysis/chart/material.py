@@ -249,7 +249,8 @@ def _linear(n: int) -> np.ndarray:
 
 
 def pbd_twist_error(n: int) -> float:
-    """The same for sweeps with gains at rest: inner joints share the turn, the first and the last take half a share."""
+    """The same for sweeps with gains at rest: inner joints share the turn, the first and the last have
+    half of it."""
     found = (np.arange(n) - 0.5) / (n - 2)
     return float(np.max(np.abs(found - _linear(n))[2:-2]))
 

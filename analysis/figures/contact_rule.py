@@ -52,9 +52,7 @@ def read_rests(folder: Path) -> list[Rest]:
     LogError
         A file cannot be read, or nothing was run.
     """
-    study = read_study(folder)
-    study.require_runs()
-    rests = [_measure(read_wire(run)) for run in study.untimed]
+    rests = [_measure(read_wire(run)) for run in read_study(folder).required()]
     return sorted(rests, key=lambda rest: (rest.rule, rest.position))
 
 

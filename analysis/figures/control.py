@@ -72,11 +72,11 @@ def along_line(points: np.ndarray, knots: np.ndarray) -> tuple[np.ndarray, np.nd
     lengths = np.linalg.norm(axes, axis=1)
     starts = np.concatenate([[0.0], np.cumsum(lengths)])[:-1]
     offsets = points[:, None] - knots[:-1]
-    share = np.clip(np.einsum("pki,ki->pk", offsets, axes) / lengths**2, 0.0, 1.0)
-    distances = np.linalg.norm(offsets - share[..., None] * axes, axis=-1)
+    fraction = np.clip(np.einsum("pki,ki->pk", offsets, axes) / lengths**2, 0.0, 1.0)
+    distances = np.linalg.norm(offsets - fraction[..., None] * axes, axis=-1)
     best = distances.argmin(axis=1)
     rows = np.arange(len(points))
-    return starts[best] + share[rows, best] * lengths[best], distances[rows, best]
+    return starts[best] + fraction[rows, best] * lengths[best], distances[rows, best]
 
 
 @styled
@@ -171,10 +171,9 @@ def read_twists(folder: Path) -> list[TwistRow]:
     LogError
         A file cannot be read, or nothing was run.
     """
-    study = read_study(folder)
-    study.require_runs()
     rows = [
-        TwistRow(run.variant, int(run.number("constraintSolverSteps")), read_twist(run)) for run in study.untimed
+        TwistRow(run.variant, int(run.number("constraintSolverSteps")), read_twist(run))
+        for run in read_study(folder).required()
     ]
     return sorted(rows, key=lambda row: row.solver_steps)
 

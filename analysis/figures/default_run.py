@@ -44,8 +44,7 @@ def read_default_run(folder: Path, spheres: str = "last", most_entries: int | No
         Thin the log to about so many entries.
     """
     study = read_study(folder)
-    study.require_runs()
-    run = study.untimed[0]
+    run = study.required()[0]
     steps = 0 if run.summary is None else int(run.measured("steps"))
     every = 1 if most_entries is None else max(1, steps // most_entries)
     log = read_log(run.folder, spheres=spheres, every=every)

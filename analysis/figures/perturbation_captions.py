@@ -278,12 +278,12 @@ def _collision_time_step(table: ComparisonTable) -> list[str]:
     small = mean[x <= _SMALL_TIME_STEP]
     if small.size == 0:
         return [_equal_steps(table), _sunk(table)]
-    share = small.max() / mean.max()
+    fraction = small.max() / mean.max()
     verdict = (
-        f"As the thesis says, it is nearly zero up to Δt = {_SMALL_TIME_STEP:g} s: at most {percent(share)} of its "
-        "largest value." if share < 0.05 else
+        f"As the thesis says, it is nearly zero up to Δt = {_SMALL_TIME_STEP:g} s: at most {percent(fraction)} of its "
+        "largest value." if fraction < 0.05 else
         f"The thesis has it nearly zero up to Δt = {_SMALL_TIME_STEP:g} s; it is {span(small)} units there, up to "
-        f"{percent(share)} of its largest value."
+        f"{percent(fraction)} of its largest value."
     )
     top = int(mean.argmax())
     if _trend(x[: top + 1], mean[: top + 1]) < _CLEAR:

@@ -97,7 +97,7 @@ def _joint() -> Plan:
 
 
 _NODES = 4
-_SHARE = 1e-3  # of an element's length: the stretch and shear of the bent shape
+_STRAIN = 1e-3  # of an element's length: the stretch and shear of the bent shape
 _TURN_STEP = 1e-4  # rad, half of a central difference's
 _SIDES = tuple((axis, sign) for axis in range(3) for sign in (-1, 1))
 
@@ -107,7 +107,7 @@ def _bent() -> tuple[list[Rotation], np.ndarray]:
     turns = [Rotation.from_rotvec([0.3, -0.2, 0.4]), Rotation.from_rotvec([-0.4, 0.5, 0.9]),
              Rotation.from_rotvec([0.2, 0.7, -0.3])]
     wave = np.sin(1.0 + np.arange(3 * _NODES)).reshape(_NODES, 3)
-    return turns, _SHARE * BASE.length / (_NODES - 1) * (wave - wave[0])
+    return turns, _STRAIN * BASE.length / (_NODES - 1) * (wave - wave[0])
 
 
 def _gradients() -> Plan:
@@ -115,7 +115,7 @@ def _gradients() -> Plan:
     turns, shifts = _bent()
     length = BASE.length / len(turns)
     common = {"numberRodElements": len(turns), "maxSimulationSteps": 0, "distalEnd": "clamped"}
-    shift = 1e-4 * _SHARE * length  # m; the axial strain is what changes most quickly
+    shift = 1e-4 * _STRAIN * length  # m; the axial strain is what changes most quickly
     base = Rotation.from_rotvec(_TURN)
     middle = {"chain": Case("chain", common, start=_chain(turns, length, shifts))}
     sides: dict[tuple[str, int, int], Case] = {}
@@ -227,25 +227,25 @@ def _joint_law() -> Plan:
     n = 8
     couples = (0.05, 0.2, 0.5, 0.8)  # of K; above 1 the Darboux law has no rest shape
     stiffness = BASE.bending * n / BASE.length
-    laws = {"rotationVector": lambda share: share, "darboux": math.asin}
+    laws = {"rotationVector": lambda fraction: fraction, "darboux": math.asin}
     cases = [
-        Case(run_key(law, {"share": share}), scenes.at_rest({
+        Case(run_key(law, {"fraction": fraction}), scenes.at_rest({
             "bendLaw": law, "clampRule": "halfElement", "numberRodElements": n, "solverTolerance": 1e-12,
-            "tipMoment": [share * stiffness, 0.0, 0.0]}))
-        for law in laws for share in couples
+            "tipMoment": [fraction * stiffness, 0.0, 0.0]}))
+        for law in laws for fraction in couples
     ]
     runs = yield cases
     results, series = [], {}
     for law, expected in laws.items():
         angles = []
-        for share in couples:
-            run = runs[run_key(law, {"share": share})]
+        for fraction in couples:
+            run = runs[run_key(law, {"fraction": fraction})]
             d = last_state(run).directors
             angle = math.atan2(float(np.linalg.norm(np.cross(d[3], d[4]))), float(d[3] @ d[4]))
             angles.append(angle)
-            exact = expected(share)
-            results.append(Result(f"one joint under the couple {share:g} K: its angle", f"direct, {law}", angle, exact,
-                                  abs(angle / exact - 1.0), 1e-6, "rad", wall_time(run)))
+            exact = expected(fraction)
+            results.append(Result(f"one joint under the couple {fraction:g} K: its angle", f"direct, {law}", angle,
+                                  exact, abs(angle / exact - 1.0), 1e-6, "rad", wall_time(run)))
         series[law] = angles
 
     def draw(figure) -> None:

@@ -93,7 +93,7 @@ _SPIN_GATES = {"trbdf2": (3e-4, 1e-4), "esdirk3": (3e-4, 1e-4), "esdirk4": (3e-4
 _MOMENTUM_GATE = 1e-9
 
 
-def _pendulum_share(wire: Wire, run: Run) -> float:
+def _pendulum_energy(wire: Wire, run: Run) -> float:
     """Change of a pendulum's energy over m g L/2, with its sign."""
     states = read_states(run)
     first, last = (_balance(wire, state) for state in (states[0], states[-1]))
@@ -127,9 +127,9 @@ def _large_turns() -> Plan:
     runs = yield [*pendulums.values(), *spins.values()]
     results = []
     for (scheme, name), case in pendulums.items():
-        share = _pendulum_share(wires[name], runs[case.key])
-        results.append(Result(f"pendulum let go level{name}, 2 s at 1 ms: energy", f"direct, {scheme}", share, 0.0,
-                              abs(share), _ENERGY_GATES[scheme], "m g L/2", None, "m g L/2"))
+        fraction = _pendulum_energy(wires[name], runs[case.key])
+        results.append(Result(f"pendulum let go level{name}, 2 s at 1 ms: energy", f"direct, {scheme}", fraction, 0.0,
+                              abs(fraction), _ENERGY_GATES[scheme], "m g L/2", None, "m g L/2"))
     for scheme, case in spins.items():
         states = read_states(runs[case.key])
         first, last = (_balance(BASE, state) for state in (states[0], states[-1]))
@@ -172,12 +172,12 @@ _STIFF_STEPS = (150, 300, 600, 1200)
 def _tumble(wire: Wire, steps: int, scheme: str) -> tuple[dict[str, Any], int, dict[str, Any]]:
     """A free wire that tumbles in space while it bends and twists."""
     n = 6
-    share = np.linspace(-0.5, 0.5, n + 1)
-    middle = 0.5 * (share[1:] + share[:-1])
+    fraction = np.linspace(-0.5, 0.5, n + 1)
+    middle = 0.5 * (fraction[1:] + fraction[:-1])
     rate = np.array([_TUMBLE, 0.3 * _TUMBLE, 0.0])
-    places = np.stack([0.0 * share, 0.0 * share, wire.length * (share + 0.5)], axis=1)
+    places = np.stack([0.0 * fraction, 0.0 * fraction, wire.length * (fraction + 0.5)], axis=1)
     velocities = np.cross(rate, places - [0.0, 0.0, 0.5 * wire.length])
-    velocities[:, 0] += 0.5 * share**2
+    velocities[:, 0] += 0.5 * fraction**2
     spins = rate + np.stack([0.0 * middle, middle / wire.length, 10.0 * middle], axis=1)
     start = {"positions": (places / scenes.UNIT).tolist(), "orientations": [[0, 0, 0, 1]] * n,
              "velocities": (velocities / scenes.UNIT).tolist(), "angularVelocities": spins.tolist()}
@@ -307,7 +307,7 @@ def _schemes() -> Plan:
         if name in problems:
             error, unit = problems[name].error(run, runs[exact[name].key]), "RMS"
         elif name.startswith("pendulum"):
-            error, unit = abs(_pendulum_share(BASE, run)), "m g L/2"
+            error, unit = abs(_pendulum_energy(BASE, run)), "m g L/2"
         elif name.startswith("spin"):
             states = read_states(run)
             error = abs(_balance(BASE, states[-1]).energy / _balance(BASE, states[0]).energy - 1.0)

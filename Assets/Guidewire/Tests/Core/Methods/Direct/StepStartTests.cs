@@ -27,7 +27,7 @@ namespace Guidewire.Core.Tests
 
         [TestCase(Integrator.ImplicitEuler)]
         [TestCase(Integrator.Esdirk3)]
-        public void StepsTakenAgainAtRandom_LeaveTheSameBits_BetweenWallsThatRub(Integrator integrator)
+        public void StepsTakenAgainAtRandom_LeaveTheSameBits_BetweenWallsWithFriction(Integrator integrator)
         {
             SimulationParameters parameters = WallScenes.Arch(30, 0.02, 100.0, 100.0);
             parameters.Method.Integrator = integrator;
@@ -104,7 +104,7 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        public void KeepingAStep_LeavesNoGarbage()
+        public void SavingAStep_LeavesNoGarbage()
         {
             (RodDynamics dynamics, _) = Failing(RungeKuttaScheme.Esdirk3());
             var start = new StepStart(dynamics.SerializeStep);
