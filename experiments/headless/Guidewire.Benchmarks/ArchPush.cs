@@ -46,7 +46,7 @@ namespace Guidewire.Benchmarks
             return Simulation.Create(_parameters);
         }
 
-        /// <summary>The whole push from its start; its Newton iterations a step.</summary>
+        /// <summary>Runs the push to its end and returns its Newton iterations per step.</summary>
         public static double Finish(Simulation run)
         {
             while (run.Outcome == Outcome.Running)

@@ -18,7 +18,7 @@ namespace Guidewire.Benchmarks
 
         private readonly Simulation _run;
         private readonly int _nodes;
-        private int _out;
+        private int _nodesOutside;
 
         private SheathFeed(ContactShape wall, bool isSheathed)
         {
@@ -114,8 +114,8 @@ namespace Guidewire.Benchmarks
             {
                 outside += _run.State.Positions[i].Z >= Depth - Body - Early * Element ? 1 : 0;
             }
-            bool enters = outside > _out;
-            _out = outside;
+            bool enters = outside > _nodesOutside;
+            _nodesOutside = outside;
             return enters;
         }
 

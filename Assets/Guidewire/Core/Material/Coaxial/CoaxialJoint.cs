@@ -70,7 +70,7 @@ namespace Guidewire.Core
             slope = new Vector3d(-sense * y, sense * x, 0.0);
         }
 
-        /// <summary>Energy that does not go with the joint's rotation, J, and its derivatives by t.</summary>
+        /// <summary>Energy that does not depend on the joint's rotation, J, and its derivatives by t.</summary>
         public double HeldAt(double t, out double slope, out double second)
         {
             double c = Math.Cos(t);
